@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/geometry/types.h"
+
+namespace camway::motion {
+
+/// Where the camera frame C stands in the world frame W: `p_W = orientation * p_C + position`.
+/// The camera looks down -Z with +Y up, as in OpenGL; `position` is the eye.
+struct Pose {
+  geometry::Vec3 position = geometry::Vec3::Zero();           ///< [Units: metres]
+  geometry::Quat orientation = geometry::Quat::Identity();    ///< unit length
+};
+
+/// Who asked for a keyframe: the request, or a correction.
+enum class KeyframeOrigin { kGiven, kInserted };
+
+/// A pose that the path must pass through at a time.
+struct Keyframe {
+  double time_s = 0.0;
+  Pose pose;
+  KeyframeOrigin origin = KeyframeOrigin::kGiven;
+};
+
+}  // namespace camway::motion

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/motion/camera.h"
+#include "daemon/motion/keyframe.h"
+
+namespace camway::planning {
+
+/// How a colliding path is corrected.
+enum class Method {
+  kKeyframeInsertion,  ///< the seed's: Ptacek & Johnstone 2006, section 4
+};
+
+std::string_view to_string(Method method);
+std::optional<Method> method_from_string(std::string_view text);
+
+/// What a request may ask for. Every default works.
+struct PlanOptions {
+  Method method = Method::kKeyframeInsertion;
+  /// Planning stops at this and answers `timeout` with what it has. [Limit: 0 < value] [Units: seconds]
+  double deadline_s = 10.0;
+  /// How far the tessellated swept surface may stray from the true one. [Limit: 0 < value] [Units: metres]
+  double chord_error_m = 0.005;
+  /// To how much motion of a corner the ends of collision intervals are bracketed.
+  /// [Limit: 0 < value] [Units: metres]
+  double interval_tolerance_m = 1e-4;
+  /// Cut-off of the correction, per request. [Limit: 0 <= value]
+  std::int32_t max_inserted_keyframes = 200;
+
+  bool operator==(const PlanOptions&) const = default;
+};
+
+/// The input of planning, whoever asked: daemon, command line or replay.
+struct PlanRequest {
+  std::string scene;  ///< id or path; planning itself only echoes it
+  motion::Camera camera;
+  std::vector<motion::Keyframe> keyframes;
+  bool has_times = false;  ///< false: `keyframes[i].time_s` mean nothing yet and are derived
+  PlanOptions options;
+};
+
+/// Why a request cannot be planned at all.
+struct InvalidRequest {
+  std::string field;                      ///< e.g. "keyframes[3].orientation"
+  std::optional<std::size_t> keyframe;    ///< index from 0, where one keyframe is at fault
+  std::string message;                    ///< complete sentence that names the field
+};
+
+/// Checks everything that can be checked without the scene: counts, finiteness, quaternion length,
+/// increasing times, camera and option ranges. Nothing if all is well.
+std::optional<InvalidRequest> validate(const PlanRequest& request);
+
+/// Largest numbers that a request may hold.
+inline constexpr std::size_t kMaxKeyframes = 100'000;
+
+}  // namespace camway::planning

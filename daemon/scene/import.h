@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "daemon/scene/mesh.h"
+
+namespace camway::scene {
+
+/// Axes are turned only when asked for.
+enum class UpAxis {
+  kAsInFile,  ///< coordinates as assimp gives them, node transforms applied
+  kZToY,      ///< the file has Z up, the scene shall have Y up: (x, y, z) -> (x, z, -y)
+  kYToZ,      ///< the file has Y up, the scene shall have Z up: (x, y, z) -> (x, -z, y)
+};
+
+/// How to read a file, and how much it may cost.
+struct ImportOptions {
+  double scale = 1.0;  ///< file units to metres; multiplies every coordinate [Limit: 0 < value]
+  UpAxis up = UpAxis::kAsInFile;
+  std::size_t memory_limit_bytes = std::size_t{4} << 30;  ///< address space of the import process
+  double time_limit_s = 60.0;                             ///< wall clock of the import process
+};
+
+/// What was read and what was assumed, so that a wrong unit or axis is seen at once.
+struct ImportReport {
+  std::string format;  ///< assimp's name of the importer
+  double scale = 1.0;
+  UpAxis up = UpAxis::kAsInFile;
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t objects = 0;
+  geometry::Box bounds_m;
+  std::uint64_t degenerate_triangles = 0;      ///< of zero area; kept out of the scene
+  std::uint64_t dropped_nonfinite = 0;         ///< triangles with a NaN or infinite coordinate
+  std::uint64_t dropped_bad_index = 0;         ///< faces that name a vertex that does not exist
+  std::uint64_t dropped_points_and_lines = 0;  ///< primitives that are no surface
+};
+
+/// Either a mesh or a reason. `report` is filled as far as the import came.
+struct ImportResult {
+  std::optional<Mesh> mesh;
+  ImportReport report;
+  std::string error;  ///< names the file; empty exactly when `mesh` holds a value
+};
+
+/// Reads any format that assimp reads, in a child process with limits of memory and time, since a
+/// hostile file of a few bytes can cost gigabytes or crash the reader; then checks what came back
+/// again (indices, finiteness, counts). Never throws for a bad file. May be called from any thread.
+ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options);
+
+}  // namespace camway::scene

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "daemon/geometry/types.h"
+
+namespace camway::scene {
+
+/// A named run of triangles of a mesh.
+struct MeshObject {
+  std::string name;
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+};
+
+/// Triangles in the world frame, metres. Every index is valid and every coordinate finite.
+struct Mesh {
+  std::vector<geometry::Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<MeshObject> objects;  ///< in order; together they cover all triangles
+
+  [[nodiscard]] geometry::Triangle triangle(std::size_t index) const {
+    const std::array<std::uint32_t, 3>& t = triangles[index];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+  [[nodiscard]] geometry::Box bounds() const;
+};
+
+}  // namespace camway::scene

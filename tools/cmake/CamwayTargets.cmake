@@ -1,0 +1,44 @@
+# How every target of this project is built, in one place.
+
+# -ffp-contract=off: a fused multiply-add rounds once where the source says twice. The compiler may
+# fuse in one build and not in the next, and then answers are no longer bit-identical.
+add_library(camway_flags INTERFACE)
+target_compile_options(camway_flags INTERFACE -ffp-contract=off)
+target_include_directories(camway_flags INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+if(CAMWAY_SANITIZE)
+  target_compile_options(camway_flags INTERFACE -fsanitize=${CAMWAY_SANITIZE}
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(camway_flags INTERFACE -fsanitize=${CAMWAY_SANITIZE})
+endif()
+
+# Warnings are errors in our own code only: dependencies are included as system headers.
+add_library(camway_warnings INTERFACE)
+target_compile_options(camway_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough -Werror)
+
+# camway_library(NAME SOURCES ... DEPENDS ... [PRIVATE_DEPENDS ...])
+function(camway_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(${name} PUBLIC camway_flags ${arg_DEPENDS}
+                        PRIVATE camway_warnings ${arg_PRIVATE_DEPENDS})
+endfunction()
+
+# camway_executable(NAME SOURCES ... DEPENDS ...)
+function(camway_executable name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE camway_flags camway_warnings ${arg_DEPENDS})
+endfunction()
+
+# camway_test(NAME SOURCES ... DEPENDS ... [LABELS ...]): one GoogleTest program per folder of tests/.
+function(camway_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  camway_executable(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} GTest::gtest
+                    GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 300 LABELS "${arg_LABELS}")
+endfunction()
