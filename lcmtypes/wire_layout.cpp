@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "lcmtypes/wire_layout.h"
+
+#include <array>
+
+#include <camway/error_t.hpp>
+#include <camway/occupancy_request_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <camway/status_t.hpp>
+
+#include "lcmtypes/channels.h"
+
+namespace camway::wire {
+namespace {
+
+constexpr std::size_t kByte = 1;
+constexpr std::size_t kInt32 = 4;
+constexpr std::size_t kInt64 = 8;
+constexpr std::size_t kDouble = 8;
+
+constexpr std::size_t kCamera = 3 * kDouble;
+constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + kByte;
+constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
+constexpr std::size_t kInterval = 2 * kDouble;
+
+constexpr Field fixed(std::string_view name, std::size_t bytes) {
+  return {.kind = Field::Kind::kFixed, .name = name, .bytes = bytes};
+}
+constexpr Field text(std::string_view name, std::size_t max_length) {
+  return {.kind = Field::Kind::kString, .name = name, .max_length = max_length};
+}
+constexpr Field list(std::string_view name, std::size_t element_bytes) {
+  return {.kind = Field::Kind::kList, .name = name, .bytes = element_bytes};
+}
+
+constexpr std::array kPlanRequest{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("page", kInt32),
+    fixed("num_pages", kInt32),
+    text("scene", kMaxSceneNameBytes),
+    fixed("camera", kCamera),
+    text("method", kMaxMethodBytes),
+    fixed("deadline_s", kDouble),
+    fixed("chord_error_m", kDouble),
+    fixed("interval_tolerance_m", kDouble),
+    fixed("max_inserted_keyframes", kInt32),
+    fixed("has_times", kByte),
+    list("keyframes", kKeyframe),
+};
+
+constexpr std::array kPlanResponse{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("page", kInt32),
+    fixed("num_pages", kInt32),
+    fixed("status", kInt32),
+    text("message", kMaxTextBytes),
+    fixed("keyframe", kInt32),
+    text("scene", kMaxSceneNameBytes),
+    fixed("scene_revision", kInt64),
+    text("scene_digest", kMaxDigestBytes),
+    fixed("certified", kByte),
+    fixed("clearance_lower_bound_m", kDouble),
+    fixed("timing", 5 * kDouble),
+    list("segments", kSegment),
+    list("keyframes", kKeyframe),
+    list("collisions", kInterval),
+    list("remaining", kInterval),
+};
+
+constexpr std::array kOccupancyRequest{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    text("scene", kMaxSceneNameBytes),
+    list("points_m", 3 * kDouble),
+    list("boxes_m", 6 * kDouble),
+    list("spheres_m", 4 * kDouble),
+    list("rays_m", 7 * kDouble),
+    list("distances_m", 4 * kDouble),
+};
+
+constexpr std::array kOccupancyResponse{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("status", kInt32),
+    text("message", kMaxTextBytes),
+    text("scene", kMaxSceneNameBytes),
+    fixed("scene_revision", kInt64),
+    fixed("resolution_m", kDouble),
+    list("points_occupied", kByte),
+    list("boxes_occupied", kByte),
+    list("spheres_occupied", kByte),
+    list("rays_hit_m", kDouble),
+    list("distances_m", kDouble),
+};
+
+constexpr std::array kSceneInfo{
+    text("name", kMaxSceneNameBytes), fixed("revision", kInt64),
+    text("digest", kMaxDigestBytes),  fixed("num_triangles", kInt64),
+    fixed("bounds_m", 6 * kDouble),   fixed("occupancy_resolution_m", kDouble),
+};
+
+constexpr std::array kStatus{
+    fixed("utime", kInt64),
+    text("version", kMaxVersionBytes),
+    fixed("uptime_s", kDouble),
+    fixed("num_workers", kInt32),
+    fixed("queued_requests", kInt32),
+    fixed("running_requests", kInt32),
+    fixed("counters", 4 * kInt64),
+    fixed("total_scenes", kInt32),
+    Field{.kind = Field::Kind::kList, .name = "scenes", .element = kSceneInfo},
+};
+
+constexpr std::array kError{
+    fixed("utime", kInt64),
+    text("channel", kMaxChannelLength),
+    fixed("size_bytes", kInt64),
+    text("message", kMaxTextBytes),
+};
+
+}  // namespace
+
+template <>
+Layout layout_of<plan_request_t>() {
+  return {"plan_request_t", plan_request_t::getHash(), kPlanRequest};
+}
+template <>
+Layout layout_of<plan_response_t>() {
+  return {"plan_response_t", plan_response_t::getHash(), kPlanResponse};
+}
+template <>
+Layout layout_of<occupancy_request_t>() {
+  return {"occupancy_request_t", occupancy_request_t::getHash(), kOccupancyRequest};
+}
+template <>
+Layout layout_of<occupancy_response_t>() {
+  return {"occupancy_response_t", occupancy_response_t::getHash(), kOccupancyResponse};
+}
+template <>
+Layout layout_of<status_t>() {
+  return {"status_t", status_t::getHash(), kStatus};
+}
+template <>
+Layout layout_of<error_t>() {
+  return {"error_t", error_t::getHash(), kError};
+}
+
+}  // namespace camway::wire

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace camway {
+class error_t;
+class occupancy_request_t;
+class occupancy_response_t;
+class plan_request_t;
+class plan_response_t;
+class status_t;
+}  // namespace camway
+
+namespace camway::wire {
+
+/// No message of ours is longer, fingerprint included: UDP loses large messages, since one lost
+/// datagram loses all of them. So the count of every list is limited as well.
+inline constexpr std::size_t kMaxMessageBytes = 60'000;
+
+/// Limits of strings, in bytes without the final NUL.
+inline constexpr std::size_t kMaxSceneNameBytes = 128;
+inline constexpr std::size_t kMaxMethodBytes = 64;
+inline constexpr std::size_t kMaxTextBytes = 1024;
+inline constexpr std::size_t kMaxDigestBytes = 128;
+inline constexpr std::size_t kMaxVersionBytes = 256;
+
+/// Limits of what arrives in pages.
+inline constexpr std::int32_t kMaxRequestPages = 128;
+inline constexpr std::int32_t kMaxResponsePages = 1024;
+
+/// One thing that stands in a message, in the order of the .lcm file. LCM encodes without padding,
+/// big-endian.
+struct Field {
+  enum class Kind {
+    kFixed,   ///< numbers and arrays of constant size: `bytes` in all
+    kString,  ///< int32 length with the final NUL, then so many bytes
+    kList,    ///< int32 count, then so many elements: of `bytes` each, or as `element` says
+  };
+  Kind kind;
+  std::string_view name;
+  std::size_t bytes = 0;             ///< kFixed, kList
+  std::size_t max_length = 0;        ///< kString: without the final NUL
+  std::span<const Field> element{};  ///< kList of elements that are not all of one size
+};
+
+/// How a type is laid out on the wire behind its fingerprint.
+struct Layout {
+  std::string_view type;
+  std::int64_t fingerprint;
+  std::span<const Field> fields;
+};
+
+/// The layout of a message type; defined for the types that have a channel. Safe from any thread.
+template <class Message>
+Layout layout_of();
+template <>
+Layout layout_of<plan_request_t>();
+template <>
+Layout layout_of<plan_response_t>();
+template <>
+Layout layout_of<occupancy_request_t>();
+template <>
+Layout layout_of<occupancy_response_t>();
+template <>
+Layout layout_of<status_t>();
+template <>
+Layout layout_of<error_t>();
+
+}  // namespace camway::wire
