@@ -23,9 +23,11 @@ std::optional<Method> method_from_string(std::string_view text);
 /// What a request may ask for. Every default works.
 struct PlanOptions {
   Method method = Method::kKeyframeInsertion;
-  /// Planning stops at this and answers `timeout` with what it has. [Limit: 0 < value] [Units: seconds]
+  /// Planning stops at this and answers `timeout` with what it has. [Limit: 0 < value] [Units:
+  /// seconds]
   double deadline_s = 10.0;
-  /// How far the tessellated swept surface may stray from the true one. [Limit: 0 < value] [Units: metres]
+  /// How far the tessellated swept surface may stray from the true one. [Limit: 0 < value] [Units:
+  /// metres]
   double chord_error_m = 0.005;
   /// To how much motion of a corner the ends of collision intervals are bracketed.
   /// [Limit: 0 < value] [Units: metres]
@@ -47,9 +49,9 @@ struct PlanRequest {
 
 /// Why a request cannot be planned at all.
 struct InvalidRequest {
-  std::string field;                      ///< e.g. "keyframes[3].orientation"
-  std::optional<std::size_t> keyframe;    ///< index from 0, where one keyframe is at fault
-  std::string message;                    ///< complete sentence that names the field
+  std::string field;                    ///< e.g. "keyframes[3].orientation"
+  std::optional<std::size_t> keyframe;  ///< index from 0, where one keyframe is at fault
+  std::string message;                  ///< complete sentence that names the field
 };
 
 /// Checks everything that can be checked without the scene: counts, finiteness, quaternion length,
@@ -58,5 +60,11 @@ std::optional<InvalidRequest> validate(const PlanRequest& request);
 
 /// Largest numbers that a request may hold.
 inline constexpr std::size_t kMaxKeyframes = 100'000;
+inline constexpr double kMaxCoordinate_m = 1e9;  ///< doubles still resolve 0.1 micrometre there
+inline constexpr double kMaxTime_s = 1e10;       ///< seconds since 1970 fit
+/// Times closer than this share of their size leave too few digits for a parameter between them.
+inline constexpr double kLeastRelativeTimeStep = 1e-12;
+/// A shorter quaternion is meant to be zero, and its square would lose digits to underflow.
+inline constexpr double kLeastQuaternionLength = 1e-100;
 
 }  // namespace camway::planning

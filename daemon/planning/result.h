@@ -14,13 +14,13 @@
 namespace camway::planning {
 
 enum class Status {
-  kOk,          ///< the path is free of collision as far as the final check can tell; see certificate
-  kPartial,     ///< a path, but with the remaining collisions listed
-  kInfeasible,  ///< no path exists, and that was proved
-  kTimeout,     ///< the deadline came first; the best path so far with its remaining collisions
-  kInvalid,     ///< the request cannot be planned; the message says which part of it
-  kUnknownScene,  ///< no such scene
-  kInternalError, ///< our fault
+  kOk,       ///< the path is free of collision as far as the final check can tell; see certificate
+  kPartial,  ///< a path, but with the remaining collisions listed
+  kInfeasible,     ///< no path exists, and that was proved
+  kTimeout,        ///< the deadline came first; the best path so far with its remaining collisions
+  kInvalid,        ///< the request cannot be planned; the message says which part of it
+  kUnknownScene,   ///< no such scene
+  kInternalError,  ///< our fault
 };
 
 std::string_view to_string(Status status);

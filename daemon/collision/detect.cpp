@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/detect.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "daemon/collision/near_quad.h"
+#include "daemon/motion/motion_bound.h"
+
+namespace camway::collision {
+
+namespace {
+
+using motion::Segment;
+
+// De Casteljau in degrees 3 and 6, one division by a length, one rotation, one translation and the
+// distance kernel: fewer than 64 roundings stand between the control points and a distance, each at
+// most half an ulp of the largest coordinate involved.
+constexpr double kRoundings = 64.0;
+
+double largest_coordinate_m(const Segment& segment) {
+  double largest = 0.0;
+  for (const geometry::Vec3& point : segment.position) {
+    largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+// Walks the path from left to right, splitting what is undecided, and strings the colliding pieces
+// together to intervals.
+class Detector {
+ public:
+  Detector(const scene::Octree& octree, const motion::Corners& corners_C,
+           const DetectOptions& options, const Deadline& deadline, bool only_first)
+      : octree_(octree),
+        corners_C_(corners_C),
+        radius_m_(motion::body_radius_m(corners_C)),
+        options_(options),
+        deadline_(deadline),
+        only_first_(only_first) {}
+
+  void run(const motion::Path& path, double t_begin_s, double t_end_s) {
+    for (const Segment& segment : path.segments()) {
+      if (segment.t1_s <= t_begin_s || segment.t0_s >= t_end_s) continue;
+      const double u0 = motion::segment_parameter(segment, t_begin_s);
+      const double u1 = motion::segment_parameter(segment, t_end_s);
+      visit(u0 > 0.0 || u1 < 1.0 ? motion::sub_segment(segment, u0, u1) : segment);
+      if (finished_) return;
+    }
+    close();
+  }
+
+  [[nodiscard]] bool timed_out() const { return timed_out_; }
+  [[nodiscard]] const std::vector<CollisionInterval>& intervals() const { return intervals_; }
+
+ private:
+  struct Look {
+    bool free;           // the whole piece, proved by distance
+    bool touches;        // at the middle
+    double deviation_m;  // of any point of the body from where it is at the middle
+  };
+
+  [[nodiscard]] Look look(const Segment& piece) const {
+    const double deviation_m = motion::deviation_m(motion::motion_bound(piece), radius_m_);
+    const std::array<geometry::Triangle, 2> quad =
+        near_quad_triangles(motion::corners_W(corners_C_, motion::pose_at(piece, 0.5)));
+    const double rounding_m = kRoundings * std::numeric_limits<double>::epsilon() *
+                              (largest_coordinate_m(piece) + radius_m_ + deviation_m);
+    const std::optional<scene::Nearest> nearest = octree_.nearest(quad, deviation_m + rounding_m);
+    return {!nearest.has_value(), nearest && nearest->distance_m == 0.0, deviation_m};
+  }
+
+  // A piece so short that its middle is one of its ends cannot be split.
+  static bool splittable(const Segment& piece) {
+    const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
+    return middle_s > piece.t0_s && middle_s < piece.t1_s;
+  }
+
+  void visit(const Segment& piece) {
+    if (finished_) return;
+    if (deadline_.passed()) {
+      timed_out_ = finished_ = true;
+      return;
+    }
+    const Look seen = look(piece);
+    if (seen.free) {
+      close();
+      return;
+    }
+    const double resolution_m = seen.touches ? options_.gap_m : options_.tolerance_m;
+    if (seen.deviation_m <= resolution_m || !splittable(piece)) {
+      extend(piece);
+      return;
+    }
+    visit(motion::sub_segment(piece, 0.0, 0.5));
+    visit(motion::sub_segment(piece, 0.5, 1.0));
+  }
+
+  void extend(const Segment& piece) {
+    if (!last_colliding_) begin_s_ = first_not_free(piece).value_or(piece.t0_s);
+    last_colliding_ = piece;
+  }
+
+  void close() {
+    if (!last_colliding_) return;
+    const double end_s = last_not_free(*last_colliding_).value_or(last_colliding_->t1_s);
+    intervals_.push_back({begin_s_, end_s});
+    last_colliding_.reset();
+    finished_ = finished_ || only_first_;
+  }
+
+  // Where, at the finest resolution, the first part of `piece` begins that is not free.
+  [[nodiscard]] std::optional<double> first_not_free(const Segment& piece) const {
+    const Look seen = look(piece);
+    if (seen.free) return std::nullopt;
+    if (seen.deviation_m <= options_.tolerance_m || !splittable(piece)) return piece.t0_s;
+    const std::optional<double> left = first_not_free(motion::sub_segment(piece, 0.0, 0.5));
+    return left ? left : first_not_free(motion::sub_segment(piece, 0.5, 1.0));
+  }
+
+  // Where the last such part ends.
+  [[nodiscard]] std::optional<double> last_not_free(const Segment& piece) const {
+    const Look seen = look(piece);
+    if (seen.free) return std::nullopt;
+    if (seen.deviation_m <= options_.tolerance_m || !splittable(piece)) return piece.t1_s;
+    const std::optional<double> right = last_not_free(motion::sub_segment(piece, 0.5, 1.0));
+    return right ? right : last_not_free(motion::sub_segment(piece, 0.0, 0.5));
+  }
+
+  const scene::Octree& octree_;
+  const motion::Corners& corners_C_;
+  const double radius_m_;
+  const DetectOptions& options_;
+  const Deadline& deadline_;
+  const bool only_first_;
+
+  bool finished_ = false;
+  bool timed_out_ = false;
+  double begin_s_ = 0.0;
+  std::optional<Segment> last_colliding_;
+  std::vector<CollisionInterval> intervals_;
+};
+
+}  // namespace
+
+std::optional<std::vector<CollisionInterval>> detect_collisions(
+    const scene::Octree& octree, const motion::Path& path, const motion::Corners& corners_C,
+    double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline) {
+  Detector detector(octree, corners_C, options, deadline, /*only_first=*/false);
+  detector.run(path, t_begin_s, t_end_s);
+  if (detector.timed_out()) return std::nullopt;
+  return detector.intervals();
+}
+
+FirstCollision first_collision(const scene::Octree& octree, const motion::Path& path,
+                               const motion::Corners& corners_C, double t_begin_s, double t_end_s,
+                               const DetectOptions& options, const Deadline& deadline) {
+  Detector detector(octree, corners_C, options, deadline, /*only_first=*/true);
+  detector.run(path, t_begin_s, t_end_s);
+  if (detector.timed_out()) return {false, std::nullopt};
+  if (detector.intervals().empty()) return {};
+  return {true, detector.intervals().front()};
+}
+
+}  // namespace camway::collision

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "daemon/motion/camera.h"
+#include "daemon/scene/octree.h"
+
+namespace camway::collision {
+
+/// The filled near quadrilateral as two triangles that share a diagonal.
+std::array<geometry::Triangle, 2> near_quad_triangles(const motion::Corners& corners);
+
+/// Whether the filled near quadrilateral at `pose` touches the scene: an object that slips through
+/// its interior counts, not only one that crosses its outline.
+bool collides(const scene::Octree& octree, const motion::Corners& corners_C,
+              const motion::Pose& pose);
+
+/// Distance from the filled near quadrilateral at `pose` to the scene, 0 where they touch; nothing
+/// if it is `cutoff_m` or more.
+std::optional<double> clearance_m(const scene::Octree& octree, const motion::Corners& corners_C,
+                                  const motion::Pose& pose, double cutoff_m);
+
+}  // namespace camway::collision

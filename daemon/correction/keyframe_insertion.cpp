@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/keyframe_insertion.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/correction/push_out.h"
+#include "daemon/motion/interpolate.h"
+
+namespace camway::correction {
+
+namespace {
+
+using collision::CollisionInterval;
+using collision::FirstCollision;
+using motion::Keyframe;
+
+// A new keyframe keeps at least this share of the span between its neighbours from either of them:
+// closer, the spline through both would have to hurry beyond any use.
+constexpr double kLeastSpacing = 1e-3;
+
+// What is closer to the scene than the tolerance of detection counts as colliding. A new keyframe
+// keeps a multiple of it, so that the path has room to leave it at a slant.
+constexpr double kMarginTolerances = 10.0;
+
+class Corrector {
+ public:
+  Corrector(const scene::Octree& octree, std::vector<Keyframe> keyframes,
+            const motion::Corners& corners_C, const KeyframeInsertionOptions& options,
+            const collision::Deadline& deadline)
+      : octree_(octree),
+        corners_C_(corners_C),
+        options_(options),
+        deadline_(deadline),
+        keyframes_(std::move(keyframes)),
+        path_(motion::interpolate(keyframes_)) {}
+
+  KeyframeInsertionResult run() && {
+    KeyframeInsertionResult result;
+    for (; result.rounds < options_.max_rounds; ++result.rounds) {
+      const Round round = go_through();
+      result.gave_up = round.gave_up;
+      if (timed_out_ || round.corrected == 0) break;
+    }
+    result.keyframes = std::move(keyframes_);
+    result.path = std::move(path_);
+    result.timed_out = timed_out_;
+    return result;
+  }
+
+ private:
+  struct Round {
+    int corrected = 0;
+    int gave_up = 0;
+  };
+
+  // Once along the path, in order.
+  Round go_through() {
+    Round round;
+    double cursor_s = path_.begin_s();
+    while (!timed_out_) {
+      const std::optional<CollisionInterval> interval = next_collision(cursor_s, path_.end_s());
+      if (!interval) break;
+      const std::vector<Keyframe> before = keyframes_;
+      if (correct(*interval, 0)) {
+        ++round.corrected;
+      } else {
+        ++round.gave_up;
+        keyframes_ = before;
+        path_ = motion::interpolate(keyframes_);
+      }
+      if (interval->t_end_s <= cursor_s) break;
+      cursor_s = interval->t_end_s;
+    }
+    return round;
+  }
+
+  // The first collision in the window: of the sides of the swept tube by the seed's sweep, and of
+  // what the tube encloses by the distance-based check of all that lies before.
+  std::optional<CollisionInterval> next_collision(double t_begin_s, double t_end_s) {
+    const FirstCollision side = collision::first_sweep_collision(
+        octree_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
+    const double before_s = side.interval ? side.interval->t_begin_s : t_end_s;
+    const FirstCollision enclosed = collision::first_collision(
+        octree_, path_, corners_C_, t_begin_s, before_s, options_.sweep.detect, deadline_);
+    timed_out_ = timed_out_ || !side.decided || !enclosed.decided;
+    if (!enclosed.interval) return side.interval;
+    // Cut short by `before_s`, it is the beginning of the same collision.
+    if (side.interval && enclosed.interval->t_end_s >= before_s) {
+      return CollisionInterval{enclosed.interval->t_begin_s, side.interval->t_end_s};
+    }
+    return enclosed.interval;
+  }
+
+  // Inserts a keyframe in the middle of `interval` and goes on with what still collides in it.
+  // Returns whether the interval is free at the end.
+  bool correct(const CollisionInterval& interval, int recursion) {
+    if (recursion > options_.max_recursion || !insert_at_middle(interval)) return false;
+    double cursor_s = interval.t_begin_s;
+    while (const std::optional<CollisionInterval> rest =
+               next_collision(cursor_s, interval.t_end_s)) {
+      if (!correct(*rest, recursion + 1) || rest->t_end_s <= cursor_s) return false;
+      cursor_s = rest->t_end_s;
+    }
+    return !timed_out_;
+  }
+
+  bool insert_at_middle(const CollisionInterval& interval) {
+    const double t_mid_s = 0.5 * (interval.t_begin_s + interval.t_end_s);
+    const auto next = std::upper_bound(
+        keyframes_.begin(), keyframes_.end(), t_mid_s,
+        [](double time_s, const Keyframe& keyframe) { return time_s < keyframe.time_s; });
+    if (!has_room(next, t_mid_s)) return false;
+    const PushOut pushed = push_out(octree_, corners_C_, path_.pose(t_mid_s),
+                                    kMarginTolerances * options_.sweep.detect.tolerance_m);
+    if (pushed.outcome != PushOutOutcome::kFree) return false;
+    keyframes_.insert(next, {t_mid_s, pushed.pose, motion::KeyframeOrigin::kInserted});
+    path_ = motion::interpolate(keyframes_);
+    return true;
+  }
+
+  [[nodiscard]] bool has_room(std::vector<Keyframe>::const_iterator next, double time_s) const {
+    if (next == keyframes_.begin() || next == keyframes_.end()) return false;
+    if (inserted() >= options_.max_inserted_keyframes) return false;
+    const double before_s = std::prev(next)->time_s;
+    const double least_s = kLeastSpacing * (next->time_s - before_s);
+    return time_s - before_s > least_s && next->time_s - time_s > least_s;
+  }
+
+  [[nodiscard]] std::ptrdiff_t inserted() const {
+    return std::count_if(keyframes_.begin(), keyframes_.end(), [](const Keyframe& keyframe) {
+      return keyframe.origin == motion::KeyframeOrigin::kInserted;
+    });
+  }
+
+  const scene::Octree& octree_;
+  const motion::Corners& corners_C_;
+  const KeyframeInsertionOptions& options_;
+  const collision::Deadline& deadline_;
+
+  std::vector<Keyframe> keyframes_;
+  motion::Path path_;
+  bool timed_out_ = false;
+};
+
+}  // namespace
+
+KeyframeInsertionResult insert_keyframes(const scene::Octree& octree,
+                                         const std::vector<motion::Keyframe>& keyframes,
+                                         const motion::Corners& corners_C,
+                                         const KeyframeInsertionOptions& options,
+                                         const collision::Deadline& deadline) {
+  return Corrector(octree, keyframes, corners_C, options, deadline).run();
+}
+
+}  // namespace camway::correction

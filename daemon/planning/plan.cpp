@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "daemon/collision/detect.h"
+#include "daemon/collision/near_quad.h"
+#include "daemon/correction/keyframe_insertion.h"
+#include "daemon/motion/interpolate.h"
+
+namespace camway::planning {
+
+namespace {
+
+using collision::CollisionInterval;
+using collision::Deadline;
+using motion::Keyframe;
+
+collision::DetectOptions detect_options(const PlanOptions& options) {
+  collision::DetectOptions detect;
+  detect.tolerance_m = options.interval_tolerance_m;
+  detect.gap_m = std::max(detect.gap_m, detect.tolerance_m);
+  return detect;
+}
+
+// The keyframes as planning uses them: unit quaternions, times derived where none were given.
+std::vector<Keyframe> prepared_keyframes(const PlanRequest& request) {
+  std::vector<Keyframe> keyframes = request.keyframes;
+  std::vector<motion::Pose> poses;
+  poses.reserve(keyframes.size());
+  for (Keyframe& keyframe : keyframes) {
+    keyframe.pose.orientation.normalize();
+    keyframe.origin = motion::KeyframeOrigin::kGiven;
+    poses.push_back(keyframe.pose);
+  }
+  if (request.has_times) return keyframes;
+  const std::vector<double> times_s = motion::derive_times_s(poses);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) keyframes[i].time_s = times_s[i];
+  return keyframes;
+}
+
+// The stages in order, each adding to the result.
+class Planner {
+ public:
+  Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
+      : octree_(snapshot.octree),
+        request_(request),
+        deadline_(deadline),
+        detect_(detect_options(request.options)) {}
+
+  PlanResult run() && {
+    if (prepare()) {
+      correct(find_collisions());
+      conclude();
+    }
+    result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
+    return std::move(result_);
+  }
+
+ private:
+  // Motion through the keyframes; false if the request cannot be planned.
+  bool prepare() {
+    if (std::optional<InvalidRequest> fault = validate(request_)) {
+      refuse(std::move(fault->message), fault->keyframe);
+      return false;
+    }
+    corners_C_ = motion::near_corners_C(request_.camera);
+    result_.keyframes = prepared_keyframes(request_);
+    for (std::size_t i = 0; i < result_.keyframes.size(); ++i) {
+      if (!collision::collides(octree_, corners_C_, result_.keyframes[i].pose)) continue;
+      refuse(fmt::format("keyframes[{}]: the near quadrilateral collides with the scene there", i),
+             i);
+      return false;
+    }
+    result_.path = motion::interpolate(result_.keyframes);
+    result_.timing.motion_ms = lap_ms();
+    return true;
+  }
+
+  // Whether the path as interpolated collides, and where. Nothing if the deadline struck.
+  std::optional<std::vector<CollisionInterval>> find_collisions() {
+    std::optional<std::vector<CollisionInterval>> found = detect();
+    if (found) result_.collisions = *found;
+    result_.timing.detect_ms = lap_ms();
+    return found;
+  }
+
+  void correct(const std::optional<std::vector<CollisionInterval>>& found) {
+    if (!found) {
+      timed_out_ = true;
+      mark_all_as_remaining();
+      return;
+    }
+    if (found->empty()) return;
+    correction::KeyframeInsertionOptions options;
+    options.sweep = {request_.options.chord_error_m, detect_};
+    options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
+    correction::KeyframeInsertionResult corrected =
+        correction::insert_keyframes(octree_, result_.keyframes, corners_C_, options, deadline_);
+    result_.keyframes = std::move(corrected.keyframes);
+    result_.path = std::move(corrected.path);
+    timed_out_ = corrected.timed_out;
+    result_.timing.correct_ms = lap_ms();
+    check(Deadline::after_s(kFinalCheckBudget_s));
+  }
+
+  // The final check of the corrected path, which also runs when correction ran out of time.
+  void check(const Deadline& budget) {
+    const std::optional<std::vector<CollisionInterval>> remaining =
+        collision::detect_collisions(octree_, result_.path, corners_C_, result_.path.begin_s(),
+                                     result_.path.end_s(), detect_, budget);
+    if (remaining) {
+      result_.remaining_collisions = *remaining;
+    } else {
+      timed_out_ = true;
+      mark_all_as_remaining();
+    }
+    result_.timing.certify_ms = lap_ms();
+  }
+
+  void conclude() {
+    const std::size_t inserted = static_cast<std::size_t>(std::count_if(
+        result_.keyframes.begin(), result_.keyframes.end(), [](const Keyframe& keyframe) {
+          return keyframe.origin == motion::KeyframeOrigin::kInserted;
+        }));
+    const std::size_t remaining = result_.remaining_collisions.size();
+    if (remaining == 0) {
+      result_.status = Status::kOk;
+      result_.message = fmt::format("{} collisions found, {} keyframes inserted, none remain",
+                                    result_.collisions.size(), inserted);
+      return;
+    }
+    result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
+    result_.message =
+        fmt::format("{}{} of the path's collisions remain ({} keyframes inserted)",
+                    timed_out_ ? "the deadline came first; " : "", remaining, inserted);
+  }
+
+  std::optional<std::vector<CollisionInterval>> detect() const {
+    return collision::detect_collisions(octree_, result_.path, corners_C_, result_.path.begin_s(),
+                                        result_.path.end_s(), detect_, deadline_);
+  }
+
+  // Nothing is known of the path: then all of it counts as colliding.
+  void mark_all_as_remaining() {
+    result_.remaining_collisions = {{result_.path.begin_s(), result_.path.end_s()}};
+  }
+
+  void refuse(std::string message, std::optional<std::size_t> keyframe) {
+    result_.status = Status::kInvalid;
+    result_.message = std::move(message);
+    result_.keyframe = keyframe;
+    result_.keyframes.clear();
+  }
+
+  double lap_ms() {
+    const double now_ms = deadline_.elapsed_ms();
+    return now_ms - std::exchange(lap_begin_ms_, now_ms);
+  }
+
+  // What the deadline leaves to be told honestly: the check of the best path so far.
+  static constexpr double kFinalCheckBudget_s = 1.0;
+
+  const scene::Octree& octree_;
+  const PlanRequest& request_;
+  const Deadline& deadline_;
+  const collision::DetectOptions detect_;
+
+  const double started_ms_ = deadline_.elapsed_ms();
+  double lap_begin_ms_ = started_ms_;
+  motion::Corners corners_C_{};
+  bool timed_out_ = false;
+  PlanResult result_;
+};
+
+}  // namespace
+
+PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
+                const Deadline& deadline) {
+  try {
+    return Planner(snapshot, request, deadline).run();
+  } catch (const std::exception& error) {
+    // Out of memory, or a mistake of ours: either must not take the caller's process with it.
+    PlanResult result;
+    result.status = Status::kInternalError;
+    result.message = fmt::format("internal error: {}", error.what());
+    return result;
+  }
+}
+
+PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request) {
+  return plan(snapshot, request, Deadline::after_s(request.options.deadline_s));
+}
+
+}  // namespace camway::planning

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "daemon/planning/request.h"
+
+namespace camway::planning {
+
+namespace {
+
+using motion::Keyframe;
+
+InvalidRequest invalid(std::string field, std::string_view reason,
+                       std::optional<std::size_t> keyframe = std::nullopt) {
+  std::string message = fmt::format("{}: {}", field, reason);
+  return {std::move(field), keyframe, std::move(message)};
+}
+
+std::optional<InvalidRequest> check_angle(std::string_view field, double angle_rad) {
+  if (angle_rad > 0.0 && angle_rad < std::numbers::pi) return std::nullopt;
+  return invalid(
+      std::string(field),
+      fmt::format("is {} rad; it must lie between 0 and pi (0 and 180 degrees)", angle_rad));
+}
+
+std::optional<InvalidRequest> check_camera(const motion::Camera& camera) {
+  if (auto fault = check_angle("camera.fov_x", camera.fov_x_rad)) return fault;
+  if (auto fault = check_angle("camera.fov_y", camera.fov_y_rad)) return fault;
+  if (!(camera.near_m > 0.0) || !(camera.near_m <= kMaxCoordinate_m)) {
+    return invalid("camera.near",
+                   fmt::format("is {} m; it must be above 0 and finite", camera.near_m));
+  }
+  // A field of view next to 180 degrees makes a quadrilateral that no scene holds.
+  if (!(motion::body_radius_m(motion::near_corners_C(camera)) <= kMaxCoordinate_m)) {
+    return invalid("camera", "its near quadrilateral is larger than any scene");
+  }
+  return std::nullopt;
+}
+
+std::optional<InvalidRequest> check_pose(const Keyframe& keyframe, std::size_t index) {
+  const std::string position = fmt::format("keyframes[{}].position", index);
+  const std::string orientation = fmt::format("keyframes[{}].orientation", index);
+  if (!keyframe.pose.position.allFinite()) return invalid(position, "is not finite", index);
+  if (keyframe.pose.position.cwiseAbs().maxCoeff() > kMaxCoordinate_m) {
+    return invalid(position, fmt::format("is more than {:g} m from the origin", kMaxCoordinate_m),
+                   index);
+  }
+  if (!keyframe.pose.orientation.coeffs().allFinite()) {
+    return invalid(orientation, "is not finite", index);
+  }
+  const double length = keyframe.pose.orientation.norm();
+  if (!(length >= kLeastQuaternionLength) || !std::isfinite(length)) {
+    return invalid(
+        orientation,
+        fmt::format("has length {:g}; a rotation needs a quaternion that is not zero", length),
+        index);
+  }
+  return std::nullopt;
+}
+
+std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes) {
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const double time_s = keyframes[i].time_s;
+    const std::string field = fmt::format("keyframes[{}].time", i);
+    if (!std::isfinite(time_s) || std::abs(time_s) > kMaxTime_s) {
+      return invalid(
+          field, fmt::format("is {}; it must be finite and within {:g} s", time_s, kMaxTime_s), i);
+    }
+    if (i == 0) continue;
+    const double previous_s = keyframes[i - 1].time_s;
+    const double least_step_s =
+        kLeastRelativeTimeStep * std::max(std::abs(time_s), std::abs(previous_s));
+    if (!(time_s - previous_s > least_step_s)) {
+      return invalid(field,
+                     fmt::format("is {} s, not after the {} s of keyframe {}; times must increase",
+                                 time_s, previous_s, i - 1),
+                     i);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<InvalidRequest> check_options(const PlanOptions& options) {
+  const auto positive = [](std::string_view field, double value) -> std::optional<InvalidRequest> {
+    if (value > 0.0 && std::isfinite(value)) return std::nullopt;
+    return invalid(std::string(field), fmt::format("is {}; it must be above 0 and finite", value));
+  };
+  if (auto fault = positive("options.deadline_s", options.deadline_s)) return fault;
+  if (auto fault = positive("options.chord_error_m", options.chord_error_m)) return fault;
+  if (auto fault = positive("options.interval_tolerance_m", options.interval_tolerance_m))
+    return fault;
+  if (options.max_inserted_keyframes < 0) {
+    return invalid("options.max_inserted_keyframes",
+                   fmt::format("is {}; it must be at least 0", options.max_inserted_keyframes));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<InvalidRequest> validate(const PlanRequest& request) {
+  if (auto fault = check_camera(request.camera)) return fault;
+  const std::size_t count = request.keyframes.size();
+  if (count < 2 || count > kMaxKeyframes) {
+    return invalid("keyframes",
+                   fmt::format("holds {}; a path needs 2 to {}", count, kMaxKeyframes));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (auto fault = check_pose(request.keyframes[i], i)) return fault;
+  }
+  if (request.has_times) {
+    if (auto fault = check_times(request.keyframes)) return fault;
+  }
+  return check_options(request.options);
+}
+
+}  // namespace camway::planning

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/detect.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "daemon/collision/near_quad.h"
+#include "daemon/motion/interpolate.h"
+#include "tests/support/scenes.h"
+
+namespace camway::collision {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using motion::Corners;
+using motion::Keyframe;
+using motion::Path;
+using scene::Mesh;
+using scene::Octree;
+
+Path straight(const Vec3& from, const Vec3& to, const Quat& orientation) {
+  return motion::interpolate(
+      std::vector<Keyframe>{{0.0, {from, orientation}}, {1.0, {to, orientation}}});
+}
+
+std::vector<CollisionInterval> detect(const Octree& octree, const Path& path,
+                                      const Corners& corners_C, const DetectOptions& options = {}) {
+  const std::optional<std::vector<CollisionInterval>> found = detect_collisions(
+      octree, path, corners_C, path.begin_s(), path.end_s(), options, Deadline::never());
+  return found.value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
+}
+
+Mesh plate_at_z0() {
+  Mesh mesh;
+  testing::add_triangle(mesh, {-50, -50, 0}, {50, -50, 0}, {0, 80, 0});
+  return mesh;
+}
+
+// A quadrilateral that flies straight through a plane touches it exactly while its foremost and its
+// rearmost corner are on different sides.
+TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
+  const Octree octree = Octree::build(plate_at_z0());
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  constexpr std::uint64_t kSeed = 11;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  std::mt19937_64 random(kSeed);
+  for (int run = 0; run < 200; ++run) {
+    const Quat orientation = testing::random_rotation(random);
+    double lowest_m = 1.0;
+    double highest_m = -1.0;
+    for (const Vec3& corner_C : corners_C) {
+      lowest_m = std::min(lowest_m, (orientation * corner_C).z());
+      highest_m = std::max(highest_m, (orientation * corner_C).z());
+    }
+    const Path path = straight({0, 0, 2}, {0, 0, -2}, orientation);
+    const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+    ASSERT_EQ(found.size(), 1u) << "run " << run;
+    // z(t) = 2 - 4t: the foremost corner arrives at t = (2 + lowest) / 4. The speed is 4 m/s, and a
+    // bracket may be two tolerances wide: one of the resolution, one of the stretch it lies in.
+    const double bracket_s = 2.0 * DetectOptions{}.tolerance_m / 4.0;
+    EXPECT_NEAR(found[0].t_begin_s, (2.0 + lowest_m) / 4.0, bracket_s);
+    EXPECT_NEAR(found[0].t_end_s, (2.0 + highest_m) / 4.0, bracket_s);
+    EXPECT_LE(found[0].t_begin_s, (2.0 + lowest_m) / 4.0);
+    EXPECT_GE(found[0].t_end_s, (2.0 + highest_m) / 4.0);
+  }
+}
+
+// Met at one instant only: no sampling finds it.
+TEST(DetectCollisions, PlateParallelToTheQuadrilateralIsFound) {
+  const Octree octree = Octree::build(plate_at_z0());
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Path path = straight({0, 0, 2}, {0, 0, -1.3}, Quat::Identity());
+  const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+  ASSERT_EQ(found.size(), 1u);
+  const double instant_s = (2.0 - 0.1) / 3.3;
+  EXPECT_LE(found[0].t_begin_s, instant_s);
+  EXPECT_GE(found[0].t_end_s, instant_s);
+  EXPECT_LE(found[0].t_end_s - found[0].t_begin_s, 4.0 * DetectOptions{}.tolerance_m / 3.3);
+}
+
+TEST(DetectCollisions, ObjectEnclosedByTheSweptTubeIsFound) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});
+  const Octree octree = Octree::build(mesh);
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
+  const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].t_begin_s, (2.0 - 0.1 - 0.005) / 4.0, 1e-4);
+  EXPECT_NEAR(found[0].t_end_s, (2.0 - 0.1 + 0.005) / 4.0, 1e-4);
+}
+
+TEST(DetectCollisions, AClearPassIsFreeDownToTheTolerance) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-1, -1, -1}, {1, 1, 1});
+  const Octree octree = Octree::build(mesh);
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const double half_height_m = corners_C[0].y();
+  const double gap_m = 2.0 * DetectOptions{}.tolerance_m;
+  const double eye_y_m = 1.0 + half_height_m + gap_m;
+  EXPECT_TRUE(
+      detect(octree, straight({0, eye_y_m, 3}, {0, eye_y_m, -3}, Quat::Identity()), corners_C)
+          .empty());
+  const double touching_y_m = 1.0 + half_height_m;
+  EXPECT_EQ(detect(octree, straight({0, touching_y_m, 3}, {0, touching_y_m, -3}, Quat::Identity()),
+                   corners_C)
+                .size(),
+            1u);
+}
+
+TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
+  Mesh mesh;
+  for (const double z : {1.0, 0.0, -1.0})
+    testing::add_cuboid(mesh, {-1, -1, z - 0.05}, {1, 1, z + 0.05});
+  const Octree octree = Octree::build(mesh);
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
+  const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_LT(found[0].t_end_s, found[1].t_begin_s);
+  EXPECT_LT(found[1].t_end_s, found[2].t_begin_s);
+  const FirstCollision first =
+      first_collision(octree, path, corners_C, path.begin_s(), path.end_s(), {}, Deadline::never());
+  ASSERT_TRUE(first.decided && first.interval);
+  EXPECT_EQ(*first.interval, found[0]);
+  const FirstCollision later = first_collision(octree, path, corners_C, found[0].t_end_s + 0.01,
+                                               path.end_s(), {}, Deadline::never());
+  ASSERT_TRUE(later.decided && later.interval);
+  EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
+}
+
+// The oracle: dense sampling may overlook a collision but never invents one.
+TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
+  constexpr std::uint64_t kSeed = 5;
+  RecordProperty("seed", static_cast<int>(kSeed));
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const DetectOptions options;
+  int colliding_samples = 0;
+  for (int run = 0; run < 25; ++run) {
+    const Octree octree = Octree::build(testing::scattered_triangles(random, 60, 0.15));
+    std::vector<Keyframe> keyframes;
+    for (int i = 0; i < 5; ++i) {
+      keyframes.push_back(
+          {static_cast<double>(i),
+           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+    }
+    const Path path = motion::interpolate(keyframes);
+    const std::vector<CollisionInterval> found = detect(octree, path, corners_C, options);
+    const auto inside = [&](double time_s) {
+      return std::any_of(found.begin(), found.end(), [&](const CollisionInterval& interval) {
+        return interval.t_begin_s <= time_s && time_s <= interval.t_end_s;
+      });
+    };
+    for (int i = 0; i <= 4000; ++i) {
+      const double time_s = 4.0 * i / 4000;
+      if (!collides(octree, corners_C, path.pose(time_s))) continue;
+      ++colliding_samples;
+      EXPECT_TRUE(inside(time_s)) << "run " << run << ", t = " << time_s;
+    }
+    for (const CollisionInterval& interval : found) {
+      // At an end the body is no further from the scene than it moves within the undecided stretch.
+      for (const double end_s : {interval.t_begin_s, interval.t_end_s}) {
+        EXPECT_TRUE(clearance_m(octree, corners_C, path.pose(end_s), 3.0 * options.tolerance_m))
+            << "run " << run << ", end at " << end_s;
+      }
+    }
+  }
+  EXPECT_GT(colliding_samples, 100);
+}
+
+TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
+  const Octree octree = Octree::build(plate_at_z0());
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
+  EXPECT_FALSE(detect_collisions(octree, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)));
+  EXPECT_FALSE(
+      first_collision(octree, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)).decided);
+}
+
+TEST(DetectCollisions, AnEmptySceneIsFree) {
+  const Octree octree = Octree::build(Mesh{});
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  EXPECT_TRUE(detect(octree, straight({0, 0, 2}, {0, 0, -2}, Quat::Identity()), corners_C).empty());
+}
+
+}  // namespace
+}  // namespace camway::collision

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "daemon/collision/near_quad.h"
+#include "tests/support/scenes.h"
+
+namespace camway::planning {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using scene::Mesh;
+using scene::Snapshot;
+
+std::shared_ptr<const Snapshot> snapshot_of(Mesh mesh) {
+  return scene::make_snapshot("test", std::move(mesh)).snapshot;
+}
+
+// A column that the bulging tour below grazes.
+std::shared_ptr<const Snapshot> column_scene() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
+  return snapshot_of(std::move(mesh));
+}
+
+PlanRequest bulging_tour() {
+  PlanRequest request;
+  request.scene = "test";
+  request.camera = testing::small_camera();
+  request.has_times = true;
+  request.keyframes = {{0.0, {{0, 0, 2}, Quat::Identity()}},
+                       {2.0, {{0.25, 0, 0.4}, Quat::Identity()}},
+                       {4.0, {{0, 0, -2}, Quat::Identity()}}};
+  return request;
+}
+
+// Every number of the answer but the timing.
+std::vector<double> numbers_of(const PlanResult& result) {
+  std::vector<double> numbers;
+  for (const motion::Segment& segment : result.path.segments()) {
+    numbers.insert(numbers.end(), {segment.t0_s, segment.t1_s});
+    for (const Vec3& p : segment.position) numbers.insert(numbers.end(), p.begin(), p.end());
+    for (const geometry::Vec4& q : segment.orientation)
+      numbers.insert(numbers.end(), q.begin(), q.end());
+  }
+  for (const motion::Keyframe& keyframe : result.keyframes) {
+    numbers.push_back(keyframe.time_s);
+    numbers.insert(numbers.end(), keyframe.pose.position.begin(), keyframe.pose.position.end());
+  }
+  for (const auto* list : {&result.collisions, &result.remaining_collisions}) {
+    for (const collision::CollisionInterval& interval : *list) {
+      numbers.insert(numbers.end(), {interval.t_begin_s, interval.t_end_s});
+    }
+  }
+  return numbers;
+}
+
+TEST(Plan, AFreePathIsOkAndUnchanged) {
+  const PlanResult result = plan(*snapshot_of(Mesh{}), bulging_tour());
+  EXPECT_EQ(result.status, Status::kOk);
+  EXPECT_TRUE(result.collisions.empty());
+  EXPECT_TRUE(result.remaining_collisions.empty());
+  EXPECT_EQ(result.keyframes.size(), 3u);
+  EXPECT_EQ(result.path.begin_s(), 0.0);
+  EXPECT_EQ(result.path.end_s(), 4.0);
+}
+
+TEST(Plan, AGrazingPathIsCorrectedAndTellsWhatCollided) {
+  const std::shared_ptr<const Snapshot> snapshot = column_scene();
+  const PlanResult result = plan(*snapshot, bulging_tour());
+  EXPECT_EQ(result.status, Status::kOk) << result.message;
+  EXPECT_EQ(result.collisions.size(), 1u);
+  EXPECT_TRUE(result.remaining_collisions.empty());
+  EXPECT_GT(result.keyframes.size(), 3u);
+  const motion::Corners corners_C = motion::near_corners_C(bulging_tour().camera);
+  for (int i = 0; i <= 10'000; ++i) {
+    ASSERT_FALSE(
+        collision::collides(snapshot->octree, corners_C, result.path.pose(4.0 * i / 10'000)));
+  }
+  // The proof is not there yet, so nothing may claim it.
+  EXPECT_FALSE(result.certificate.certified);
+  EXPECT_EQ(result.certificate.clearance_lower_bound_m, 0.0);
+}
+
+TEST(Plan, AWallHeadOnIsPartialWithWhatRemains) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-50, -50, -0.05}, {50, 50, 0.05});
+  const PlanResult result = plan(*snapshot_of(std::move(mesh)), bulging_tour());
+  EXPECT_EQ(result.status, Status::kPartial);
+  EXPECT_FALSE(result.remaining_collisions.empty());
+  EXPECT_FALSE(result.path.empty());
+}
+
+TEST(Plan, ACollidingKeyframeIsNamed) {
+  PlanRequest request = bulging_tour();
+  request.keyframes[1].pose.position = {0.35, 0, 0.0};
+  const PlanResult result = plan(*column_scene(), request);
+  EXPECT_EQ(result.status, Status::kInvalid);
+  EXPECT_EQ(result.keyframe, 1u);
+  EXPECT_THAT(result.message, ::testing::HasSubstr("keyframes[1]"));
+  EXPECT_TRUE(result.path.empty());
+}
+
+TEST(Plan, AnInvalidRequestIsAResult) {
+  PlanRequest request = bulging_tour();
+  request.keyframes[2].pose.position.x() = std::numeric_limits<double>::quiet_NaN();
+  const PlanResult result = plan(*column_scene(), request);
+  EXPECT_EQ(result.status, Status::kInvalid);
+  EXPECT_EQ(result.keyframe, 2u);
+}
+
+TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
+  const PlanResult result =
+      plan(*column_scene(), bulging_tour(), collision::Deadline::after_s(0.0));
+  EXPECT_EQ(result.status, Status::kTimeout);
+  ASSERT_EQ(result.remaining_collisions.size(), 1u);
+  EXPECT_EQ(result.remaining_collisions[0], (collision::CollisionInterval{0.0, 4.0}));
+}
+
+TEST(Plan, DerivesTimesAndNormalisesQuaternions) {
+  PlanRequest request = bulging_tour();
+  request.has_times = false;
+  for (motion::Keyframe& keyframe : request.keyframes) {
+    keyframe.time_s = std::numeric_limits<double>::quiet_NaN();
+    keyframe.pose.orientation.coeffs() *= 5.0;
+  }
+  const PlanResult result = plan(*snapshot_of(Mesh{}), request);
+  ASSERT_EQ(result.status, Status::kOk) << result.message;
+  EXPECT_EQ(result.keyframes[0].time_s, 0.0);
+  for (const motion::Keyframe& keyframe : result.keyframes) {
+    EXPECT_NEAR(keyframe.pose.orientation.norm(), 1.0, 1e-15);
+    EXPECT_NEAR((result.path.pose(keyframe.time_s).position - keyframe.pose.position).norm(), 0.0,
+                1e-12);
+  }
+}
+
+TEST(Plan, IsBitIdenticalFromAnyThread) {
+  const std::shared_ptr<const Snapshot> snapshot = column_scene();
+  const std::vector<double> alone = numbers_of(plan(*snapshot, bulging_tour()));
+  std::vector<std::vector<double>> others(4);
+  {
+    std::vector<std::jthread> threads;
+    for (std::vector<double>& other : others) {
+      threads.emplace_back([&] { other = numbers_of(plan(*snapshot, bulging_tour())); });
+    }
+  }
+  for (const std::vector<double>& other : others) {
+    ASSERT_EQ(other.size(), alone.size());
+    EXPECT_EQ(std::memcmp(other.data(), alone.data(), alone.size() * sizeof(double)), 0);
+  }
+}
+
+TEST(Status, NamesRoundTrip) {
+  for (const Status status : {Status::kOk, Status::kPartial, Status::kInfeasible, Status::kTimeout,
+                              Status::kInvalid, Status::kUnknownScene, Status::kInternalError}) {
+    EXPECT_EQ(status_from_string(to_string(status)), status);
+  }
+  EXPECT_FALSE(status_from_string("fine"));
+}
+
+}  // namespace
+}  // namespace camway::planning

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "daemon/planning/request.h"
+#include "tests/support/scenes.h"
+
+namespace camway::planning {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+PlanRequest good_request() {
+  PlanRequest request;
+  request.camera = testing::small_camera();
+  request.keyframes.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    request.keyframes[i].time_s = static_cast<double>(i);
+    request.keyframes[i].pose.position.x() = static_cast<double>(i);
+  }
+  request.has_times = true;
+  return request;
+}
+
+struct Fault {
+  const char* field;
+  std::optional<std::size_t> keyframe;
+  std::function<void(PlanRequest&)> make;
+};
+
+TEST(Validate, AGoodRequestPasses) { EXPECT_FALSE(validate(good_request())); }
+
+TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
+  const Fault faults[] = {
+      {"camera.fov_x", {}, [](PlanRequest& r) { r.camera.fov_x_rad = 0.0; }},
+      {"camera.fov_x", {}, [](PlanRequest& r) { r.camera.fov_x_rad = kNaN; }},
+      {"camera.fov_y", {}, [](PlanRequest& r) { r.camera.fov_y_rad = 3.5; }},
+      {"camera.near", {}, [](PlanRequest& r) { r.camera.near_m = -0.1; }},
+      {"camera.near", {}, [](PlanRequest& r) { r.camera.near_m = kInfinity; }},
+      {"camera", {}, [](PlanRequest& r) { r.camera.near_m = 1e9, r.camera.fov_x_rad = 3.0; }},
+      {"keyframes", {}, [](PlanRequest& r) { r.keyframes.clear(); }},
+      {"keyframes", {}, [](PlanRequest& r) { r.keyframes.resize(1); }},
+      {"keyframes", {}, [](PlanRequest& r) { r.keyframes.resize(kMaxKeyframes + 1); }},
+      {"keyframes[1].position", 1, [](PlanRequest& r) { r.keyframes[1].pose.position.y() = kNaN; }},
+      {"keyframes[2].position", 2, [](PlanRequest& r) { r.keyframes[2].pose.position.z() = -2e9; }},
+      {"keyframes[0].orientation", 0,
+       [](PlanRequest& r) { r.keyframes[0].pose.orientation.coeffs().setZero(); }},
+      {"keyframes[0].orientation", 0,
+       [](PlanRequest& r) { r.keyframes[0].pose.orientation.x() = kInfinity; }},
+      {"keyframes[1].orientation", 1,
+       [](PlanRequest& r) { r.keyframes[1].pose.orientation.coeffs().setConstant(1e300); }},
+      {"keyframes[1].time", 1, [](PlanRequest& r) { r.keyframes[1].time_s = 0.0; }},
+      {"keyframes[2].time", 2, [](PlanRequest& r) { r.keyframes[2].time_s = 0.5; }},
+      {"keyframes[2].time", 2, [](PlanRequest& r) { r.keyframes[2].time_s = kNaN; }},
+      {"options.deadline_s", {}, [](PlanRequest& r) { r.options.deadline_s = 0.0; }},
+      {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = kNaN; }},
+      {"options.interval_tolerance_m",
+       {},
+       [](PlanRequest& r) { r.options.interval_tolerance_m = -1.0; }},
+      {"options.max_inserted_keyframes",
+       {},
+       [](PlanRequest& r) { r.options.max_inserted_keyframes = -1; }},
+  };
+  for (const Fault& fault : faults) {
+    PlanRequest request = good_request();
+    fault.make(request);
+    const std::optional<InvalidRequest> found = validate(request);
+    ASSERT_TRUE(found) << fault.field;
+    EXPECT_EQ(found->field, fault.field);
+    EXPECT_EQ(found->keyframe, fault.keyframe) << fault.field;
+    EXPECT_THAT(found->message, ::testing::StartsWith(std::string(fault.field) + ": "));
+  }
+}
+
+TEST(Validate, TimesDoNotMatterWhereNoneWereGiven) {
+  PlanRequest request = good_request();
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.time_s = kNaN;
+  request.has_times = false;
+  EXPECT_FALSE(validate(request));
+}
+
+TEST(Validate, AQuaternionNeedNotBeOfUnitLength) {
+  PlanRequest request = good_request();
+  request.keyframes[1].pose.orientation.coeffs() *= 7.0;
+  EXPECT_FALSE(validate(request));
+}
+
+TEST(Method, NamesRoundTrip) {
+  EXPECT_EQ(method_from_string(to_string(Method::kKeyframeInsertion)), Method::kKeyframeInsertion);
+  EXPECT_FALSE(method_from_string("teleport"));
+}
+
+}  // namespace
+}  // namespace camway::planning

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "daemon/motion/camera.h"
+#include "daemon/motion/keyframe.h"
+#include "daemon/scene/octree.h"
+
+/// Small scenes and cameras that tests build in memory.
+namespace camway::testing {
+
+using geometry::Quat;
+using geometry::Vec3;
+
+/// Adds an axis-parallel cuboid of 12 triangles.
+inline void add_cuboid(scene::Mesh& mesh, const Vec3& min, const Vec3& max) {
+  const std::uint32_t first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back((i & 1) != 0 ? max.x() : min.x(), (i & 2) != 0 ? max.y() : min.y(),
+                               (i & 4) != 0 ? max.z() : min.z());
+  }
+  constexpr std::array<std::array<std::uint32_t, 3>, 12> kFaces{{{0, 2, 1},
+                                                                 {1, 2, 3},
+                                                                 {4, 5, 6},
+                                                                 {5, 7, 6},
+                                                                 {0, 1, 4},
+                                                                 {1, 5, 4},
+                                                                 {2, 6, 3},
+                                                                 {3, 6, 7},
+                                                                 {0, 4, 2},
+                                                                 {2, 4, 6},
+                                                                 {1, 3, 5},
+                                                                 {3, 7, 5}}};
+  for (const std::array<std::uint32_t, 3>& face : kFaces) {
+    mesh.triangles.push_back({first + face[0], first + face[1], first + face[2]});
+  }
+}
+
+/// Adds one triangle.
+inline void add_triangle(scene::Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const std::uint32_t first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+/// Triangles of about `size_m` scattered over a cube of side 2 about the origin.
+inline scene::Mesh scattered_triangles(std::mt19937_64& random, int count, double size_m) {
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  scene::Mesh mesh;
+  const auto anywhere = [&] { return Vec3(place(random), place(random), place(random)); };
+  for (int i = 0; i < count; ++i) {
+    const Vec3 center = anywhere();
+    add_triangle(mesh, center + size_m * anywhere(), center + size_m * anywhere(),
+                 center + size_m * anywhere());
+  }
+  return mesh;
+}
+
+/// Uniform on the rotations.
+inline Quat random_rotation(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return Quat(normal(random), normal(random), normal(random), normal(random)).normalized();
+}
+
+/// A camera of 90° × 60°, 10 cm near distance: a quadrilateral of 0.2 m × 0.115 m.
+inline motion::Camera small_camera() {
+  return {.fov_x_rad = std::numbers::pi / 2, .fov_y_rad = std::numbers::pi / 3, .near_m = 0.1};
+}
+
+/// Looks from `eye` along the direction `forward` with +Y up as far as possible.
+inline Quat looking_along(const Vec3& forward) {
+  const Vec3 back = -forward.normalized();
+  const Vec3 right = Vec3::UnitY().cross(back).normalized();
+  Eigen::Matrix3d axes;
+  axes << right, back.cross(right), back;
+  return Quat(axes);
+}
+
+}  // namespace camway::testing
