@@ -8,8 +8,8 @@ namespace camway::motion {
 /// Where the camera frame C stands in the world frame W: `p_W = orientation * p_C + position`.
 /// The camera looks down -Z with +Y up, as in OpenGL; `position` is the eye.
 struct Pose {
-  geometry::Vec3 position = geometry::Vec3::Zero();           ///< [Units: metres]
-  geometry::Quat orientation = geometry::Quat::Identity();    ///< unit length
+  geometry::Vec3 position = geometry::Vec3::Zero();         ///< [Units: metres]
+  geometry::Quat orientation = geometry::Quat::Identity();  ///< unit length
 };
 
 /// Who asked for a keyframe: the request, or a correction.

@@ -19,10 +19,12 @@ class Path {
 
   [[nodiscard]] bool empty() const { return segments_.empty(); }
   [[nodiscard]] std::span<const Segment> segments() const { return segments_; }
+  /// Precondition of everything below: not empty.
   [[nodiscard]] double begin_s() const;
   [[nodiscard]] double end_s() const;
 
-  /// Index of the segment that holds `time_s`; at a join the later one, outside the path the nearest.
+  /// Index of the segment that holds `time_s`; at a join the later one, outside the path the
+  /// nearest.
   [[nodiscard]] std::size_t segment_index(double time_s) const;
 
   /// Pose at `time_s`, clamped to the path's time span.
