@@ -18,6 +18,25 @@ using motion::Segment;
 // most half an ulp of the largest coordinate involved.
 constexpr double kRoundings = 64.0;
 
+// A stretch of a segment. Kept as parameters of the whole, not as control points of its own, so
+// that rounding does not add up over sub-divisions.
+struct Piece {
+  const Segment* segment;
+  double u0;
+  double u1;
+
+  [[nodiscard]] double middle() const { return 0.5 * (u0 + u1); }
+  [[nodiscard]] Piece left() const { return {segment, u0, middle()}; }
+  [[nodiscard]] Piece right() const { return {segment, middle(), u1}; }
+  [[nodiscard]] double time_s(double u) const {
+    return u >= 1.0 ? segment->t1_s : segment->t0_s + u * (segment->t1_s - segment->t0_s);
+  }
+  [[nodiscard]] double begin_s() const { return time_s(u0); }
+  [[nodiscard]] double end_s() const { return time_s(u1); }
+  // A piece so short that its middle is one of its ends cannot be split.
+  [[nodiscard]] bool splittable() const { return middle() > u0 && middle() < u1; }
+};
+
 double largest_coordinate_m(const Segment& segment) {
   double largest = 0.0;
   for (const geometry::Vec3& point : segment.position) {
@@ -44,7 +63,7 @@ class Detector {
       if (segment.t1_s <= t_begin_s || segment.t0_s >= t_end_s) continue;
       const double u0 = motion::segment_parameter(segment, t_begin_s);
       const double u1 = motion::segment_parameter(segment, t_end_s);
-      visit(u0 > 0.0 || u1 < 1.0 ? motion::sub_segment(segment, u0, u1) : segment);
+      if (u0 < u1) visit({&segment, u0, u1});
       if (finished_) return;
     }
     close();
@@ -60,23 +79,18 @@ class Detector {
     double deviation_m;  // of any point of the body from where it is at the middle
   };
 
-  [[nodiscard]] Look look(const Segment& piece) const {
-    const double deviation_m = motion::deviation_m(motion::motion_bound(piece), radius_m_);
-    const std::array<geometry::Triangle, 2> quad =
-        near_quad_triangles(motion::corners_W(corners_C_, motion::pose_at(piece, 0.5)));
+  [[nodiscard]] Look look(const Piece& piece) const {
+    const double deviation_m =
+        motion::deviation_m(motion::motion_bound(*piece.segment, piece.u0, piece.u1), radius_m_);
+    const std::array<geometry::Triangle, 2> quad = near_quad_triangles(
+        motion::corners_W(corners_C_, motion::pose_at(*piece.segment, piece.middle())));
     const double rounding_m = kRoundings * std::numeric_limits<double>::epsilon() *
-                              (largest_coordinate_m(piece) + radius_m_ + deviation_m);
+                              (largest_coordinate_m(*piece.segment) + radius_m_ + deviation_m);
     const std::optional<scene::Nearest> nearest = octree_.nearest(quad, deviation_m + rounding_m);
     return {!nearest.has_value(), nearest && nearest->distance_m == 0.0, deviation_m};
   }
 
-  // A piece so short that its middle is one of its ends cannot be split.
-  static bool splittable(const Segment& piece) {
-    const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
-    return middle_s > piece.t0_s && middle_s < piece.t1_s;
-  }
-
-  void visit(const Segment& piece) {
+  void visit(const Piece& piece) {
     if (finished_) return;
     if (deadline_.passed()) {
       timed_out_ = finished_ = true;
@@ -88,43 +102,43 @@ class Detector {
       return;
     }
     const double resolution_m = seen.touches ? options_.gap_m : options_.tolerance_m;
-    if (seen.deviation_m <= resolution_m || !splittable(piece)) {
+    if (seen.deviation_m <= resolution_m || !piece.splittable()) {
       extend(piece);
       return;
     }
-    visit(motion::sub_segment(piece, 0.0, 0.5));
-    visit(motion::sub_segment(piece, 0.5, 1.0));
+    visit(piece.left());
+    visit(piece.right());
   }
 
-  void extend(const Segment& piece) {
-    if (!last_colliding_) begin_s_ = first_not_free(piece).value_or(piece.t0_s);
+  void extend(const Piece& piece) {
+    if (!last_colliding_) begin_s_ = first_not_free(piece).value_or(piece.begin_s());
     last_colliding_ = piece;
   }
 
   void close() {
     if (!last_colliding_) return;
-    const double end_s = last_not_free(*last_colliding_).value_or(last_colliding_->t1_s);
+    const double end_s = last_not_free(*last_colliding_).value_or(last_colliding_->end_s());
     intervals_.push_back({begin_s_, end_s});
     last_colliding_.reset();
     finished_ = finished_ || only_first_;
   }
 
   // Where, at the finest resolution, the first part of `piece` begins that is not free.
-  [[nodiscard]] std::optional<double> first_not_free(const Segment& piece) const {
+  [[nodiscard]] std::optional<double> first_not_free(const Piece& piece) const {
     const Look seen = look(piece);
     if (seen.free) return std::nullopt;
-    if (seen.deviation_m <= options_.tolerance_m || !splittable(piece)) return piece.t0_s;
-    const std::optional<double> left = first_not_free(motion::sub_segment(piece, 0.0, 0.5));
-    return left ? left : first_not_free(motion::sub_segment(piece, 0.5, 1.0));
+    if (seen.deviation_m <= options_.tolerance_m || !piece.splittable()) return piece.begin_s();
+    const std::optional<double> left = first_not_free(piece.left());
+    return left ? left : first_not_free(piece.right());
   }
 
   // Where the last such part ends.
-  [[nodiscard]] std::optional<double> last_not_free(const Segment& piece) const {
+  [[nodiscard]] std::optional<double> last_not_free(const Piece& piece) const {
     const Look seen = look(piece);
     if (seen.free) return std::nullopt;
-    if (seen.deviation_m <= options_.tolerance_m || !splittable(piece)) return piece.t1_s;
-    const std::optional<double> right = last_not_free(motion::sub_segment(piece, 0.5, 1.0));
-    return right ? right : last_not_free(motion::sub_segment(piece, 0.0, 0.5));
+    if (seen.deviation_m <= options_.tolerance_m || !piece.splittable()) return piece.end_s();
+    const std::optional<double> right = last_not_free(piece.right());
+    return right ? right : last_not_free(piece.left());
   }
 
   const scene::Octree& octree_;
@@ -137,7 +151,7 @@ class Detector {
   bool finished_ = false;
   bool timed_out_ = false;
   double begin_s_ = 0.0;
-  std::optional<Segment> last_colliding_;
+  std::optional<Piece> last_colliding_;
   std::vector<CollisionInterval> intervals_;
 };
 
