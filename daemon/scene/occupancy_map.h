@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
+#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/mesh.h"
+#include "daemon/scene/voxel_grid.h"
 
 namespace octomap {
 class OcTree;
@@ -20,47 +20,62 @@ namespace camway::scene {
 
 struct OccupancyStatistics {
   double resolution_m = 0.0;
-  std::uint64_t occupied_voxels = 0;  ///< at full resolution, pruned nodes counted as what they cover
+  std::uint64_t occupied_voxels =
+      0;  ///< at full resolution, pruned nodes counted as what they cover
   std::uint64_t nodes = 0;
   std::uint64_t memory_bytes = 0;
 };
 
-/// The OctoMap mirror of a scene. Conservative: every voxel that a triangle touches is occupied.
+/// The OctoMap mirror of a scene (Hornung et al. 2013, "OctoMap"). Conservative: every voxel that a
+/// triangle touches is occupied, and what is not occupied is unknown to the tree, which counts as
+/// free here. The voxels of a query are closed boxes, faces moved outwards by
+/// `VoxelGrid::face_error_m`, so that rounding can add a touch and never lose one.
+/// OctoMap's own ray casting is not used: it works in single precision, gives the centre of the
+/// voxel that it hits, and stops where the start lies outside the keys' range.
+/// A query with NaN, or an infinity where it has no meaning, answers false or nothing.
 /// Immutable; queries are const and safe from any thread.
 class OccupancyMap {
  public:
-  /// Largest distance of a coordinate from the origin that OctoMap's 16-bit keys can hold, in voxels.
+  /// Largest distance of a coordinate from the origin that OctoMap's 16-bit keys can hold, in
+  /// voxels.
   static constexpr std::int32_t kMaxKeyVoxels = 32768;
+
+  /// Distances are rounded down by up to this factor: ten roundings of half an ulp, doubled.
+  static constexpr double kDistanceRelativeError = 20 * geometry::kUnitRoundoff;
 
   struct BuildResult {
     std::shared_ptr<const OccupancyMap> map;  ///< null on error
-    std::string error;
+    std::string error;                        ///< empty exactly when `map` is set
   };
 
   /// Exact triangle-box overlap for every voxel, not point samples. Refuses, with an error that
-  /// names extent and resolution, a mesh that OctoMap's keys cannot hold, and one whose mirror
-  /// would pass `max_voxels`.
+  /// names extent and resolution, a resolution outside `VoxelGrid`'s limits, a mesh that OctoMap's
+  /// keys cannot hold, and one whose mirror would pass `max_voxels` (found while building, so that
+  /// memory stays below about 50 bytes for each voxel allowed).
   static BuildResult build(const Mesh& mesh, double resolution_m,
-                           std::uint64_t max_voxels = 200'000'000);
+                           std::uint64_t max_voxels = 50'000'000);
 
   ~OccupancyMap();
   OccupancyMap(const OccupancyMap&) = delete;
   OccupancyMap& operator=(const OccupancyMap&) = delete;
 
-  [[nodiscard]] double resolution_m() const;
-  [[nodiscard]] OccupancyStatistics statistics() const;
+  [[nodiscard]] double resolution_m() const { return grid_.resolution_m(); }
+  [[nodiscard]] const OccupancyStatistics& statistics() const { return statistics_; }
 
-  /// Whether the voxel that holds `point_W` is occupied. Outside the map: false.
+  /// Whether the voxel that OctoMap maps `point_W` to is occupied. Outside the map: false.
   [[nodiscard]] bool occupied_at(const geometry::Vec3& point_W) const;
 
-  /// Whether any occupied voxel touches `box_W`.
+  /// Whether any occupied voxel touches `box_W`. An empty box touches nothing; sides may be
+  /// infinite.
   [[nodiscard]] bool occupied_in_box(const geometry::Box& box_W) const;
 
-  /// Whether any occupied voxel touches the ball.
+  /// Whether any occupied voxel touches the ball. A negative radius: false; it may be infinite.
   [[nodiscard]] bool occupied_in_sphere(const geometry::Vec3& center_W, double radius_m) const;
 
-  /// Distance along the ray to the first occupied voxel (0 if it starts in one), or nothing within
-  /// `max_range_m`. `direction_W` need not be of unit length; zero gives nothing.
+  /// Distance along the ray to where it enters the first occupied voxel (0 if it starts in one), or
+  /// nothing within `max_range_m`. The ray may start outside the map, and one that runs in a face
+  /// or along an edge of a voxel hits it. `direction_W` need not be of unit length; zero gives
+  /// nothing.
   [[nodiscard]] std::optional<double> ray_hit_m(const geometry::Vec3& origin_W,
                                                 const geometry::Vec3& direction_W,
                                                 double max_range_m) const;
@@ -74,9 +89,11 @@ class OccupancyMap {
   [[nodiscard]] std::string write_bt(const std::filesystem::path& file) const;
 
  private:
-  explicit OccupancyMap(std::unique_ptr<const octomap::OcTree> tree);
+  OccupancyMap(std::unique_ptr<const octomap::OcTree> tree, const VoxelGrid& grid);
 
   std::unique_ptr<const octomap::OcTree> tree_;
+  VoxelGrid grid_;
+  OccupancyStatistics statistics_;
 };
 
 }  // namespace camway::scene

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/occupancy_map.h"
+
+#include <octomap/OcTree.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace camway::scene {
+namespace {
+
+using geometry::Box;
+using geometry::Vec3;
+using octomap::OcTree;
+using octomap::OcTreeKey;
+using octomap::OcTreeNode;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRoundDown = 1.0 - OccupancyMap::kDistanceRelativeError / 2.0;
+
+OcTreeKey key_of(const Voxel& voxel) {
+  const auto key = [](std::int32_t v) {
+    return static_cast<octomap::key_type>(v - VoxelGrid::kMinVoxel);
+  };
+  return {key(voxel[0]), key(voxel[1]), key(voxel[2])};
+}
+
+/// The least value that `cost` takes on the boxes of occupied leaves, or nothing if none is
+/// finite and <= `limit`. Branch and bound, cheapest octant first; needs that the cost of a box is
+/// never more than that of a box inside it, which holds bit for bit for the costs below: faces of
+/// nodes nest, and each operation of theirs is monotone under rounding.
+template <typename Cost>
+class CheapestLeaf {
+ public:
+  CheapestLeaf(const OcTree& tree, const VoxelGrid& grid, const Cost& cost, double limit)
+      : tree_(tree), grid_(grid), cost_(cost), limit_(limit) {}
+
+  std::optional<double> run() {
+    if (const OcTreeNode* root = tree_.getRoot(); root != nullptr) {
+      visit(*root, VoxelGrid::kRoot, cost_(grid_.box(VoxelGrid::kRoot)));
+    }
+    return best_;
+  }
+
+ private:
+  struct Child {
+    const OcTreeNode* node;
+    VoxelCube cube;
+    double cost;
+  };
+
+  void visit(const OcTreeNode& node, const VoxelCube& cube, double cost) {
+    if (!(cost <= limit_ && cost < kInfinity) || (best_ && cost >= *best_)) return;
+    if (!tree_.isNodeOccupied(node)) return;  // an inner node holds the maximum of its children
+    if (!tree_.nodeHasChildren(&node)) {
+      best_ = cost;
+      return;
+    }
+    std::array<Child, 8> children;
+    std::size_t count = 0;
+    for (unsigned index = 0; index < 8; ++index) {
+      if (!tree_.nodeChildExists(&node, index)) continue;
+      const VoxelCube child = cube.child(index);
+      children[count++] = {tree_.getNodeChild(&node, index), child, cost_(grid_.box(child))};
+    }
+    const auto end = children.begin() + static_cast<std::ptrdiff_t>(count);
+    std::stable_sort(children.begin(), end,
+                     [](const Child& a, const Child& b) { return a.cost < b.cost; });
+    for (std::size_t i = 0; i < count; ++i)
+      visit(*children[i].node, children[i].cube, children[i].cost);
+  }
+
+  const OcTree& tree_;
+  const VoxelGrid& grid_;
+  const Cost& cost_;
+  double limit_;
+  std::optional<double> best_;
+};
+
+template <typename Cost>
+std::optional<double> cheapest_leaf(const OcTree& tree, const VoxelGrid& grid, const Cost& cost,
+                                    double limit) {
+  return CheapestLeaf<Cost>(tree, grid, cost, limit).run();
+}
+
+/// Distance from a point to a box, rounded down.
+class PointDistance {
+ public:
+  explicit PointDistance(const Vec3& point) : point_(point) {}
+
+  double operator()(const Box& box) const {
+    const auto gap = [&](Eigen::Index i) {
+      return std::max({0.0, box.min()[i] - point_[i], point_[i] - box.max()[i]});
+    };
+    const double x = gap(0);
+    const double y = gap(1);
+    const double z = gap(2);
+    double distance = std::sqrt(x * x + y * y + z * z);
+    if (!std::isfinite(distance)) distance = std::hypot(x, y, z);
+    return distance * kRoundDown;
+  }
+
+ private:
+  Vec3 point_;
+};
+
+/// Distance along a ray to where it enters a box, rounded down; infinite if it misses.
+class RayEntry {
+ public:
+  /// Precondition: finite, and `direction` is not zero.
+  RayEntry(const Vec3& origin, const Vec3& direction) : origin_(origin) {
+    // Exact scaling by a power of two: the length then neither overflows nor underflows, and the
+    // direction is not turned by a rounded division.
+    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
+    for (Eigen::Index i = 0; i < 3; ++i) direction_[i] = std::scalbn(direction[i], -exponent);
+    length_ = direction_.norm();
+  }
+
+  double operator()(const Box& box) const {
+    double enter = 0.0;
+    double leave = kInfinity;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      if (direction_[i] == 0.0) {
+        if (origin_[i] < box.min()[i] || origin_[i] > box.max()[i]) return kInfinity;
+        continue;
+      }
+      const double to_min = (box.min()[i] - origin_[i]) / direction_[i];
+      const double to_max = (box.max()[i] - origin_[i]) / direction_[i];
+      enter = std::max(enter, std::min(to_min, to_max));
+      leave = std::min(leave, std::max(to_min, to_max));
+    }
+    // Each side carries two roundings; a ray through an edge or corner must not slip between them.
+    if (enter * kRoundDown > leave * (1.0 + OccupancyMap::kDistanceRelativeError)) return kInfinity;
+    return enter * length_ * kRoundDown;
+  }
+
+ private:
+  Vec3 origin_;
+  Vec3 direction_;
+  double length_ = 1.0;
+};
+
+/// 0 if two closed boxes touch, else infinite.
+class BoxTouch {
+ public:
+  explicit BoxTouch(const Box& box) : box_(box) {}
+
+  double operator()(const Box& other) const { return box_.intersects(other) ? 0.0 : kInfinity; }
+
+ private:
+  Box box_;
+};
+
+std::string describe(const Box& box) {
+  std::ostringstream text;
+  text << '[' << box.min().x() << ", " << box.min().y() << ", " << box.min().z() << "] to ["
+       << box.max().x() << ", " << box.max().y() << ", " << box.max().z() << "] m";
+  return text.str();
+}
+
+/// Why a mesh cannot be mirrored, or nothing.
+std::string refusal(const Mesh& mesh, double resolution_m) {
+  std::ostringstream text;
+  if (!VoxelGrid::valid_resolution(resolution_m)) {
+    text << "occupancy resolution " << resolution_m << " m is not between "
+         << VoxelGrid::kMinResolutionM << " and " << VoxelGrid::kMaxResolutionM << " m";
+    return text.str();
+  }
+  const VoxelGrid grid(resolution_m);
+  Box bounds;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const Vec3& vertex : mesh.triangle(i)) {
+      if (!vertex.allFinite()) return "triangle " + std::to_string(i) + " is not finite";
+      bounds.extend(vertex);
+    }
+  }
+  if (bounds.isEmpty()) return {};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (voxels_touching(grid, bounds.min()[axis], bounds.max()[axis])) continue;
+    text << "scene extent " << describe(bounds) << " exceeds what an occupancy map of resolution "
+         << resolution_m << " m can hold: " << OccupancyMap::kMaxKeyVoxels
+         << " voxels from the origin, " << OccupancyMap::kMaxKeyVoxels * resolution_m << " m";
+    return text.str();
+  }
+  return {};
+}
+
+/// Marks the voxels of all triangles; false as soon as there are more than `max_voxels`.
+bool mark_occupied(const Mesh& mesh, const VoxelGrid& grid, std::uint64_t max_voxels,
+                   OcTree& tree) {
+  const float occupied = tree.getClampingThresMaxLog();
+  std::uint64_t voxels = 0;
+  const auto mark = [&](const Voxel& voxel) {
+    const std::size_t nodes_before = tree.size();
+    tree.setNodeValue(key_of(voxel), occupied, true);
+    if (tree.size() != nodes_before) ++voxels;  // nothing is pruned yet: a new leaf, a new voxel
+    return voxels <= max_voxels;
+  };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!for_each_voxel_touched(grid, mesh.triangle(i), mark)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolution_m,
+                                              std::uint64_t max_voxels) {
+  if (std::string error = refusal(mesh, resolution_m); !error.empty()) return {nullptr, error};
+  const VoxelGrid grid(resolution_m);
+  auto tree = std::make_unique<OcTree>(resolution_m);
+  if (!mark_occupied(mesh, grid, max_voxels, *tree)) {
+    Box bounds;
+    for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
+    std::ostringstream text;
+    text << "an occupancy map of resolution " << resolution_m << " m would need more than "
+         << max_voxels << " voxels for the scene extent " << describe(bounds);
+    return {nullptr, text.str()};
+  }
+  tree->updateInnerOccupancy();
+  tree->prune();
+  return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(std::move(tree), grid)), {}};
+}
+
+OccupancyMap::OccupancyMap(std::unique_ptr<const OcTree> tree, const VoxelGrid& grid)
+    : tree_(std::move(tree)), grid_(grid) {
+  statistics_.resolution_m = grid.resolution_m();
+  statistics_.nodes = tree_->size();
+  statistics_.memory_bytes = tree_->memoryUsage();
+  if (tree_->getRoot() == nullptr) return;
+  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
+    const unsigned levels_above_voxel = tree_->getTreeDepth() - leaf.getDepth();
+    if (tree_->isNodeOccupied(*leaf)) {
+      statistics_.occupied_voxels += std::uint64_t{1} << (3 * levels_above_voxel);
+    }
+  }
+}
+
+OccupancyMap::~OccupancyMap() = default;
+
+bool OccupancyMap::occupied_at(const Vec3& point_W) const {
+  const std::optional<Voxel> voxel = grid_.voxel_of(point_W);
+  if (!voxel) return false;
+  const OcTreeNode* node = tree_->search(key_of(*voxel));
+  return node != nullptr && tree_->isNodeOccupied(node);
+}
+
+bool OccupancyMap::occupied_in_box(const Box& box_W) const {
+  if (!(box_W.min().array() <= box_W.max().array()).all()) return false;  // empty, or NaN
+  return cheapest_leaf(*tree_, grid_, BoxTouch(box_W), 0.0).has_value();
+}
+
+bool OccupancyMap::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
+  return distance_m(center_W, radius_m).has_value();
+}
+
+std::optional<double> OccupancyMap::ray_hit_m(const Vec3& origin_W, const Vec3& direction_W,
+                                              double max_range_m) const {
+  if (!origin_W.allFinite() || !direction_W.allFinite()) return std::nullopt;
+  if ((direction_W.array() == 0.0).all()) return std::nullopt;
+  return cheapest_leaf(*tree_, grid_, RayEntry(origin_W, direction_W), max_range_m);
+}
+
+std::optional<double> OccupancyMap::distance_m(const Vec3& point_W, double max_distance_m) const {
+  if (!point_W.allFinite()) return std::nullopt;
+  return cheapest_leaf(*tree_, grid_, PointDistance(point_W), max_distance_m);
+}
+
+std::string OccupancyMap::write_bt(const std::filesystem::path& file) const {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (!out) return "cannot open '" + file.string() + "' for writing";
+  // Not OcTree::writeBinaryConst: it prints the resolution with six digits, which scales the map of
+  // any other resolution, and chats on stderr. The call below is not virtual for the latter reason:
+  // the installed library was built with its debug output on.
+  out << "# Octomap OcTree binary file\n# conservative mirror of a Camway scene\n#\n"
+      << "id " << tree_->getTreeType() << "\nsize " << tree_->size() << "\nres "
+      << std::setprecision(std::numeric_limits<double>::max_digits10) << grid_.resolution_m()
+      << "\ndata\n";
+  tree_->octomap::OccupancyOcTreeBase<OcTreeNode>::writeBinaryData(out);
+  out.close();
+  if (!out) return "cannot write '" + file.string() + "'";
+  return {};
+}
+
+}  // namespace camway::scene
