@@ -15,24 +15,32 @@ namespace camway::scene {
 
 /// When a node splits, and what bounds the tree whatever the input.
 struct OctreeOptions {
-  std::uint32_t threshold = 32;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
-  std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= 20]
+  std::uint32_t threshold =
+      32;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
+  std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= kMaxOctreeDepth]
+  /// Largest number of triangle entries in leaves per triangle of the mesh; a node whose split
+  /// would pass its share of that stays a leaf. [Limit: value >= 1]
+  double max_duplication = 8.0;
 };
 
+inline constexpr std::uint32_t kMaxOctreeDepth = 20;
+
 struct OctreeStatistics {
-  std::uint64_t nodes = 0;
-  std::uint64_t leaves = 0;
+  std::uint64_t nodes = 0;   ///< inner nodes and leaves; octants without a triangle are not stored
+  std::uint64_t leaves = 0;  ///< each holds at least one triangle
   std::uint32_t depth = 0;
   std::uint64_t triangles = 0;
   std::uint64_t references = 0;  ///< triangle entries in leaves, duplicates included
   double duplication = 0.0;      ///< references / triangles
   std::uint64_t memory_bytes = 0;
+
+  bool operator==(const OctreeStatistics&) const = default;
 };
 
 /// Where a line segment meets the scene first.
 struct SegmentHit {
-  double fraction = 0.0;         ///< in [0, 1] along the segment, from `from` to `to`
-  std::uint32_t triangle = 0;    ///< index in the mesh
+  double fraction = 0.0;       ///< in [0, 1] along the segment, from `from` to `to`
+  std::uint32_t triangle = 0;  ///< index in the mesh
 };
 
 /// What is nearest to a body.
@@ -43,39 +51,75 @@ struct Nearest {
 
 /// The paper's spatial decomposition (Ptacek & Johnstone 2006, section 3): a leaf that passes the
 /// threshold splits into eight octants, and a triangle goes to every octant that it lies in.
-/// Deviation: built from the whole mesh at once into flat arrays, bounded in depth, and a node whose
-/// octants would hold nearly all of its triangles again stays a leaf (a fan of triangles at one
-/// vertex cannot be separated by splitting). Immutable; queries are safe from any thread.
+/// Deviations: built from the whole mesh at once into flat arrays; octants are cubes; each node
+/// keeps the box that its triangles really fill, so that empty space is skipped at once; bounded in
+/// depth and in duplication, and a node whose octants would hold nearly all of its triangles again
+/// stays a leaf (a fan of triangles at one vertex cannot be separated by splitting).
+///
+/// What a query answers does not depend on the tree: it is what asking every triangle in turn with
+/// the kernels of daemon/geometry would answer, bit for bit. Immutable; queries are safe from any
+/// thread and allocate nothing unless they say so.
 class Octree {
  public:
+  /// No triangles; every query answers nothing.
   Octree() = default;
 
   /// Keeps its own copy of the triangles. The result depends only on the arguments.
+  /// Precondition: coordinates are below geometry::kLargestCoordinate_m.
   static Octree build(const Mesh& mesh, const OctreeOptions& options = {});
 
   [[nodiscard]] const OctreeStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const geometry::Box& bounds() const { return bounds_; }
   [[nodiscard]] std::span<const geometry::Triangle> triangles() const { return triangles_; }
 
-  /// Index of a scene triangle that `triangle` touches, or nothing. Touching counts, and so does a
-  /// gap below the rounding bound of the test. The lowest index among all of them.
+  /// Index of a scene triangle that `triangle` touches, or nothing. Touching counts, without any
+  /// tolerance (`geometry::triangles_touch`). The lowest index among all of them.
   [[nodiscard]] std::optional<std::uint32_t> first_intersection(
       const geometry::Triangle& triangle) const;
 
-  /// Whether `triangle` touches any scene triangle; as `first_intersection`, but stops at the first.
+  /// Whether `triangle` touches any scene triangle; as `first_intersection`, but stops at the
+  /// first.
   [[nodiscard]] bool intersects(const geometry::Triangle& triangle) const;
 
-  /// The hit closest to `segment.from`, or nothing.
+  /// The hit closest to `segment.from` (`geometry::hit_fraction`), or nothing. Ties go to the
+  /// lowest index.
   [[nodiscard]] std::optional<SegmentHit> closest_hit(const geometry::LineSegment& segment) const;
 
   /// The scene triangle nearest to the body made of `body` triangles, if it is nearer than
-  /// `cutoff_m`; distance 0 where they touch. Ties go to the lowest index.
+  /// `cutoff_m` (infinity for no cut-off); distance 0 where they touch. Ties go to the lowest
+  /// index. The error of the distance is at most `nearest_error_m(body)`.
   [[nodiscard]] std::optional<Nearest> nearest(std::span<const geometry::Triangle> body,
                                                double cutoff_m) const;
 
+  /// Bound of the rounding error of the distance that `nearest` gives for `body`, metres.
+  [[nodiscard]] double nearest_error_m(std::span<const geometry::Triangle> body) const;
+
+  /// Replaces `out` by the ids of all leaves whose cell `triangle` touches, in increasing order.
+  /// Conservative: a scene triangle that it touches is in one of them. Allocates in `out` only.
+  void leaves_touching(const geometry::Triangle& triangle, std::vector<std::uint32_t>& out) const;
+
+  /// Indices of the scene triangles of a leaf, increasing. [Limit: leaf < statistics().leaves]
+  [[nodiscard]] std::span<const std::uint32_t> leaf_triangles(std::uint32_t leaf) const;
+
  private:
+  friend class OctreeBuilder;
+
+  /// Children of a node are neighbours in `nodes_`; the root is the first of them.
+  struct Node {
+    geometry::Box box;        ///< holds what of its triangles lies in its cell
+    std::uint32_t first = 0;  ///< first child, or for a leaf its id
+    std::uint32_t count = 0;  ///< children; 0 for a leaf
+  };
+
+  /// Calls `visit(leaf)` for every leaf that `triangle` touches until it returns false.
+  template <class Visit>
+  void visit_leaves(const geometry::Triangle& triangle, const Visit& visit) const;
+
   geometry::Box bounds_;
   std::vector<geometry::Triangle> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
+  std::vector<std::uint32_t> references_;
   OctreeStatistics statistics_;
 };
 

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/geometry/exact_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace camway::geometry {
+namespace {
+
+using Integer = boost::multiprecision::cpp_int;
+using IntegerVec = std::array<Integer, 3>;
+using IntegerTriangle = std::array<IntegerVec, 3>;
+
+IntegerVec difference(const IntegerVec& a, const IntegerVec& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+IntegerVec cross(const IntegerVec& a, const IntegerVec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Integer dot(const IntegerVec& a, const IntegerVec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+bool is_zero(const IntegerVec& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
+/// Exponent of the lowest bit that can be set in a non-zero `x`.
+int lowest_exponent(double x) {
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return exponent - std::numeric_limits<double>::digits;
+}
+
+int lowest_exponent(const Triangle& a, const Triangle& b) {
+  int lowest = std::numeric_limits<int>::max();
+  for (const Triangle* triangle : {&a, &b}) {
+    for (const Vec3& v : *triangle) {
+      for (int k = 0; k < 3; ++k) {
+        if (v[k] != 0.0) lowest = std::min(lowest, lowest_exponent(v[k]));
+      }
+    }
+  }
+  return lowest;
+}
+
+/// `x / 2^unit_exponent`, which is an integer.
+Integer to_integer(double x, int unit_exponent) {
+  if (x == 0.0) return 0;
+  const int shift = lowest_exponent(x) - unit_exponent;
+  const double mantissa = std::ldexp(x, -lowest_exponent(x));
+  return Integer(static_cast<std::int64_t>(mantissa)) << shift;
+}
+
+IntegerTriangle to_integers(const Triangle& triangle, int unit_exponent) {
+  IntegerTriangle result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      result[i][k] = to_integer(triangle[i][static_cast<Eigen::Index>(k)], unit_exponent);
+    }
+  }
+  return result;
+}
+
+class SeparationTest {
+ public:
+  SeparationTest(IntegerTriangle a, IntegerTriangle b) : a_(std::move(a)), b_(std::move(b)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges_a_[i] = difference(a_[(i + 1) % 3], a_[i]);
+      edges_b_[i] = difference(b_[(i + 1) % 3], b_[i]);
+    }
+  }
+
+  [[nodiscard]] bool separated() const {
+    const std::vector<IntegerVec> normals = facet_normals();
+    for (const IntegerVec& n : normals) {
+      if (separates(n)) return true;
+    }
+    return normals.empty() ? separated_on_a_line() : separated_in_plane(normals.front());
+  }
+
+ private:
+  [[nodiscard]] bool separates(const IntegerVec& n) const {
+    const std::array<Integer, 3> a = {dot(n, a_[0]), dot(n, a_[1]), dot(n, a_[2])};
+    const std::array<Integer, 3> b = {dot(n, b_[0]), dot(n, b_[1]), dot(n, b_[2])};
+    const auto [min_a, max_a] = std::minmax_element(a.begin(), a.end());
+    const auto [min_b, max_b] = std::minmax_element(b.begin(), b.end());
+    return *min_b > *max_a || *min_a > *max_b;
+  }
+
+  /// Normals of the facets of the Minkowski difference, if it has any area.
+  [[nodiscard]] std::vector<IntegerVec> facet_normals() const {
+    std::vector<IntegerVec> normals = {cross(edges_a_[0], edges_a_[1]),
+                                       cross(edges_b_[0], edges_b_[1])};
+    for (const IntegerVec& e : edges_a_) {
+      for (const IntegerVec& f : edges_b_) normals.push_back(cross(e, f));
+    }
+    std::erase_if(normals, is_zero);
+    return normals;
+  }
+
+  /// Complete where the Minkowski difference lies in a plane with this normal; true only if
+  /// separated in any case.
+  [[nodiscard]] bool separated_in_plane(const IntegerVec& normal) const {
+    for (const auto* edges : {&edges_a_, &edges_b_}) {
+      for (const IntegerVec& e : *edges) {
+        if (separates(cross(normal, e))) return true;
+      }
+    }
+    return false;
+  }
+
+  /// All edges are parallel (or zero): two segments on parallel lines, points included.
+  [[nodiscard]] bool separated_on_a_line() const {
+    const IntegerVec between = difference(a_[0], b_[0]);
+    if (separates(between)) return true;
+    for (const auto* edges : {&edges_a_, &edges_b_}) {
+      for (const IntegerVec& e : *edges) {
+        if (separates(e) || separates(cross(cross(e, between), e))) return true;
+      }
+    }
+    return false;
+  }
+
+  IntegerTriangle a_;
+  IntegerTriangle b_;
+  std::array<IntegerVec, 3> edges_a_;
+  std::array<IntegerVec, 3> edges_b_;
+};
+
+}  // namespace
+
+bool triangles_touch_exactly(const Triangle& a, const Triangle& b) {
+  const int unit_exponent = lowest_exponent(a, b);
+  return !SeparationTest(to_integers(a, unit_exponent), to_integers(b, unit_exponent)).separated();
+}
+
+}  // namespace camway::geometry

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "daemon/geometry/segment_triangle.h"
+#include "daemon/geometry/triangle_box.h"
+#include "daemon/geometry/triangle_distance.h"
+#include "daemon/geometry/triangle_intersection.h"
+#include "daemon/scene/octree.h"
+
+namespace camway::scene {
+
+using geometry::Box;
+using geometry::LineSegment;
+using geometry::Triangle;
+
+namespace {
+
+/// Depth first, each level leaves at most seven siblings waiting.
+constexpr std::size_t kStackSize = 7 * kMaxOctreeDepth + 8;
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+Box bounds_of(std::span<const Triangle> body) {
+  Box box;
+  for (const Triangle& triangle : body) box.extend(geometry::bounds(triangle));
+  return box;
+}
+
+/// What can still be nearer than the best so far, given the rounding of distances.
+class Horizon {
+ public:
+  Horizon(double cutoff_m, double error_m) : error_m_(error_m) { shrink_to(cutoff_m); }
+
+  void shrink_to(double best_m) {
+    // 1e-14 covers the relative error of a squared box distance (8u) and of this square.
+    const double reach_m = best_m + 2.0 * error_m_;
+    squared_m2_ = reach_m * reach_m * (1.0 + 1e-14);
+  }
+  [[nodiscard]] bool is_beyond(double squared_distance_m2) const {
+    return squared_distance_m2 > squared_m2_;
+  }
+
+ private:
+  double error_m_;
+  double squared_m2_ = 0.0;
+};
+
+struct Waiting {
+  double squared_m2;
+  std::uint32_t node;
+};
+
+}  // namespace
+
+std::span<const std::uint32_t> Octree::leaf_triangles(std::uint32_t leaf) const {
+  return std::span(references_)
+      .subspan(leaf_begin_[leaf], leaf_begin_[leaf + 1] - leaf_begin_[leaf]);
+}
+
+template <class Visit>
+void Octree::visit_leaves(const Triangle& triangle, const Visit& visit) const {
+  if (nodes_.empty()) return;
+  const Box box = geometry::bounds(triangle);
+  std::array<std::uint32_t, kStackSize> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (!node.box.intersects(box) || !geometry::triangle_touches_box(triangle, node.box)) continue;
+    if (node.count == 0) {
+      if (!visit(node.first)) return;
+      continue;
+    }
+    for (std::uint32_t i = node.count; i-- > 0;) stack[size++] = node.first + i;
+  }
+}
+
+std::optional<std::uint32_t> Octree::first_intersection(const Triangle& triangle) const {
+  std::uint32_t lowest = kNone;
+  visit_leaves(triangle, [&](std::uint32_t leaf) {
+    for (const std::uint32_t index : leaf_triangles(leaf)) {
+      if (index >= lowest) break;
+      if (geometry::triangles_touch(triangle, triangles_[index])) lowest = index;
+    }
+    return lowest != 0;
+  });
+  if (lowest == kNone) return std::nullopt;
+  return lowest;
+}
+
+bool Octree::intersects(const Triangle& triangle) const {
+  bool found = false;
+  visit_leaves(triangle, [&](std::uint32_t leaf) {
+    for (const std::uint32_t index : leaf_triangles(leaf)) {
+      if (geometry::triangles_touch(triangle, triangles_[index])) {
+        found = true;
+        return false;
+      }
+    }
+    return true;
+  });
+  return found;
+}
+
+std::optional<SegmentHit> Octree::closest_hit(const LineSegment& segment) const {
+  std::optional<SegmentHit> best;
+  visit_leaves({segment.from, segment.to, segment.to}, [&](std::uint32_t leaf) {
+    for (const std::uint32_t index : leaf_triangles(leaf)) {
+      const std::optional<double> fraction = geometry::hit_fraction(segment, triangles_[index]);
+      if (!fraction) continue;
+      if (!best || *fraction < best->fraction ||
+          (*fraction == best->fraction && index < best->triangle)) {
+        best = SegmentHit{*fraction, index};
+      }
+    }
+    return true;
+  });
+  return best;
+}
+
+double Octree::nearest_error_m(std::span<const Triangle> body) const {
+  if (body.empty() || triangles_.empty()) return 0.0;
+  const Box all = bounds_of(body).merged(bounds_);
+  return geometry::triangle_distance_error_m(all.sizes().maxCoeff());
+}
+
+std::optional<Nearest> Octree::nearest(std::span<const Triangle> body, double cutoff_m) const {
+  if (nodes_.empty() || body.empty()) return std::nullopt;
+  const Box body_box = bounds_of(body);
+  Horizon horizon(cutoff_m, nearest_error_m(body));
+  Nearest best{cutoff_m, kNone};
+  std::array<Waiting, kStackSize> stack;
+  std::size_t size = 0;
+  stack[size++] = {geometry::squared_box_distance_m2(body_box, nodes_[0].box), 0};
+  while (size > 0) {
+    const Waiting top = stack[--size];
+    if (horizon.is_beyond(top.squared_m2)) continue;
+    const Node& node = nodes_[top.node];
+    if (node.count == 0) {
+      for (const std::uint32_t index : leaf_triangles(node.first)) {
+        const Triangle& triangle = triangles_[index];
+        const Box box = geometry::bounds(triangle);
+        if (horizon.is_beyond(geometry::squared_box_distance_m2(body_box, box))) continue;
+        for (const Triangle& part : body) {
+          const double distance_m = geometry::triangle_distance(part, triangle);
+          if (distance_m < best.distance_m ||
+              (distance_m == best.distance_m && best.triangle != kNone && index < best.triangle)) {
+            best = {distance_m, index};
+            horizon.shrink_to(distance_m);
+          }
+        }
+      }
+      continue;
+    }
+    const std::size_t begin = size;
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      const double squared_m2 =
+          geometry::squared_box_distance_m2(body_box, nodes_[node.first + i].box);
+      if (!horizon.is_beyond(squared_m2)) stack[size++] = {squared_m2, node.first + i};
+    }
+    // The closest child on top, so that the horizon shrinks early.
+    std::sort(stack.begin() + begin, stack.begin() + size, [](const Waiting& a, const Waiting& b) {
+      return a.squared_m2 > b.squared_m2 || (a.squared_m2 == b.squared_m2 && a.node > b.node);
+    });
+  }
+  if (best.triangle == kNone) return std::nullopt;
+  return best;
+}
+
+}  // namespace camway::scene
