@@ -9,17 +9,35 @@
 
 namespace camway::motion {
 
-/// Times for poses that came without: chord length blended with the turning angle, so that turning
-/// on the spot takes time and so do repeated poses. Starts at 0, strictly increasing.
-/// Precondition: at least two poses.
+/// Nominal rates of derived times: a step takes as long as its chord at this speed and its turning
+/// angle at this rate, combined as the two legs of a right triangle.
+inline constexpr double kNominalSpeed_m_per_s = 1.0;
+inline constexpr double kNominalTurnRate_rad_per_s = 1.0;
+
+/// Least duration of a step, as a part of the mean step: repeated poses get it.
+inline constexpr double kShortestStep = 0.01;
+
+/// Duration of each step if no pose differs from the next.
+inline constexpr double kStepWithoutMotion_s = 1.0;
+
+/// Times for poses that came without: chord length (Farin 2002, section 9.6) blended with the
+/// turning angle, so that turning on the spot takes time and so do repeated poses. Starts at 0,
+/// strictly increasing. Deviation from chord length alone: the turning angle and the floor
+/// `kShortestStep`. Precondition: at least two poses.
 std::vector<double> derive_times_s(std::span<const Pose> poses);
 
-/// The C² path through `keyframes`: a cubic interpolating spline for the position and a rational
-/// interpolating quaternion spline for the orientation. One segment per pair of neighbours, more
-/// where neighbours are so far apart on S³ that an extra knot is needed.
-/// Preconditions: at least two keyframes, finite, unit quaternions, times strictly increasing.
+/// The C² path through `keyframes`: a cubic interpolating spline with natural ends for the position
+/// (two keyframes give a straight line) and a rational interpolating quaternion spline for the
+/// orientation (quaternion_spline.h has the method, its source and our deviations). One segment per
+/// pair of neighbours, 2 to 64 where neighbours are so far apart on S³ that knots are needed
+/// between them. Consecutive segments share their control point at the join bit for bit; its
+/// position is that of the keyframe bit for bit, its orientation to rounding.
+///
 /// The same motion results from every world frame, for q and -q, and (mirrored in time) for the
-/// reversed keyframes.
+/// reversed keyframes, up to rounding; half turns between neighbours have a sense of their own
+/// (quaternion_spline.h). O(n), deterministic.
+/// Preconditions: at least two keyframes, finite, quaternions of unit length to 1e-3 or so (they
+/// are normalised), times strictly increasing.
 Path interpolate(std::span<const Keyframe> keyframes);
 
 }  // namespace camway::motion

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "daemon/geometry/types.h"
+
+namespace camway::motion {
+
+/// The point of the convex hull of `points` that is closest to the origin (Wolfe, "Finding the
+/// nearest point in a polytope", Mathematical Programming 11, 1976). Unique, so independent of the
+/// frame and of the order of the points but for rounding: accepted when no point could lower the
+/// squared length by more than `kMinNormGap`, which puts it within the root of that from the true
+/// one.
+///
+/// Deviations: the affine sub-problem is solved by a pivoted QR decomposition of the differences
+/// instead of the normal equations, so that clusters do not square the condition number; major
+/// steps are capped (the last iterate is a point of the hull, too), as rounding may make a finite
+/// method cycle. Each major step is O(n). Precondition: `points` is not empty and each has about
+/// unit length.
+geometry::Vec4 min_norm_point(std::span<const geometry::Vec4> points);
+
+/// Sixteen units of rounding of a squared unit length.
+inline constexpr double kMinNormGap = 8.0 * 2.220446049250313e-16;
+
+}  // namespace camway::motion

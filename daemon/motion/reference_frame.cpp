@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/reference_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "daemon/motion/min_norm_point.h"
+#include "daemon/motion/quaternion.h"
+
+namespace camway::motion {
+namespace {
+
+using geometry::Vec4;
+
+// Where the least dot product is tied, the orientations' mean wins (it keeps a constant axis), and
+// where that is tied too, a direction that is fixed relative to the middle orientation and in no
+// special position to axes that people use. Each is small against what it must not outweigh.
+constexpr double kMeanWeight = 1e-3;
+constexpr double kAnchorWeight = 1e-5;
+const std::array<double, 4> kAnchor = {0.467, 0.641, 0.389, 0.471};
+
+// Ascent: this many of the best grid directions, this many steps at each temperature of the
+// smoothed minimum, each of a length equal to the temperature, at which the ascent contracts. The
+// steps add up to about 7, so that rounding noise grows by exp(7) at most.
+constexpr std::size_t kStarts = 6;
+constexpr int kStepsPerTemperature = 12;
+constexpr std::array<double, 6> kTemperatures = {0.3, 0.15, 0.075, 0.0375, 0.01875, 0.009375};
+
+// Samples of the polygon for the ascent are at most this far apart.
+constexpr double kSampleSpacing_rad = 0.2;
+
+double least_dot_with_arc(const Vec4& r, const Vec4& from, const Vec4& to) {
+  const double a = r.dot(from);
+  const double b = r.dot(to);
+  const Vec4 across = to - from.dot(to) * from;
+  const double sine = across.norm();
+  if (!(sine > 0.0)) return std::min(a, b);
+  // Along the arc the dot product is a·cos φ + slope·sin φ: its minimum is inside if it falls at
+  // `from` and rises at `to`.
+  const double slope = r.dot(across) / sine;
+  const double slope_at_end = slope * from.dot(to) - a * sine;
+  if (slope < 0.0 && slope_at_end > 0.0) return -std::hypot(a, slope);
+  return std::min(a, b);
+}
+
+/// A point of the middle of the polygon that does not depend on its direction; its sign goes with
+/// the data's.
+Vec4 middle_orientation(std::span<const Vec4> orientations) {
+  const std::size_t n = orientations.size();
+  return (orientations[(n - 1) / 2] + orientations[n / 2]).normalized();
+}
+
+std::vector<Vec4> polygon_samples(std::span<const Vec4> orientations) {
+  std::vector<Vec4> samples;
+  for (std::size_t i = 0; i + 1 < orientations.size(); ++i) {
+    const Vec4& from = orientations[i];
+    const Vec4& to = orientations[i + 1];
+    const double angle_rad = std::atan2((to - from.dot(to) * from).norm(), from.dot(to));
+    const int pieces = static_cast<int>(angle_rad / kSampleSpacing_rad) + 1;
+    for (int k = i == 0 ? 0 : 1; k <= pieces; ++k) {
+      const double u = static_cast<double>(k) / pieces;
+      samples.push_back(((1.0 - u) * from + u * to).normalized());
+    }
+  }
+  return samples;
+}
+
+/// The eighty directions with components in {-1, 0, 1}; none on S³ is further than 30.4° from one.
+std::vector<Vec4> grid_directions() {
+  std::vector<Vec4> directions;
+  for (int code = 0; code < 81; ++code) {
+    const Vec4 v(code / 27 - 1, code / 9 % 3 - 1, code / 3 % 3 - 1, code % 3 - 1);
+    if (!v.isZero(0.0)) directions.push_back(v.normalized());
+  }
+  return directions;
+}
+
+class Search {
+ public:
+  explicit Search(std::span<const Vec4> orientations)
+      : orientations_(orientations), samples_(polygon_samples(orientations)) {
+    Vec4 mean = Vec4::Zero();
+    for (const Vec4& p : samples_) mean += p;
+    mean /= static_cast<double>(samples_.size());
+    const Vec4 middle = middle_orientation(orientations);
+    preference_ = kMeanWeight * mean +
+                  kAnchorWeight * quaternion::multiply(middle, Vec4(kAnchor.data()).normalized());
+    for (const Vec4& direction : grid_directions()) add(quaternion::multiply(middle, direction));
+    // Direction of a mean that is no more than noise would depend on the world frame.
+    if (mean.norm() > kOpenHemisphere) add(mean.normalized());
+  }
+
+  [[nodiscard]] Vec4 best() {
+    const std::size_t starts = std::min(kStarts, candidates_.size());
+    std::ranges::partial_sort(candidates_,
+                              candidates_.begin() + static_cast<std::ptrdiff_t>(starts),
+                              std::ranges::greater{}, &Candidate::score);
+    for (std::size_t i = 0; i < starts; ++i) add(ascend(candidates_[i].r));
+    return std::ranges::max_element(candidates_, std::ranges::less{}, &Candidate::score)->r;
+  }
+
+ private:
+  struct Candidate {
+    Vec4 r;
+    double score;
+  };
+
+  void add(const Vec4& r) {
+    candidates_.push_back({r, least_dot_with_polygon(r, orientations_) + preference_.dot(r)});
+  }
+
+  /// Gradient of `-τ·log Σ exp(-r·p/τ)` over the samples p, plus the preference.
+  [[nodiscard]] Vec4 gradient(const Vec4& r, double temperature) {
+    double least = 1.0;
+    dots_.resize(samples_.size());
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      dots_[i] = r.dot(samples_[i]);
+      least = std::min(least, dots_[i]);
+    }
+    Vec4 sum = Vec4::Zero();
+    double total = 0.0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const double exponent = (dots_[i] - least) / temperature;
+      if (exponent > 40.0) continue;  // below the rounding of the sum
+      const double weight = std::exp(-exponent);
+      sum += weight * samples_[i];
+      total += weight;
+    }
+    return sum / total + preference_;
+  }
+
+  [[nodiscard]] Vec4 ascend(Vec4 r) {
+    for (const double temperature : kTemperatures) {
+      for (int i = 0; i < kStepsPerTemperature; ++i)
+        r = (r + temperature * gradient(r, temperature)).normalized();
+    }
+    return r;
+  }
+
+  std::span<const Vec4> orientations_;
+  std::vector<Vec4> samples_;
+  Vec4 preference_;
+  std::vector<Candidate> candidates_;
+  std::vector<double> dots_;
+};
+
+}  // namespace
+
+double least_dot_with_polygon(const Vec4& r, std::span<const Vec4> orientations) {
+  assert(!orientations.empty());
+  double least = r.dot(orientations.front());
+  for (std::size_t i = 0; i + 1 < orientations.size(); ++i)
+    least = std::min(least, least_dot_with_arc(r, orientations[i], orientations[i + 1]));
+  return std::clamp(least, -1.0, 1.0);
+}
+
+Vec4 reference_frame(std::span<const Vec4> orientations) {
+  const Vec4 nearest = min_norm_point(orientations);
+  const double distance = nearest.norm();
+  if (distance > kOpenHemisphere) return nearest / distance;
+  return Search(orientations).best();
+}
+
+}  // namespace camway::motion
