@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "camway/occupancy.h"
+#include "camway/path.h"
+#include "camway/plan.h"
+#include "camway/status.h"
+
+namespace camway {
+
+struct ClientOptions {
+  /// LCM network; empty: the environment's LCM_DEFAULT_URL, else multicast that stays on this host.
+  std::string url;
+  std::string prefix = "CAMWAY";  ///< of all channels, as the daemon's [Limit: [A-Za-z0-9_-]{1,11}]
+  std::string client_id;          ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one
+
+  /// A call ends by then, whatever happens (planning calls: not before the request's own deadline).
+  double deadline_s = 60.0;
+  double try_timeout_s = 1.0;  ///< how long a first answer may take before the request is repeated
+  double backoff = 1.5;        ///< each further try waits so many times longer [Limit: >= 1]
+  double max_try_timeout_s = 5.0;  ///< but never longer than this
+  int retries = 4;                 ///< repetitions without a sign of life before the call gives up
+};
+
+/// A scene that the daemon holds.
+struct SceneInfo {
+  std::string name;
+  std::int64_t revision = 0;
+  std::string digest;
+  std::int64_t num_triangles = 0;
+  std::array<double, 3> bounds_min_m{};
+  std::array<double, 3> bounds_max_m{};
+  double occupancy_resolution_m = 0.0;  ///< 0: no occupancy map
+};
+
+/// The daemon's heartbeat.
+struct DaemonStatus {
+  Status status = Status::kNoDaemon;
+  std::string error;  ///< what failed and what to do about it; empty when `ok()`
+
+  bool ok() const { return status == Status::kOk; }
+
+  std::string version;
+  double uptime_s = 0.0;
+  std::int32_t num_workers = 0;
+  std::int32_t queued_requests = 0;
+  std::int32_t running_requests = 0;
+  // Counted since the daemon's start:
+  std::int64_t answered_requests = 0;
+  std::int64_t repeated_requests = 0;  ///< repetitions of requests that were known already
+  std::int64_t overloaded_requests = 0;
+  std::int64_t malformed_messages = 0;
+  std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
+  std::vector<SceneInfo> scenes;  ///< in order of name
+};
+
+/// Asks a Camway daemon over LCM.
+///
+///     camway::Client client;
+///     camway::PlanRequest request;
+///     request.scene = "office";
+///     request.keyframes.resize(2);
+///     request.keyframes[0].position_m = {1.0, 2.0, 1.6};
+///     request.keyframes[1].position_m = {9.0, 2.0, 1.6};
+///     const camway::PlanResponse answer = client.plan(request);
+///     if (!answer.ok()) {
+///       std::cerr << answer.error << '\n';
+///       return 1;
+///     }
+///     for (double t = answer.path.begin(); t <= answer.path.end(); t += 0.04) {
+///       const camway::Pose pose = answer.path.pose(t);
+///       std::cout << t << ' ' << pose.position_m[0] << ' ' << pose.position_m[1] << '\n';
+///     }
+///
+/// Calls block and never throw for trouble of network, daemon or planner: the result says how the
+/// call ended. A request whose answer or part of it does not come is sent again, with growing
+/// waits, under the same id, which is harmless: the daemon may die and be started again meanwhile.
+///
+/// One thread per client: a call on a client that is in a call on another thread returns
+/// `Status::kBusy` at once. Any number of clients may live in a process.
+class Client {
+ public:
+  /// Opens the network. Takes up to ten seconds where multicast does not work, for LCM tests that
+  /// first; never throws for it (see `error`).
+  explicit Client(ClientOptions options = {});
+  ~Client();
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  /// Why this client cannot be used (bad options, no network); empty when it can.
+  const std::string& error() const;
+  bool good() const { return error().empty(); }
+
+  /// What the daemon knows this client by.
+  const std::string& client_id() const;
+
+  /// Asks for a path.
+  PlanResponse plan(const PlanRequest& request);
+
+  /// Asks a scene's occupancy map.
+  OccupancyAnswer occupancy(const OccupancyBatch& batch);
+
+  /// Waits for the daemon's next heartbeat; there is one each second.
+  DaemonStatus status(double timeout_s = 3.0);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace camway

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "camway/path.h"
+#include "camway/status.h"
+
+namespace camway {
+
+/// The part of a perspective camera that can run into things: the near quadrilateral. The camera
+/// looks down its -Z axis, +Y is up. [Limit: fields of view in (0, π), 0 < near_m]
+struct Camera {
+  double fov_x_rad = 1.5707963267948966;  ///< full horizontal field of view
+  double fov_y_rad = 1.0471975511965976;  ///< full vertical field of view
+  double near_m = 0.1;                    ///< from the eye to the near plane
+};
+
+/// A pose that the path passes through at a time.
+struct Keyframe {
+  double time_s = 0.0;  ///< does not count in a request without times
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
+  bool inserted = false;  ///< in answers: put in by the daemon to avoid a collision
+};
+
+/// A question for a path. Zero or empty options stand for the daemon's defaults.
+struct PlanRequest {
+  std::string scene;  ///< name of a scene that the daemon holds [Limit: 128 bytes]
+  Camera camera;
+  std::vector<Keyframe> keyframes;  ///< [Limit: 2 to 100,000, free of collision]
+  bool has_times = false;           ///< whether `keyframes[i].time_s` count; else they are derived
+
+  std::string method;                 ///< "keyframe_insertion" or empty
+  double deadline_s = 0.0;            ///< for planning alone
+  double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
+  double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
+  std::int32_t max_inserted_keyframes = -1;  ///< negative: the daemon's default
+
+  /// 0: the client picks a new one. Otherwise a number that this client id never used for another
+  /// request; the daemon answers the same id with the same answer, without planning again.
+  std::int64_t request_id = 0;
+};
+
+/// A stretch of a path in which the near quadrilateral collides with the scene.
+struct CollisionInterval {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+};
+
+/// Wall-clock milliseconds that the daemon took.
+struct PlanTiming {
+  double motion_ms = 0.0;
+  double detect_ms = 0.0;
+  double correct_ms = 0.0;
+  double certify_ms = 0.0;
+  double total_ms = 0.0;
+};
+
+/// What came of a request.
+struct PlanResponse {
+  Status status = Status::kNoAnswer;
+  std::string error;    ///< what failed and what to do about it; empty when `ok()`
+  std::string message;  ///< the daemon's own sentence, also when all is well
+
+  bool ok() const { return status == Status::kOk; }
+
+  std::int32_t keyframe = -1;                 ///< index of the given keyframe at fault, -1 if none
+  Path path;                                  ///< empty unless ok, partial or timeout
+  std::vector<Keyframe> keyframes;            ///< given and inserted ones, with their times
+  std::vector<CollisionInterval> collisions;  ///< of the interpolated path, before correction
+  std::vector<CollisionInterval> remaining;   ///< of `path`; none when `ok()`
+
+  bool certified =
+      false;  ///< whether freedom of collision is proved for `path`, between samples too
+  double clearance_lower_bound_m = 0.0;
+
+  std::string scene;
+  std::int64_t scene_revision = 0;  ///< of the scene that the answer holds for
+  std::string scene_digest;
+  std::int64_t request_id = 0;
+  PlanTiming timing;
+  int tries = 0;           ///< how often the request was sent
+  double elapsed_s = 0.0;  ///< from the call to its return
+};
+
+}  // namespace camway

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lcm {
+class LCM;
+}
+
+namespace camway {
+
+using Clock = std::chrono::steady_clock;
+using Bytes = std::vector<std::uint8_t>;
+
+/// A connection to an LCM network: raw bytes in and out. The only place of the client that sees
+/// LCM. For one thread.
+class Link {
+ public:
+  using Handler = std::function<void(std::span<const std::uint8_t>)>;
+
+  Link();
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  /// Connects; returns what is wrong and what mends it, nothing if all is well.
+  /// An empty url means LCM_DEFAULT_URL, or multicast with ttl 0 where that is not set.
+  std::string open(const std::string& url);
+
+  /// The network in use.
+  const std::string& url() const { return url_; }
+
+  /// Calls `handler` in `wait` for every message on `channel`, of which up to `capacity` wait for
+  /// their turn. What `handler` throws is swallowed. Precondition: open.
+  void listen(const std::string& channel, int capacity, Handler handler);
+
+  /// Whether the network took the bytes. Precondition: open.
+  bool publish(const std::string& channel, const Bytes& bytes);
+
+  enum class Wait { kHandled, kTimeUp, kBroken };
+  /// Handles one message, waiting for it until `until`.
+  Wait wait(Clock::time_point until);
+
+  /// Handles all that is here already.
+  void drain();
+
+ private:
+  std::string url_;
+  std::unique_ptr<lcm::LCM> lcm_;
+  std::list<Handler> handlers_;  ///< LCM keeps their addresses
+};
+
+}  // namespace camway
