@@ -47,6 +47,67 @@ class Horizon {
   double squared_m2_ = 0.0;
 };
 
+/// Remembers which triangles were asked already: a triangle is met once per leaf that it lies in,
+/// and its distance does not change. Forgetting one costs time only.
+class Asked {
+ public:
+  Asked() { slots_.fill(kNone); }
+
+  /// Whether `index` was surely met before; remembers it in any case.
+  bool before(std::uint32_t index) {
+    std::uint32_t& slot = slots_[index % slots_.size()];
+    if (slot == index) return true;
+    slot = index;
+    return false;
+  }
+
+ private:
+  std::array<std::uint32_t, 256> slots_;
+};
+
+/// The nearest triangle so far, and what can still be nearer.
+class NearestSearch {
+ public:
+  NearestSearch(std::span<const Triangle> body, std::span<const Triangle> scene, double cutoff_m,
+                double error_m)
+      : body_(body), scene_(scene), body_box_(bounds_of(body)), horizon_(cutoff_m, error_m) {
+    best_.distance_m = cutoff_m;
+    best_.triangle = kNone;
+  }
+
+  [[nodiscard]] double squared_distance_m2(const Box& box) const {
+    return geometry::squared_box_distance_m2(body_box_, box);
+  }
+  [[nodiscard]] bool is_beyond(double squared_m2) const { return horizon_.is_beyond(squared_m2); }
+  [[nodiscard]] const Nearest& best() const { return best_; }
+
+  void ask(std::uint32_t index) {
+    const Triangle& triangle = scene_[index];
+    const Box box = geometry::bounds(triangle);
+    if (is_beyond(squared_distance_m2(box)) || asked_.before(index)) return;
+    for (const Triangle& part : body_) {
+      if (body_.size() > 1 &&
+          is_beyond(geometry::squared_box_distance_m2(geometry::bounds(part), box))) {
+        continue;
+      }
+      const double distance_m = geometry::triangle_distance(part, triangle);
+      const bool tie = distance_m == best_.distance_m && best_.triangle != kNone;
+      if (distance_m < best_.distance_m || (tie && index < best_.triangle)) {
+        best_ = {distance_m, index};
+        horizon_.shrink_to(distance_m);
+      }
+    }
+  }
+
+ private:
+  std::span<const Triangle> body_;
+  std::span<const Triangle> scene_;
+  Box body_box_;
+  Horizon horizon_;
+  Asked asked_;
+  Nearest best_;
+};
+
 struct Waiting {
   double squared_m2;
   std::uint32_t node;
@@ -128,45 +189,30 @@ double Octree::nearest_error_m(std::span<const Triangle> body) const {
 
 std::optional<Nearest> Octree::nearest(std::span<const Triangle> body, double cutoff_m) const {
   if (nodes_.empty() || body.empty()) return std::nullopt;
-  const Box body_box = bounds_of(body);
-  Horizon horizon(cutoff_m, nearest_error_m(body));
-  Nearest best{cutoff_m, kNone};
+  NearestSearch search(body, triangles_, cutoff_m, nearest_error_m(body));
   std::array<Waiting, kStackSize> stack;
   std::size_t size = 0;
-  stack[size++] = {geometry::squared_box_distance_m2(body_box, nodes_[0].box), 0};
+  stack[size++] = {search.squared_distance_m2(nodes_[0].box), 0};
   while (size > 0) {
     const Waiting top = stack[--size];
-    if (horizon.is_beyond(top.squared_m2)) continue;
+    if (search.is_beyond(top.squared_m2)) continue;
     const Node& node = nodes_[top.node];
     if (node.count == 0) {
-      for (const std::uint32_t index : leaf_triangles(node.first)) {
-        const Triangle& triangle = triangles_[index];
-        const Box box = geometry::bounds(triangle);
-        if (horizon.is_beyond(geometry::squared_box_distance_m2(body_box, box))) continue;
-        for (const Triangle& part : body) {
-          const double distance_m = geometry::triangle_distance(part, triangle);
-          if (distance_m < best.distance_m ||
-              (distance_m == best.distance_m && best.triangle != kNone && index < best.triangle)) {
-            best = {distance_m, index};
-            horizon.shrink_to(distance_m);
-          }
-        }
-      }
+      for (const std::uint32_t index : leaf_triangles(node.first)) search.ask(index);
       continue;
     }
     const std::size_t begin = size;
     for (std::uint32_t i = 0; i < node.count; ++i) {
-      const double squared_m2 =
-          geometry::squared_box_distance_m2(body_box, nodes_[node.first + i].box);
-      if (!horizon.is_beyond(squared_m2)) stack[size++] = {squared_m2, node.first + i};
+      const double squared_m2 = search.squared_distance_m2(nodes_[node.first + i].box);
+      if (!search.is_beyond(squared_m2)) stack[size++] = {squared_m2, node.first + i};
     }
     // The closest child on top, so that the horizon shrinks early.
-    std::sort(stack.begin() + begin, stack.begin() + size, [](const Waiting& a, const Waiting& b) {
+    std::sort(stack.data() + begin, stack.data() + size, [](const Waiting& a, const Waiting& b) {
       return a.squared_m2 > b.squared_m2 || (a.squared_m2 == b.squared_m2 && a.node > b.node);
     });
   }
-  if (best.triangle == kNone) return std::nullopt;
-  return best;
+  if (search.best().triangle == kNone) return std::nullopt;
+  return search.best();
 }
 
 }  // namespace camway::scene
