@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json_io.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "tools/camway/compare.h"
+
+namespace camway::tools {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* kGoodRequest = R"({
+  "scene": "office.obj", "note": "unknown fields outside options do not matter",
+  "camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},
+  "keyframes": [
+    {"time": 1.5, "position": [1, 2, 3], "orientation": [1, 0, 0, 0]},
+    {"time": 2.5, "position": [4, 5, 6.25], "orientation": [0, 3, 0, 4], "name": "door"}],
+  "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "chord_error_m": 0.01,
+              "interval_tolerance_m": 0.001, "max_inserted_keyframes": 7}})";
+
+/// The good request with `from` replaced by `to`.
+std::string edited(const std::string& from, const std::string& to) {
+  std::string text = kGoodRequest;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(JsonRequest, ReadsEveryField) {
+  const auto parsed = parse_plan_request(kGoodRequest, "R.json");
+  ASSERT_TRUE(parsed.value) << parsed.error;
+  const planning::PlanRequest& request = *parsed.value;
+  EXPECT_EQ(request.scene, "office.obj");
+  EXPECT_DOUBLE_EQ(request.camera.fov_x_rad, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(request.camera.fov_y_rad, std::numbers::pi / 3);
+  EXPECT_EQ(request.camera.near_m, 0.1);
+  ASSERT_EQ(request.keyframes.size(), 2U);
+  EXPECT_TRUE(request.has_times);
+  EXPECT_EQ(request.keyframes[1].time_s, 2.5);
+  EXPECT_EQ(request.keyframes[1].pose.position, geometry::Vec3(4, 5, 6.25));
+  EXPECT_NEAR(
+      (geometry::wxyz(request.keyframes[1].pose.orientation) - geometry::Vec4(0, 0.6, 0, 0.8))
+          .norm(),
+      0.0, kUnitQuaternionError);
+  EXPECT_EQ(request.options.deadline_s, 2.5);
+  EXPECT_EQ(request.options.chord_error_m, 0.01);
+  EXPECT_EQ(request.options.interval_tolerance_m, 0.001);
+  EXPECT_EQ(request.options.max_inserted_keyframes, 7);
+  EXPECT_FALSE(planning::validate(request));
+}
+
+TEST(JsonRequest, HasDefaultsForAllThatMayBeMissing) {
+  const auto parsed = parse_plan_request(
+      R"({"camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},
+          "keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
+                        {"position": [0, 0, 1], "orientation": [1, 0, 0, 0]}]})",
+      "R.json");
+  ASSERT_TRUE(parsed.value) << parsed.error;
+  EXPECT_EQ(parsed.value->scene, "");
+  EXPECT_FALSE(parsed.value->has_times);
+  EXPECT_EQ(parsed.value->options, planning::PlanOptions{});
+}
+
+TEST(JsonRequest, NamesTheFieldAtFault) {
+  const struct {
+    const char* from;
+    const char* to;
+    const char* expected;
+  } cases[] = {
+      {R"("camera": {)", R"("kamera": {)", "camera: is missing"},
+      {R"("near": 0.1)", R"("far": 0.1)", "camera.near: is missing"},
+      {R"("fov_x_deg": 90)", R"("fov_x_deg": "90")",
+       "camera.fov_x_deg: must be a number, not a string"},
+      {R"("keyframes": [)", R"("keyframes": 5, "old": [)",
+       "keyframes: must be an array, not a number"},
+      {"[4, 5, 6.25]", "[4, 5]",
+       "keyframes[1].position: must be an array of 3 numbers, not an array of 2"},
+      {"[4, 5, 6.25]", "[4, null, 6]", "keyframes[1].position[1]: must be a number, not null"},
+      {"[4, 5, 6.25]", "{}", "keyframes[1].position: must be an array of 3 numbers, not an object"},
+      {"[0, 3, 0, 4]", "[0, 0, 0, 0]", "keyframes[1].orientation: has length zero"},
+      {"[0, 3, 0, 4]", "[0, -0.0, 0, 0e5]", "keyframes[1].orientation: has length zero"},
+      {"[0, 3, 0, 4]", "[0, 3, 0, 4, 5]", "keyframes[1].orientation: must be an array of 4"},
+      {R"("time": 2.5, )", "", "keyframes[1]: has no time and keyframe 0 has one"},
+      {R"("time": 1.5, )", "", "keyframes[1]: has a time and keyframe 0 has none"},
+      {R"("time": 2.5)", R"("time": null)", "keyframes[1].time: must be a number, not null"},
+      {R"("method": "keyframe_insertion")", R"("method": "magic")",
+       "options.method: 'magic' is unknown"},
+      {R"("deadline_s": 2.5)", R"("clearance": 0.1)",
+       "options.clearance: is an option that this version does not know"},
+      {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": 7.5)",
+       "options.max_inserted_keyframes: must be a whole number"},
+      {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": -1)",
+       "options.max_inserted_keyframes: must be a whole number from 0"},
+      {R"("scene": "office.obj")", R"("scene": 3)", "scene: must be a string, not a number"},
+      {R"("options": {)", R"("options": [{}], "more": {)", "options: must be an object"},
+  };
+  for (const auto& c : cases) {
+    const auto parsed = parse_plan_request(edited(c.from, c.to), "dir/R.json");
+    EXPECT_FALSE(parsed.value) << c.to;
+    EXPECT_THAT(parsed.error, StartsWith(std::string("dir/R.json: ") + c.expected));
+  }
+  EXPECT_THAT(parse_plan_request("[]", "R.json").error,
+              HasSubstr("R.json: must be an object, not an array"));
+}
+
+TEST(JsonRequest, LeavesRangesToValidationWhoseMessagesNameTheField) {
+  const auto fault_of = [](const std::string& text) {
+    const auto parsed = parse_plan_request(text, "R.json");
+    EXPECT_TRUE(parsed.value) << parsed.error;
+    if (!parsed.value) return std::string();
+    const auto fault = planning::validate(*parsed.value);
+    return fault ? describe(*fault) : std::string();
+  };
+  EXPECT_THAT(fault_of(edited(R"("time": 2.5)", R"("time": 1.5)")), HasSubstr("keyframes[1].time"));
+  EXPECT_THAT(fault_of(edited(R"("near": 0.1)", R"("near": -0.1)")), HasSubstr("camera.near"));
+  EXPECT_THAT(fault_of(edited(R"("fov_x_deg": 90)", R"("fov_x_deg": 180)")),
+              HasSubstr("camera.fov_x"));
+  EXPECT_THAT(fault_of(edited(R"("deadline_s": 2.5)", R"("deadline_s": 0)")),
+              HasSubstr("options.deadline_s"));
+}
+
+TEST(JsonRequest, DescribesAFaultWithTheFieldOnce) {
+  EXPECT_EQ(describe({"camera", {}, "is odd"}), "camera: is odd");
+  EXPECT_EQ(describe({"camera", {}, "camera: is odd"}), "camera: is odd");
+}
+
+TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
+  std::mt19937_64 random(20260801);
+  RecordProperty("seed", 20260801);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-300, 300);
+  for (int i = 0; i < 2000; ++i) {
+    const geometry::Vec4 unit =
+        geometry::Vec4(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const double length = i % 2 == 0 ? 1.0 : std::pow(10.0, exponent(random));
+    const geometry::Vec4 q = unit * length;
+    const auto parsed = parse_plan_request(
+        edited("[0, 3, 0, 4]", fmt::format("[{}, {}, {}, {}]", q[0], q[1], q[2], q[3])), "R.json");
+    ASSERT_TRUE(parsed.value) << parsed.error;
+    const geometry::Vec4 read = geometry::wxyz(parsed.value->keyframes[1].pose.orientation);
+    // Each coefficient: one rounding of `unit * length`, two divisions, the length's own error.
+    EXPECT_LE((read - unit).cwiseAbs().maxCoeff(), 8 * std::numeric_limits<double>::epsilon());
+    if (length == 1.0) {
+      EXPECT_EQ(read, q);
+    }
+  }
+}
+
+/// Any finite double, every exponent equally likely.
+double any_double(std::mt19937_64& random) {
+  for (;;) {
+    const double value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) return value;
+  }
+}
+
+planning::PlanResult any_result(std::mt19937_64& random) {
+  const auto number = [&] { return any_double(random); };
+  planning::PlanResult result;
+  result.status = static_cast<planning::Status>(random() % 7);
+  result.message = "quotes \" and \\ and \n, \xc3\xa9";
+  if (random() % 2 == 0) result.keyframe = random() % 1000;
+  std::vector<motion::Segment> segments(random() % 5);
+  double time_s = -5.0;
+  for (motion::Segment& segment : segments) {
+    segment.t0_s = time_s;
+    segment.t1_s = time_s += std::ldexp(1.0 + static_cast<double>(random() % 1000), -7);
+    for (geometry::Vec3& p : segment.position) p = {number(), number(), number()};
+    for (geometry::Vec4& q : segment.orientation) q = {number(), number(), number(), number()};
+  }
+  result.path = motion::Path(std::move(segments));
+  result.keyframes.resize(random() % 5);
+  for (motion::Keyframe& keyframe : result.keyframes) {
+    keyframe.time_s = number();
+    keyframe.pose.position = {number(), number(), number()};
+    keyframe.pose.orientation = geometry::from_wxyz({number(), number(), number(), number()});
+    keyframe.origin = static_cast<motion::KeyframeOrigin>(random() % 2);
+  }
+  for (auto* list : {&result.collisions, &result.remaining_collisions}) {
+    list->resize(random() % 4);
+    for (collision::CollisionInterval& interval : *list) interval = {number(), number()};
+  }
+  result.certificate = {random() % 2 == 0, number()};
+  result.timing = {number(), number(), number(), number(), number(), number()};
+  return result;
+}
+
+TEST(JsonResponse, IsReadBackBitForBit) {
+  std::mt19937_64 random(42);
+  RecordProperty("seed", 42);
+  for (int i = 0; i < 2000; ++i) {
+    const planning::PlanResult result = any_result(random);
+    const auto text = write_plan_response(result);
+    ASSERT_TRUE(text.value) << text.error;
+    const auto read = parse_plan_response(*text.value, "P.json");
+    ASSERT_TRUE(read.value) << read.error;
+    EXPECT_EQ(read.value->message, result.message);
+    EXPECT_EQ(compare(result, *read.value, {}).what, "");
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(read.value->timing.certify_ms),
+              std::bit_cast<std::uint64_t>(result.timing.certify_ms));
+    EXPECT_EQ(write_plan_response(*read.value).value, text.value);
+  }
+}
+
+TEST(JsonResponse, KeepsTheSignOfZeroAndTheEndsOfTheRange) {
+  planning::PlanResult result;
+  result.collisions = {
+      {-0.0, 0.0},
+      {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()},
+      {-std::numeric_limits<double>::max(), 9007199254740993.0}};
+  const auto read = parse_plan_response(*write_plan_response(result).value, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(compare(result, *read.value, {}).what, "");
+  EXPECT_TRUE(std::signbit(read.value->collisions[0].t_begin_s));
+}
+
+TEST(JsonResponse, HasTheKeysOfTheFormatInAFixedOrder) {
+  ResponseFormat format;
+  format.scene = "office.obj";
+  format.scene_digest = "00ff";
+  const std::string text = *write_plan_response({}, format).value;
+  std::size_t at = 0;
+  for (const char* key :
+       {"status", "message", "scene", "scene_digest", "segments", "keyframes", "collisions",
+        "remaining_collisions", "certificate", "certified", "clearance_lower_bound", "timing_ms",
+        "load_scene", "motion", "detect", "correct", "certify", "total"}) {
+    const std::size_t found = text.find('"' + std::string(key) + "\":");
+    ASSERT_NE(found, std::string::npos) << key;
+    EXPECT_GE(found, at) << key;
+    at = found;
+  }
+  format.timing = TimingField::kOmitted;
+  EXPECT_EQ(write_plan_response({}, format).value->find("timing_ms"), std::string::npos);
+}
+
+TEST(JsonResponse, RefusesToWriteWhatJsonCannotHold) {
+  planning::PlanResult result;
+  result.keyframes.resize(1);
+  result.keyframes[0].pose.position.y() = std::numeric_limits<double>::quiet_NaN();
+  const auto text = write_plan_response(result);
+  EXPECT_FALSE(text.value);
+  EXPECT_EQ(text.error, "keyframes[].position: is not finite");
+}
+
+TEST(JsonResponse, NamesTheFieldAtFaultWhenRead) {
+  std::mt19937_64 random(7);
+  planning::PlanResult result = any_result(random);
+  while (result.path.segments().size() < 2 || result.keyframes.empty()) result = any_result(random);
+  const std::string good = *write_plan_response(result).value;
+  const auto error_of = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return parse_plan_response(text, "P.json").error;
+  };
+  EXPECT_THAT(error_of("\"status\": \"", "\"status\": \"not_"), HasSubstr("P.json: status: 'not_"));
+  EXPECT_THAT(error_of("\"t0\": -5.0", "\"t0\": 1e9"),
+              HasSubstr("segments[0].t1: must be above t0"));
+  EXPECT_THAT(error_of("\"orientation\": [[", "\"orientation\": [[], ["),
+              HasSubstr("segments[0].orientation: must hold 7 control points, not 8"));
+  EXPECT_THAT(error_of("\"origin\": \"", "\"origin\": \"re"),
+              HasSubstr("keyframes[0].origin: must be \"given\" or \"inserted\""));
+}
+
+TEST(JsonResponse, RefusesSegmentsThatDoNotFollowEachOther) {
+  planning::PlanResult result;
+  std::vector<motion::Segment> segments(2);
+  segments[0] = {0.0, 1.0, {}, {}};
+  segments[1] = {1.0, 2.0, {}, {}};
+  for (motion::Segment& segment : segments) {
+    segment.position.fill(geometry::Vec3::Zero());
+    segment.orientation.fill(geometry::Vec4::UnitX());
+  }
+  result.path = motion::Path(segments);
+  std::string text = *write_plan_response(result).value;
+  ASSERT_TRUE(parse_plan_response(text, "P.json").value);
+  text.replace(text.find("\"t0\": 1.0"), 9, "\"t0\": 1.1");
+  EXPECT_THAT(parse_plan_response(text, "P.json").error,
+              HasSubstr("segments[1].t0: must equal t1 of the segment before"));
+}
+
+}  // namespace
+}  // namespace camway::tools

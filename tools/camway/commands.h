@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace camway::tools {
+
+/// What the shell sees. The same four numbers for every subcommand.
+enum class ExitCode : int {
+  kSuccess = 0,
+  kOurFault = 1,
+  kInvalidInput = 2,
+  kNegative =
+      3,  ///< the work was done and the answer is no: no free path, or a replay that differs
+};
+
+/// The worse of two outcomes of a set: our fault before invalid input before a negative answer.
+ExitCode worse(ExitCode a, ExitCode b);
+
+/// Each adds its subcommand to `app`. When it is the one that was called it runs inside `app.parse`
+/// and leaves its outcome in `exit_code`, which must outlive `app`.
+void add_plan_command(CLI::App& app, ExitCode& exit_code);
+void add_info_command(CLI::App& app, ExitCode& exit_code);
+void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
+void add_replay_command(CLI::App& app, ExitCode& exit_code);
+
+/// `camway: message` on standard error.
+void print_error(std::string_view message);
+
+/// Writes all of `text` to `file`; an error text that names the file, empty on success.
+std::string write_file(const std::string& file, std::string_view text);
+
+/// The paragraph on exit codes that ends the help of every subcommand. `negative` says what 3
+/// means.
+std::string exit_code_help(std::string_view negative);
+
+}  // namespace camway::tools

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace camway::tools {
+namespace {
+
+using motion::Path;
+using motion::Segment;
+
+/// Between two joins a path is a smooth curve of low degree; so many samples show its shape.
+constexpr int kSamplesPerPiece = 32;
+
+bool same(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+template <typename Vector>
+bool same_vector(const Vector& a, const Vector& b) {
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    if (!same(a[i], b[i])) return false;
+  }
+  return true;
+}
+
+bool same_segment(const Segment& a, const Segment& b) {
+  return same(a.t0_s, b.t0_s) && same(a.t1_s, b.t1_s) &&
+         std::equal(a.position.begin(), a.position.end(), b.position.begin(),
+                    same_vector<geometry::Vec3>) &&
+         std::equal(a.orientation.begin(), a.orientation.end(), b.orientation.begin(),
+                    same_vector<geometry::Vec4>);
+}
+
+bool same_keyframe(const motion::Keyframe& a, const motion::Keyframe& b) {
+  return same(a.time_s, b.time_s) && a.origin == b.origin &&
+         same_vector(a.pose.position, b.pose.position) &&
+         same_vector(geometry::wxyz(a.pose.orientation), geometry::wxyz(b.pose.orientation));
+}
+
+bool same_interval(const collision::CollisionInterval& a, const collision::CollisionInterval& b) {
+  return same(a.t_begin_s, b.t_begin_s) && same(a.t_end_s, b.t_end_s);
+}
+
+template <typename List, typename Same>
+std::string differing(const char* name, const List& a, const List& b, Same same_item) {
+  if (a.size() != b.size()) return fmt::format("{} {} -> {}", name, a.size(), b.size());
+  const bool equal = std::equal(a.begin(), a.end(), b.begin(), same_item);
+  return equal ? std::string() : std::string(name);
+}
+
+double pose_distance_m(const motion::Corners& corners_C, const motion::Pose& a,
+                       const motion::Pose& b) {
+  double largest = (a.position - b.position).norm();
+  const motion::Corners corners_a = motion::corners_W(corners_C, a);
+  const motion::Corners corners_b = motion::corners_W(corners_C, b);
+  for (std::size_t i = 0; i < corners_a.size(); ++i) {
+    largest = std::max(largest, (corners_a[i] - corners_b[i]).norm());
+  }
+  return largest;
+}
+
+double path_distance_m(const Path& a, const Path& b, const motion::Corners& corners_C) {
+  if (same_bits(a, b)) return 0.0;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (a.empty() || b.empty()) return kInfinity;
+  if (a.begin_s() != b.begin_s() || a.end_s() != b.end_s()) return kInfinity;
+  std::vector<double> joins{a.begin_s()};
+  for (const Path* path : {&a, &b}) {
+    for (const Segment& segment : path->segments()) joins.push_back(segment.t1_s);
+  }
+  std::sort(joins.begin(), joins.end());
+  double largest = 0.0;
+  for (std::size_t i = 1; i < joins.size(); ++i) {
+    for (int k = 0; k <= kSamplesPerPiece; ++k) {
+      const double time_s = joins[i - 1] + (joins[i] - joins[i - 1]) * k / kSamplesPerPiece;
+      const double distance_m = pose_distance_m(corners_C, a.pose(time_s), b.pose(time_s));
+      // A pose that is no number must not pass for no difference.
+      largest = distance_m >= 0.0 ? std::max(largest, distance_m) : kInfinity;
+    }
+  }
+  // Different bits can round to the same samples; the documented 0 is for equal bits alone.
+  return std::max(largest, std::numeric_limits<double>::denorm_min());
+}
+
+std::string first_difference(const planning::PlanResult& a, const planning::PlanResult& b) {
+  if (a.status != b.status) {
+    return fmt::format("status {} -> {}", planning::to_string(a.status),
+                       planning::to_string(b.status));
+  }
+  if (a.keyframe != b.keyframe) return "keyframe at fault";
+  std::string text = differing("keyframes", a.keyframes, b.keyframes, same_keyframe);
+  if (text.empty()) {
+    text = differing("segments", a.path.segments(), b.path.segments(), same_segment);
+  }
+  if (text.empty()) text = differing("collisions", a.collisions, b.collisions, same_interval);
+  if (text.empty()) {
+    text = differing("remaining collisions", a.remaining_collisions, b.remaining_collisions,
+                     same_interval);
+  }
+  const bool same_certificate =
+      a.certificate.certified == b.certificate.certified &&
+      same(a.certificate.clearance_lower_bound_m, b.certificate.clearance_lower_bound_m);
+  return text.empty() && !same_certificate ? "certificate" : text;
+}
+
+}  // namespace
+
+bool same_bits(const Path& a, const Path& b) {
+  return std::equal(a.segments().begin(), a.segments().end(), b.segments().begin(),
+                    b.segments().end(), same_segment);
+}
+
+Difference compare(const planning::PlanResult& recorded, const planning::PlanResult& now,
+                   const motion::Camera& camera) {
+  return {path_distance_m(recorded.path, now.path, motion::near_corners_C(camera)),
+          first_difference(recorded, now)};
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/camway/commands.h"
+#include "tools/camway/scene_flags.h"
+
+namespace camway::tools {
+namespace {
+
+struct InfoFlags {
+  SceneFlags scene;
+  std::uint32_t octree_threshold = scene::OctreeOptions{}.threshold;
+  std::optional<double> occupancy_m;
+  bool json = false;
+};
+
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson vector_json(const geometry::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+OrderedJson import_json(const scene::ImportReport& report) {
+  OrderedJson json;
+  json["format"] = report.format;
+  json["scale_m_per_unit"] = report.scale;
+  json["up"] = to_string(report.up);
+  json["vertices"] = report.vertices;
+  json["triangles"] = report.triangles;
+  json["objects"] = report.objects;
+  if (!report.bounds_m.isEmpty()) {
+    json["bounds_min_m"] = vector_json(report.bounds_m.min());
+    json["bounds_max_m"] = vector_json(report.bounds_m.max());
+  }
+  json["degenerate_triangles"] = report.degenerate_triangles;
+  json["dropped_nonfinite"] = report.dropped_nonfinite;
+  json["dropped_bad_index"] = report.dropped_bad_index;
+  json["dropped_points_and_lines"] = report.dropped_points_and_lines;
+  return json;
+}
+
+OrderedJson octree_json(const scene::OctreeStatistics& statistics, std::uint32_t threshold) {
+  OrderedJson json;
+  json["threshold"] = threshold;
+  json["nodes"] = statistics.nodes;
+  json["leaves"] = statistics.leaves;
+  json["depth"] = statistics.depth;
+  json["references"] = statistics.references;
+  json["duplication"] = statistics.duplication;
+  json["memory_bytes"] = statistics.memory_bytes;
+  return json;
+}
+
+OrderedJson occupancy_json(const scene::OccupancyStatistics& statistics) {
+  OrderedJson json;
+  json["resolution_m"] = statistics.resolution_m;
+  json["occupied_voxels"] = statistics.occupied_voxels;
+  json["nodes"] = statistics.nodes;
+  json["memory_bytes"] = statistics.memory_bytes;
+  return json;
+}
+
+void print_json(const scene::Snapshot& snapshot, const InfoFlags& flags, double load_ms) {
+  OrderedJson json;
+  json["scene"] = flags.scene.file;
+  json["digest"] = snapshot.digest;
+  json["import"] = import_json(snapshot.report);
+  json["octree"] = octree_json(snapshot.octree.statistics(), flags.octree_threshold);
+  if (snapshot.occupancy) json["occupancy"] = occupancy_json(snapshot.occupancy->statistics());
+  json["load_ms"] = load_ms;
+  fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
+}
+
+double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+
+void print_import(const scene::ImportReport& report) {
+  fmt::print("format       {}\n", report.format);
+  fmt::print("triangles    {} in {} objects, {} vertices\n", report.triangles, report.objects,
+             report.vertices);
+  if (!report.bounds_m.isEmpty()) {
+    const geometry::Vec3 low = report.bounds_m.min();
+    const geometry::Vec3 high = report.bounds_m.max();
+    const geometry::Vec3 size = high - low;
+    fmt::print("bounds       [{:.3f}, {:.3f}, {:.3f}] to [{:.3f}, {:.3f}, {:.3f}] m\n", low.x(),
+               low.y(), low.z(), high.x(), high.y(), high.z());
+    fmt::print("size         {:.3f} x {:.3f} x {:.3f} m\n", size.x(), size.y(), size.z());
+  }
+  fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);
+  fmt::print("dropped      {} not finite, {} with a bad index, {} points and lines\n",
+             report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines);
+  fmt::print("assumed      {} m per unit of the file, axes {} (see --scale and --up)\n",
+             report.scale, to_string(report.up));
+}
+
+void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double load_ms) {
+  fmt::print("scene        {}\n", flags.scene.file);
+  print_import(snapshot.report);
+  fmt::print("digest       {}\n", snapshot.digest);
+  const scene::OctreeStatistics& octree = snapshot.octree.statistics();
+  fmt::print(
+      "octree       threshold {}: {} nodes, {} leaves, depth {}, duplication {:.2f}, {:.1f} MB\n",
+      flags.octree_threshold, octree.nodes, octree.leaves, octree.depth, octree.duplication,
+      megabytes(octree.memory_bytes));
+  if (snapshot.occupancy) {
+    const scene::OccupancyStatistics occupancy = snapshot.occupancy->statistics();
+    fmt::print("occupancy    {} occupied voxels of {} m, {} nodes, {:.1f} MB\n",
+               occupancy.occupied_voxels, occupancy.resolution_m, occupancy.nodes,
+               megabytes(occupancy.memory_bytes));
+  }
+  fmt::print("loaded in    {:.1f} ms\n", load_ms);
+}
+
+ExitCode run_info(const InfoFlags& flags) {
+  scene::SnapshotOptions options;
+  options.import = flags.scene.import_options();
+  options.octree.threshold = flags.octree_threshold;
+  options.occupancy_resolution_m = flags.occupancy_m;
+  const LoadedScene loaded = load_timed(flags.scene.file, flags.scene.file, options);
+  if (!loaded.result.snapshot) {
+    print_error(loaded.result.error);
+    return ExitCode::kInvalidInput;
+  }
+  if (flags.json) {
+    print_json(*loaded.result.snapshot, flags, loaded.load_ms);
+  } else {
+    print_text(*loaded.result.snapshot, flags, loaded.load_ms);
+  }
+  return ExitCode::kSuccess;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, ExitCode& exit_code) {
+  const auto flags = std::make_shared<InfoFlags>();
+  CLI::App* command = app.add_subcommand(
+      "info", "Say what a scene file holds, what was assumed of it, and how its octree came out");
+  add_scene_flags(*command, flags->scene)->required();
+  command
+      ->add_option("--octree-threshold", flags->octree_threshold,
+                   "A leaf of the octree with more triangles than this splits")
+      ->check(CLI::Range(1u, 1'000'000'000u))
+      ->capture_default_str();
+  command
+      ->add_option("--occupancy", flags->occupancy_m,
+                   "Build the OctoMap mirror with voxels of this many metres too")
+      ->check(CLI::PositiveNumber)
+      ->type_name("METRES");
+  command->add_flag("--json", flags->json, "Print JSON, for machines");
+  command->footer(exit_code_help("") +
+                  "\nExample: camway info --scene csb5.off --scale 0.0254 --up z-to-y");
+  command->callback([flags, &exit_code] { exit_code = run_info(*flags); });
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <exception>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/camway/commands.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using camway::tools::ExitCode;
+  ExitCode exit_code = ExitCode::kSuccess;
+  CLI::App app("Camway: smooth camera paths through keyframes, corrected until free of collision",
+               "camway");
+  app.set_version_flag("--version", std::string("camway ") + CAMWAY_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Lengths are metres, times seconds, quaternions w, x, y, z. `camway COMMAND --help` says "
+      "more.\n" +
+      camway::tools::exit_code_help("a negative answer (no free path, a replay that differs)"));
+  camway::tools::add_plan_command(app, exit_code);
+  camway::tools::add_info_command(app, exit_code);
+  camway::tools::add_occupancy_command(app, exit_code);
+  camway::tools::add_replay_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help and --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    camway::tools::print_error(std::string(error.what()) + " (see camway --help)");
+    return static_cast<int>(ExitCode::kInvalidInput);
+  }
+  return static_cast<int>(exit_code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    camway::tools::print_error("out of memory");
+  } catch (const std::exception& error) {
+    camway::tools::print_error(std::string("internal error: ") + error.what());
+  }
+  return static_cast<int>(camway::tools::ExitCode::kOurFault);
+}

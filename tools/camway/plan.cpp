@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "tools/camway/commands.h"
+#include "tools/camway/scene_flags.h"
+#include "tools/json_io.h"
+
+namespace camway::tools {
+namespace {
+
+using planning::PlanResult;
+using planning::Status;
+
+struct PlanFlags {
+  SceneFlags scene;
+  std::vector<std::string> requests;
+  std::string response;
+  std::string response_dir;
+  std::optional<std::string> method;
+  std::optional<double> deadline_s;
+  bool no_timing = false;
+};
+
+/// The answer to one request file, whatever went wrong.
+struct Answer {
+  PlanResult result;
+  std::string scene_file;
+  std::string scene_digest;
+};
+
+PlanResult invalid(std::string message) {
+  PlanResult result;
+  result.status = Status::kInvalid;
+  result.message = std::move(message);
+  return result;
+}
+
+ExitCode exit_code_of(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return ExitCode::kSuccess;
+    case Status::kPartial:
+    case Status::kInfeasible:
+    case Status::kTimeout:
+      return ExitCode::kNegative;
+    case Status::kInvalid:
+    case Status::kUnknownScene:
+      return ExitCode::kInvalidInput;
+    case Status::kInternalError:
+      break;
+  }
+  return ExitCode::kOurFault;
+}
+
+/// The scene of the request: `--scene`, or the request's own, relative to the request's folder.
+std::string scene_file_of(const PlanFlags& flags, const std::string& request_file,
+                          const std::string& requested) {
+  if (!flags.scene.file.empty() || requested.empty()) return flags.scene.file;
+  if (request_file == "-") return requested;
+  return (std::filesystem::path(request_file).parent_path() / requested).string();
+}
+
+Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCache& scenes) {
+  Answer answer;
+  Parsed<planning::PlanRequest> request = read_plan_request(file);
+  if (!request.value) {
+    answer.result = invalid(request.error);
+    return answer;
+  }
+  if (flags.method) request.value->options.method = *planning::method_from_string(*flags.method);
+  if (flags.deadline_s) request.value->options.deadline_s = *flags.deadline_s;
+  if (const auto fault = planning::validate(*request.value)) {
+    answer.result = invalid(file + ": " + describe(*fault));
+    answer.result.keyframe = fault->keyframe;
+    return answer;
+  }
+  answer.scene_file = scene_file_of(flags, file, request.value->scene);
+  if (answer.scene_file.empty()) {
+    answer.result = invalid(file + ": scene: is missing, and there is no --scene");
+    return answer;
+  }
+  const LoadedScene& scene = scenes.load(answer.scene_file);
+  if (!scene.result.snapshot) {
+    answer.result = invalid(scene.result.error);
+    return answer;
+  }
+  answer.scene_digest = scene.result.snapshot->digest;
+  answer.result = planning::plan(*scene.result.snapshot, *request.value);
+  answer.result.timing.load_scene_ms = scene.load_ms;
+  if (answer.result.status == Status::kInvalid) {
+    answer.result.message = file + ": " + answer.result.message;
+  }
+  return answer;
+}
+
+std::size_t inserted_count(const PlanResult& result) {
+  return static_cast<std::size_t>(std::count_if(
+      result.keyframes.begin(), result.keyframes.end(),
+      [](const auto& keyframe) { return keyframe.origin == motion::KeyframeOrigin::kInserted; }));
+}
+
+/// Writes the response to `file`, or to standard output if it is empty.
+ExitCode write_response(const Answer& answer, const std::string& file, bool no_timing) {
+  ResponseFormat format;
+  format.timing = no_timing ? TimingField::kOmitted : TimingField::kWritten;
+  format.scene = answer.scene_file;
+  format.scene_digest = answer.scene_digest;
+  const Parsed<std::string> text = write_plan_response(answer.result, format);
+  if (!text.value) {
+    print_error("the response cannot be written: " + text.error);
+    return ExitCode::kOurFault;
+  }
+  if (file.empty()) {
+    const bool written =
+        std::fwrite(text.value->data(), 1, text.value->size(), stdout) == text.value->size() &&
+        std::fflush(stdout) == 0;
+    if (written) return ExitCode::kSuccess;
+    print_error("standard output cannot be written");
+    return ExitCode::kInvalidInput;
+  }
+  const std::string error = write_file(file, *text.value);
+  if (error.empty()) return ExitCode::kSuccess;
+  print_error(error);
+  return ExitCode::kInvalidInput;
+}
+
+std::string plural(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+void print_summary(const std::string& request, const PlanResult& result) {
+  if (result.status == Status::kInvalid) {
+    print_error(result.message);
+    return;
+  }
+  print_error(fmt::format(
+      "{}: {}: {} before correction, {} inserted, {} remaining, planned in {:.1f} ms, scene loaded "
+      "in {:.1f} ms: {}",
+      request, planning::to_string(result.status), plural(result.collisions.size(), "collision"),
+      plural(inserted_count(result), "keyframe"),
+      plural(result.remaining_collisions.size(), "collision"), result.timing.total_ms,
+      result.timing.load_scene_ms, result.message));
+}
+
+ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
+  const std::string& file = flags.requests.front();
+  const Answer answer = answer_request(flags, file, scenes);
+  print_summary(file, answer.result);
+  const ExitCode outcome = exit_code_of(answer.result.status);
+  // Invalid input leaves nothing on standard output, where a path is expected.
+  if (outcome == ExitCode::kInvalidInput && flags.response.empty()) return outcome;
+  return worse(outcome, write_response(answer, flags.response, flags.no_timing));
+}
+
+/// Where the response to each request goes; an error if two would go to one file or onto a request.
+Parsed<std::vector<std::string>> response_files(const PlanFlags& flags) {
+  std::vector<std::string> files;
+  std::set<std::string> taken;
+  for (const std::string& request : flags.requests) {
+    const std::filesystem::path name = std::filesystem::path(request).filename();
+    const std::string file = (flags.response_dir / name).string();
+    if (!taken.insert(file).second) return {{}, file + ": is the response file of two requests"};
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, request, ignored)) {
+      return {{}, file + ": the response would overwrite the request"};
+    }
+    files.push_back(file);
+  }
+  return {std::move(files), {}};
+}
+
+ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
+  std::error_code error;
+  std::filesystem::create_directories(flags.response_dir, error);
+  if (error) {
+    print_error(flags.response_dir + ": cannot be made: " + error.message());
+    return ExitCode::kInvalidInput;
+  }
+  const Parsed<std::vector<std::string>> files = response_files(flags);
+  if (!files.value) {
+    print_error(files.error);
+    return ExitCode::kInvalidInput;
+  }
+  ExitCode outcome = ExitCode::kSuccess;
+  std::size_t ok_count = 0;
+  fmt::print("{:<14} {:>9} {:>9} {:>8} {:>9}  {}\n", "status", "ms", "colliding", "inserted",
+             "remaining", "request");
+  for (std::size_t i = 0; i < flags.requests.size(); ++i) {
+    const Answer answer = answer_request(flags, flags.requests[i], scenes);
+    const PlanResult& result = answer.result;
+    ok_count += result.status == Status::kOk ? 1 : 0;
+    fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),
+               result.timing.total_ms, result.collisions.size(), inserted_count(result),
+               result.remaining_collisions.size(), flags.requests[i]);
+    std::fflush(stdout);
+    if (result.status != Status::kOk) print_summary(flags.requests[i], result);
+    outcome = worse(outcome, exit_code_of(result.status));
+    outcome = worse(outcome, write_response(answer, (*files.value)[i], flags.no_timing));
+  }
+  fmt::print("{} of {} ok\n", ok_count, plural(flags.requests.size(), "request"));
+  return outcome;
+}
+
+ExitCode run_plan(const PlanFlags& flags) {
+  scene::SnapshotOptions options;
+  options.import = flags.scene.import_options();
+  SceneCache scenes(options);
+  if (!flags.response_dir.empty()) return plan_set(flags, scenes);
+  if (flags.requests.size() == 1) return plan_one(flags, scenes);
+  print_error("several requests need --response-dir");
+  return ExitCode::kInvalidInput;
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, ExitCode& exit_code) {
+  const auto flags = std::make_shared<PlanFlags>();
+  CLI::App* command = app.add_subcommand(
+      "plan", "Plan a path through the keyframes of a request and write the response");
+  add_scene_flags(*command, flags->scene)
+      ->description(
+          "Scene file (OBJ, OFF, PLY, STL, glTF, ...); instead of the request's own, which is "
+          "relative to the request's folder");
+  command->add_option("--request", flags->requests, "Request file, '-' for standard input")
+      ->required()
+      ->type_name("FILE...");
+  CLI::Option* response =
+      command->add_option("--response", flags->response, "Response file [standard output]")
+          ->type_name("FILE");
+  command
+      ->add_option("--response-dir", flags->response_dir,
+                   "Folder for the responses to several requests, named as the requests are; each "
+                   "scene is loaded once, a table goes to standard output")
+      ->excludes(response)
+      ->type_name("DIR");
+  command
+      ->add_option("--method", flags->method,
+                   "How a colliding path is corrected; before the request's own")
+      ->check(CLI::IsMember({"keyframe_insertion"}));
+  command
+      ->add_option("--deadline-s", flags->deadline_s,
+                   "Seconds after which planning stops with what it has; before the request's own")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-timing", flags->no_timing,
+                    "Leave timing_ms out, so that two responses compare byte by byte");
+  command->footer(
+      exit_code_help("no path free of collision was found (partial, infeasible, timeout)") +
+      "\nA response is written for invalid input too when --response or --response-dir is given.\n"
+      "Example: camway plan --scene office.obj --request office-graze-1.json --response out.json");
+  command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/publish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <lcm/lcm-cpp.hpp>
+
+#include "lcmtypes/channels.h"
+#include "lcmtypes/wire_check.h"
+#include "tools/camway/event_log.h"
+
+namespace camway::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Key = std::pair<std::string, std::int64_t>;
+
+/// Sends requests and collects the ids of the answers, all on the calling thread.
+class Publisher {
+ public:
+  Publisher(lcm::LCM& lcm, const wire::Channels& channels) : lcm_(lcm), channels_(channels) {
+    lcm_.subscribe(channels_.plan_response(".*"), &Publisher::on_answer, this)
+        ->setQueueCapacity(kQueueCapacity);
+  }
+
+  [[nodiscard]] bool is_request(const LogEvent& event) const {
+    return event.channel == channels_.plan_request() ||
+           event.channel == channels_.occupancy_request();
+  }
+
+  bool send(const LogEvent& event) {
+    if (event.channel == channels_.plan_request()) {
+      const auto decoded = wire::decode<plan_request_t>(event.data);
+      if (decoded.message) asked_.emplace(decoded.message->client_id, decoded.message->request_id);
+    }
+    return lcm_.publish(event.channel, event.data.data(),
+                        static_cast<unsigned int>(event.data.size())) == 0;
+  }
+
+  /// Takes in answers until `time`, or until all requests are answered if `stop_early`.
+  void listen_until(Clock::time_point time, bool stop_early) {
+    while (Clock::now() < time && !(stop_early && answered_count() == asked_.size())) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - Clock::now());
+      lcm_.handleTimeout(static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, kSliceMs)));
+    }
+  }
+
+  [[nodiscard]] std::size_t asked_count() const { return asked_.size(); }
+  [[nodiscard]] std::size_t answered_count() const { return answered_.size(); }
+
+ private:
+  static constexpr int kQueueCapacity = 4096;
+  static constexpr std::int64_t kSliceMs = 100;
+
+  void on_answer(const lcm::ReceiveBuffer* buffer, const std::string&) noexcept {
+    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    const auto sender = wire::peek_sender(wire::layout_of<plan_response_t>(), bytes);
+    if (!sender) return;
+    Key key(sender->client_id, sender->request_id);
+    if (asked_.contains(key)) answered_.insert(std::move(key));
+  }
+
+  lcm::LCM& lcm_;
+  const wire::Channels& channels_;
+  std::set<Key> asked_;
+  std::set<Key> answered_;
+};
+
+Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+}
+
+/// How long after `first` the event is to be sent. The times of a log are anybody's: as doubles
+/// their difference cannot overflow, and a wait is cut to what a clock can hold.
+Clock::duration due_after(const LogEvent& first, const LogEvent& event, double speed) {
+  constexpr double kLongest_s = 1e8;
+  const double recorded_us = static_cast<double>(event.utime) - static_cast<double>(first.utime);
+  return seconds(std::clamp(recorded_us * 1e-6 / speed, 0.0, kLongest_s));
+}
+
+}  // namespace
+
+ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options) {
+  std::vector<LogEvent> requests;
+  const wire::Channels channels{options.prefix};
+  lcm::LCM lcm(options.url);
+  if (!lcm.good()) {
+    print_error(
+        "LCM cannot use the network: is there a multicast route? "
+        "(ip route add 224.0.0.0/4 dev lo)");
+    return ExitCode::kInvalidInput;
+  }
+  Publisher publisher(lcm, channels);
+  const LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
+    if (publisher.is_request(event)) requests.push_back(std::move(event));
+  });
+  if (!summary.damage.empty()) print_error(summary.damage);
+  if (requests.empty()) {
+    print_error(fmt::format("{}: holds no requests on {}_*", log.string(), options.prefix));
+    return ExitCode::kInvalidInput;
+  }
+  const Clock::time_point start = Clock::now();
+  for (const LogEvent& event : requests) {
+    if (options.speed > 0.0) {
+      publisher.listen_until(start + due_after(requests.front(), event, options.speed), false);
+    }
+    if (!publisher.send(event)) {
+      print_error("LCM refused a message of " + std::to_string(event.data.size()) + " bytes");
+      return ExitCode::kOurFault;
+    }
+  }
+  publisher.listen_until(Clock::now() + seconds(options.wait_s), true);
+  fmt::print("sent {} messages; {} of {} planning requests answered\n", requests.size(),
+             publisher.answered_count(), publisher.asked_count());
+  if (publisher.answered_count() < publisher.asked_count()) return ExitCode::kNegative;
+  return summary.damage.empty() ? ExitCode::kSuccess : ExitCode::kInvalidInput;
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace camway::tools {
+
+/// What a document may cost before it is refused. A request with as many keyframes as planning
+/// takes and the response to it stay below; a hostile document cannot make the reader take
+/// gigabytes.
+inline constexpr std::size_t kMaxDocumentBytes = std::size_t{256} << 20;
+inline constexpr std::size_t kMaxDocumentValues = 16'000'000;
+inline constexpr std::size_t kMaxDocumentDepth = 32;
+
+/// Either a value or why there is none.
+template <typename T>
+struct Parsed {
+  std::optional<T> value;
+  std::string error;  ///< names the source and what is wrong in it; empty exactly with a value
+};
+
+/// Parses strict JSON. Refused beyond the syntax: documents past the limits above, numbers that
+/// overflow a double, and a key that stands twice in one object (readers differ in which of the two
+/// they take). `source` heads the error: `R.json: line 3, column 14: ...`. Lines and columns count
+/// from 1, columns in bytes. Never throws for a bad document.
+Parsed<nlohmann::json> parse_document(std::string_view text, std::string_view source);
+
+/// Reads all of `file` ("-": standard input), at most kMaxDocumentBytes.
+Parsed<std::string> read_text(const std::string& file);
+
+/// A value inside a document that knows its path, for reading with messages such as
+/// `keyframes[3].orientation: must be an array of 4 numbers`. The first error is kept, and after it
+/// every read gives a default, so that callers check once at the end. Points to its parent and to
+/// the error text: for local use only.
+class Field {
+ public:
+  /// The document itself.
+  Field(const nlohmann::json& root, std::string& error) : value_(&root), error_(&error) {}
+
+  /// A member that must be there.
+  [[nodiscard]] Field member(std::string_view key) const;
+  /// A member that may be missing.
+  [[nodiscard]] std::optional<Field> optional_member(std::string_view key) const;
+  /// Element `index` of an array. Precondition: index < size().
+  [[nodiscard]] Field element(std::size_t index) const;
+  /// Length of an array; an error and 0 for anything else.
+  [[nodiscard]] std::size_t size() const;
+
+  [[nodiscard]] double number() const;
+  [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t largest) const;
+  [[nodiscard]] bool boolean() const;
+  [[nodiscard]] std::string text() const;
+  /// Reads exactly `count` numbers into `out`.
+  void numbers(double* out, std::size_t count) const;
+
+  /// The keys of an object in alphabetical order; an error for anything else.
+  [[nodiscard]] std::vector<std::string> keys() const;
+
+  /// Records an error about this value, unless there is one already.
+  void fail(std::string_view message) const;
+  [[nodiscard]] bool failed() const { return !error_->empty(); }
+  /// `keyframes[3].orientation`; empty for the document.
+  [[nodiscard]] std::string path() const;
+
+ private:
+  Field(const nlohmann::json* value, const Field* parent, std::string_view key, std::size_t index)
+      : value_(value), parent_(parent), key_(key), index_(index), error_(parent->error_) {}
+
+  const nlohmann::json* value_ = nullptr;  ///< null where the document has none
+  const Field* parent_ = nullptr;
+  std::string_view key_;  ///< empty for an element of an array
+  std::size_t index_ = 0;
+  std::string* error_;
+};
+
+}  // namespace camway::tools

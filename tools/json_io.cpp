@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json_io.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace camway::tools {
+namespace {
+
+using collision::CollisionInterval;
+using motion::Keyframe;
+using motion::KeyframeOrigin;
+using planning::PlanOptions;
+using planning::PlanRequest;
+using planning::PlanResult;
+
+double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
+
+motion::Camera read_camera(const Field& field) {
+  motion::Camera camera;
+  camera.fov_x_rad = radians(field.member("fov_x_deg").number());
+  camera.fov_y_rad = radians(field.member("fov_y_deg").number());
+  camera.near_m = field.member("near").number();
+  return camera;
+}
+
+template <typename Vector>
+Vector read_vector(const Field& field) {
+  Vector v;
+  field.numbers(v.data(), static_cast<std::size_t>(v.size()));
+  return v;
+}
+
+/// The unit quaternion in the direction of `wxyz`. Scaled by the largest coefficient first, so that
+/// squares neither overflow nor vanish.
+geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
+  const double largest = wxyz.cwiseAbs().maxCoeff();
+  if (largest == 0.0) {
+    field.fail("has length zero, which is no orientation");
+    return geometry::Quat::Identity();
+  }
+  if (std::abs(wxyz.squaredNorm() - 1.0) <= kUnitQuaternionError) return geometry::from_wxyz(wxyz);
+  const geometry::Vec4 scaled = wxyz / largest;
+  return geometry::from_wxyz(scaled / scaled.norm());
+}
+
+void read_keyframes(const Field& list, PlanRequest& request) {
+  const std::size_t count = list.size();
+  if (count > planning::kMaxKeyframes) {
+    list.fail("has " + std::to_string(count) + " keyframes, more than the " +
+              std::to_string(planning::kMaxKeyframes) + " that a request may hold");
+    return;
+  }
+  request.keyframes.reserve(count);
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    Keyframe keyframe;
+    const std::optional<Field> time = item.optional_member("time");
+    if (time) keyframe.time_s = time->number();
+    if (i == 0) request.has_times = time.has_value();
+    if (time.has_value() != request.has_times) {
+      item.fail(std::string(time ? "has a time and keyframe 0 has none"
+                                 : "has no time and keyframe 0 has one") +
+                ": time stands in all keyframes or in none");
+    }
+    keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
+    const Field orientation = item.member("orientation");
+    const auto wxyz = read_vector<geometry::Vec4>(orientation);
+    keyframe.pose.orientation = unit_quaternion(orientation, wxyz);
+    request.keyframes.push_back(keyframe);
+  }
+}
+
+PlanOptions read_options(const Field& field) {
+  PlanOptions options;
+  for (const std::string& key : field.keys()) {
+    const Field option = field.member(key);
+    if (key == "method") {
+      const std::string name = option.text();
+      const std::optional<planning::Method> method = planning::method_from_string(name);
+      if (!method) option.fail("'" + name + "' is unknown; this version knows keyframe_insertion");
+      options.method = method.value_or(options.method);
+    } else if (key == "deadline_s") {
+      options.deadline_s = option.number();
+    } else if (key == "chord_error_m") {
+      options.chord_error_m = option.number();
+    } else if (key == "interval_tolerance_m") {
+      options.interval_tolerance_m = option.number();
+    } else if (key == "max_inserted_keyframes") {
+      options.max_inserted_keyframes =
+          static_cast<std::int32_t>(option.integer(0, std::numeric_limits<std::int32_t>::max()));
+    } else {
+      option.fail(
+          "is an option that this version does not know; it knows method, deadline_s, "
+          "chord_error_m, interval_tolerance_m, max_inserted_keyframes");
+    }
+  }
+  return options;
+}
+
+std::vector<CollisionInterval> read_intervals(const Field& list) {
+  std::vector<CollisionInterval> intervals;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Field item = list.element(i);
+    intervals.push_back({item.member("t_begin").number(), item.member("t_end").number()});
+  }
+  return intervals;
+}
+
+template <std::size_t kCount, typename Vector>
+void read_control_points(const Field& list, std::array<Vector, kCount>& points) {
+  const std::size_t count = list.size();
+  if (!list.failed() && count != kCount) {
+    list.fail("must hold " + std::to_string(kCount) + " control points, not " +
+              std::to_string(count));
+  }
+  if (list.failed()) return;
+  for (std::size_t i = 0; i < kCount; ++i) points[i] = read_vector<Vector>(list.element(i));
+}
+
+std::vector<motion::Segment> read_segments(const Field& list) {
+  std::vector<motion::Segment> segments;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    motion::Segment segment;
+    const Field t0 = item.member("t0");
+    const Field t1 = item.member("t1");
+    segment.t0_s = t0.number();
+    segment.t1_s = t1.number();
+    if (!(segment.t1_s > segment.t0_s)) t1.fail("must be above t0");
+    if (i > 0 && segment.t0_s != segments.back().t1_s) {
+      t0.fail("must equal t1 of the segment before");
+    }
+    read_control_points(item.member("position"), segment.position);
+    read_control_points(item.member("orientation"), segment.orientation);
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+std::vector<Keyframe> read_response_keyframes(const Field& list) {
+  std::vector<Keyframe> keyframes;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    Keyframe keyframe;
+    keyframe.time_s = item.member("time").number();
+    keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
+    keyframe.pose.orientation =
+        geometry::from_wxyz(read_vector<geometry::Vec4>(item.member("orientation")));
+    const Field origin_field = item.member("origin");
+    const std::string origin = origin_field.text();
+    if (origin != "given" && origin != "inserted") {
+      origin_field.fail("must be \"given\" or \"inserted\"");
+    }
+    keyframe.origin = origin == "inserted" ? KeyframeOrigin::kInserted : KeyframeOrigin::kGiven;
+    keyframes.push_back(keyframe);
+  }
+  return keyframes;
+}
+
+void read_timing(const Field& field, planning::Timing& timing) {
+  const std::pair<const char*, double*> members[] = {
+      {"load_scene", &timing.load_scene_ms}, {"motion", &timing.motion_ms},
+      {"detect", &timing.detect_ms},         {"correct", &timing.correct_ms},
+      {"certify", &timing.certify_ms},       {"total", &timing.total_ms}};
+  for (const auto& [name, value] : members) {
+    if (const auto member = field.optional_member(name)) *value = member->number();
+  }
+}
+
+PlanResult read_result(const Field& root) {
+  PlanResult result;
+  const Field status_field = root.member("status");
+  const std::string status_name = status_field.text();
+  const std::optional<planning::Status> status = planning::status_from_string(status_name);
+  if (!status) status_field.fail("'" + status_name + "' is unknown");
+  result.status = status.value_or(result.status);
+  if (const auto message = root.optional_member("message")) result.message = message->text();
+  if (const auto keyframe = root.optional_member("keyframe")) {
+    result.keyframe = static_cast<std::size_t>(keyframe->integer(0, planning::kMaxKeyframes));
+  }
+  std::vector<motion::Segment> segments;
+  if (const auto list = root.optional_member("segments")) segments = read_segments(*list);
+  // Only of good segments: a path has preconditions.
+  if (!root.failed()) result.path = motion::Path(std::move(segments));
+  if (const auto list = root.optional_member("keyframes")) {
+    result.keyframes = read_response_keyframes(*list);
+  }
+  if (const auto list = root.optional_member("collisions")) {
+    result.collisions = read_intervals(*list);
+  }
+  if (const auto list = root.optional_member("remaining_collisions")) {
+    result.remaining_collisions = read_intervals(*list);
+  }
+  if (const auto certificate = root.optional_member("certificate")) {
+    result.certificate.certified = certificate->member("certified").boolean();
+    if (const auto bound = certificate->optional_member("clearance_lower_bound")) {
+      result.certificate.clearance_lower_bound_m = bound->number();
+    }
+  }
+  if (const auto timing = root.optional_member("timing_ms")) read_timing(*timing, result.timing);
+  return result;
+}
+
+PlanRequest read_request(const Field& root) {
+  PlanRequest request;
+  if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
+  request.camera = read_camera(root.member("camera"));
+  read_keyframes(root.member("keyframes"), request);
+  if (const auto options = root.optional_member("options")) {
+    request.options = read_options(*options);
+  }
+  return request;
+}
+
+/// Parses `text` and hands the document to `read`; the common frame of both kinds of file.
+template <typename T>
+Parsed<T> parse_with(T (*read)(const Field&), std::string_view text, std::string_view source) {
+  const Parsed<nlohmann::json> document = parse_document(text, source);
+  if (!document.value) return {{}, document.error};
+  std::string error;
+  T value = read(Field(*document.value, error));
+  if (!error.empty()) return {{}, std::string(source) + ": " + error};
+  return {std::move(value), {}};
+}
+
+template <typename T>
+Parsed<T> read_with(T (*read)(const Field&), const std::string& file) {
+  const Parsed<std::string> text = read_text(file);
+  if (!text.value) return {{}, text.error};
+  return parse_with(read, *text.value, file == "-" ? "standard input" : file);
+}
+
+}  // namespace
+
+Parsed<PlanRequest> parse_plan_request(std::string_view text, std::string_view source) {
+  return parse_with(read_request, text, source);
+}
+
+Parsed<PlanRequest> read_plan_request(const std::string& file) {
+  return read_with(read_request, file);
+}
+
+Parsed<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
+  return parse_with(read_result, text, source);
+}
+
+Parsed<PlanResult> read_plan_response(const std::string& file) {
+  return read_with(read_result, file);
+}
+
+std::string describe(const planning::InvalidRequest& invalid) {
+  if (invalid.field.empty() || invalid.message.starts_with(invalid.field)) return invalid.message;
+  return invalid.field + ": " + invalid.message;
+}
+
+}  // namespace camway::tools

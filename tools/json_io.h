@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+#include "tools/json_document.h"
+
+/// The files of planning: requests and responses as JSON. Angles of the camera are degrees there
+/// and radians in memory; everything else has the same units on both sides.
+namespace camway::tools {
+
+/// A quaternion whose computed squared length is this close to 1 is of unit length as far as
+/// doubles can tell: rounding the four coefficients changes it by at most 2 eps, and computing it
+/// (four squares, three sums) by at most 2.5 eps. It keeps its bits when read; others are
+/// normalised.
+inline constexpr double kUnitQuaternionError = 5 * 2.220446049250313e-16;
+
+/// Reads a request. Checked here: the form (types, lengths, missing fields), a quaternion that is
+/// not zero, time in all keyframes or in none, and that no option is unknown: to ignore one that a
+/// later version knows, such as a required clearance, would be dangerous. Unknown fields elsewhere
+/// are ignored. Ranges and order of times are `planning::validate`'s. `source` heads the error,
+/// e.g. `R.json: keyframes[3].orientation: has length zero`. Keyframes count from 0.
+Parsed<planning::PlanRequest> parse_plan_request(std::string_view text, std::string_view source);
+
+/// The same from a file; "-" is standard input.
+Parsed<planning::PlanRequest> read_plan_request(const std::string& file);
+
+/// The form of `invalid` that every message of ours has: `field: message`, the field not repeated
+/// if the message begins with it.
+std::string describe(const planning::InvalidRequest& invalid);
+
+enum class TimingField {
+  kWritten,
+  kOmitted,  ///< so that responses of two runs can be compared byte by byte
+};
+
+/// What a response file says beside the result.
+struct ResponseFormat {
+  TimingField timing = TimingField::kWritten;
+  std::string scene;         ///< name or file; omitted when empty
+  std::string scene_digest;  ///< what the answer was computed on; omitted when empty
+};
+
+/// Writes a response, with keys in a fixed order, and every double so that reading gives the same
+/// bits. A NaN or infinity, which JSON cannot hold, is our fault: then there is no value, and the
+/// error names the field.
+Parsed<std::string> write_plan_response(const planning::PlanResult& result,
+                                        const ResponseFormat& format = {});
+
+/// Reads a response back, bit for bit. The segments are checked to be a path: each at least as long
+/// as nothing, each beginning where the one before ends.
+Parsed<planning::PlanResult> parse_plan_response(std::string_view text, std::string_view source);
+
+/// The same from a file; "-" is standard input.
+Parsed<planning::PlanResult> read_plan_response(const std::string& file);
+
+}  // namespace camway::tools
