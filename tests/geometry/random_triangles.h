@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "daemon/geometry/types.h"
+
+namespace camway::geometry {
+
+/// Triangles that are hard on purpose. The seed is printed, so that a failure can be repeated.
+class RandomTriangles {
+ public:
+  explicit RandomTriangles(std::uint64_t seed) : engine_(seed) {
+    std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  }
+
+  double uniform(double low, double high) {
+    // Not std::uniform_real_distribution: its numbers differ between standard libraries.
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  int integer(int low, int high) {
+    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  double log_uniform(double low, double high) {
+    return std::exp(uniform(std::log(low), std::log(high)));
+  }
+  Vec3 in_cube(double half) {
+    return {uniform(-half, half), uniform(-half, half), uniform(-half, half)};
+  }
+  Vec3 on_grid(int size) {
+    return {static_cast<double>(integer(0, size)), static_cast<double>(integer(0, size)),
+            static_cast<double>(integer(0, size))};
+  }
+
+  /// Small integer coordinates: coplanar, touching, collinear and equal vertices are common.
+  Triangle grid_triangle(int size) { return {on_grid(size), on_grid(size), on_grid(size)}; }
+
+  /// Of any size and of any thinness, down to a segment or a point.
+  Triangle thin_triangle() {
+    const double size = log_uniform(1e-6, 10.0);
+    Triangle t = {in_cube(size), in_cube(size), in_cube(size)};
+    switch (integer(0, 5)) {
+      case 0:
+        t[2] = t[0] + uniform(0.0, 1.0) * (t[1] - t[0]) + in_cube(size * log_uniform(1e-17, 1.0));
+        break;
+      case 1:
+        t[1] = t[0] + in_cube(size * log_uniform(1e-17, 1.0));
+        break;
+      case 2:
+        t[2] = t[1];
+        break;
+      default:
+        break;
+    }
+    return t;
+  }
+
+  Vec3 point_on(const Triangle& t) {
+    double u = uniform(0.0, 1.0);
+    double v = uniform(0.0, 1.0);
+    if (integer(0, 2) == 0) v = 0.0;      // on an edge
+    if (integer(0, 3) == 0) u = v = 0.0;  // on a vertex
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+  }
+
+  /// Two thin triangles that nearly touch, or cross a little; edges nearly parallel now and then.
+  std::pair<Triangle, Triangle> close_pair() {
+    const Triangle a = thin_triangle();
+    Triangle b = thin_triangle();
+    const double reach = (a[1] - a[0]).norm() + (a[2] - a[0]).norm();
+    if (integer(0, 3) == 0) {
+      // Almost the same direction as an edge of a.
+      b[1] = b[0] + uniform(-2.0, 2.0) * (a[1] - a[0]) + in_cube(reach * log_uniform(1e-17, 1e-3));
+    }
+    const Vec3 shift = point_on(a) - point_on(b) + in_cube(reach * log_uniform(1e-17, 1.0));
+    for (Vec3& v : b) v += shift;
+    return {a, b};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+inline std::string to_text(const Triangle& t) {
+  std::string text;
+  char buffer[96];
+  for (const Vec3& v : t) {
+    std::snprintf(buffer, sizeof buffer, "(%a %a %a) ", v.x(), v.y(), v.z());
+    text += buffer;
+  }
+  return text;
+}
+
+/// The six orders of three vertices.
+inline std::array<Triangle, 6> vertex_orders(const Triangle& t) {
+  return {Triangle{t[0], t[1], t[2]}, Triangle{t[0], t[2], t[1]}, Triangle{t[1], t[0], t[2]},
+          Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}, Triangle{t[2], t[1], t[0]}};
+}
+
+inline Triangle moved(const Triangle& t, const Vec3& shift) {
+  return {t[0] + shift, t[1] + shift, t[2] + shift};
+}
+
+}  // namespace camway::geometry

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/geometry/triangle_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/geometry/triangle_intersection.h"
+#include "tests/geometry/exact_oracle.h"
+#include "tests/geometry/random_triangles.h"
+
+namespace camway::geometry {
+namespace {
+
+/// Checks one pair against the oracle; returns the error in units of the stated bound.
+double error_of(const Triangle& a, const Triangle& b) {
+  const double computed = triangle_distance(a, b);
+  const double exact = oracle::distance_m(a, b);
+  EXPECT_EQ(computed == 0.0, exact == 0.0) << to_text(a) << "| " << to_text(b);
+  const double relative = std::abs(computed - exact) / triangle_distance_error_m(a, b);
+  EXPECT_LE(relative, 1.0) << to_text(a) << "| " << to_text(b) << computed << " " << exact;
+  return relative;
+}
+
+void report(double worst) { std::printf("worst error: %.4f of the bound\n", worst); }
+
+TEST(TriangleDistance, StaysWithinItsBoundForThinAndNearPairs) {
+  RandomTriangles random(301);
+  double worst = 0.0;
+  for (int i = 0; i < 4000 && !testing::Test::HasFailure(); ++i) {
+    const auto [a, b] = random.close_pair();
+    worst = std::max(worst, error_of(a, b));
+  }
+  report(worst);
+}
+
+TEST(TriangleDistance, StaysWithinItsBoundForFarPairs) {
+  RandomTriangles random(302);
+  double worst = 0.0;
+  for (int i = 0; i < 2000 && !testing::Test::HasFailure(); ++i) {
+    const Triangle a = random.thin_triangle();
+    const Triangle b = moved(random.thin_triangle(), random.in_cube(random.log_uniform(1e-6, 1e6)));
+    worst = std::max(worst, error_of(a, b));
+  }
+  report(worst);
+}
+
+TEST(TriangleDistance, StaysWithinItsBoundForEdgesNearlyParallel) {
+  RandomTriangles random(303);
+  double worst = 0.0;
+  for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
+    // Two ridges that cross at a small angle and a small distance.
+    const double angle = random.log_uniform(1e-18, 1e-3);
+    const double gap = random.log_uniform(1e-18, 1.0);
+    const Vec3 along = random.in_cube(1.0).normalized();
+    const Vec3 up = along.unitOrthogonal();
+    const Vec3 turned = along + angle * along.cross(up);
+    const Vec3 base = random.in_cube(1.0);
+    const double shift = random.uniform(-1.0, 1.0);
+    const Triangle a = {base - along, base + along, base - up};
+    const Vec3 crossing = base + shift * along + gap * up;
+    const Triangle b = {crossing - turned, crossing + turned, crossing + up};
+    worst = std::max(worst, error_of(a, b));
+  }
+  report(worst);
+}
+
+TEST(TriangleDistance, IsExactlyZeroWhereTheyTouch) {
+  RandomTriangles random(304);
+  double worst = 0.0;
+  for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
+    worst = std::max(worst, error_of(random.grid_triangle(3), random.grid_triangle(3)));
+  }
+  report(worst);
+}
+
+TEST(TriangleDistance, StaysWithinItsBoundFarFromTheOrigin) {
+  RandomTriangles random(305);
+  double worst = 0.0;
+  for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {
+    const auto [a, b] = random.close_pair();
+    const Vec3 far = 1e6 * random.in_cube(1.0);
+    // The bound is relative to the pair, not to its distance from the origin.
+    worst = std::max(worst, error_of(moved(a, far), moved(b, far)));
+  }
+  report(worst);
+}
+
+TEST(TriangleDistance, DependsOnTheOrderOfArgumentsAndVerticesByRoundingOnly) {
+  RandomTriangles random(306);
+  for (int i = 0; i < 300; ++i) {
+    const auto [a, b] = random.close_pair();
+    const double expected = triangle_distance(a, b);
+    for (const Triangle& pa : vertex_orders(a)) {
+      for (const Triangle& pb : vertex_orders(b)) {
+        const double either = triangle_distance_error_m(a, b) + triangle_distance_error_m(pa, pb);
+        ASSERT_NEAR(triangle_distance(pa, pb), expected, either) << to_text(pa) << to_text(pb);
+        ASSERT_NEAR(triangle_distance(pb, pa), expected,
+                    triangle_distance_error_m(a, b) + triangle_distance_error_m(pb, pa));
+        ASSERT_EQ(triangle_distance(pa, pb) == 0.0, expected == 0.0);
+      }
+    }
+  }
+}
+
+TEST(TriangleDistance, ScalesByPowersOfTwo) {
+  RandomTriangles random(307);
+  for (const double unit : {0x1p-900, 0x1p-300, 0x1p150, 0x1p199}) {
+    for (int i = 0; i < 200; ++i) {
+      Triangle a = random.grid_triangle(3);
+      Triangle b = random.grid_triangle(3);
+      const double expected = triangle_distance(a, b);
+      const double error = triangle_distance_error_m(a, b);
+      for (Vec3& v : a) v *= unit;
+      for (Vec3& v : b) v *= unit;
+      ASSERT_NEAR(triangle_distance(a, b) / unit, expected, 2.0 * error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace camway::geometry
