@@ -71,20 +71,32 @@ std::array<Value, N> sub_curve(std::array<Value, N> c, double u0, double u1) {
   return part;
 }
 
+/// Weight of the product of coefficients i and j in coefficient i + j of a product, before division
+/// by the binomial of the sum. Integers, so that products of constants come out exact.
+template <std::size_t N, std::size_t M>
+constexpr std::array<std::array<double, M>, N> product_weights() {
+  std::array<std::array<double, M>, N> weights{};
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j < M; ++j) weights[i][j] = binomial(N - 1, i) * binomial(M - 1, j);
+  return weights;
+}
+
 /// Coefficients of the product of two polynomials; `multiply(f, g)` multiplies two values and need
 /// not commute.
 template <class F, class G, std::size_t N, std::size_t M, class Multiply>
 auto product(const std::array<F, N>& f, const std::array<G, M>& g, Multiply multiply) {
   using Value = decltype(multiply(f[0], g[0]));
+  static constexpr std::array<std::array<double, M>, N> kWeights = product_weights<N, M>();
+  static constexpr std::array<std::array<double, N + M - 1>, 1> kSums =
+      product_weights<1, N + M - 1>();
   std::array<Value, N + M - 1> result;
   for (std::size_t k = 0; k < N + M - 1; ++k) {
     const std::size_t first = k < M ? 0 : k - (M - 1);
     const std::size_t last = k < N ? k : N - 1;
-    Value sum = Value(multiply(f[first], g[k - first]) *
-                      (binomial(N - 1, first) * binomial(M - 1, k - first)));
+    Value sum = Value(multiply(f[first], g[k - first]) * kWeights[first][k - first]);
     for (std::size_t i = first + 1; i <= last; ++i)
-      sum += multiply(f[i], g[k - i]) * (binomial(N - 1, i) * binomial(M - 1, k - i));
-    result[k] = Value(sum / binomial(N + M - 2, k));
+      sum += multiply(f[i], g[k - i]) * kWeights[i][k - i];
+    result[k] = Value(sum / kSums[0][k]);
   }
   return result;
 }

@@ -22,8 +22,9 @@ enum class EndCondition {
 /// Slopes, with respect to the knots, of the C² cubic spline that interpolates `points` at `knots`.
 /// Solved for slopes and not for second derivatives, so that C¹ is exact and C² good to rounding.
 /// The system is diagonally dominant whatever the knots; O(n). Linear in the points, so the curve
-/// is the same in every frame; symmetric under reversal. Preconditions: at least two knots,
-/// strictly increasing, as many points.
+/// is the same in every frame; symmetric under reversal.
+///
+/// Preconditions: at least two knots, strictly increasing, as many points.
 template <class Point>
 std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
                                  EndCondition ends);

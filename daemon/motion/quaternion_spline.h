@@ -19,54 +19,55 @@ struct OrientationPiece {
 };
 
 /// The rational interpolating quaternion spline (Johnstone & Williams, "Rational control of
-/// orientation for animation", 1995): with a reference frame `r`, keyframes are mapped from S³ to
-/// R⁴ by `x_i = sqrt(r⁻¹·q_i)`, a cubic spline x(t) interpolates there, and `q(t) = r·x²/|x|²` maps
-/// back. The result is a C² rational sextic on S³; its Bernstein coefficients are exact.
+/// orientation for animation", 1995): with a reference frame `r` (reference_frame.h), keyframes are
+/// mapped from S³ to R⁴ by `x_i = sqrt(r⁻¹·q_i)`, a cubic spline x(t) interpolates there, and
+/// `q(t) = r·x²/|x|²` maps back. The result is a C² rational sextic on S³ with exact Bernstein
+/// coefficients.
 ///
 /// Decisions and deviations:
-/// - Signs of the keyframes are aligned first, so that each turn is the shorter way. An exact half
-///   turn has no shorter way; it goes counter-clockwise about the axis in the body frame whose
-///   leading component is positive (`aligned_orientations`).
-/// - The map back is quaternion squaring instead of their four polynomials: they are the same map
-/// up
-///   to the choice of axes, and squaring shows that a fixed frame on either side cancels.
-/// - x_i has unit length (any multiple maps to the same q_i), so weights are near 1.
+/// - Signs of the keyframes are aligned first, so that each turn takes the shorter way
+///   (`aligned_orientations`).
+/// - The map back is quaternion squaring. Their four polynomials are the same map up to the choice
+///   of axes.
+/// - x_i has unit length (any multiple of it maps to the same q_i), so weights are near 1.
 /// - Neighbours more than 60° apart on S³, or whose x are, get knots half way along their arc and
-/// half
-///   way in time until they are not (they would have been refused in 1995).
-/// - All keyframes on one great circle (turning about one axis): x is exp(n·θ/2) on that circle,
-/// for any
-///   number of turns. The axis is then exact all along the path, a level camera stays level, and no
-///   point of the circle is singular.
-/// - End conditions are Bessel's. Turns about nearly one axis, too many for a hemisphere, have `r`
-/// orthogonal
-///   to their circle; there x(t) must follow a small circle of radius 1/√2, and what it strays from
-///   that tilts the camera: TILT_FIGURES.
+///   half way in time, until they are not. Their programs refuse such data.
+/// - Keyframes on one great circle (turning about one axis) have their x on the plane of
+/// exp(n·θ/2),
+///   for any number of turns: the axis is kept exactly, a level camera stays level, and no point of
+///   that circle is singular.
+/// - End conditions are Bessel's. Where turns about nearly one axis do not fit in a hemisphere, `r`
+///   is orthogonal to their circle and x(t) has to follow a small circle; what it strays from that
+///   tilts the camera: measured over ten turns with keyframes every 10°, 30°, 60°, 90° of rotation
+///   by 0.0002°, 0.014°, 0.22°, 1.1° (natural ends: 0.04°, 0.4°, 1.6°, 3.6°).
 ///
-/// Preconditions: at least two orientations, unit quaternions (w, x, y, z), times strictly
+/// Preconditions: at least two orientations, about unit length (w, x, y, z), times strictly
 /// increasing.
 std::vector<OrientationPiece> quaternion_spline(std::span<const double> times_s,
                                                 std::span<const geometry::Vec4> orientations);
 
-/// The orientations with signs such that neighbours' dot products are >= 0. A dot product within
-/// `kHalfTurnRounding` of zero is a half turn, and its sense is fixed in the body frame: the same
-/// from every world frame and for every sign of the input. (Not for the reversed order: a half turn
-/// has no sense that both directions of time could share.)
+/// The orientations, normalised, with signs such that neighbours' dot products are >= 0. Where one
+/// is within `kHalfTurnRounding` of zero, the turn is a half turn and neither way is shorter: it
+/// goes counter-clockwise about that of the two opposite axes, in the body frame, whose first large
+/// component is positive. So it is the same from every world frame and for every sign of the input.
+/// (Not for the reversed order: no rule could be that as well, as the reversed turn has the
+/// opposite axis.)
 std::vector<geometry::Vec4> aligned_orientations(std::span<const geometry::Vec4> orientations);
 
 /// Rounding of the dot product of two unit quaternions that were rotated and normalised.
 inline constexpr double kHalfTurnRounding = 32.0 * 2.220446049250313e-16;
 
-/// Orientations this close to one great circle of S³ (the sine of the angle) are on it: rounding of
-/// unit quaternions that were multiplied once or twice.
+/// Orientations this close to one great circle of S³ (the sine of the angle) lie on it: what
+/// rounding makes of unit quaternions that were multiplied once or twice.
 inline constexpr double kOneAxisRounding = 32.0 * 2.220446049250313e-16;
 
-/// Neighbours further apart than this, on S³ or in the spline's own space, get knots between them.
-inline constexpr double kLargestKnotAngle_rad = 1.0471975511965976;  // 60°, as Johnstone's programs
+/// Neighbours further apart than this, on S³ or in the space of x, get knots between them: 60°, the
+/// limit of Johnstone's programs (2004).
+inline constexpr double kLargestKnotAngle_rad = 1.0471975511965976;
 
-/// Halvings of one pair of keyframes at most. More would be needed only where the polygon passes
-/// within a degree or two of `-r`; then x turns faster than a cubic follows well, but q is still C²
-/// and exact at the keyframes.
+/// Halvings of one pair of keyframes at most. More would only be used where the polygon passes
+/// within a degree or two of `-r`; there x turns faster than a cubic follows well, but q is still
+/// C² and meets the keyframes.
 inline constexpr int kMaxKnotHalvings = 6;
 
 }  // namespace camway::motion

@@ -25,10 +25,11 @@ const std::array<double, 4> kAnchor = {0.467, 0.641, 0.389, 0.471};
 
 // Ascent: this many of the best grid directions, this many steps at each temperature of the
 // smoothed minimum, each of a length equal to the temperature, at which the ascent contracts. The
-// steps add up to about 7, so that rounding noise grows by exp(7) at most.
+// first temperature is below what would carry a start away from the gap that it was chosen for. The
+// steps add up to less than 2, so that rounding noise grows by exp(2) at most.
 constexpr std::size_t kStarts = 6;
-constexpr int kStepsPerTemperature = 12;
-constexpr std::array<double, 6> kTemperatures = {0.3, 0.15, 0.075, 0.0375, 0.01875, 0.009375};
+constexpr int kStepsPerTemperature = 20;
+constexpr std::array<double, 5> kTemperatures = {0.04, 0.02, 0.01, 0.005, 0.0025};
 
 // Samples of the polygon for the ascent are at most this far apart.
 constexpr double kSampleSpacing_rad = 0.2;
@@ -54,7 +55,10 @@ Vec4 middle_orientation(std::span<const Vec4> orientations) {
   return (orientations[(n - 1) / 2] + orientations[n / 2]).normalized();
 }
 
-std::vector<Vec4> polygon_samples(std::span<const Vec4> orientations) {
+/// Points of the polygon in columns.
+using Samples = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+
+Samples polygon_samples(std::span<const Vec4> orientations) {
   std::vector<Vec4> samples;
   for (std::size_t i = 0; i + 1 < orientations.size(); ++i) {
     const Vec4& from = orientations[i];
@@ -66,15 +70,19 @@ std::vector<Vec4> polygon_samples(std::span<const Vec4> orientations) {
       samples.push_back(((1.0 - u) * from + u * to).normalized());
     }
   }
-  return samples;
+  Samples columns(4, static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    columns.col(static_cast<Eigen::Index>(i)) = samples[i];
+  return columns;
 }
 
-/// The eighty directions with components in {-1, 0, 1}; none on S³ is further than 30.4° from one.
+/// The directions of integer vectors with components in {-2 .. 2}, each once.
 std::vector<Vec4> grid_directions() {
   std::vector<Vec4> directions;
-  for (int code = 0; code < 81; ++code) {
-    const Vec4 v(code / 27 - 1, code / 9 % 3 - 1, code / 3 % 3 - 1, code % 3 - 1);
-    if (!v.isZero(0.0)) directions.push_back(v.normalized());
+  for (int code = 0; code < 625; ++code) {
+    const Eigen::Vector4i v(code / 125 - 2, code / 25 % 5 - 2, code / 5 % 5 - 2, code % 5 - 2);
+    const bool primitive = (v.array().abs() == 1).any();
+    if (primitive) directions.push_back(v.cast<double>().normalized());
   }
   return directions;
 }
@@ -83,9 +91,7 @@ class Search {
  public:
   explicit Search(std::span<const Vec4> orientations)
       : orientations_(orientations), samples_(polygon_samples(orientations)) {
-    Vec4 mean = Vec4::Zero();
-    for (const Vec4& p : samples_) mean += p;
-    mean /= static_cast<double>(samples_.size());
+    const Vec4 mean = samples_.rowwise().mean();
     const Vec4 middle = middle_orientation(orientations);
     preference_ = kMeanWeight * mean +
                   kAnchorWeight * quaternion::multiply(middle, Vec4(kAnchor.data()).normalized());
@@ -95,12 +101,9 @@ class Search {
   }
 
   [[nodiscard]] Vec4 best() {
-    const std::size_t starts = std::min(kStarts, candidates_.size());
-    std::ranges::partial_sort(candidates_,
-                              candidates_.begin() + static_cast<std::ptrdiff_t>(starts),
-                              std::ranges::greater{}, &Candidate::score);
-    for (std::size_t i = 0; i < starts; ++i) add(ascend(candidates_[i].r));
-    return std::ranges::max_element(candidates_, std::ranges::less{}, &Candidate::score)->r;
+    const std::vector<Candidate> starts = candidates_;
+    for (const Candidate& start : starts) add(ascend(start.r));
+    return candidates_.front().r;
   }
 
  private:
@@ -109,25 +112,34 @@ class Search {
     double score;
   };
 
+  /// Keeps `r` if it is among the best `kStarts` so far; most directions are dismissed after a few
+  /// arcs of the polygon.
   void add(const Vec4& r) {
-    candidates_.push_back({r, least_dot_with_polygon(r, orientations_) + preference_.dot(r)});
+    const double preference = preference_.dot(r);
+    const double floor = candidates_.size() < kStarts ? -2.0 : candidates_.back().score;
+    double score = r.dot(orientations_.front()) + preference;
+    for (std::size_t i = 0; i + 1 < orientations_.size(); ++i) {
+      score = std::min(score,
+                       least_dot_with_arc(r, orientations_[i], orientations_[i + 1]) + preference);
+      if (score <= floor) return;
+    }
+    const auto worse = std::ranges::find_if(
+        candidates_, [score](const Candidate& other) { return other.score < score; });
+    candidates_.insert(worse, {r, score});
+    if (candidates_.size() > kStarts) candidates_.pop_back();
   }
 
   /// Gradient of `-τ·log Σ exp(-r·p/τ)` over the samples p, plus the preference.
   [[nodiscard]] Vec4 gradient(const Vec4& r, double temperature) {
-    double least = 1.0;
-    dots_.resize(samples_.size());
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      dots_[i] = r.dot(samples_[i]);
-      least = std::min(least, dots_[i]);
-    }
+    dots_.noalias() = samples_.transpose() * r;
+    const double least = dots_.minCoeff();
     Vec4 sum = Vec4::Zero();
     double total = 0.0;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
+    for (Eigen::Index i = 0; i < dots_.size(); ++i) {
       const double exponent = (dots_[i] - least) / temperature;
       if (exponent > 40.0) continue;  // below the rounding of the sum
       const double weight = std::exp(-exponent);
-      sum += weight * samples_[i];
+      sum += weight * samples_.col(i);
       total += weight;
     }
     return sum / total + preference_;
@@ -142,10 +154,10 @@ class Search {
   }
 
   std::span<const Vec4> orientations_;
-  std::vector<Vec4> samples_;
+  Samples samples_;
   Vec4 preference_;
-  std::vector<Candidate> candidates_;
-  std::vector<double> dots_;
+  std::vector<Candidate> candidates_;  ///< best first
+  Eigen::VectorXd dots_;
 };
 
 }  // namespace

@@ -8,25 +8,23 @@
 namespace camway::motion {
 
 /// The unit quaternion `r` that the rational quaternion spline `q = r·x²/|x|²` is built around. The
-/// inverse of the squaring is singular at `-r` (Johnstone & Williams 1995), so `r` is where the
-/// least dot product with the polygon of geodesic arcs through `orientations` is as large as can
-/// be.
+/// inverse of squaring is singular at `-r` (Johnstone & Williams 1995), so `r` is where the least
+/// dot product with the polygon of geodesic arcs through `orientations` is as large as can be.
 ///
-/// - Orientations in an open hemisphere of S³: the optimum is the centre of their smallest
-/// enclosing
-///   cap, the direction of the point of their convex hull nearest to the origin. Exact, unique, and
-///   at least 90° from `-r`.
-/// - Otherwise: a fixed grid of directions relative to the middle orientation, the best of it
-/// improved by
-///   ascent of a smoothed minimum on a fixed schedule. Every step is equivariant under left
-///   multiplication, so the same motion results in every world frame; ties that symmetric data
-///   makes (ten turns about one axis leave a circle of equally good `r`) are broken by a small
-///   linear term fixed in the frame of the middle orientation. A local optimum: within 1° of the
-///   best of a random search with a million tries in the tests, often above it.
+/// - Orientations in an open hemisphere of S³: the centre of their smallest enclosing cap, which is
+///   the direction of the point of their convex hull nearest to the origin. Exact, unique, and the
+///   polygon stays more than 90° from `-r`.
+/// - Otherwise a search: a fixed grid of directions relative to the middle orientation, the best of
+///   them improved by ascent of a smoothed minimum on a fixed schedule. Every step is equivariant
+///   under left multiplication, so the same motion results in every world frame. Ties that
+///   symmetric data makes (ten turns about one axis leave a circle of equally good `r`) are broken
+///   by a small linear term that is fixed in the frame of the middle orientation. A local optimum:
+///   the tests hold it to within 1.5° of the best of 20,000 random directions.
 ///
 /// Deviation: Johnstone's programs (1999) draw random poles until one is 30° from all data, without
-/// an end. Insensitive to a common sign and to reversal. O(n) per step, the number of steps is
-/// bounded. Preconditions: not empty, unit length, neighbours' dot products >= 0.
+/// an end. Insensitive to a common sign and to reversal, but for rounding. O(n): 0.2 s for 10,000
+/// random orientations, microseconds in the first case.
+/// Preconditions: not empty, unit length, neighbours' dot products >= 0.
 geometry::Vec4 reference_frame(std::span<const geometry::Vec4> orientations);
 
 /// Least dot product of `r` with the polygon of geodesic arcs: the cosine of the largest angle from
