@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "daemon/geometry/rounding.h"
+
 #include <boost/multiprecision/cpp_int.hpp>
 
 namespace camway::geometry {
@@ -138,6 +140,19 @@ class SeparationTest {
 bool triangles_touch_exactly(const Triangle& a, const Triangle& b) {
   const int unit_exponent = lowest_exponent(a, b);
   return !SeparationTest(to_integers(a, unit_exponent), to_integers(b, unit_exponent)).separated();
+}
+
+bool has_no_area_exactly(const Triangle& triangle) {
+  const Vec3 e = triangle[1] - triangle[0];
+  const Vec3 f = triangle[2] - triangle[0];
+  const double e_max = e.lpNorm<Eigen::Infinity>();
+  const double f_max = f.lpNorm<Eigen::Infinity>();
+  // Each of the two products has the rounding of two differences and its own (3u), their difference
+  // one more: (2·3u + 2u)·e_max·f_max to first order; 16 leaves room for the second.
+  const double error = 16.0 * kUnitRoundoff * e_max * f_max + kSmallestNormal;
+  if (e.cross(f).lpNorm<Eigen::Infinity>() > error) return false;
+  const IntegerTriangle t = to_integers(triangle, lowest_exponent(triangle, triangle));
+  return is_zero(cross(difference(t[1], t[0]), difference(t[2], t[0])));
 }
 
 }  // namespace camway::geometry

@@ -15,4 +15,8 @@ namespace camway::geometry {
 /// the two is flat, a segment or a point, so that it is complete for degenerate input too.
 bool triangles_touch_exactly(const Triangle& a, const Triangle& b);
 
+/// Whether the vertices lie on one line, exactly. Doubles decide it where they can, so this is
+/// cheap for all but the thinnest triangles. Precondition: every coordinate is finite.
+bool has_no_area_exactly(const Triangle& triangle);
+
 }  // namespace camway::geometry

@@ -181,6 +181,14 @@ std::optional<SegmentHit> Octree::closest_hit(const LineSegment& segment) const 
   return best;
 }
 
+void Octree::leaves_touching(const Triangle& triangle, std::vector<std::uint32_t>& out) const {
+  out.clear();
+  visit_leaves(triangle, [&](std::uint32_t leaf) {
+    out.push_back(leaf);
+    return true;
+  });
+}
+
 double Octree::nearest_error_m(std::span<const Triangle> body) const {
   if (body.empty() || triangles_.empty()) return 0.0;
   const Box all = bounds_of(body).merged(bounds_);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+/// What the import process hands back to the process that started it: one flat record in the byte
+/// order of the machine, since both are the same build on the same machine.
+///
+///     ImportHeader · text · vertices · triangles · objects · names
+///
+/// The reader of an untrusted file may have been taken over, so the receiver trusts no count.
+namespace camway::scene::import_format {
+
+inline constexpr std::uint64_t kMagic = 0x314D'5941'574D'4143;  // "CAMWAYM1"
+inline constexpr int kOutputFd = 3;
+
+/// Exit codes of `camway-import`.
+inline constexpr int kExitOk = 0;           ///< a mesh was written
+inline constexpr int kExitRefused = 1;      ///< `text` says why the file cannot be read
+inline constexpr int kExitOutOfMemory = 2;  ///< nothing was written
+inline constexpr int kExitInternal = 3;     ///< bad arguments, or writing failed
+
+struct Header {
+  std::uint64_t magic = kMagic;
+  std::uint64_t text_bytes = 0;  ///< name of the format, or the error
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t objects = 0;
+  std::uint64_t name_bytes = 0;  ///< all names, one after the other
+  std::uint64_t dropped_points_and_lines = 0;
+};
+
+using Vertex = std::array<float, 3>;  ///< node transforms applied, in file units
+using Triangle = std::array<std::uint32_t, 3>;
+
+struct Object {
+  std::uint32_t triangles = 0;  ///< follow those of the object before
+  std::uint32_t name_bytes = 0;
+};
+
+}  // namespace camway::scene::import_format
