@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <memory>
+
+#include "daemon/scene/scene_store.h"
+#include "daemon/service/daemon_options.h"
+#include "daemon/service/daemon_run.h"
+#include "daemon/service/stop_signals.h"
+#include "daemon/service/version.h"
+
+namespace {
+
+constexpr int kExitFault = 1;
+constexpr int kExitBadInput = 2;
+
+int run(int argc, char** argv) {
+  using namespace camway;
+  const service::ParsedOptions parsed = service::parse_daemon_options(argc, argv);
+  if (!parsed.options) return parsed.exit_code;
+
+  const auto log = std::make_shared<spdlog::logger>(
+      "camwayd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  log->set_level(parsed.options->log_level);
+  log->flush_on(spdlog::level::info);
+  log->info("camwayd {} ({})", service::kVersion, service::kBuild);
+
+  // A stop signal while scenes are being read ends the process at once: nobody was promised
+  // anything.
+  scene::SceneStore scenes;
+  if (!service::load_scenes(*parsed.options, scenes, *log)) return kExitBadInput;
+  service::block_stop_signals();
+  return service::serve(*parsed.options, scenes, log);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    spdlog::critical("camwayd: {}", error.what());
+    return kExitFault;
+  }
+}

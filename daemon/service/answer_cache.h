@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <camway/plan_request_t.hpp>
+
+#include "daemon/service/wire_pages.h"
+
+namespace camway::service {
+
+/// What makes a request the same request.
+struct RequestKey {
+  std::string client_id;
+  std::int64_t request_id = 0;
+
+  auto operator<=>(const RequestKey&) const = default;
+};
+
+/// Digest of a request's content: all but `utime` and how it was cut into pages. XXH3-128: it
+/// guards clients against their own mistakes, not the daemon against forgery.
+using RequestDigest = std::array<std::uint64_t, 2>;
+RequestDigest digest_of(const plan_request_t& whole);
+
+/// The messages of an answer, shared by cache and outbox.
+using Pages = std::shared_ptr<const std::vector<Bytes>>;
+
+/// Remembers which requests are being planned, and the answers to as many of the others as its
+/// limits allow, so that sending a request again is harmless and cheap. For one thread at a time.
+class AnswerCache {
+ public:
+  struct Limits {
+    std::size_t max_answers = 4096;
+    std::size_t max_bytes = std::size_t{128} << 20;  ///< of encoded answers
+  };
+
+  enum class Known {
+    kNew,       ///< never seen or forgotten; it counts as being planned from now on
+    kRunning,   ///< is being planned
+    kAnswered,  ///< `pages` is the answer
+    kConflict,  ///< the same ids were used for another content
+  };
+  struct Found {
+    Known known = Known::kNew;
+    Pages pages;
+  };
+
+  AnswerCache() : AnswerCache(Limits{}) {}
+  explicit AnswerCache(const Limits& limits) : limits_(limits) {}
+
+  Found find_or_begin(const RequestKey& key, const RequestDigest& digest);
+
+  /// Keeps the answer to a request that was being planned; the answers that were longest not asked
+  /// for make room.
+  void finish(const RequestKey& key, Pages pages);
+
+  /// Forgets a request that was not planned after all.
+  void forget(const RequestKey& key);
+
+  [[nodiscard]] std::size_t answers() const { return by_age_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Entry {
+    RequestDigest digest{};
+    Pages pages;  ///< null while it is being planned
+    std::list<RequestKey>::iterator age;
+  };
+
+  Limits limits_;
+  std::map<RequestKey, Entry> entries_;
+  std::list<RequestKey> by_age_;  ///< answered ones, longest not asked for first
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace camway::service

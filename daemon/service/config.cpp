@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/config.h"
+
+#include "lcmtypes/channels.h"
+
+namespace camway::service {
+
+std::string ServiceConfig::fault() const {
+  if (!wire::is_prefix(prefix)) {
+    return "prefix '" + prefix + "' is not of 1 to " + std::to_string(wire::kMaxPrefixLength) +
+           " letters, digits, '_' and '-'";
+  }
+  if (workers < 1 || workers > 256) {
+    return "workers: " + std::to_string(workers) + " is not within 1 to 256";
+  }
+  if (queue_capacity < 1) return "queue: must hold at least 1 request";
+  if (!(deadline.default_s > 0.0) || !(deadline.default_s <= deadline.max_s)) {
+    return "deadline: the default must be above 0 and at most the maximum";
+  }
+  if (subscription_capacity < 1) return "subscription capacity: must be at least 1";
+  if (heartbeat_period.count() < 1) return "heartbeat period: must be at least 1 ms";
+  if (drain_limit.count() < 0) return "drain limit: must not be negative";
+  return {};
+}
+
+}  // namespace camway::service

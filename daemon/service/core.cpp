@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/core.h"
+
+#include <chrono>
+#include <utility>
+
+#include <camway/error_t.hpp>
+
+#include "daemon/service/wire_convert.h"
+
+namespace camway::service {
+
+std::int64_t utime_now() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
+}
+
+Core::Core(Transport& transport, const scene::SceneStore& scene_store, ServiceConfig service_config,
+           std::shared_ptr<spdlog::logger> logger)
+    : config(std::move(service_config)),
+      channels{config.prefix},
+      scenes(scene_store),
+      log(std::move(logger)),
+      malformed_warnings(log, config.warning_period),
+      overload_warnings(log, config.warning_period),
+      publish_warnings(log, config.warning_period),
+      outbox(transport),
+      mailbox(transport),
+      workers(config.workers, config.queue_capacity) {}
+
+void Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
+  ++counters.malformed;
+  malformed_warnings.warn(fmt::format("malformed message of {} bytes on {}: {}", size, channel,
+                                      clipped(reason, wire::kMaxTextBytes)));
+}
+
+void Core::report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
+                               std::string_view reason) {
+  error_t error{};
+  error.utime = utime_now();
+  error.channel = channel;
+  error.size_bytes = static_cast<std::int64_t>(message.size());
+  error.message = clipped(reason, wire::kMaxTextBytes);
+  outbox.add(channels.error(), std::make_shared<const std::vector<Bytes>>(1, wire::encode(error)));
+}
+
+}  // namespace camway::service

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+#include "daemon/scene/scene_store.h"
+#include "daemon/scene/snapshot.h"
+#include "daemon/service/config.h"
+#include "daemon/service/mailbox.h"
+#include "daemon/service/outbox.h"
+#include "daemon/service/warnings.h"
+#include "daemon/service/worker_pool.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/wire_check.h"
+
+namespace camway::service {
+
+/// `planning::plan`, or a stand-in for it in tests. Called from several threads at a time.
+using Planner =
+    std::function<planning::PlanResult(const scene::Snapshot&, const planning::PlanRequest&)>;
+
+/// What was done since the start. Written and read by the loop thread only.
+struct Counters {
+  std::int64_t answered = 0;
+  std::int64_t repeated = 0;
+  std::int64_t overloaded = 0;
+  std::int64_t malformed = 0;
+};
+
+/// Microseconds since 1970.
+std::int64_t utime_now();
+
+/// What the services for the different requests share. Owned by `Service`; all but `mailbox`,
+/// `workers`, `scenes` and `log` belong to the loop thread.
+struct Core {
+  Core(Transport& transport, const scene::SceneStore& scene_store, ServiceConfig service_config,
+       std::shared_ptr<spdlog::logger> logger);
+
+  /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
+  void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
+                           std::string_view reason);
+
+  /// Counts and logs a message that could not be read.
+  void note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
+
+  const ServiceConfig config;
+  const wire::Channels channels;
+  const scene::SceneStore& scenes;
+  const std::shared_ptr<spdlog::logger> log;
+  Counters counters;
+  Warnings malformed_warnings;
+  Warnings overload_warnings;
+  Warnings publish_warnings;
+  Outbox outbox;
+  Mailbox mailbox;
+  WorkerPool workers;  ///< last, so that running jobs find the rest still there
+};
+
+}  // namespace camway::service

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/occupancy_answer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "daemon/scene/occupancy_map.h"
+#include "daemon/service/wire_convert.h"
+#include "lcmtypes/wire_layout.h"
+
+namespace camway::service {
+namespace {
+
+using geometry::Vec3;
+using Numbers = std::vector<double>;
+
+Vec3 vec3(const Numbers& numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+bool finite(const Numbers& numbers, std::size_t count) {
+  return std::all_of(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count),
+                     [](double number) { return std::isfinite(number); });
+}
+
+/// Reason against one element, or nothing.
+std::string_view point_fault(const Numbers& point) {
+  return finite(point, 3) ? "" : "is not finite";
+}
+
+std::string_view box_fault(const Numbers& box) {
+  if (!finite(box, 6)) return "is not finite";
+  const bool ordered = box[0] <= box[3] && box[1] <= box[4] && box[2] <= box[5];
+  return ordered ? "" : "has a minimum above its maximum";
+}
+
+std::string_view sphere_fault(const Numbers& sphere) {
+  if (!finite(sphere, 3)) return "has a center that is not finite";
+  return sphere[3] >= 0.0 ? "" : "has a radius that is not at least 0";
+}
+
+std::string_view ray_fault(const Numbers& ray) {
+  if (!finite(ray, 6)) return "has an origin or direction that is not finite";
+  if (vec3(ray, 3).isZero(0.0)) return "has no direction";
+  return ray[6] >= 0.0 ? "" : "has a range that is not at least 0";
+}
+
+std::string_view distance_fault(const Numbers& distance) {
+  if (!finite(distance, 3)) return "has a point that is not finite";
+  return distance[3] >= 0.0 ? "" : "has a distance of interest that is not at least 0";
+}
+
+template <class Rule>
+std::string list_fault(std::string_view name, const std::vector<Numbers>& list, const Rule& rule) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string_view reason = rule(list[i]);
+    if (!reason.empty()) return fmt::format("{}[{}]: {}", name, i, reason);
+  }
+  return {};
+}
+
+template <class Answer, class Ask>
+std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer>& answers,
+                         const Ask& ask) {
+  answers.reserve(queries.size());
+  for (const Numbers& query : queries) answers.push_back(static_cast<Answer>(ask(query)));
+  return static_cast<std::int32_t>(answers.size());
+}
+
+/// The wire's word for "nothing found".
+double wire_distance(const std::optional<double>& distance_m) { return distance_m.value_or(-1.0); }
+
+void answer_on(const scene::OccupancyMap& map, const occupancy_request_t& request,
+               occupancy_response_t& answer) {
+  answer.num_points = answer_list(request.points_m, answer.points_occupied,
+                                  [&](const Numbers& q) { return map.occupied_at(vec3(q, 0)); });
+  answer.num_boxes = answer_list(request.boxes_m, answer.boxes_occupied, [&](const Numbers& q) {
+    return map.occupied_in_box(geometry::Box(vec3(q, 0), vec3(q, 3)));
+  });
+  answer.num_spheres =
+      answer_list(request.spheres_m, answer.spheres_occupied,
+                  [&](const Numbers& q) { return map.occupied_in_sphere(vec3(q, 0), q[3]); });
+  answer.num_rays = answer_list(request.rays_m, answer.rays_hit_m, [&](const Numbers& q) {
+    return wire_distance(map.ray_hit_m(vec3(q, 0), vec3(q, 3), q[6]));
+  });
+  answer.num_distances = answer_list(
+      request.distances_m, answer.distances_m,
+      [&](const Numbers& q) { return wire_distance(map.distance_m(vec3(q, 0), q[3])); });
+}
+
+}  // namespace
+
+std::string batch_fault(const occupancy_request_t& request) {
+  for (const std::string& fault :
+       {list_fault("points_m", request.points_m, point_fault),
+        list_fault("boxes_m", request.boxes_m, box_fault),
+        list_fault("spheres_m", request.spheres_m, sphere_fault),
+        list_fault("rays_m", request.rays_m, ray_fault),
+        list_fault("distances_m", request.distances_m, distance_fault)}) {
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+occupancy_response_t answer_batch(const scene::Snapshot& snapshot,
+                                  const occupancy_request_t& request) {
+  occupancy_response_t answer =
+      plain_occupancy_answer(request, occupancy_response_t::STATUS_OK, "");
+  answer.scene_revision = static_cast<std::int64_t>(snapshot.revision);
+  if (!snapshot.occupancy) {
+    answer.status = occupancy_response_t::STATUS_NO_MAP;
+    answer.message = "the scene was loaded without an occupancy resolution";
+    return answer;
+  }
+  answer.resolution_m = snapshot.occupancy->resolution_m();
+  if (const std::string fault = batch_fault(request); !fault.empty()) {
+    answer.status = occupancy_response_t::STATUS_INVALID;
+    answer.message = fault;
+    return answer;
+  }
+  answer_on(*snapshot.occupancy, request, answer);
+  return answer;
+}
+
+occupancy_response_t plain_occupancy_answer(const occupancy_request_t& request, std::int32_t status,
+                                            std::string_view message) {
+  occupancy_response_t answer{};
+  answer.client_id = request.client_id;
+  answer.request_id = request.request_id;
+  answer.status = status;
+  answer.message = clipped(message, wire::kMaxTextBytes);
+  answer.scene = request.scene;
+  return answer;
+}
+
+}  // namespace camway::service

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <string>
+
+#include "daemon/service/answer_cache.h"
+#include "daemon/service/transport.h"
+
+namespace camway::service {
+
+/// Answers on their way out, in order, a few pages at a time: a receiver's socket buffer holds only
+/// about three messages of full size with Debian's default of 212,992 bytes, so a long answer that
+/// is sent at once is lost. For the loop thread.
+class Outbox {
+ public:
+  /// Bytes that may be sent before the next pause: two messages of full size.
+  static constexpr std::size_t kBurstBytes = 120'000;
+  /// Messages likewise: each takes a place in the receiver's queue, of 30 by default.
+  static constexpr int kBurstMessages = 16;
+  /// How long the receiver is given to empty its buffer after a burst.
+  static constexpr std::chrono::milliseconds kPause{2};
+  /// Answers that may wait; the rest is refused, its clients ask again.
+  static constexpr std::size_t kCapacity = 4096;
+
+  explicit Outbox(Transport& transport) : transport_(transport) {}
+
+  /// Queues an answer. False if it is full, or if this very answer is still waiting to be sent.
+  bool add(std::string channel, Pages pages);
+
+  /// Sends the next burst.
+  void send_burst();
+
+  [[nodiscard]] bool empty() const { return answers_.empty(); }
+
+  /// Messages that the transport did not take.
+  [[nodiscard]] std::size_t failed() const { return failed_; }
+
+ private:
+  struct Answer {
+    std::string channel;
+    Pages pages;
+    std::size_t next = 0;
+  };
+
+  Transport& transport_;
+  std::deque<Answer> answers_;
+  std::size_t failed_ = 0;
+};
+
+}  // namespace camway::service

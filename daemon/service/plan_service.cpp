@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/plan_service.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <utility>
+
+namespace camway::service {
+namespace {
+
+AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
+  AnswerHeader header;
+  header.ids = {request.client_id, request.request_id, utime_now()};
+  header.scene = request.scene;
+  if (snapshot != nullptr) {
+    header.scene_revision = static_cast<std::int64_t>(snapshot->revision);
+    header.scene_digest = snapshot->digest;
+  }
+  return header;
+}
+
+/// The answer of `planner`, whatever happens.
+plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                          const plan_request_t& wire, const DeadlineLimits& limits) {
+  std::string error;
+  try {
+    const ConvertedRequest converted = from_wire(wire, limits);
+    if (!converted.request) {
+      return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
+                          header_of(wire, &snapshot));
+    }
+    const planning::PlanResult result = planner(snapshot, *converted.request);
+    return to_wire(result, header_of(wire, &snapshot));
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  } catch (...) {
+    error = "unknown exception";
+  }
+  return plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
+                      header_of(wire, &snapshot));
+}
+
+/// Encodes `answer`, or in its place an answer that says that it is too long.
+Pages encode_answer(plan_response_t& answer) {
+  std::vector<Bytes> pages = encode_pages(answer);
+  if (pages.size() > static_cast<std::size_t>(wire::kMaxResponsePages)) {
+    const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
+                              answer.scene,
+                              answer.scene_revision,
+                              answer.scene_digest};
+    answer = plain_answer(plan_response_t::STATUS_INTERNAL_ERROR,
+                          fmt::format("the answer takes {} pages, more than the {} allowed",
+                                      pages.size(), wire::kMaxResponsePages),
+                          header);
+    pages = encode_pages(answer);
+  }
+  return std::make_shared<const std::vector<Bytes>>(std::move(pages));
+}
+
+}  // namespace
+
+/// A request on its way through a worker.
+struct PlanService::Job {
+  RequestKey key;
+  std::shared_ptr<const plan_request_t> request;
+  std::shared_ptr<const scene::Snapshot> snapshot;
+};
+
+void PlanService::on_message(std::span<const std::uint8_t> message) {
+  wire::Decoded<plan_request_t> decoded = wire::decode<plan_request_t>(message);
+  if (!decoded.message) {
+    on_malformed(message, decoded.fault.text("plan_request_t"));
+    return;
+  }
+  if (!wire::is_client_id(decoded.message->client_id)) {
+    on_malformed(message, "plan_request_t.client_id: is not of [A-Za-z0-9_-]{1,32}");
+    return;
+  }
+  PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*decoded.message));
+  if (!outcome.error.empty()) on_malformed(message, "plan_request_t." + outcome.error);
+  if (outcome.whole) on_request(std::move(*outcome.whole));
+}
+
+void PlanService::on_malformed(std::span<const std::uint8_t> message, std::string_view reason) {
+  core_.note_malformed(core_.channels.plan_request(), message.size(), reason);
+  const std::optional<wire::Sender> sender =
+      wire::peek_sender(wire::layout_of<plan_request_t>(), message);
+  if (!sender) {
+    core_.report_unanswerable(core_.channels.plan_request(), message, reason);
+    return;
+  }
+  plan_request_t request{};
+  request.client_id = sender->client_id;
+  request.request_id = sender->request_id;
+  answer_uncached(request, plan_response_t::STATUS_MALFORMED, reason);
+}
+
+void PlanService::on_request(plan_request_t request) {
+  const RequestKey key{request.client_id, request.request_id};
+  const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
+  switch (found.known) {
+    case AnswerCache::Known::kRunning:
+      ++core_.counters.repeated;
+      return;
+    case AnswerCache::Known::kAnswered:
+      ++core_.counters.repeated;
+      core_.log->info("repeated answer client={} request={} pages={}", key.client_id,
+                      key.request_id, found.pages->size());
+      send(key, found.pages);
+      return;
+    case AnswerCache::Known::kConflict:
+      answer_uncached(
+          request, plan_response_t::STATUS_INVALID,
+          fmt::format("request_id: {} was used before for another request", request.request_id));
+      return;
+    case AnswerCache::Known::kNew:
+      begin(std::make_shared<const plan_request_t>(std::move(request)), key);
+      return;
+  }
+}
+
+void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
+  Job job{key, std::move(request), nullptr};
+  job.snapshot = core_.scenes.find(job.request->scene);
+  if (!job.snapshot) {
+    plan_response_t answer = plain_answer(
+        plan_response_t::STATUS_UNKNOWN_SCENE,
+        fmt::format("scene: '{}' is unknown; {}", job.request->scene, core_.scenes.summary()),
+        header_of(*job.request, nullptr));
+    Pages pages = encode_answer(answer);
+    finish(job, answer, std::move(pages));
+    return;
+  }
+  WorkerPool::Job work;
+  work.run = [this, job] { run(job); };
+  work.abandon = [this, job] {
+    cache_.forget(job.key);
+    refuse_overloaded(*job.request);
+  };
+  if (!core_.workers.try_submit(std::move(work))) {
+    cache_.forget(key);
+    refuse_overloaded(*job.request);
+  }
+}
+
+// On a worker: touches nothing of the service but the planner and what is made for many threads.
+void PlanService::run(const Job& job) {
+  auto answer = std::make_shared<plan_response_t>(
+      answer_of(planner_, *job.snapshot, *job.request, core_.config.deadline));
+  Pages pages = encode_answer(*answer);
+  core_.mailbox.post([this, job, answer = std::move(answer), pages = std::move(pages)] {
+    finish(job, *answer, pages);
+  });
+}
+
+void PlanService::finish(const Job& job, const plan_response_t& answer, Pages pages) {
+  core_.log->info(
+      "answered client={} request={} scene={} status={} keyframes={} segments={} collisions={} "
+      "remaining={} pages={} ms={:.1f}: {}",
+      job.key.client_id, job.key.request_id, job.request->scene, status_name(answer.status),
+      job.request->keyframes.size(), answer.segments.size(), answer.collisions.size(),
+      answer.remaining.size(), pages->size(), answer.total_ms, answer.message);
+  cache_.finish(job.key, pages);
+  send(job.key, std::move(pages));
+}
+
+void PlanService::refuse_overloaded(const plan_request_t& request) {
+  ++core_.counters.overloaded;
+  const std::string message =
+      core_.workers.closed()
+          ? "the daemon is stopping"
+          : fmt::format("all {} workers are busy and {} requests wait; send it again later",
+                        core_.config.workers, core_.config.queue_capacity);
+  core_.overload_warnings.warn(
+      fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
+  answer_uncached(request, plan_response_t::STATUS_OVERLOADED, message);
+}
+
+void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,
+                                  std::string_view message) {
+  plan_response_t answer = plain_answer(status, message, header_of(request, nullptr));
+  send({request.client_id, request.request_id}, encode_answer(answer));
+}
+
+void PlanService::send(const RequestKey& key, Pages pages) {
+  if (core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(pages))) {
+    ++core_.counters.answered;
+  }
+}
+
+}  // namespace camway::service

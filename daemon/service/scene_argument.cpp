@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/scene_argument.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "lcmtypes/wire_layout.h"
+
+namespace camway::service {
+namespace {
+
+constexpr std::array<std::string_view, 3> kOptionNames{"scale", "up", "occupancy"};
+
+bool is_scene_name(std::string_view name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !name.empty() && name.size() <= wire::kMaxSceneNameBytes &&
+         std::all_of(name.begin(), name.end(), allowed);
+}
+
+std::optional<double> positive_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  if (!whole || !std::isfinite(value) || !(value > 0.0)) return std::nullopt;
+  return value;
+}
+
+/// Applies one `key=value`; returns what is wrong with it.
+std::string apply_option(std::string_view key, std::string_view value, SceneArgument& scene) {
+  if (key == "up") {
+    if (value == "z-to-y") {
+      scene.options.import.up = scene::UpAxis::kZToY;
+    } else if (value == "y-to-z") {
+      scene.options.import.up = scene::UpAxis::kYToZ;
+    } else {
+      return "up=" + std::string(value) + ": must be z-to-y or y-to-z";
+    }
+    return {};
+  }
+  const std::optional<double> number = positive_number(value);
+  if (!number) {
+    return std::string(key) + "=" + std::string(value) + ": must be a number above 0";
+  }
+  if (key == "scale") {
+    scene.options.import.scale = *number;
+  } else {
+    scene.options.occupancy_resolution_m = *number;
+  }
+  return {};
+}
+
+/// Takes options off the end of `rest` until what follows the last comma is none.
+std::string take_options(std::string_view& rest, SceneArgument& scene) {
+  while (true) {
+    const std::size_t comma = rest.rfind(',');
+    if (comma == std::string_view::npos) return {};
+    const std::string_view last = rest.substr(comma + 1);
+    const std::size_t equals = last.find('=');
+    if (equals == std::string_view::npos) return {};
+    const std::string_view key = last.substr(0, equals);
+    if (std::find(kOptionNames.begin(), kOptionNames.end(), key) == kOptionNames.end()) {
+      return "'" + std::string(key) + "' is no option of a scene (scale, up, occupancy are)";
+    }
+    if (std::string error = apply_option(key, last.substr(equals + 1), scene); !error.empty()) {
+      return error;
+    }
+    rest = rest.substr(0, comma);
+  }
+}
+
+}  // namespace
+
+ParsedSceneArgument parse_scene_argument(std::string_view text) {
+  const auto fail = [&](const std::string& reason) -> ParsedSceneArgument {
+    return {std::nullopt, "scene '" + std::string(text) + "': " + reason};
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return fail("must be NAME=FILE");
+  SceneArgument scene;
+  scene.name = text.substr(0, equals);
+  if (!is_scene_name(scene.name)) {
+    return fail("the name must be of letters, digits, '_', '-' and '.', at most " +
+                std::to_string(wire::kMaxSceneNameBytes));
+  }
+  std::string_view rest = text.substr(equals + 1);
+  if (std::string error = take_options(rest, scene); !error.empty()) return fail(error);
+  if (rest.empty()) return fail("the file is missing");
+  scene.file = std::filesystem::path(rest);
+  return {std::move(scene), {}};
+}
+
+}  // namespace camway::service

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/service.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "daemon/service/status.h"
+
+namespace camway::service {
+
+namespace {
+
+/// Nothing wakes the loop when a worker falls idle after its answer, so a stop looks again.
+constexpr std::chrono::milliseconds kDrainLook{5};
+
+std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::ceil<std::chrono::milliseconds>(
+      std::max(duration, std::chrono::steady_clock::duration::zero()));
+}
+
+}  // namespace
+
+Service::Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
+                 Planner planner, std::shared_ptr<spdlog::logger> log)
+    : transport_(transport),
+      core_(transport, scenes, std::move(config), std::move(log)),
+      plans_(core_, std::move(planner)),
+      occupancy_(core_) {}
+
+RunOutcome Service::run() {
+  if (!subscribe()) return RunOutcome::kNotSubscribed;
+  heartbeat(Clock::now());
+  core_.log->info("ready");
+  while (!stop_.load() && !broken_) {
+    const Clock::time_point now = Clock::now();
+    if (now >= next_heartbeat_) heartbeat(now);
+    turn(next_heartbeat_ - now);
+  }
+  if (broken_) return RunOutcome::kTransportBroken;
+  return drain();
+}
+
+void Service::request_stop() noexcept {
+  stop_.store(true);
+  transport_.wake();
+}
+
+bool Service::subscribe() {
+  const std::string plan = core_.channels.plan_request();
+  const std::string occupancy = core_.channels.occupancy_request();
+  const int capacity = core_.config.subscription_capacity;
+  return transport_.subscribe(
+             plan, capacity,
+             guarded([this](std::span<const std::uint8_t> m) { plans_.on_message(m); }, plan)) &&
+         transport_.subscribe(
+             occupancy, capacity,
+             guarded([this](std::span<const std::uint8_t> m) { occupancy_.on_message(m); },
+                     occupancy));
+}
+
+// One round: finished answers go out, messages come in.
+void Service::turn(Clock::duration longest_wait) {
+  core_.mailbox.run_all();
+  core_.outbox.send_burst();
+  std::chrono::milliseconds wait = in_milliseconds(longest_wait);
+  if (!core_.outbox.empty()) wait = std::min(wait, Outbox::kPause);
+  if (!transport_.poll(wait)) broken_ = true;
+}
+
+RunOutcome Service::drain() {
+  std::vector<WorkerPool::Job> waiting = core_.workers.close();
+  core_.log->info("stopping: {} requests are being planned, {} that wait are refused",
+                  core_.workers.running(), waiting.size());
+  for (const WorkerPool::Job& job : waiting) job.abandon();
+  const Clock::time_point limit = Clock::now() + core_.config.drain_limit;
+  while (!idle()) {
+    const Clock::time_point now = Clock::now();
+    if (now >= limit || broken_) {
+      core_.log->warn("stopped with {} requests still being planned", core_.workers.running());
+      return RunOutcome::kAbandoned;
+    }
+    turn(std::min<Clock::duration>(limit - now, kDrainLook));
+  }
+  core_.log->info("stopped: {} answers, {} of them repeated, {} malformed messages",
+                  core_.counters.answered, core_.counters.repeated, core_.counters.malformed);
+  return RunOutcome::kDrained;
+}
+
+bool Service::idle() const {
+  // In this order: a worker leaves its answer in the mailbox before it counts as idle.
+  return core_.workers.running() == 0 && core_.mailbox.empty() && core_.outbox.empty();
+}
+
+void Service::heartbeat(Clock::time_point now) {
+  const Bytes status = wire::encode(make_status(core_, now - started_));
+  if (!transport_.publish(core_.channels.status(), status)) {
+    core_.publish_warnings.warn("the status could not be published");
+  }
+  next_heartbeat_ = now + core_.config.heartbeat_period;
+}
+
+std::function<void(std::span<const std::uint8_t>)> Service::guarded(
+    std::function<void(std::span<const std::uint8_t>)> handler, std::string channel) {
+  return [this, handler = std::move(handler),
+          channel = std::move(channel)](std::span<const std::uint8_t> message) {
+    try {
+      handler(message);
+    } catch (const std::exception& exception) {
+      core_.note_malformed(channel, message.size(), exception.what());
+    } catch (...) {
+      core_.note_malformed(channel, message.size(), "unknown exception");
+    }
+  };
+}
+
+}  // namespace camway::service

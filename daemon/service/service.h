@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "daemon/service/core.h"
+#include "daemon/service/occupancy_service.h"
+#include "daemon/service/plan_service.h"
+#include "daemon/service/transport.h"
+
+namespace camway::service {
+
+/// How a run of the service ended.
+enum class RunOutcome {
+  kDrained,         ///< stopped on request, everything that was being planned was answered
+  kAbandoned,       ///< stopped on request, but some planning took longer than the drain limit
+  kNotSubscribed,   ///< the transport took no subscription; nothing was served
+  kTransportBroken  ///< the transport failed while serving
+};
+
+/// The daemon without its process: one thread, the caller of `run`, owns the transport, checks and
+/// queues requests and publishes answers; a fixed number of workers plan on immutable snapshots.
+class Service {
+ public:
+  /// `transport` and `scenes` must outlive the service. Precondition: `config.fault()` is empty.
+  Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
+          Planner planner, std::shared_ptr<spdlog::logger> log);
+
+  /// Serves until `request_stop`. Logs "ready" and publishes a first status when subscriptions are
+  /// in place. To be called once. After `kAbandoned` the destructor still waits for the planning
+  /// that was abandoned.
+  RunOutcome run();
+
+  /// From any thread: begins the stop. What is being planned is finished and answered, within the
+  /// drain limit; what waits, and what still comes in, is answered with `overloaded`.
+  void request_stop() noexcept;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool subscribe();
+  void turn(Clock::duration longest_wait);
+  RunOutcome drain();
+  void heartbeat(Clock::time_point now);
+  [[nodiscard]] bool idle() const;
+  [[nodiscard]] std::function<void(std::span<const std::uint8_t>)> guarded(
+      std::function<void(std::span<const std::uint8_t>)> handler, std::string channel);
+
+  Transport& transport_;
+  Core core_;
+  PlanService plans_;
+  OccupancyService occupancy_;
+  const Clock::time_point started_ = Clock::now();
+  Clock::time_point next_heartbeat_ = started_;
+  std::atomic<bool> stop_ = false;
+  bool broken_ = false;
+};
+
+}  // namespace camway::service

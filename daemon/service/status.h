@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+
+#include <camway/status_t.hpp>
+
+#include "daemon/service/core.h"
+
+namespace camway::service {
+
+/// The heartbeat. Scenes are listed in order of name, as many as keep the message within
+/// `wire::kMaxMessageBytes` (about 200 with the longest names); `total_scenes` counts all.
+status_t make_status(const Core& core, std::chrono::duration<double> uptime);
+
+}  // namespace camway::service

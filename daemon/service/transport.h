@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace camway::service {
+
+/// What carries messages: LCM in the daemon, memory in tests. One thread owns it; that thread alone
+/// subscribes, publishes and polls, since not every LCM provider takes calls from several
+/// (lcm-proj/lcm issue 614). `wake` is the exception.
+class Transport {
+ public:
+  /// `message` is valid during the call.
+  using Handler = std::function<void(std::span<const std::uint8_t> message)>;
+
+  Transport() = default;
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+  virtual ~Transport() = default;
+
+  /// Calls `handler` from `poll` for each message on exactly `channel`. Up to `queue_capacity`
+  /// messages wait for a call of `poll`; when it is full the newest are lost. A handler must not
+  /// throw; if it does, the message is dropped and the exception ends there.
+  /// Returns whether the subscription is in place.
+  [[nodiscard]] virtual bool subscribe(const std::string& channel, int queue_capacity,
+                                       Handler handler) = 0;
+
+  /// Hands over a message. That it was sent does not mean that anyone received it.
+  [[nodiscard]] virtual bool publish(const std::string& channel,
+                                     std::span<const std::uint8_t> message) = 0;
+
+  /// Waits until a message comes, `wake` is called or `timeout` passes, then calls the handlers for
+  /// what is there, a bounded number. Returns false when the transport is broken for good.
+  [[nodiscard]] virtual bool poll(std::chrono::milliseconds timeout) = 0;
+
+  /// Ends a wait in `poll`, or the next one. From any thread, also from a signal handler.
+  virtual void wake() noexcept = 0;
+};
+
+}  // namespace camway::service

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+
+/// Between the wire and the structs of planning. Form only: whether values make sense is judged by
+/// `planning::validate`. Functions without state, safe from any thread.
+namespace camway::service {
+
+/// How long the daemon plans.
+struct DeadlineLimits {
+  double default_s = 10.0;  ///< for requests that say 0 [Limit: 0 < value] [Units: seconds]
+  double max_s = 60.0;      ///< longer ones are cut to this [Limit: default_s <= value]
+};
+
+/// A request, or why there is none, e.g. "method: 'magic' is unknown".
+struct ConvertedRequest {
+  std::optional<planning::PlanRequest> request;
+  std::string error;
+};
+
+/// `wire` holds the keyframes of all pages. Its zeros and negative counts become the defaults of
+/// `planning::PlanOptions`.
+ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits = {});
+
+/// Who asked for what.
+struct RequestIds {
+  std::string client_id;
+  std::int64_t request_id = 0;
+  std::int64_t utime = 0;  ///< microseconds since 1970
+};
+
+/// The whole request as one page, which may be too large for a message: see `encode_pages`.
+plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
+
+/// A result, or why there is none: a status that no planning has (overloaded, malformed), or
+/// segments that are no path.
+struct ConvertedResult {
+  std::optional<planning::PlanResult> result;
+  std::string error;
+};
+
+/// `wire` holds the lists of all pages. What it does not carry (`Timing::load_scene_ms`) stays 0.
+ConvertedResult from_wire(const plan_response_t& wire);
+
+/// What an answer says beside the result.
+struct AnswerHeader {
+  RequestIds ids;  ///< `utime`: when the answer was computed
+  std::string scene;
+  std::int64_t scene_revision = 0;
+  std::string scene_digest;
+};
+
+/// The whole answer as one page, which may be too large for a message: see `encode_pages`.
+plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& header);
+
+/// An answer that holds nothing but a status of `plan_response_t` and a message.
+plan_response_t plain_answer(std::int32_t status, std::string_view message,
+                             const AnswerHeader& header);
+
+/// The name of a status of `plan_response_t`, for logs: "ok", "partial", ..., "overloaded".
+std::string_view status_name(std::int32_t wire_status);
+
+/// `text` as a message may carry it: without NUL, at most `max_bytes`, cut between characters of
+/// UTF-8.
+std::string clipped(std::string_view text, std::size_t max_bytes);
+
+}  // namespace camway::service

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/wire_pages.h"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+#include "lcmtypes/wire_check.h"
+
+namespace camway::service {
+namespace {
+
+/// The lists of a message that are spread over its pages, in wire order, each with its count.
+template <class Message>
+struct Lists;
+template <>
+struct Lists<plan_request_t> {
+  static constexpr auto kMembers =
+      std::make_tuple(std::pair{&plan_request_t::keyframes, &plan_request_t::num_keyframes});
+  static constexpr std::int32_t kMaxPages = wire::kMaxRequestPages;
+};
+template <>
+struct Lists<plan_response_t> {
+  static constexpr auto kMembers =
+      std::make_tuple(std::pair{&plan_response_t::segments, &plan_response_t::num_segments},
+                      std::pair{&plan_response_t::keyframes, &plan_response_t::num_keyframes},
+                      std::pair{&plan_response_t::collisions, &plan_response_t::num_collisions},
+                      std::pair{&plan_response_t::remaining, &plan_response_t::num_remaining});
+  static constexpr std::int32_t kMaxPages = wire::kMaxResponsePages;
+};
+
+/// Calls `visit(pointer to the list, pointer to its count)` for each.
+template <class Message, class Visit>
+void for_each_list(const Visit& visit) {
+  std::apply([&](const auto&... member) { (visit(member.first, member.second), ...); },
+             Lists<Message>::kMembers);
+}
+
+/// Bytes of a list's element on the wire; all of ours are of constant size.
+template <class Element>
+std::size_t element_bytes(const std::vector<Element>&) {
+  return static_cast<std::size_t>(Element{}._getEncodedSizeNoHash());
+}
+
+template <class Message>
+Message without_lists(Message message) {
+  for_each_list<Message>([&](auto list, auto count) {
+    (message.*list).clear();
+    message.*count = 0;
+  });
+  return message;
+}
+
+template <class Message>
+void append_lists(Message& whole, const Message& page) {
+  for_each_list<Message>([&](auto list, auto count) {
+    (whole.*list).insert((whole.*list).end(), (page.*list).begin(), (page.*list).end());
+    whole.*count = static_cast<std::int32_t>((whole.*list).size());
+  });
+}
+
+/// Fills page after page, each list from where it stopped on the page before.
+template <class Message>
+std::vector<Message> split(const Message& whole) {
+  const Message blank = without_lists(whole);
+  const std::size_t room =
+      wire::kMaxMessageBytes - static_cast<std::size_t>(blank.getEncodedSize());
+  std::vector<Message> pages{blank};
+  std::size_t left = room;
+  for_each_list<Message>([&](auto list, auto count) {
+    const auto& source = whole.*list;
+    const std::size_t size = element_bytes(source);
+    for (auto next = source.begin(); next != source.end();) {
+      if (left < size) {
+        pages.push_back(blank);
+        left = room;
+      }
+      const auto rest = static_cast<std::size_t>(std::distance(next, source.end()));
+      const std::size_t fit = std::min(left / size, rest);
+      const auto end = std::next(next, static_cast<std::ptrdiff_t>(fit));
+      (pages.back().*list).assign(next, end);
+      pages.back().*count = static_cast<std::int32_t>(fit);
+      left -= fit * size;
+      next = end;
+    }
+  });
+  return pages;
+}
+
+template <class Message>
+std::vector<Bytes> encode_pages_of(const Message& whole) {
+  std::vector<Message> pages = split(whole);
+  std::vector<Bytes> encoded;
+  encoded.reserve(pages.size());
+  for (Message& page : pages) {
+    page.page = static_cast<std::int32_t>(encoded.size());
+    page.num_pages = static_cast<std::int32_t>(pages.size());
+    encoded.push_back(wire::encode(page));
+  }
+  return encoded;
+}
+
+template <class Message>
+Bytes header_of(const Message& page) {
+  Message header = without_lists(page);
+  header.page = 0;
+  header.utime = 0;
+  return wire::encode(header);
+}
+
+template <class Message>
+std::string page_fault(const Message& page) {
+  if (page.num_pages < 1 || page.num_pages > Lists<Message>::kMaxPages) {
+    return "num_pages: " + std::to_string(page.num_pages) + " is not within 1 to " +
+           std::to_string(Lists<Message>::kMaxPages);
+  }
+  if (page.page < 0 || page.page >= page.num_pages) {
+    return "page: " + std::to_string(page.page) + " is not within 0 to " +
+           std::to_string(page.num_pages - 1);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Bytes> encode_pages(const plan_request_t& whole) { return encode_pages_of(whole); }
+std::vector<Bytes> encode_pages(const plan_response_t& whole) { return encode_pages_of(whole); }
+
+template <class Message>
+typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page) {
+  if (std::string fault = page_fault(page); !fault.empty()) return {std::nullopt, fault};
+  if (page.num_pages == 1) return {std::move(page), {}};
+
+  const Position position = find_or_begin(page, header_of(page));
+  std::optional<Message>& place = position->pages[static_cast<std::size_t>(page.page)];
+  if (!place) {
+    const auto size = static_cast<std::size_t>(page.getEncodedSize());
+    position->bytes += size;
+    bytes_ += size;
+    --position->missing;
+    place = std::move(page);
+  }
+  if (position->missing == 0) {
+    Partial complete = std::move(*position);
+    bytes_ -= complete.bytes;
+    partial_.erase(position);
+    return {join(std::move(complete)), {}};
+  }
+  make_room(position);
+  return {};
+}
+
+template <class Message>
+typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(const Message& page,
+                                                                              Bytes header) {
+  const auto same_ids = [&](const Partial& partial) {
+    const auto held = std::find_if(partial.pages.begin(), partial.pages.end(),
+                                   [](const std::optional<Message>& p) { return p.has_value(); });
+    return held != partial.pages.end() && (*held)->request_id == page.request_id &&
+           (*held)->client_id == page.client_id;
+  };
+  const Position found = std::find_if(partial_.begin(), partial_.end(), same_ids);
+  if (found != partial_.end()) {
+    if (found->header == header) {
+      partial_.splice(partial_.end(), partial_, found);
+      return found;
+    }
+    forget(found);
+  }
+  const auto num_pages = static_cast<std::size_t>(page.num_pages);
+  partial_.push_back(
+      {std::move(header), std::vector<std::optional<Message>>(num_pages), num_pages, 0});
+  return std::prev(partial_.end());
+}
+
+template <class Message>
+void PageAssembly<Message>::forget(Position position) {
+  bytes_ -= position->bytes;
+  partial_.erase(position);
+}
+
+template <class Message>
+void PageAssembly<Message>::make_room(Position keep) {
+  while ((partial_.size() > limits_.max_messages || bytes_ > limits_.max_bytes) &&
+         partial_.begin() != keep) {
+    forget(partial_.begin());
+  }
+}
+
+template <class Message>
+Message PageAssembly<Message>::join(Partial partial) {
+  Message whole = without_lists(*partial.pages.front());
+  for (const std::optional<Message>& page : partial.pages) append_lists(whole, *page);
+  whole.page = 0;
+  whole.num_pages = 1;
+  return whole;
+}
+
+template class PageAssembly<plan_request_t>;
+template class PageAssembly<plan_response_t>;
+
+}  // namespace camway::service

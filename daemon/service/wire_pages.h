@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+
+namespace camway::service {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Encodes `whole` as messages of at most `wire::kMaxMessageBytes`: as many list elements on each
+/// page as fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The
+/// same message gives the same bytes.
+/// Precondition: its counts agree with its lists.
+std::vector<Bytes> encode_pages(const plan_request_t& whole);
+std::vector<Bytes> encode_pages(const plan_response_t& whole);
+
+/// Puts pages together again, in whatever order and however often they come. Holds a bounded number
+/// of bytes of half-received messages; where a new page does not fit, the message that waited
+/// longest for a page is given up. For one thread at a time. `Message` is plan_request_t or
+/// plan_response_t.
+template <class Message>
+class PageAssembly {
+ public:
+  struct Limits {
+    std::size_t max_messages = 16;                  ///< half received at a time
+    std::size_t max_bytes = std::size_t{64} << 20;  ///< of their pages, as encoded
+  };
+
+  PageAssembly() : PageAssembly(Limits{}) {}
+  explicit PageAssembly(const Limits& limits) : limits_(limits) {}
+
+  /// What a page led to: the whole message (as page 0 of 1), an error text, or neither while pages
+  /// are missing.
+  struct Outcome {
+    std::optional<Message> whole;
+    std::string error;
+  };
+
+  /// A page that disagrees with those before in anything but page, utime and lists begins the
+  /// message anew: its sender did.
+  Outcome add(Message page);
+
+  [[nodiscard]] std::size_t half_received() const { return partial_.size(); }
+
+ private:
+  struct Partial {
+    Bytes header;  ///< what all pages agree on, encoded
+    std::vector<std::optional<Message>> pages;
+    std::size_t missing = 0;
+    std::size_t bytes = 0;
+  };
+  using Position = typename std::list<Partial>::iterator;
+
+  Position find_or_begin(const Message& page, Bytes header);
+  void forget(Position position);
+  void make_room(Position keep);
+  static Message join(Partial partial);
+
+  Limits limits_;
+  std::list<Partial> partial_;  ///< longest without a page first
+  std::size_t bytes_ = 0;
+};
+
+extern template class PageAssembly<plan_request_t>;
+extern template class PageAssembly<plan_response_t>;
+
+}  // namespace camway::service
