@@ -113,8 +113,9 @@ TEST(DetectCollisions, AClearPassIsFreeDownToTheTolerance) {
 
 TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   Mesh mesh;
-  for (const double z : {1.0, 0.0, -1.0})
-    testing::add_cuboid(mesh, {-1, -1, z - 0.05}, {1, 1, z + 0.05});
+  for (const double z : {1.0, 0.0, -1.0}) {
+    testing::add_triangle(mesh, {-50, -50, z}, {50, -50, z}, {0, 80, z});
+  }
   const Octree octree = Octree::build(mesh);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
