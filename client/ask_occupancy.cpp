@@ -34,7 +34,7 @@ PartAnswer ask_part(Session& session, const occupancy_request_t& request,
     if (collector.response()->status == occupancy_response_t::STATUS_OVERLOADED) {
       refusal = Failure{Status::kOverloaded, explain(*collector.response())};
       collector.clear();
-      session.note_refusal();
+      session.note_life();
     } else {
       session.note_news();
     }

@@ -46,12 +46,13 @@ class Inbox {
 
  private:
   void take(std::span<const std::uint8_t> bytes) {
-    if (collector_.take(bytes) != PlanCollector::Taken::kNew) return;
+    const PlanCollector::Taken taken = collector_.take(bytes);
+    if (taken == PlanCollector::Taken::kForeign || taken == PlanCollector::Taken::kBad) return;
+    session_.note_life();
     if (collector_.complete() && collector_.status() == Status::kOverloaded) {
       refusal_ = collector_.response();
       collector_.clear();
-      session_.note_refusal();
-    } else {
+    } else if (taken == PlanCollector::Taken::kNew) {
       session_.note_news();
     }
   }

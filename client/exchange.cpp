@@ -31,15 +31,14 @@ bool started_after(const Signs& signs, Clock::time_point sent) {
 Outcome Exchange::ask(const Question& question, Clock::time_point deadline) {
   double wait_s = options_.try_timeout_s;
   for (int silent_tries = 0; silent_tries <= options_.retries;) {
-    signs_.news = signs_.heartbeat = signs_.refused = false;
+    signs_.news = signs_.life = signs_.heartbeat = false;
     if (!send(question)) return Outcome::kBroken;
     const Clock::time_point until = std::min(deadline, Clock::now() + duration(wait_s));
     if (!wait_for_answer(question, until)) return Outcome::kBroken;
     if (question.answered()) return Outcome::kAnswered;
     if (Clock::now() >= deadline) return Outcome::kDeadline;
 
-    const bool life = signs_.news || signs_.heartbeat || signs_.refused;
-    silent_tries = life ? 0 : silent_tries + 1;
+    silent_tries = signs_.life ? 0 : silent_tries + 1;
     wait_s = signs_.news ? kPageGap_s : wait_s * options_.backoff;
     wait_s = std::min(wait_s, options_.max_try_timeout_s);
   }

@@ -14,9 +14,9 @@ namespace camway {
 struct Signs {
   Clock::time_point last_news{};  ///< when the last new part of the answer came
   bool news = false;              ///< a new part of the answer came in this try
-  bool heartbeat = false;         ///< a daemon was heard in this try
-  bool refused = false;           ///< the daemon said "overloaded" in this try
-  bool ever_heard = false;        ///< a daemon was heard in any try, whatever it said
+  bool life = false;              ///< something came from a daemon in this try
+  bool ever_heard = false;        ///< something came from a daemon in any try
+  bool heartbeat = false;         ///< a heartbeat came in this try
   double uptime_s = 0.0;          ///< from the last heartbeat
 };
 

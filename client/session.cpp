@@ -105,7 +105,8 @@ void Session::take_heartbeat(std::span<const std::uint8_t> bytes) {
   const wire::Decoded<status_t> decoded = wire::decode<status_t>(bytes);
   if (!decoded.message) return;
   heartbeat_ = from_wire(*decoded.message);
-  signs_.heartbeat = signs_.ever_heard = true;
+  note_life();
+  signs_.heartbeat = true;
   signs_.uptime_s = heartbeat_->uptime_s;
 }
 
@@ -115,11 +116,12 @@ std::int64_t Session::new_request_id() {
 }
 
 void Session::note_news() {
-  signs_.news = signs_.ever_heard = true;
+  note_life();
+  signs_.news = true;
   signs_.last_news = Clock::now();
 }
 
-void Session::note_refusal() { signs_.refused = signs_.ever_heard = true; }
+void Session::note_life() { signs_.life = signs_.ever_heard = true; }
 
 Outcome Session::ask(const Question& question, Clock::time_point deadline, int& tries) {
   link_.drain();  // what came between calls is old

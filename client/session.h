@@ -49,9 +49,9 @@ class Session {
   /// A number this client id never used: from the clock, so that it holds across restarts too.
   std::int64_t new_request_id();
 
-  /// For receivers: a new part of the answer came, or the daemon refused for now.
+  /// For receivers: a new part of the answer came; something else came from the daemon.
   void note_news();
-  void note_refusal();
+  void note_life();
 
   /// Asks until `deadline`. `tries` counts up.
   Outcome ask(const Question& question, Clock::time_point deadline, int& tries);

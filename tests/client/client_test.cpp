@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: MIT
+#include <camway/client.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <random>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "lcmtypes/wire_layout.h"
+#include "tests/client/fake_daemon.h"
+
+namespace camway {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing_support::answer_pages;
+using testing_support::Bytes;
+using testing_support::encode_all;
+using testing_support::FakeDaemon;
+
+constexpr std::uint32_t kSeed = 2006;
+
+/// A client that repeats itself quickly, so that tests do.
+ClientOptions quick() {
+  ClientOptions options;
+  options.try_timeout_s = 0.1;
+  options.max_try_timeout_s = 0.2;
+  options.retries = 3;
+  options.deadline_s = 20.0;
+  return options;
+}
+
+PlanRequest small_request() {
+  PlanRequest request;
+  request.scene = "office";
+  request.keyframes.resize(2);
+  return request;
+}
+
+class ClientTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Client probe(quick());
+    ASSERT_TRUE(probe.good()) << "LCM does not work here, so nothing can be tested: "
+                              << probe.error();
+  }
+
+  FakeDaemon daemon_;
+};
+
+TEST_F(ClientTest, PlansAndEvaluatesThePath) {
+  daemon_.on_plan = [](const plan_request_t& request) {
+    return encode_all(answer_pages(request, 2, 10));
+  };
+  daemon_.start();
+  Client client(quick());
+  PlanRequest request = small_request();
+  request.method = "keyframe_insertion";
+  request.has_times = true;
+  request.keyframes[1] = {4.5, {1, 2, 3}, {0, 1, 0, 0}, false};
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.error, "");
+  EXPECT_EQ(response.tries, 1);
+  EXPECT_GT(response.elapsed_s, 0.0);
+  EXPECT_EQ(response.path.end(), 2.0);
+  EXPECT_DOUBLE_EQ(response.path.pose(1.5).position_m[0], 1.5);
+
+  daemon_.stop();
+  ASSERT_EQ(daemon_.plan_requests().size(), 1u);
+  const plan_request_t& sent = daemon_.plan_requests()[0];
+  EXPECT_EQ(sent.client_id, client.client_id());
+  EXPECT_EQ(sent.request_id, response.request_id);
+  EXPECT_EQ(sent.method, "keyframe_insertion");
+  EXPECT_TRUE(sent.has_times);
+  EXPECT_EQ(sent.keyframes[1].time_s, 4.5);
+  EXPECT_EQ(sent.keyframes[1].position_m[2], 3.0);
+  EXPECT_EQ(sent.keyframes[1].orientation_wxyz[1], 1.0);
+}
+
+TEST_F(ClientTest, SaysThatThereIsNoDaemon) {
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  EXPECT_EQ(response.status, Status::kNoDaemon);
+  EXPECT_EQ(response.tries, 1 + quick().retries);
+  EXPECT_THAT(response.error, HasSubstr("start camwayd"));
+  EXPECT_EQ(client.occupancy({}).status, Status::kNoDaemon);
+  EXPECT_EQ(client.status(0.05).status, Status::kNoDaemon);
+}
+
+TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
+  daemon_.heartbeat_every = milliseconds(30);
+  daemon_.start();
+  ClientOptions options = quick();
+  options.deadline_s = 1.5;  // more than (1 + retries) tries
+  Client client(options);
+  const PlanResponse response = client.plan(small_request());
+  EXPECT_EQ(response.status, Status::kNoAnswer);
+  EXPECT_THAT(response.error, HasSubstr("did not answer by the deadline"));
+  EXPECT_GE(response.elapsed_s, 1.5);
+  EXPECT_GT(response.tries, 1 + options.retries);
+}
+
+TEST_F(ClientTest, RepeatsTheSameRequestUntilItIsAnswered) {
+  int calls = 0;
+  daemon_.on_plan = [&](const plan_request_t& request) {
+    return ++calls < 3 ? std::vector<Bytes>{} : encode_all(answer_pages(request, 1, 1));
+  };
+  daemon_.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.tries, 3);
+  daemon_.stop();
+  std::set<std::int64_t> ids;
+  for (const plan_request_t& request : daemon_.plan_requests()) ids.insert(request.request_id);
+  EXPECT_EQ(ids.size(), 1u);
+}
+
+TEST_F(ClientTest, AsksAgainForLostPagesAndKeepsThoseThatCame) {
+  int calls = 0;
+  daemon_.on_plan = [&](const plan_request_t& request) {
+    std::vector<Bytes> pages = encode_all(answer_pages(request, 40, 10));
+    // First the even pages, then the odd ones: complete only for a client that keeps what it has.
+    ++calls;
+    return calls == 1 ? std::vector<Bytes>{pages[0], pages[2]}
+                      : std::vector<Bytes>{pages[3], pages[1]};
+  };
+  daemon_.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.path.segments().size(), 40u);
+  EXPECT_EQ(response.tries, 2);
+}
+
+TEST_F(ClientTest, SaysWhichPagesAreMissing) {
+  daemon_.on_plan = [](const plan_request_t& request) {
+    return std::vector<Bytes>{encode_all(answer_pages(request, 40, 10))[1]};
+  };
+  daemon_.start();
+  ClientOptions options = quick();
+  options.deadline_s = 1.0;
+  Client client(options);
+  const PlanResponse response = client.plan(small_request());
+  EXPECT_EQ(response.status, Status::kNoAnswer);
+  EXPECT_THAT(response.error, HasSubstr("only 1 of 4 pages came"));
+}
+
+TEST_F(ClientTest, SendsAgainAtOnceWhenTheDaemonWasRestarted) {
+  ClientOptions options = quick();
+  options.try_timeout_s = options.max_try_timeout_s = 15.0;
+  Client client(options);
+  int calls = 0;
+  daemon_.on_plan = [&](const plan_request_t& request) {
+    // The first request is lost with the daemon that took it.
+    return ++calls == 1 ? std::vector<Bytes>{} : encode_all(answer_pages(request, 1, 1));
+  };
+  daemon_.heartbeat_every = milliseconds(50);
+  daemon_.uptime_s = 0.0;
+  daemon_.start();
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_LT(response.elapsed_s, options.try_timeout_s);
+}
+
+TEST_F(ClientTest, PagesALargeRequest) {
+  constexpr std::size_t kKeyframes = 20'000;
+  std::set<int> pages;
+  daemon_.on_plan = [&](const plan_request_t& page) {
+    pages.insert(page.page);
+    const bool all = static_cast<int>(pages.size()) == page.num_pages;
+    return all ? encode_all(answer_pages(page, 1, 1)) : std::vector<Bytes>{};
+  };
+  daemon_.start();
+  Client client(quick());
+  PlanRequest request = small_request();
+  request.keyframes.resize(kKeyframes);
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_GT(pages.size(), 20u);
+}
+
+TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
+  // 188 pages; a tenth of them gets lost each time, others than the time before.
+  std::mt19937 random(kSeed);
+  daemon_.on_plan = [&](const plan_request_t& request) {
+    std::vector<Bytes> pages = encode_all(answer_pages(request, 30'000, 160));
+    pages.erase(
+        std::remove_if(pages.begin(), pages.end(), [&](auto&) { return random() % 10 == 0; }),
+        pages.end());
+    return pages;
+  };
+  daemon_.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.path.segments().size(), 30'000u);
+}
+
+TEST_F(ClientTest, WaitsWhileTheDaemonIsOverloaded) {
+  int calls = 0;
+  daemon_.on_plan = [&](const plan_request_t& request) {
+    auto pages = answer_pages(request, 1, 1);
+    if (++calls <= 6) {
+      pages[0].status = plan_response_t::STATUS_OVERLOADED;
+      pages[0].message = "queue full";
+    }
+    return encode_all(pages);
+  };
+  daemon_.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.tries, 7);
+
+  calls = -1000;
+  ClientOptions options = quick();
+  options.deadline_s = 0.5;
+  const PlanResponse refused = Client(options).plan(small_request());
+  EXPECT_EQ(refused.status, Status::kOverloaded);
+  EXPECT_THAT(refused.error, HasSubstr("queue full"));
+}
+
+TEST_F(ClientTest, PassesOnWhatTheDaemonSays) {
+  daemon_.on_plan = [](const plan_request_t& request) {
+    auto pages = answer_pages(request, 1, 1);
+    pages[0].status = static_cast<std::int32_t>(request.deadline_s);
+    pages[0].message = "because";
+    pages[0].keyframe = 4;
+    return encode_all(pages);
+  };
+  daemon_.start();
+  Client client(quick());
+  for (const Status status :
+       {Status::kPartial, Status::kInfeasible, Status::kTimeout, Status::kInvalid,
+        Status::kUnknownScene, Status::kInternalError, Status::kMalformed}) {
+    PlanRequest request = small_request();
+    request.deadline_s = static_cast<double>(status);
+    const PlanResponse response = client.plan(request);
+    EXPECT_EQ(response.status, status) << response.error;
+    EXPECT_FALSE(response.ok());
+    EXPECT_EQ(response.keyframe, 4);
+    EXPECT_THAT(response.error, HasSubstr("because"));
+  }
+}
+
+TEST_F(ClientTest, SurvivesAHostilePeer) {
+  daemon_.on_plan = [](const plan_request_t& request) {
+    const Bytes good = encode_all(answer_pages(request, 3, 3))[0];
+    Bytes huge = good;
+    // The count of segments, which stands right before the first: 2^31 - 1.
+    const std::size_t count_at = good.size() - 3 * 42 * 8 - 3 * 4 - 4;
+    huge[count_at] = 0x7f;
+    huge[count_at + 1] = huge[count_at + 2] = huge[count_at + 3] = 0xff;
+    const Bytes cut(good.begin(), good.begin() + 70);
+    return std::vector<Bytes>{{}, cut, huge, good};
+  };
+  daemon_.raw_heartbeat = Bytes(9, 0xff);
+  daemon_.heartbeat_every = milliseconds(5);
+  daemon_.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.tries, 1);
+}
+
+TEST_F(ClientTest, SaysThatAnAnswerCannotBeRead) {
+  daemon_.on_plan = [](const plan_request_t&) { return std::vector<Bytes>{Bytes(20, 1)}; };
+  daemon_.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  EXPECT_EQ(response.status, Status::kBadAnswer);
+  EXPECT_THAT(response.error, HasSubstr("fingerprint"));
+}
+
+TEST_F(ClientTest, AnotherThreadIsToldThatTheClientIsBusy) {
+  daemon_.heartbeat_every = milliseconds(30);
+  std::atomic<bool> asked = false;
+  daemon_.on_plan = [&](const plan_request_t&) {
+    asked = true;
+    return std::vector<Bytes>{};
+  };
+  daemon_.start();
+  ClientOptions options = quick();
+  options.deadline_s = 2.0;
+  Client client(options);
+  std::thread other([&] { client.plan(small_request()); });
+  while (!asked) std::this_thread::yield();
+  EXPECT_EQ(client.status().status, Status::kBusy);
+  EXPECT_EQ(client.plan(small_request()).status, Status::kBusy);
+  other.join();
+  EXPECT_TRUE(client.status().ok());
+}
+
+TEST_F(ClientTest, ReportsTheHeartbeat) {
+  daemon_.heartbeat_every = milliseconds(20);
+  daemon_.start();
+  Client client(quick());
+  const DaemonStatus status = client.status();
+  ASSERT_TRUE(status.ok()) << status.error;
+  EXPECT_EQ(status.version, "fake");
+  EXPECT_EQ(status.uptime_s, 1000.0);
+}
+
+/// Answers every point and sphere by the sign of its first number, every box, ray and distance with
+/// it.
+std::vector<Bytes> echo(const occupancy_request_t& request, std::int64_t revision) {
+  occupancy_response_t response{};
+  response.client_id = request.client_id;
+  response.request_id = request.request_id;
+  response.scene_revision = revision;
+  response.resolution_m = 0.25;
+  for (const auto& q : request.points_m) response.points_occupied.push_back(q[0] > 0);
+  for (const auto& q : request.boxes_m) response.boxes_occupied.push_back(q[0] > 0);
+  for (const auto& q : request.spheres_m) response.spheres_occupied.push_back(q[0] > 0);
+  for (const auto& q : request.rays_m) response.rays_hit_m.push_back(q[0]);
+  for (const auto& q : request.distances_m) response.distances_m.push_back(q[0]);
+  response.num_points = request.num_points;
+  response.num_boxes = request.num_boxes;
+  response.num_spheres = request.num_spheres;
+  response.num_rays = request.num_rays;
+  response.num_distances = request.num_distances;
+  return {wire::encode(response)};
+}
+
+OccupancyBatch large_batch() {
+  OccupancyBatch batch;
+  for (int i = 0; i < 3000; ++i) {
+    const double x = i % 2 == 0 ? 1.0 + i : -1.0;
+    batch.points_m.push_back({x, 0, 0});
+    batch.boxes.push_back({{x, 0, 0}, {x, 0, 0}});
+    batch.spheres.push_back({{x, 0, 0}, 1});
+    batch.rays.push_back({{x, 0, 0}, {1, 0, 0}, 1});
+    batch.distances.push_back({{x, 0, 0}, 1});
+  }
+  return batch;
+}
+
+TEST_F(ClientTest, AsksOccupancyInPartsAndJoinsTheAnswers) {
+  daemon_.on_occupancy = [](const occupancy_request_t& request) { return echo(request, 5); };
+  daemon_.start();
+  Client client(quick());
+  const OccupancyBatch batch = large_batch();
+  const OccupancyAnswer answer = client.occupancy(batch);
+  ASSERT_TRUE(answer.ok()) << answer.error;
+  EXPECT_EQ(answer.scene_revision, 5);
+  EXPECT_EQ(answer.resolution_m, 0.25);
+  ASSERT_EQ(answer.points_occupied.size(), 3000u);
+  ASSERT_EQ(answer.distances_m.size(), 3000u);
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const bool even = i % 2 == 0;
+    ASSERT_EQ(answer.points_occupied[i], even);
+    ASSERT_EQ(answer.boxes_occupied[i], even);
+    ASSERT_EQ(answer.spheres_occupied[i], even);
+    ASSERT_EQ(answer.rays_hit_m[i].has_value(), even);
+    ASSERT_EQ(answer.distances_m[i], even ? std::optional(1.0 + double(i)) : std::nullopt);
+  }
+}
+
+TEST_F(ClientTest, NeverMixesTwoRevisionsOfAScene) {
+  int calls = 0;
+  daemon_.on_occupancy = [&](const occupancy_request_t& request) {
+    return echo(request, ++calls <= 2 ? 1 : 2);  // changes after two of the parts
+  };
+  daemon_.start();
+  Client client(quick());
+  const OccupancyAnswer answer = client.occupancy(large_batch());
+  ASSERT_TRUE(answer.ok()) << answer.error;
+  EXPECT_EQ(answer.scene_revision, 2);
+  EXPECT_EQ(answer.points_occupied.size(), 3000u);
+
+  daemon_.stop();
+  FakeDaemon restless;
+  restless.on_occupancy = [&](const occupancy_request_t& request) {
+    return echo(request, ++calls);
+  };
+  restless.start();
+  EXPECT_THAT(client.occupancy(large_batch()).error, HasSubstr("the scene changed each time"));
+}
+
+TEST_F(ClientTest, PassesOnWhyThereIsNoOccupancy) {
+  daemon_.on_occupancy = [](const occupancy_request_t& request) {
+    occupancy_response_t response{};
+    response.client_id = request.client_id;
+    response.request_id = request.request_id;
+    response.status = occupancy_response_t::STATUS_NO_MAP;
+    response.message = "no map here";
+    return std::vector<Bytes>{wire::encode(response)};
+  };
+  daemon_.start();
+  Client client(quick());
+  const OccupancyAnswer answer = client.occupancy(large_batch());
+  EXPECT_EQ(answer.status, Status::kNoMap);
+  EXPECT_THAT(answer.error, HasSubstr("no map here"));
+  EXPECT_TRUE(answer.points_occupied.empty());
+}
+
+TEST(ClientOptionsTest, WrongOnesAreNamed) {
+  const auto error_of = [](auto change) {
+    ClientOptions options;
+    change(options);
+    Client client(options);
+    EXPECT_EQ(client.plan({}).status, Status::kInvalid);
+    return client.error();
+  };
+  EXPECT_THAT(error_of([](auto& o) { o.prefix = "A B"; }), HasSubstr("prefix: \"A B\""));
+  EXPECT_THAT(error_of([](auto& o) { o.prefix = "TWELVE_CHARS"; }), HasSubstr("prefix"));
+  EXPECT_THAT(error_of([](auto& o) { o.client_id = ".*"; }), HasSubstr("client_id: \".*\""));
+  EXPECT_THAT(error_of([](auto& o) { o.deadline_s = 0; }), HasSubstr("deadline_s"));
+  EXPECT_THAT(error_of([](auto& o) { o.try_timeout_s = -1; }), HasSubstr("try_timeout_s"));
+  EXPECT_THAT(error_of([](auto& o) { o.backoff = 0.5; }), HasSubstr("backoff"));
+  EXPECT_THAT(error_of([](auto& o) { o.retries = -1; }), HasSubstr("retries"));
+}
+
+TEST(ClientOptionsTest, AnUnusableNetworkIsAnError) {
+  ClientOptions options;
+  options.url = "no-such-provider://";
+  Client client(options);
+  EXPECT_FALSE(client.good());
+  const PlanResponse response = client.plan({});
+  EXPECT_EQ(response.status, Status::kNetworkUnusable);
+  EXPECT_THAT(response.error, HasSubstr("no-such-provider"));
+  EXPECT_THAT(response.error, HasSubstr("multicast"));
+}
+
+TEST(ClientIds, DifferFromClientToClient) { EXPECT_NE(Client().client_id(), Client().client_id()); }
+
+}  // namespace
+}  // namespace camway

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <camway/occupancy_request_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <camway/status_t.hpp>
+#include <lcm/lcm-cpp.hpp>
+
+#include "lcmtypes/channels.h"
+#include "lcmtypes/wire_check.h"
+
+namespace camway::testing_support {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Something that answers on a daemon's channels as a test's script says. It runs on a thread of
+/// its own and calls the scripts there, so they may use what the test reads only after `stop`.
+class FakeDaemon {
+ public:
+  using PlanScript = std::function<std::vector<Bytes>(const plan_request_t&)>;
+  using OccupancyScript = std::function<std::vector<Bytes>(const occupancy_request_t&)>;
+
+  PlanScript on_plan;
+  OccupancyScript on_occupancy;
+  /// 0: silent.
+  std::chrono::milliseconds heartbeat_every{0};
+  double uptime_s = 1000.0;
+  /// Sent in place of a heartbeat if not empty.
+  Bytes raw_heartbeat;
+
+  ~FakeDaemon() { stop(); }
+
+  /// Begins to listen; on return the subscriptions are in place.
+  void start() {
+    lcm_.subscribeFunction(channels_.plan_request(), &FakeDaemon::take_plan, this);
+    lcm_.subscribeFunction(channels_.occupancy_request(), &FakeDaemon::take_occupancy, this);
+    running_ = true;
+    thread_ = std::thread([this] { run(); });
+  }
+
+  void stop() {
+    running_ = false;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  const std::vector<plan_request_t>& plan_requests() const { return plan_requests_; }
+
+ private:
+  static void take_plan(const lcm::ReceiveBuffer* buffer, const std::string&, FakeDaemon* self) {
+    const auto decoded = wire::decode<plan_request_t>(
+        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!decoded.message) return;
+    self->plan_requests_.push_back(*decoded.message);
+    if (!self->on_plan) return;
+    for (const Bytes& bytes : self->on_plan(*decoded.message)) {
+      self->publish(self->channels_.plan_response(decoded.message->client_id), bytes);
+    }
+  }
+
+  static void take_occupancy(const lcm::ReceiveBuffer* buffer, const std::string&,
+                             FakeDaemon* self) {
+    const auto decoded = wire::decode<occupancy_request_t>(
+        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!decoded.message || !self->on_occupancy) return;
+    for (const Bytes& bytes : self->on_occupancy(*decoded.message)) {
+      self->publish(self->channels_.occupancy_response(decoded.message->client_id), bytes);
+    }
+  }
+
+  void publish(const std::string& channel, const Bytes& bytes) {
+    lcm_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+    // As a daemon does: back to back, large messages overrun the receiver's socket buffer.
+    if (bytes.size() > kLarge) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  void run() {
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point next_heartbeat = Clock::now();
+    while (running_) {
+      lcm_.handleTimeout(5);
+      if (heartbeat_every.count() == 0 || Clock::now() < next_heartbeat) continue;
+      next_heartbeat = Clock::now() + heartbeat_every;
+      status_t status{};
+      status.version = "fake";
+      status.uptime_s = uptime_s;
+      publish(channels_.status(), raw_heartbeat.empty() ? wire::encode(status) : raw_heartbeat);
+    }
+  }
+
+  static constexpr std::size_t kLarge = 20'000;
+
+  wire::Channels channels_;
+  lcm::LCM lcm_;
+  std::atomic<bool> running_ = false;
+  std::thread thread_;
+  std::vector<plan_request_t> plan_requests_;
+};
+
+/// An answer to `request` whose path has `segments` segments of a second each, cut into pages of
+/// `per_page` segments.
+std::vector<plan_response_t> answer_pages(const plan_request_t& request, int segments,
+                                          int per_page);
+
+std::vector<Bytes> encode_all(const std::vector<plan_response_t>& pages);
+
+}  // namespace camway::testing_support

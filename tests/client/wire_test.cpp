@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+
+#include <camway/plan_request_t.hpp>
+
+#include "client/occupancy_wire.h"
+#include "client/plan_wire.h"
+#include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire_layout.h"
+#include "tests/client/fake_daemon.h"
+
+namespace camway {
+namespace {
+
+using testing::HasSubstr;
+using testing_support::answer_pages;
+using testing_support::encode_all;
+
+constexpr std::uint32_t kSeed = 1995;
+
+PlanRequest request_with(std::size_t keyframes) {
+  PlanRequest request;
+  request.scene = "office";
+  request.keyframes.resize(keyframes);
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    request.keyframes[i].time_s = static_cast<double>(i);
+    request.keyframes[i].position_m = {double(i), 0.25, -1e-300};
+    request.keyframes[i].orientation_wxyz = {0.5, 0.5, -0.5, 0.5};
+  }
+  return request;
+}
+
+plan_request_t wire_request() {
+  plan_request_t request{};
+  request.client_id = "me";
+  request.request_id = 7;
+  request.scene = "office";
+  return request;
+}
+
+TEST(PlanPages, HoldEveryKeyframeOnceInOrderAndFitAMessage) {
+  for (const std::size_t count : {0u, 1u, 2u, 917u, 918u, 919u, 5000u, 100'000u}) {
+    const PlanRequest request = request_with(count);
+    ASSERT_EQ(fault_in_form(request), std::nullopt);
+    const std::vector<Bytes> pages = to_pages(request, "me", 7);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+      ASSERT_LE(pages[i].size(), wire::kMaxMessageBytes);
+      const auto decoded = wire::decode<plan_request_t>(pages[i]);
+      ASSERT_TRUE(decoded.message) << decoded.fault.text("plan_request_t");
+      EXPECT_EQ(decoded.message->page, static_cast<int>(i));
+      EXPECT_EQ(decoded.message->num_pages, static_cast<int>(pages.size()));
+      EXPECT_EQ(decoded.message->scene, "office");
+      for (const keyframe_t& keyframe : decoded.message->keyframes) {
+        ASSERT_EQ(keyframe.time_s, double(next));
+        ASSERT_EQ(keyframe.position_m[2], -1e-300);
+        ++next;
+      }
+    }
+    EXPECT_EQ(next, count);
+    EXPECT_LE(pages.size(), std::size_t(wire::kMaxRequestPages));
+  }
+}
+
+TEST(PlanPages, LongestTextsStillFit) {
+  PlanRequest request = request_with(10'000);
+  request.scene = std::string(wire::kMaxSceneNameBytes, 's');
+  request.method = std::string(wire::kMaxMethodBytes, 'm');
+  ASSERT_EQ(fault_in_form(request), std::nullopt);
+  for (const Bytes& page : to_pages(request, std::string(32, 'c'), INT64_MAX)) {
+    EXPECT_LE(page.size(), wire::kMaxMessageBytes);
+    EXPECT_EQ(wire::check(wire::layout_of<plan_request_t>(), page), std::nullopt);
+  }
+}
+
+TEST(PlanPages, WhatHasNoFormIsNamed) {
+  PlanRequest request = request_with(2);
+  request.scene = std::string(200, 's');
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("scene: 200 bytes"));
+  request.scene = std::string("of\0fice", 7);
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("scene: holds a NUL"));
+  request = request_with(2);
+  request.method = std::string(65, 'm');
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("method: 65 bytes"));
+  EXPECT_THAT(*fault_in_form(request_with(100'001)), HasSubstr("keyframes: there are 100001"));
+}
+
+TEST(PlanCollector, PutsPagesTogetherInAnyOrderWithRepetitions) {
+  std::mt19937 random(kSeed);
+  const std::vector<Bytes> pages = encode_all(answer_pages(wire_request(), 1000, 90));
+  for (int round = 0; round < 50; ++round) {
+    std::vector<Bytes> arriving = pages;
+    arriving.insert(arriving.end(), pages.begin(), pages.begin() + 5);
+    std::shuffle(arriving.begin(), arriving.end(), random);
+    PlanCollector collector("me", 7);
+    for (const Bytes& page : arriving) collector.take(page);
+    ASSERT_TRUE(collector.complete());
+    const PlanResponse response = collector.response();
+    ASSERT_TRUE(response.ok()) << response.error;
+    ASSERT_EQ(response.path.segments().size(), 1000u);
+    EXPECT_EQ(response.path.begin(), 0.0);
+    EXPECT_EQ(response.path.end(), 1000.0);
+    EXPECT_EQ(response.message, "all is well");
+    EXPECT_EQ(response.scene_revision, 3);
+  }
+}
+
+TEST(PlanCollector, IsNotCompleteWhileAPageIsMissing) {
+  const std::vector<Bytes> pages = encode_all(answer_pages(wire_request(), 100, 10));
+  for (std::size_t missing = 0; missing < pages.size(); ++missing) {
+    PlanCollector collector("me", 7);
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+      if (i != missing) collector.take(pages[i]);
+    }
+    EXPECT_FALSE(collector.complete());
+    EXPECT_EQ(collector.take(pages[missing]), PlanCollector::Taken::kNew);
+    EXPECT_EQ(collector.take(pages[missing]), PlanCollector::Taken::kKnown);
+    EXPECT_TRUE(collector.complete());
+  }
+}
+
+TEST(PlanCollector, LeavesWhatIsForOthers) {
+  PlanCollector collector("me", 7);
+  plan_request_t other = wire_request();
+  other.request_id = 8;
+  EXPECT_EQ(collector.take(encode_all(answer_pages(other, 1, 1))[0]),
+            PlanCollector::Taken::kForeign);
+  other = wire_request();
+  other.client_id = "you";
+  EXPECT_EQ(collector.take(encode_all(answer_pages(other, 1, 1))[0]),
+            PlanCollector::Taken::kForeign);
+  EXPECT_EQ(collector.pages_here(), 0u);
+}
+
+TEST(PlanCollector, DoesNotMixPagesOfTwoAnswers) {
+  std::vector<plan_response_t> first = answer_pages(wire_request(), 20, 10);
+  std::vector<plan_response_t> second = answer_pages(wire_request(), 20, 10);
+  for (plan_response_t& page : second) page.utime = 2;  // the daemon was restarted
+  PlanCollector collector("me", 7);
+  collector.take(wire::encode(first[0]));
+  collector.take(wire::encode(second[1]));
+  EXPECT_FALSE(collector.complete());
+  EXPECT_EQ(collector.pages_here(), 1u);
+  collector.take(wire::encode(second[0]));
+  EXPECT_TRUE(collector.complete());
+}
+
+TEST(PlanCollector, SurvivesBrokenMessages) {
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937 random(kSeed);
+  const Bytes good = encode_all(answer_pages(wire_request(), 3, 3))[0];
+  std::uniform_int_distribution<std::size_t> position(0, good.size() - 1);
+  std::uniform_int_distribution<int> byte(0, 255);
+  int bad = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    Bytes bytes = good;
+    for (int i = 0; i <= round % 4; ++i) {
+      bytes[position(random)] = static_cast<std::uint8_t>(byte(random));
+    }
+    if (round % 3 == 0) bytes.resize(position(random));
+    PlanCollector collector("me", 7);
+    bad += collector.take(bytes) == PlanCollector::Taken::kBad ? 1 : 0;
+    if (collector.complete()) static_cast<void>(collector.response());
+  }
+  EXPECT_GT(bad, 20'000 / 3);  // all that are cut short, at least
+}
+
+TEST(PlanCollector, RefusesPageNumbersOutOfRange) {
+  for (const auto& [page, num_pages] :
+       {std::pair{-1, 1}, {1, 1}, {0, 0}, {0, -1}, {0, wire::kMaxResponsePages + 1}}) {
+    plan_response_t message = answer_pages(wire_request(), 1, 1)[0];
+    message.page = page;
+    message.num_pages = num_pages;
+    PlanCollector collector("me", 7);
+    EXPECT_EQ(collector.take(wire::encode(message)), PlanCollector::Taken::kBad);
+    EXPECT_THAT(collector.fault(), HasSubstr("plan_response_t.page"));
+  }
+}
+
+/// The response to one page of three segments after `damage` was done to it.
+template <class Damage>
+PlanResponse damaged(Damage damage) {
+  plan_response_t page = answer_pages(wire_request(), 3, 3)[0];
+  damage(page);
+  PlanCollector collector("me", 7);
+  collector.take(wire::encode(page));
+  return collector.response();
+}
+
+TEST(PlanCollector, RefusesAPathThatIsNone) {
+  const auto refused = [](const PlanResponse& response, const std::string& text) {
+    EXPECT_EQ(response.status, Status::kBadAnswer);
+    EXPECT_THAT(response.error, HasSubstr(text));
+    EXPECT_TRUE(response.path.empty());
+  };
+  refused(damaged([](auto& p) { p.segments[1].t0_s = 1.5; }), "does not begin where");
+  refused(damaged([](auto& p) { p.segments[1].t1_s = 1.0; }), "does not end after");
+  refused(damaged([](auto& p) { p.segments[2].position_m[3][1] = NAN; }), "not finite");
+  refused(damaged([](auto& p) { p.segments[0].orientation_wxyz[6][3] = INFINITY; }), "not finite");
+  refused(damaged([](auto& p) { p.status = 77; }), "status 77");
+  refused(damaged([](auto& p) {
+            p.segments.clear();
+            p.num_segments = 0;
+          }),
+          "ok without a path");
+  EXPECT_TRUE(damaged([](auto&) {}).ok());
+}
+
+TEST(OccupancyRequests, SplitALargeBatchWithoutLossOrReordering) {
+  OccupancyBatch batch;
+  batch.scene = "office";
+  const auto number = [](std::size_t i) { return static_cast<double>(i); };
+  for (std::size_t i = 0; i < 6000; ++i) {
+    batch.points_m.push_back({number(i), 1, 2});
+    batch.boxes.push_back({{number(i), 0, 0}, {number(i), 1, 1}});
+    batch.spheres.push_back({{number(i), 0, 0}, 0.5});
+    batch.rays.push_back({{number(i), 0, 0}, {0, 0, 1}, 9});
+    batch.distances.push_back({{number(i), 0, 0}, 3});
+  }
+  std::size_t points = 0, boxes = 0, spheres = 0, rays = 0, distances = 0;
+  const auto requests = to_requests(batch, "me");
+  for (const occupancy_request_t& request : requests) {
+    const Bytes bytes = wire::encode(request);
+    ASSERT_LE(bytes.size(), wire::kMaxMessageBytes);
+    ASSERT_EQ(wire::check(wire::layout_of<occupancy_request_t>(), bytes), std::nullopt);
+    for (const auto& query : request.points_m) ASSERT_EQ(query[0], number(points++));
+    for (const auto& query : request.boxes_m) ASSERT_EQ(query[3], number(boxes++));
+    for (const auto& query : request.spheres_m) ASSERT_EQ(query[0], number(spheres++));
+    for (const auto& query : request.rays_m) ASSERT_EQ(query[0], number(rays++));
+    for (const auto& query : request.distances_m) ASSERT_EQ(query[0], number(distances++));
+  }
+  EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances}), testing::Each(6000u));
+  // Not more messages than needed: only the last may be less than nearly full.
+  EXPECT_EQ(requests.size(), (6000u * (24 + 48 + 32 + 56 + 32) + 59'899) / 59'900);
+}
+
+TEST(OccupancyRequests, AnEmptyBatchIsOneRequest) {
+  EXPECT_EQ(to_requests(OccupancyBatch{}, "me").size(), 1u);
+}
+
+TEST(OccupancyAnswers, MustBeAsManyAsTheQuestions) {
+  OccupancyBatch batch;
+  batch.points_m.resize(2);
+  batch.rays.resize(1);
+  const occupancy_request_t request = to_requests(batch, "me")[0];
+  occupancy_response_t response{};
+  response.num_points = 2;
+  response.points_occupied = {1, 0};
+  OccupancyAnswer answer;
+  EXPECT_THAT(*append(request, response, answer), HasSubstr("not as many"));
+  response.num_rays = 1;
+  response.rays_hit_m = {NAN};
+  EXPECT_THAT(*append(request, response, answer), HasSubstr("not a finite number"));
+  response.rays_hit_m = {-1.0};
+  answer = {};
+  EXPECT_EQ(append(request, response, answer), std::nullopt);
+  EXPECT_EQ(answer.points_occupied, (std::vector<bool>{true, false}));
+  EXPECT_EQ(answer.rays_hit_m, (std::vector<std::optional<double>>{std::nullopt}));
+}
+
+}  // namespace
+}  // namespace camway
