@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/interpolate.h"
+
+#include <cstring>
+#include <numbers>
+
+#include "tests/motion/awkward_keyframes.h"
+#include "tests/motion/random_motion.h"
+
+namespace camway::motion {
+namespace {
+
+using geometry::Quat;
+using test::kEpsilon;
+using test::Random;
+using test::Vec3;
+using test::Vec4;
+
+/// Orientations are met to this, in radians: a dozen quaternion products, a root and a division.
+constexpr double kOrientationRounding_rad = 64.0 * kEpsilon;
+
+class Interpolate : public testing::TestWithParam<test::AwkwardKeyframes> {};
+
+INSTANTIATE_TEST_SUITE_P(Awkward, Interpolate, testing::ValuesIn(test::awkward_keyframes()),
+                         [](const auto& param_info) { return param_info.param.name; });
+
+TEST_P(Interpolate, MeetsEveryKeyframe) {
+  const std::vector<Keyframe>& keyframes = GetParam().keyframes;
+  const Path path = interpolate(keyframes);
+  EXPECT_EQ(path.begin_s(), keyframes.front().time_s);
+  EXPECT_EQ(path.end_s(), keyframes.back().time_s);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const Pose pose = path.pose(keyframes[i].time_s);
+    EXPECT_EQ(pose.position, keyframes[i].pose.position) << "keyframe " << i;
+    EXPECT_LE(test::rotation_angle_rad(pose.orientation, keyframes[i].pose.orientation),
+              kOrientationRounding_rad)
+        << "keyframe " << i;
+  }
+}
+
+TEST_P(Interpolate, SegmentsShareTheirJoinsBitForBit) {
+  const Path path = interpolate(GetParam().keyframes);
+  const std::span<const Segment> segments = path.segments();
+  for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+    EXPECT_EQ(segments[i].t1_s, segments[i + 1].t0_s) << "join " << i;
+    EXPECT_EQ(segments[i].position[3], segments[i + 1].position[0]) << "join " << i;
+    EXPECT_EQ(segments[i].orientation[6], segments[i + 1].orientation[0]) << "join " << i;
+  }
+}
+
+// Derivatives of a segment are differences of its control points times 6, 30 (orientation) or 3, 6
+// (position) over powers of its duration. Storing the control points rounds them by half an epsilon
+// of their size, so jumps of first and second derivatives below a few dozen times that over the
+// duration (squared) are the storage's. The solved slopes add the same amount once more.
+TEST_P(Interpolate, IsTwiceDifferentiableAtEveryJoin) {
+  const Path path = interpolate(GetParam().keyframes);
+  const std::span<const Segment> segments = path.segments();
+  for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+    const SegmentDerivatives left = derivatives_at(segments[i], 1.0);
+    const SegmentDerivatives right = derivatives_at(segments[i + 1], 0.0);
+    const double step_s =
+        std::min(segments[i].t1_s - segments[i].t0_s, segments[i + 1].t1_s - segments[i + 1].t0_s);
+    double position_size = 0.0;
+    double orientation_size = 0.0;
+    for (const Segment* segment : {&segments[i], &segments[i + 1]}) {
+      for (const Vec3& point : segment->position)
+        position_size = std::max(position_size, point.norm());
+      for (const Vec4& point : segment->orientation)
+        orientation_size = std::max(orientation_size, point.norm());
+    }
+    const double ratio = orientation_size / segments[i].orientation[6].norm();
+    const double position_rounding = 16.0 * kEpsilon * position_size / step_s;
+    const double orientation_rounding = 64.0 * kEpsilon * ratio * ratio / step_s;
+    ASSERT_LE((left.velocity_m_per_s - right.velocity_m_per_s).norm(), position_rounding) << i;
+    ASSERT_LE((left.acceleration_m_per_s2 - right.acceleration_m_per_s2).norm(),
+              4.0 * position_rounding / step_s)
+        << i;
+    ASSERT_LE((left.orientation_rate_per_s - right.orientation_rate_per_s).norm(),
+              orientation_rounding)
+        << i;
+    ASSERT_LE((left.orientation_acceleration_per_s2 - right.orientation_acceleration_per_s2).norm(),
+              10.0 * orientation_rounding / step_s)
+        << i;
+  }
+}
+
+TEST_P(Interpolate, OrientationHasUnitLengthEverywhere) {
+  const Path path = interpolate(GetParam().keyframes);
+  for (const Segment& segment : path.segments()) {
+    for (int k = 0; k <= 8; ++k)
+      ASSERT_NEAR(pose_at(segment, k / 8.0).orientation.norm(), 1.0, 4.0 * kEpsilon);
+  }
+}
+
+/// How far two paths are from each other at most, at dense samples, `undo` applied to the second.
+struct Difference {
+  double position_m = 0.0;
+  double angle_rad = 0.0;
+};
+template <class Undo>
+Difference difference(const Path& path, const Path& other, Undo undo) {
+  Difference largest;
+  const double span_s = path.end_s() - path.begin_s();
+  const int samples = static_cast<int>(std::max<std::size_t>(500, 5 * path.segments().size()));
+  for (int i = 0; i <= samples; ++i) {
+    const double time_s = path.begin_s() + span_s * i / samples;
+    const Pose expected = path.pose(time_s);
+    const Pose pose = undo(other, time_s);
+    largest.position_m = std::max(largest.position_m, (pose.position - expected.position).norm());
+    largest.angle_rad = std::max(largest.angle_rad,
+                                 test::rotation_angle_rad(pose.orientation, expected.orientation));
+  }
+  return largest;
+}
+
+// The motion is a function of the keyframes with moderate derivatives, so rounding of rotated data
+// grows by them: by the ratio of neighbouring intervals at most (the splines), and by 1e6 in
+// clusters
+// (`min_norm_point` is only as well determined as the square root of rounding).
+Difference allowed(const test::AwkwardKeyframes& given) {
+  return {1e3 * kEpsilon * (test::size_m(given.keyframes) + 10.0) * given.sensitivity,
+          1e4 * kEpsilon * given.sensitivity};
+}
+
+void expect_within(const Difference& seen, const Difference& limit) {
+  EXPECT_LE(seen.position_m, limit.position_m);
+  EXPECT_LE(seen.angle_rad, limit.angle_rad);
+}
+
+TEST_P(Interpolate, IsTheSameMotionFromEveryWorldFrame) {
+  Random random(61);
+  const Path path = interpolate(GetParam().keyframes);
+  for (int repeat = 0; repeat < 8; ++repeat) {
+    const Quat rotation = random.rotation();
+    const Vec3 shift = random.vector(10.0);
+    std::vector<Keyframe> moved = GetParam().keyframes;
+    for (Keyframe& keyframe : moved) {
+      keyframe.pose.position = rotation * keyframe.pose.position + shift;
+      keyframe.pose.orientation = rotation * keyframe.pose.orientation;
+    }
+    expect_within(difference(path, interpolate(moved),
+                             [&](const Path& other, double time_s) {
+                               const Pose pose = other.pose(time_s);
+                               return Pose{rotation.conjugate() * (pose.position - shift),
+                                           rotation.conjugate() * pose.orientation};
+                             }),
+                  allowed(GetParam()));
+  }
+}
+
+TEST_P(Interpolate, SignsOfQuaternionsDoNotMatter) {
+  Random random(62);
+  const Path path = interpolate(GetParam().keyframes);
+  for (int repeat = 0; repeat < 8; ++repeat) {
+    std::vector<Keyframe> signs = GetParam().keyframes;
+    for (Keyframe& keyframe : signs) {
+      if (random.coin()) keyframe.pose.orientation.coeffs() *= -1.0;
+    }
+    const Difference seen =
+        difference(path, interpolate(signs),
+                   [](const Path& other, double time_s) { return other.pose(time_s); });
+    expect_within(seen, allowed(GetParam()));
+  }
+}
+
+TEST_P(Interpolate, ReversedKeyframesReverseTheMotion) {
+  if (GetParam().has_half_turns) GTEST_SKIP() << "a half turn has a sense of its own";
+  const Path path = interpolate(GetParam().keyframes);
+  const double mirror_s = path.begin_s() + path.end_s();
+  std::vector<Keyframe> reversed = GetParam().keyframes;
+  std::ranges::reverse(reversed);
+  for (Keyframe& keyframe : reversed) keyframe.time_s = mirror_s - keyframe.time_s;
+  expect_within(
+      difference(path, interpolate(reversed),
+                 [&](const Path& other, double time_s) { return other.pose(mirror_s - time_s); }),
+      allowed(GetParam()));
+}
+
+TEST_P(Interpolate, IsBitIdenticalWhenRepeated) {
+  const Path first = interpolate(GetParam().keyframes);
+  const Path second = interpolate(GetParam().keyframes);
+  ASSERT_EQ(first.segments().size(), second.segments().size());
+  EXPECT_EQ(
+      std::memcmp(first.segments().data(), second.segments().data(), first.segments().size_bytes()),
+      0);
+}
+
+TEST(InterpolateTwo, IsAStraightLineAtConstantSpeed) {
+  Random random(63);
+  const std::vector<Keyframe> keyframes = test::with_times(test::random_poses(random, 2));
+  const Path path = interpolate(keyframes);
+  const Vec3 from = keyframes[0].pose.position;
+  const Vec3 to = keyframes[1].pose.position;
+  for (int i = 0; i <= 100; ++i) {
+    const double u = i / 100.0;
+    const Vec3 expected = from + u * (to - from);
+    EXPECT_LT((path.pose(u * keyframes[1].time_s).position - expected).norm(),
+              32.0 * kEpsilon * test::size_m(keyframes));
+  }
+}
+
+TEST(InterpolateTwo, TurnsAboutOneAxis) {
+  Random random(64);
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    const Quat start = random.rotation();
+    const Vec3 axis = random.vector(1.0).normalized();
+    const double angle_rad = random.uniform(0.01, 3.14);
+    const std::vector<Keyframe> keyframes = {
+        {0.0, {Vec3::Zero(), start}, KeyframeOrigin::kGiven},
+        {2.0, {Vec3::Zero(), start * test::turned(axis, angle_rad)}, KeyframeOrigin::kGiven}};
+    const Path path = interpolate(keyframes);
+    double turned_rad = 0.0;
+    for (int i = 0; i <= 50; ++i) {
+      const Quat turn = start.conjugate() * path.pose(2.0 * i / 50.0).orientation;
+      EXPECT_LT(turn.vec().cross(axis).norm(), kOrientationRounding_rad);
+      const double now_rad =
+          2.0 * std::atan2(turn.vec().dot(axis) * (turn.w() < 0 ? -1.0 : 1.0), std::abs(turn.w()));
+      EXPECT_GE(now_rad, turned_rad - kOrientationRounding_rad) << "never turns back";
+      turned_rad = now_rad;
+    }
+    EXPECT_NEAR(turned_rad, angle_rad, kOrientationRounding_rad);
+  }
+}
+
+// The natural end condition: no acceleration at either end, exactly as given by the control points.
+TEST(Interpolate, PositionHasNaturalEnds) {
+  Random random(65);
+  const Path path = interpolate(test::with_times(test::random_poses(random, 9)));
+  for (const SegmentDerivatives& end :
+       {derivatives_at(path.segments().front(), 0.0), derivatives_at(path.segments().back(), 1.0)})
+    EXPECT_LT(end.acceleration_m_per_s2.norm(), 1e3 * kEpsilon);
+}
+
+/// Second derivative at `x` of the polynomial with these zeros, by differentiating its factors.
+double second_derivative_of_product(const std::vector<double>& zeros, double x) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < zeros.size(); ++i) {
+    for (std::size_t j = 0; j < zeros.size(); ++j) {
+      if (i == j) continue;
+      double product = 1.0;
+      for (std::size_t k = 0; k < zeros.size(); ++k)
+        if (k != i && k != j) product *= x - zeros[k];
+      sum += product;
+    }
+  }
+  return sum;
+}
+
+// An oracle for the whole position spline: of all interpolants, the natural one has the least
+// bending energy. So adding any smooth function that vanishes at the keyframes must raise the
+// integral of the squared acceleration, also when it is added with either sign and so little that
+// its own energy is small against a first-order change.
+TEST(Interpolate, PositionBendsLeast) {
+  Random random(66);
+  const std::vector<Keyframe> keyframes = test::with_times(test::random_poses(random, 6));
+  const Path path = interpolate(keyframes);
+  const double end_s = path.end_s();
+  std::vector<double> zeros;
+  for (const Keyframe& keyframe : keyframes) zeros.push_back(keyframe.time_s / end_s);
+  constexpr int kSamples = 20'000;
+  for (const Vec3& amplitude : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, -1, 1)}) {
+    double mixed = 0.0;
+    double own = 0.0;
+    for (int k = 0; k < kSamples; ++k) {
+      const double x = (k + 0.5) / kSamples;
+      const Segment& segment = path.segments()[path.segment_index(x * end_s)];
+      const Vec3 acceleration =
+          derivatives_at(segment, segment_parameter(segment, x * end_s)).acceleration_m_per_s2;
+      const double bump = second_derivative_of_product(zeros, x);
+      mixed += acceleration.dot(amplitude) * bump / kSamples;
+      own += amplitude.squaredNorm() * bump * bump / kSamples;
+    }
+    // Energy changes by ±2·h·mixed + h²·own. The midpoint rule on 20,000 samples leaves a part of
+    // 1e-7.
+    constexpr double kLittle = 1e-5;
+    EXPECT_GT(kLittle * own, 2.0 * std::abs(mixed)) << amplitude.transpose();
+  }
+}
+
+TEST(Interpolate, ALevelCameraStaysLevelForTenTurns) {
+  for (const double step_deg : {10.0, 45.0, 90.0, 170.0}) {
+    std::vector<Pose> poses;
+    for (double angle_deg = 0.0; angle_deg <= 3600.0; angle_deg += step_deg) {
+      const double angle_rad = angle_deg * std::numbers::pi / 180.0;
+      poses.push_back({Vec3(2.0 * std::cos(angle_rad), 0.3 * angle_rad, std::sin(angle_rad)),
+                       test::turned(Vec3::UnitY(), angle_rad)});
+    }
+    const Path path = interpolate(test::with_times(poses));
+    double turned_rad = 0.0;
+    Quat before = path.pose(0.0).orientation;
+    for (int i = 0; i <= 5000; ++i) {
+      const Quat q = path.pose(path.end_s() * i / 5000.0).orientation;
+      ASSERT_LT((q * Vec3::UnitY() - Vec3::UnitY()).norm(), kOrientationRounding_rad);
+      turned_rad += test::rotation_angle_rad(before, q);
+      before = q;
+    }
+    const double last_deg = step_deg * static_cast<double>(poses.size() - 1);
+    EXPECT_NEAR(turned_rad, last_deg * std::numbers::pi / 180.0, 1e-9) << "no swing to and fro";
+  }
+}
+
+TEST(Interpolate, TenThousandKeyframesAreQuick) {
+  Random random(67);
+  const std::vector<Keyframe> keyframes = test::with_times(test::random_poses(random, 10'000));
+  const Path path = interpolate(keyframes);
+  EXPECT_GE(path.segments().size(), 9'999U);
+  double least = 1e300;
+  for (const Segment& segment : path.segments())
+    least = std::min(least, smallest_orientation_weight(segment));
+  EXPECT_GT(least, 0.0) << "the orientation is proved to be defined everywhere";
+}
+
+}  // namespace
+}  // namespace camway::motion
