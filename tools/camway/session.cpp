@@ -56,6 +56,11 @@ class SessionBuilder {
   }
 
   void add_request(plan_request_t whole) {
+    // No daemon answers another id; and ids become names of files here.
+    if (!wire::is_client_id(whole.client_id)) {
+      ++session_.malformed;
+      return;
+    }
     RecordedRequest recorded;
     recorded.ids = {whole.client_id, whole.request_id, whole.utime};
     recorded.scene = whole.scene;

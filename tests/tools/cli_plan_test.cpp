@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/tools/cli_runner.h"
+#include "tools/json_io.h"
+
+namespace camway::tools {
+namespace {
+
+using planning::Status;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class CliPlan : public ::testing::Test {
+ protected:
+  CliPlan() {
+    scene_ = folder_.write("wall.obj", wall_obj());
+    free_ =
+        folder_.write("free.json", request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)}));
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_;
+  std::string free_;
+};
+
+TEST_F(CliPlan, WritesTheResponseToStandardOutput) {
+  const CliRun run = run_camway({"plan", "--request", free_});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto response = parse_plan_response(run.out, "stdout");
+  ASSERT_TRUE(response.value) << response.error;
+  EXPECT_EQ(response.value->status, Status::kOk);
+  EXPECT_EQ(response.value->keyframes.size(), 2U);
+  EXPECT_GT(response.value->timing.load_scene_ms, 0.0);
+  EXPECT_THAT(run.err, HasSubstr("free.json: ok: 0 collisions before correction"));
+}
+
+TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
+  const std::string request = folder_.write(
+      "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
+  const std::string file = folder_.file("P.json");
+  const CliRun run = run_camway({"plan", "--scene", scene_, "--request", request, "--response",
+                                 file, "--method", "keyframe_insertion", "--deadline-s", "20"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  const auto response = read_plan_response(file);
+  ASSERT_TRUE(response.value) << response.error;
+  EXPECT_EQ(response.value->status, Status::kOk);
+  EXPECT_FALSE(response.value->collisions.empty());
+  EXPECT_GT(response.value->keyframes.size(), 2U);
+  EXPECT_TRUE(response.value->remaining_collisions.empty());
+}
+
+TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {
+  // A wall without end: no way round can be found.
+  folder_.write("wide.obj",
+                "v -1e4 -1e4 0\nv 1e4 -1e4 0\nv 1e4 1e4 0\nv -1e4 1e4 0\nf 1 2 3\nf 1 3 4\n");
+  const std::string request = folder_.write(
+      "wide.json", request_json({keyframe_json(0, 0, 1), keyframe_json(0, 0, -1)}, "wide.obj"));
+  const CliRun run = run_camway({"plan", "--request", request, "--deadline-s", "5"});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  const auto response = parse_plan_response(run.out, "stdout");
+  ASSERT_TRUE(response.value) << response.error;
+  EXPECT_NE(response.value->status, Status::kOk);
+  EXPECT_FALSE(response.value->remaining_collisions.empty());
+}
+
+TEST_F(CliPlan, NamesFieldKeyframeOrFileOfInvalidInput) {
+  const std::string a = keyframe_json(1, 0, 1);
+  const std::string b = keyframe_json(1, 0, -1);
+  const std::string in_wall = keyframe_json(0, 0, 0.1);
+  const auto timed = [](double time, double z) {
+    return "{\"time\": " + std::to_string(time) + ", " + keyframe_json(1, 0, z).substr(1);
+  };
+  folder_.write("broken.obj", "this is no scene\n");
+  const struct {
+    std::string request;
+    const char* expected;
+  } cases[] = {
+      {"{\"keyframes\": [", "R.json: line 1, column"},
+      {"", "R.json: line 1, column 1"},
+      {request_json({a, R"({"position": [0, 0, NaN], "orientation": [1, 0, 0, 0]})"}),
+       "R.json: line 6, column 25: syntax error"},
+      {request_json({a, R"({"position": [0, 0, 1e999], "orientation": [1, 0, 0, 0]})"}),
+       "number overflow"},
+      {request_json({a, R"({"position": [0, 0, 1]})"}),
+       "R.json: keyframes[1].orientation: is missing"},
+      {request_json({R"({"position": [0, 0, 1], "orientation": [0, 0, 0, 0]})", a}),
+       "R.json: keyframes[0].orientation: has length zero"},
+      {request_json({timed(2, 1), timed(1, -1)}), "R.json: keyframes[1].time"},
+      {request_json({timed(2, 1), timed(2, -1)}), "R.json: keyframes[1].time"},
+      {request_json({a}), "R.json: keyframes: "},
+      {request_json({}), "R.json: keyframes: "},
+      {request_json({a, in_wall}), "R.json: keyframes[1]: "},
+      {request_json({a, b}, "missing.obj"), "missing.obj"},
+      {request_json({a, b}, "broken.obj"), "broken.obj"},
+      {request_json({a, b}, ""), "R.json: scene: is missing, and there is no --scene"},
+  };
+  const std::string request = folder_.file("R.json");
+  const std::string response = folder_.file("P.json");
+  for (const auto& c : cases) {
+    folder_.write("R.json", c.request);
+    const CliRun run = run_camway({"plan", "--request", request, "--response", response});
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_THAT(run.err, StartsWith("camway: " + folder_.file("")));
+    EXPECT_THAT(run.err, HasSubstr(c.expected));
+    const auto written = read_plan_response(response);
+    ASSERT_TRUE(written.value) << written.error;
+    EXPECT_EQ(written.value->status, Status::kInvalid);
+    EXPECT_THAT(written.value->message, HasSubstr(c.expected));
+    const CliRun bare = run_camway({"plan", "--request", request});
+    EXPECT_EQ(bare.exit_code, 2);
+    EXPECT_EQ(bare.out, "");
+  }
+}
+
+TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
+  const std::string request =
+      folder_.write("R.json", request_json({keyframe_json(1, 0, 1), keyframe_json(0, 0, 0.1)}));
+  const std::string file = folder_.file("P.json");
+  EXPECT_EQ(run_camway({"plan", "--request", request, "--response", file}).exit_code, 2);
+  const auto response = read_plan_response(file);
+  ASSERT_TRUE(response.value) << response.error;
+  EXPECT_EQ(response.value->keyframe, std::optional<std::size_t>(1));
+}
+
+TEST_F(CliPlan, ReadsStandardInput) {
+  const CliRun run = run_camway({"plan", "--scene", scene_, "--request", "-"}, free_);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(CliPlan, SaysWhichFilesCannotBeUsed) {
+  CliRun run = run_camway({"plan", "--request", "/nonexistent/R.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("camway: /nonexistent/R.json: cannot be opened"));
+  run = run_camway({"plan", "--request", free_, "--response", "/nonexistent/P.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("/nonexistent/P.json: cannot be opened for writing"));
+}
+
+TEST_F(CliPlan, ScalesAndTurnsTheScene) {
+  // At 10 m per unit the wall ends at x = 2 m and is in the way; turned to Y up it lies flat.
+  CliRun run = run_camway({"plan", "--request", free_, "--scale", "10", "--deadline-s", "5"});
+  ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
+  EXPECT_FALSE(parse_plan_response(run.out, "stdout").value->collisions.empty());
+  const std::string through = folder_.write(
+      "through.json", request_json({keyframe_json(0, 0.5, 1.5), keyframe_json(0, 0.5, -1.5)}));
+  run = run_camway({"plan", "--request", through, "--deadline-s", "5"});
+  ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
+  EXPECT_FALSE(parse_plan_response(run.out, "stdout").value->collisions.empty());
+  run = run_camway({"plan", "--request", through, "--up", "z-to-y"});
+  ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
+  EXPECT_TRUE(parse_plan_response(run.out, "stdout").value->collisions.empty());
+}
+
+TEST_F(CliPlan, PlansASetWithATable) {
+  const std::string bad = folder_.write("bad.json", "{");
+  const std::string dir = folder_.file("answers");
+  const CliRun run =
+      run_camway({"plan", "--request", free_, bad, "--response-dir", dir, "--no-timing"});
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("1 of 2 requests ok"));
+  EXPECT_THAT(run.out, HasSubstr(free_));
+  EXPECT_EQ(read_plan_response(dir + "/free.json").value->status, Status::kOk);
+  EXPECT_EQ(read_plan_response(dir + "/bad.json").value->status, Status::kInvalid);
+  const std::string first = read_all(dir + "/free.json");
+  EXPECT_EQ(
+      run_camway({"plan", "--request", free_, "--response-dir", dir, "--no-timing"}).exit_code, 0);
+  EXPECT_EQ(read_all(dir + "/free.json"), first);
+  EXPECT_THAT(first, Not(HasSubstr("timing_ms")));
+}
+
+TEST_F(CliPlan, DoesNotOverwriteARequestWithItsResponse) {
+  const std::string before = read_all(free_);
+  const CliRun run = run_camway({"plan", "--request", free_, "--response-dir", folder_.file("")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("would overwrite the request"));
+  EXPECT_EQ(read_all(free_), before);
+}
+
+TEST_F(CliPlan, RefusesBadFlags) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"plan"},
+      {"plan", "--request", free_, "--scale", "0"},
+      {"plan", "--request", free_, "--scale", "-1"},
+      {"plan", "--request", free_, "--up", "sideways"},
+      {"plan", "--request", free_, "--method", "magic"},
+      {"plan", "--request", free_, "--deadline-s", "0"},
+      {"plan", "--request", free_, free_},
+      {"plan", "--request", free_, "--nonsense"},
+      {"fly"},
+      {},
+  };
+  for (const auto& arguments : cases) {
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 2) << ::testing::PrintToString(arguments) << run.err;
+    EXPECT_THAT(run.err, StartsWith("camway: "));
+  }
+}
+
+}  // namespace
+}  // namespace camway::tools

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "daemon/motion/interpolate.h"
+
+namespace camway::tools {
+namespace {
+
+constexpr motion::Camera kCamera{1.2, 0.9, 0.1};
+
+planning::PlanResult result_through(const std::vector<motion::Keyframe>& keyframes) {
+  planning::PlanResult result;
+  result.status = planning::Status::kOk;
+  result.keyframes = keyframes;
+  result.path = motion::interpolate(keyframes);
+  return result;
+}
+
+std::vector<motion::Keyframe> three_keyframes() {
+  std::vector<motion::Keyframe> keyframes(3);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    keyframes[i].time_s = static_cast<double>(i);
+    keyframes[i].pose.position = {static_cast<double>(i * i), 0.5 * static_cast<double>(i), 1.0};
+  }
+  return keyframes;
+}
+
+TEST(Compare, FindsNothingBetweenEqualBits) {
+  const planning::PlanResult result = result_through(three_keyframes());
+  planning::PlanResult other = result;
+  other.message = "in other words";
+  other.timing.total_ms = 5;
+  const Difference difference = compare(result, other, kCamera);
+  EXPECT_EQ(difference.path_m, 0.0);
+  EXPECT_EQ(difference.what, "");
+}
+
+TEST(Compare, MeasuresAShiftedPath) {
+  const planning::PlanResult a = result_through(three_keyframes());
+  std::vector<motion::Keyframe> shifted = three_keyframes();
+  for (motion::Keyframe& keyframe : shifted) keyframe.pose.position.z() += 0.25;
+  const Difference difference = compare(a, result_through(shifted), kCamera);
+  // Interpolation is affine: the whole path moves by as much, up to rounding at metre scale.
+  EXPECT_NEAR(difference.path_m, 0.25, 1e-14);
+  EXPECT_EQ(difference.what, "keyframes");
+}
+
+TEST(Compare, MeasuresATurnByTheCorners) {
+  const planning::PlanResult a = result_through(three_keyframes());
+  std::vector<motion::Keyframe> turned = three_keyframes();
+  const double angle_rad = 0.1;
+  for (motion::Keyframe& keyframe : turned) {
+    keyframe.pose.orientation = Eigen::AngleAxisd(angle_rad, geometry::Vec3::UnitZ());
+  }
+  // About the viewing axis a corner moves on a circle through the corners of the near
+  // quadrilateral.
+  const motion::Corners corners = motion::near_corners_C(kCamera);
+  const double expected_m = 2 * corners[0].head<2>().norm() * std::sin(angle_rad / 2);
+  EXPECT_NEAR(compare(a, result_through(turned), kCamera).path_m, expected_m, 1e-13);
+}
+
+TEST(Compare, SeesTheLastBitOfOneControlPoint) {
+  const planning::PlanResult a = result_through(three_keyframes());
+  planning::PlanResult b = a;
+  std::vector<motion::Segment> segments(a.path.segments().begin(), a.path.segments().end());
+  double& coordinate = segments[1].position[2].x();
+  coordinate = std::nextafter(coordinate, 10.0);
+  b.path = motion::Path(segments);
+  const Difference difference = compare(a, b, kCamera);
+  EXPECT_GT(difference.path_m, 0.0);
+  EXPECT_LT(difference.path_m, 1e-14);
+  EXPECT_EQ(difference.what, "segments");
+}
+
+TEST(Compare, IsInfiniteWhereThereIsNoCommonTime) {
+  const planning::PlanResult a = result_through(three_keyframes());
+  planning::PlanResult none = a;
+  none.path = {};
+  EXPECT_TRUE(std::isinf(compare(a, none, kCamera).path_m));
+  std::vector<motion::Keyframe> longer = three_keyframes();
+  longer.back().time_s += 1.0;
+  EXPECT_TRUE(std::isinf(compare(a, result_through(longer), kCamera).path_m));
+  EXPECT_EQ(compare(none, none, kCamera).path_m, 0.0);
+}
+
+TEST(Compare, NamesWhatDiffersFirst) {
+  const planning::PlanResult a = result_through(three_keyframes());
+  planning::PlanResult b = a;
+  b.remaining_collisions = {{0.25, 0.5}};
+  EXPECT_EQ(compare(a, b, kCamera).what, "remaining collisions 0 -> 1");
+  b.status = planning::Status::kPartial;
+  EXPECT_EQ(compare(a, b, kCamera).what, "status ok -> partial");
+  b = a;
+  b.certificate.clearance_lower_bound_m = 0.5;
+  EXPECT_EQ(compare(a, b, kCamera).what, "certificate");
+  b = a;
+  b.keyframes[1].origin = motion::KeyframeOrigin::kInserted;
+  EXPECT_EQ(compare(a, b, kCamera).what, "keyframes");
+  b = a;
+  b.collisions = {{0.5, 0.5}};
+  planning::PlanResult c = b;
+  c.collisions = {{0.5, std::nextafter(0.5, 1.0)}};
+  EXPECT_EQ(compare(b, c, kCamera).what, "collisions");
+}
+
+}  // namespace
+}  // namespace camway::tools
