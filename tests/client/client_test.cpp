@@ -51,15 +51,14 @@ class ClientTest : public testing::Test {
     ASSERT_TRUE(probe.good()) << "LCM does not work here, so nothing can be tested: "
                               << probe.error();
   }
-
-  FakeDaemon daemon_;
 };
 
 TEST_F(ClientTest, PlansAndEvaluatesThePath) {
-  daemon_.on_plan = [](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [](const plan_request_t& request) {
     return encode_all(answer_pages(request, 2, 10));
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   PlanRequest request = small_request();
   request.method = "keyframe_insertion";
@@ -73,9 +72,9 @@ TEST_F(ClientTest, PlansAndEvaluatesThePath) {
   EXPECT_EQ(response.path.end(), 2.0);
   EXPECT_DOUBLE_EQ(response.path.pose(1.5).position_m[0], 1.5);
 
-  daemon_.stop();
-  ASSERT_EQ(daemon_.plan_requests().size(), 1u);
-  const plan_request_t& sent = daemon_.plan_requests()[0];
+  daemon.stop();
+  ASSERT_EQ(daemon.plan_requests().size(), 1u);
+  const plan_request_t& sent = daemon.plan_requests()[0];
   EXPECT_EQ(sent.client_id, client.client_id());
   EXPECT_EQ(sent.request_id, response.request_id);
   EXPECT_EQ(sent.method, "keyframe_insertion");
@@ -96,8 +95,9 @@ TEST_F(ClientTest, SaysThatThereIsNoDaemon) {
 }
 
 TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
-  daemon_.heartbeat_every = milliseconds(30);
-  daemon_.start();
+  FakeDaemon daemon;
+  daemon.heartbeat_every = milliseconds(30);
+  daemon.start();
   ClientOptions options = quick();
   options.deadline_s = 1.5;  // more than (1 + retries) tries
   Client client(options);
@@ -110,30 +110,32 @@ TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
 
 TEST_F(ClientTest, RepeatsTheSameRequestUntilItIsAnswered) {
   int calls = 0;
-  daemon_.on_plan = [&](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
     return ++calls < 3 ? std::vector<Bytes>{} : encode_all(answer_pages(request, 1, 1));
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   const PlanResponse response = client.plan(small_request());
   ASSERT_TRUE(response.ok()) << response.error;
   EXPECT_EQ(response.tries, 3);
-  daemon_.stop();
+  daemon.stop();
   std::set<std::int64_t> ids;
-  for (const plan_request_t& request : daemon_.plan_requests()) ids.insert(request.request_id);
+  for (const plan_request_t& request : daemon.plan_requests()) ids.insert(request.request_id);
   EXPECT_EQ(ids.size(), 1u);
 }
 
 TEST_F(ClientTest, AsksAgainForLostPagesAndKeepsThoseThatCame) {
   int calls = 0;
-  daemon_.on_plan = [&](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
     std::vector<Bytes> pages = encode_all(answer_pages(request, 40, 10));
     // First the even pages, then the odd ones: complete only for a client that keeps what it has.
     ++calls;
     return calls == 1 ? std::vector<Bytes>{pages[0], pages[2]}
                       : std::vector<Bytes>{pages[3], pages[1]};
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   const PlanResponse response = client.plan(small_request());
   ASSERT_TRUE(response.ok()) << response.error;
@@ -142,10 +144,11 @@ TEST_F(ClientTest, AsksAgainForLostPagesAndKeepsThoseThatCame) {
 }
 
 TEST_F(ClientTest, SaysWhichPagesAreMissing) {
-  daemon_.on_plan = [](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [](const plan_request_t& request) {
     return std::vector<Bytes>{encode_all(answer_pages(request, 40, 10))[1]};
   };
-  daemon_.start();
+  daemon.start();
   ClientOptions options = quick();
   options.deadline_s = 1.0;
   Client client(options);
@@ -159,13 +162,14 @@ TEST_F(ClientTest, SendsAgainAtOnceWhenTheDaemonWasRestarted) {
   options.try_timeout_s = options.max_try_timeout_s = 15.0;
   Client client(options);
   int calls = 0;
-  daemon_.on_plan = [&](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
     // The first request is lost with the daemon that took it.
     return ++calls == 1 ? std::vector<Bytes>{} : encode_all(answer_pages(request, 1, 1));
   };
-  daemon_.heartbeat_every = milliseconds(50);
-  daemon_.uptime_s = 0.0;
-  daemon_.start();
+  daemon.heartbeat_every = milliseconds(50);
+  daemon.uptime_s = 0.0;
+  daemon.start();
   const PlanResponse response = client.plan(small_request());
   ASSERT_TRUE(response.ok()) << response.error;
   EXPECT_LT(response.elapsed_s, options.try_timeout_s);
@@ -174,12 +178,13 @@ TEST_F(ClientTest, SendsAgainAtOnceWhenTheDaemonWasRestarted) {
 TEST_F(ClientTest, PagesALargeRequest) {
   constexpr std::size_t kKeyframes = 20'000;
   std::set<int> pages;
-  daemon_.on_plan = [&](const plan_request_t& page) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& page) {
     pages.insert(page.page);
     const bool all = static_cast<int>(pages.size()) == page.num_pages;
     return all ? encode_all(answer_pages(page, 1, 1)) : std::vector<Bytes>{};
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   PlanRequest request = small_request();
   request.keyframes.resize(kKeyframes);
@@ -191,14 +196,15 @@ TEST_F(ClientTest, PagesALargeRequest) {
 TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
   // 188 pages; a tenth of them gets lost each time, others than the time before.
   std::mt19937 random(kSeed);
-  daemon_.on_plan = [&](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
     std::vector<Bytes> pages = encode_all(answer_pages(request, 30'000, 160));
     pages.erase(
         std::remove_if(pages.begin(), pages.end(), [&](auto&) { return random() % 10 == 0; }),
         pages.end());
     return pages;
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   const PlanResponse response = client.plan(small_request());
   ASSERT_TRUE(response.ok()) << response.error;
@@ -207,7 +213,8 @@ TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
 
 TEST_F(ClientTest, WaitsWhileTheDaemonIsOverloaded) {
   int calls = 0;
-  daemon_.on_plan = [&](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
     auto pages = answer_pages(request, 1, 1);
     if (++calls <= 6) {
       pages[0].status = plan_response_t::STATUS_OVERLOADED;
@@ -215,7 +222,7 @@ TEST_F(ClientTest, WaitsWhileTheDaemonIsOverloaded) {
     }
     return encode_all(pages);
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   const PlanResponse response = client.plan(small_request());
   ASSERT_TRUE(response.ok()) << response.error;
@@ -230,14 +237,15 @@ TEST_F(ClientTest, WaitsWhileTheDaemonIsOverloaded) {
 }
 
 TEST_F(ClientTest, PassesOnWhatTheDaemonSays) {
-  daemon_.on_plan = [](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [](const plan_request_t& request) {
     auto pages = answer_pages(request, 1, 1);
     pages[0].status = static_cast<std::int32_t>(request.deadline_s);
     pages[0].message = "because";
     pages[0].keyframe = 4;
     return encode_all(pages);
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   for (const Status status :
        {Status::kPartial, Status::kInfeasible, Status::kTimeout, Status::kInvalid,
@@ -253,7 +261,8 @@ TEST_F(ClientTest, PassesOnWhatTheDaemonSays) {
 }
 
 TEST_F(ClientTest, SurvivesAHostilePeer) {
-  daemon_.on_plan = [](const plan_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_plan = [](const plan_request_t& request) {
     const Bytes good = encode_all(answer_pages(request, 3, 3))[0];
     Bytes huge = good;
     // The count of segments, which stands right before the first: 2^31 - 1.
@@ -263,9 +272,9 @@ TEST_F(ClientTest, SurvivesAHostilePeer) {
     const Bytes cut(good.begin(), good.begin() + 70);
     return std::vector<Bytes>{{}, cut, huge, good};
   };
-  daemon_.raw_heartbeat = Bytes(9, 0xff);
-  daemon_.heartbeat_every = milliseconds(5);
-  daemon_.start();
+  daemon.raw_heartbeat = Bytes(9, 0xff);
+  daemon.heartbeat_every = milliseconds(5);
+  daemon.start();
   Client client(quick());
   const PlanResponse response = client.plan(small_request());
   ASSERT_TRUE(response.ok()) << response.error;
@@ -273,8 +282,9 @@ TEST_F(ClientTest, SurvivesAHostilePeer) {
 }
 
 TEST_F(ClientTest, SaysThatAnAnswerCannotBeRead) {
-  daemon_.on_plan = [](const plan_request_t&) { return std::vector<Bytes>{Bytes(20, 1)}; };
-  daemon_.start();
+  FakeDaemon daemon;
+  daemon.on_plan = [](const plan_request_t&) { return std::vector<Bytes>{Bytes(20, 1)}; };
+  daemon.start();
   Client client(quick());
   const PlanResponse response = client.plan(small_request());
   EXPECT_EQ(response.status, Status::kBadAnswer);
@@ -282,13 +292,14 @@ TEST_F(ClientTest, SaysThatAnAnswerCannotBeRead) {
 }
 
 TEST_F(ClientTest, AnotherThreadIsToldThatTheClientIsBusy) {
-  daemon_.heartbeat_every = milliseconds(30);
   std::atomic<bool> asked = false;
-  daemon_.on_plan = [&](const plan_request_t&) {
+  FakeDaemon daemon;
+  daemon.heartbeat_every = milliseconds(30);
+  daemon.on_plan = [&](const plan_request_t&) {
     asked = true;
     return std::vector<Bytes>{};
   };
-  daemon_.start();
+  daemon.start();
   ClientOptions options = quick();
   options.deadline_s = 2.0;
   Client client(options);
@@ -301,8 +312,9 @@ TEST_F(ClientTest, AnotherThreadIsToldThatTheClientIsBusy) {
 }
 
 TEST_F(ClientTest, ReportsTheHeartbeat) {
-  daemon_.heartbeat_every = milliseconds(20);
-  daemon_.start();
+  FakeDaemon daemon;
+  daemon.heartbeat_every = milliseconds(20);
+  daemon.start();
   Client client(quick());
   const DaemonStatus status = client.status();
   ASSERT_TRUE(status.ok()) << status.error;
@@ -345,8 +357,9 @@ OccupancyBatch large_batch() {
 }
 
 TEST_F(ClientTest, AsksOccupancyInPartsAndJoinsTheAnswers) {
-  daemon_.on_occupancy = [](const occupancy_request_t& request) { return echo(request, 5); };
-  daemon_.start();
+  FakeDaemon daemon;
+  daemon.on_occupancy = [](const occupancy_request_t& request) { return echo(request, 5); };
+  daemon.start();
   Client client(quick());
   const OccupancyBatch batch = large_batch();
   const OccupancyAnswer answer = client.occupancy(batch);
@@ -367,17 +380,18 @@ TEST_F(ClientTest, AsksOccupancyInPartsAndJoinsTheAnswers) {
 
 TEST_F(ClientTest, NeverMixesTwoRevisionsOfAScene) {
   int calls = 0;
-  daemon_.on_occupancy = [&](const occupancy_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_occupancy = [&](const occupancy_request_t& request) {
     return echo(request, ++calls <= 2 ? 1 : 2);  // changes after two of the parts
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   const OccupancyAnswer answer = client.occupancy(large_batch());
   ASSERT_TRUE(answer.ok()) << answer.error;
   EXPECT_EQ(answer.scene_revision, 2);
   EXPECT_EQ(answer.points_occupied.size(), 3000u);
 
-  daemon_.stop();
+  daemon.stop();
   FakeDaemon restless;
   restless.on_occupancy = [&](const occupancy_request_t& request) {
     return echo(request, ++calls);
@@ -387,7 +401,8 @@ TEST_F(ClientTest, NeverMixesTwoRevisionsOfAScene) {
 }
 
 TEST_F(ClientTest, PassesOnWhyThereIsNoOccupancy) {
-  daemon_.on_occupancy = [](const occupancy_request_t& request) {
+  FakeDaemon daemon;
+  daemon.on_occupancy = [](const occupancy_request_t& request) {
     occupancy_response_t response{};
     response.client_id = request.client_id;
     response.request_id = request.request_id;
@@ -395,7 +410,7 @@ TEST_F(ClientTest, PassesOnWhyThereIsNoOccupancy) {
     response.message = "no map here";
     return std::vector<Bytes>{wire::encode(response)};
   };
-  daemon_.start();
+  daemon.start();
   Client client(quick());
   const OccupancyAnswer answer = client.occupancy(large_batch());
   EXPECT_EQ(answer.status, Status::kNoMap);

@@ -25,7 +25,8 @@ namespace camway::testing_support {
 using Bytes = std::vector<std::uint8_t>;
 
 /// Something that answers on a daemon's channels as a test's script says. It runs on a thread of
-/// its own and calls the scripts there, so they may use what the test reads only after `stop`.
+/// its own and calls the scripts there until it is destroyed: declare it after all that the scripts
+/// use.
 class FakeDaemon {
  public:
   using PlanScript = std::function<std::vector<Bytes>(const plan_request_t&)>;
