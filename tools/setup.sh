@@ -16,7 +16,7 @@ readonly kPackages=(
   # geometry, scenes, the occupancy map
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
   # logs, flags, JSON, pictures
-  libspdlog-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
+  libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
   # tests
   libgtest-dev libgmock-dev
   # the private network namespace
