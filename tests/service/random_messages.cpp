@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "tests/service/random_messages.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lcmtypes/channels.h"
+#include "lcmtypes/wire_layout.h"
+
+namespace camway::testing {
+namespace {
+
+double number(Random& random) { return std::bit_cast<double>(random()); }
+
+std::int64_t integer(Random& random) { return static_cast<std::int64_t>(random()); }
+
+std::int32_t small(Random& random) { return static_cast<std::int32_t>(random()); }
+
+std::string text(Random& random, std::size_t max_length) {
+  std::string text(below(random, max_length + 1), ' ');
+  for (char& c : text) c = static_cast<char>(1 + below(random, 255));
+  return text;
+}
+
+std::string client_id(Random& random) {
+  constexpr std::string_view kAlphabet =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  std::string id(1 + below(random, wire::kMaxClientIdLength), ' ');
+  for (char& c : id) c = kAlphabet[below(random, kAlphabet.size())];
+  return id;
+}
+
+/// Mostly short lists, now and then a long one.
+std::size_t length(Random& random, std::size_t longest) {
+  const std::size_t most = below(random, 8) == 0 ? longest : std::min<std::size_t>(longest, 4);
+  return below(random, most + 1);
+}
+
+template <std::size_t n>
+void fill(double (&numbers)[n], Random& random) {
+  for (double& value : numbers) value = number(random);
+}
+
+keyframe_t keyframe(Random& random) {
+  keyframe_t keyframe{};
+  keyframe.time_s = number(random);
+  fill(keyframe.position_m, random);
+  fill(keyframe.orientation_wxyz, random);
+  keyframe.origin = static_cast<std::int8_t>(random());
+  return keyframe;
+}
+
+segment_t segment(Random& random) {
+  segment_t segment{};
+  segment.t0_s = number(random);
+  segment.t1_s = number(random);
+  for (auto& point : segment.position_m) fill(point, random);
+  for (auto& point : segment.orientation_wxyz) fill(point, random);
+  return segment;
+}
+
+collision_interval_t interval(Random& random) {
+  collision_interval_t interval{};
+  interval.t_begin_s = number(random);
+  interval.t_end_s = number(random);
+  return interval;
+}
+
+template <class Element, class Make>
+std::int32_t fill_list(std::vector<Element>& list, std::size_t count, const Make& make) {
+  std::generate_n(std::back_inserter(list), count, make);
+  return static_cast<std::int32_t>(count);
+}
+
+std::int32_t fill_rows(std::vector<std::vector<double>>& rows, std::size_t width, Random& random) {
+  return fill_list(rows, length(random, 200), [&] {
+    std::vector<double> row(width);
+    std::generate(row.begin(), row.end(), [&] { return number(random); });
+    return row;
+  });
+}
+
+}  // namespace
+
+std::size_t below(Random& random, std::size_t below) { return random() % below; }
+
+template <>
+plan_request_t random_message<plan_request_t>(Random& random) {
+  plan_request_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.page = small(random);
+  message.num_pages = small(random);
+  message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.camera.fov_x_rad = number(random);
+  message.camera.fov_y_rad = number(random);
+  message.camera.near_m = number(random);
+  message.method = text(random, wire::kMaxMethodBytes);
+  message.deadline_s = number(random);
+  message.chord_error_m = number(random);
+  message.interval_tolerance_m = number(random);
+  message.max_inserted_keyframes = small(random);
+  message.has_times = static_cast<std::int8_t>(random());
+  message.num_keyframes =
+      fill_list(message.keyframes, length(random, 900), [&] { return keyframe(random); });
+  return message;
+}
+
+template <>
+plan_response_t random_message<plan_response_t>(Random& random) {
+  plan_response_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.page = small(random);
+  message.num_pages = small(random);
+  message.status = small(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  message.keyframe = small(random);
+  message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.scene_revision = integer(random);
+  message.scene_digest = text(random, wire::kMaxDigestBytes);
+  message.certified = static_cast<std::int8_t>(random());
+  for (double* value : {&message.clearance_lower_bound_m, &message.motion_ms, &message.detect_ms,
+                        &message.correct_ms, &message.certify_ms, &message.total_ms}) {
+    *value = number(random);
+  }
+  message.num_segments =
+      fill_list(message.segments, length(random, 100), [&] { return segment(random); });
+  message.num_keyframes =
+      fill_list(message.keyframes, length(random, 100), [&] { return keyframe(random); });
+  message.num_collisions =
+      fill_list(message.collisions, length(random, 400), [&] { return interval(random); });
+  message.num_remaining =
+      fill_list(message.remaining, length(random, 400), [&] { return interval(random); });
+  return message;
+}
+
+template <>
+occupancy_request_t random_message<occupancy_request_t>(Random& random) {
+  occupancy_request_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.num_points = fill_rows(message.points_m, 3, random);
+  message.num_boxes = fill_rows(message.boxes_m, 6, random);
+  message.num_spheres = fill_rows(message.spheres_m, 4, random);
+  message.num_rays = fill_rows(message.rays_m, 7, random);
+  message.num_distances = fill_rows(message.distances_m, 4, random);
+  return message;
+}
+
+template <>
+occupancy_response_t random_message<occupancy_response_t>(Random& random) {
+  occupancy_response_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.status = small(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.scene_revision = integer(random);
+  message.resolution_m = number(random);
+  const auto flag = [&] { return static_cast<std::int8_t>(random()); };
+  const auto distance = [&] { return number(random); };
+  message.num_points = fill_list(message.points_occupied, length(random, 2000), flag);
+  message.num_boxes = fill_list(message.boxes_occupied, length(random, 2000), flag);
+  message.num_spheres = fill_list(message.spheres_occupied, length(random, 2000), flag);
+  message.num_rays = fill_list(message.rays_hit_m, length(random, 2000), distance);
+  message.num_distances = fill_list(message.distances_m, length(random, 2000), distance);
+  return message;
+}
+
+template <>
+status_t random_message<status_t>(Random& random) {
+  status_t message{};
+  message.utime = integer(random);
+  message.version = text(random, wire::kMaxVersionBytes);
+  message.uptime_s = number(random);
+  message.num_workers = small(random);
+  message.queued_requests = small(random);
+  message.running_requests = small(random);
+  message.answered_requests = integer(random);
+  message.repeated_requests = integer(random);
+  message.overloaded_requests = integer(random);
+  message.malformed_messages = integer(random);
+  message.total_scenes = small(random);
+  message.num_scenes = fill_list(message.scenes, length(random, 100), [&] {
+    scene_info_t info{};
+    info.name = text(random, wire::kMaxSceneNameBytes);
+    info.revision = integer(random);
+    info.digest = text(random, wire::kMaxDigestBytes);
+    info.num_triangles = integer(random);
+    fill(info.bounds_min_m, random);
+    fill(info.bounds_max_m, random);
+    info.occupancy_resolution_m = number(random);
+    return info;
+  });
+  return message;
+}
+
+template <>
+error_t random_message<error_t>(Random& random) {
+  error_t message{};
+  message.utime = integer(random);
+  message.channel = text(random, wire::kMaxChannelLength);
+  message.size_bytes = integer(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  return message;
+}
+
+void mutate(std::vector<std::uint8_t>& bytes, Random& random) {
+  constexpr std::array<std::int32_t, 10> kDangerous{-1,
+                                                    0,
+                                                    1,
+                                                    -5,
+                                                    2,
+                                                    65,
+                                                    100'000,
+                                                    200'000'000,
+                                                    std::numeric_limits<std::int32_t>::max(),
+                                                    std::numeric_limits<std::int32_t>::min()};
+  const std::size_t changes = 1 + below(random, 4);
+  for (std::size_t i = 0; i < changes; ++i) {
+    if (bytes.empty()) bytes.push_back(0);
+    const std::size_t at = below(random, bytes.size());
+    const auto position = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    switch (below(random, 6)) {
+      case 0:
+        bytes[at] ^= static_cast<std::uint8_t>(1U << below(random, 8));
+        break;
+      case 1:
+        bytes[at] = static_cast<std::uint8_t>(random());
+        break;
+      case 2: {
+        // Half of these early in the message, where the strings and counts stand.
+        const std::size_t where =
+            below(random, 2) == 0 ? below(random, std::min(bytes.size(), std::size_t{200})) : at;
+        const auto value = static_cast<std::uint32_t>(kDangerous[below(random, kDangerous.size())]);
+        for (std::size_t b = 0; b < 4 && where + b < bytes.size(); ++b) {
+          bytes[where + b] = static_cast<std::uint8_t>(value >> (24 - 8 * b));
+        }
+        break;
+      }
+      case 3:
+        bytes.resize(at);
+        break;
+      case 4:
+        bytes.insert(position, 1 + below(random, 16), static_cast<std::uint8_t>(random()));
+        break;
+      default: {
+        const std::vector<std::uint8_t> copy(position, bytes.end());
+        bytes.insert(bytes.end(), copy.begin(), copy.end());
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace camway::testing

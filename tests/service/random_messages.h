@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include <camway/error_t.hpp>
+#include <camway/occupancy_request_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <camway/status_t.hpp>
+
+/// Messages that are right on the wire but otherwise arbitrary: every string length and list length
+/// within the limits is possible, numbers are any bits, NaN among them.
+namespace camway::testing {
+
+using Random = std::mt19937_64;
+
+/// The seed of all tests here; a failing test prints it with the number of its trial.
+inline constexpr std::uint64_t kSeed = 20060619;
+
+/// An integer of [0, below).
+std::size_t below(Random& random, std::size_t below);
+
+template <class Message>
+Message random_message(Random& random);
+template <>
+plan_request_t random_message<plan_request_t>(Random& random);
+template <>
+plan_response_t random_message<plan_response_t>(Random& random);
+template <>
+occupancy_request_t random_message<occupancy_request_t>(Random& random);
+template <>
+occupancy_response_t random_message<occupancy_response_t>(Random& random);
+template <>
+status_t random_message<status_t>(Random& random);
+template <>
+error_t random_message<error_t>(Random& random);
+
+/// Changes `bytes` in one to four places: bits, bytes, 32-bit numbers of the dangerous kind, cuts,
+/// insertions, repetitions.
+void mutate(std::vector<std::uint8_t>& bytes, Random& random);
+
+}  // namespace camway::testing
