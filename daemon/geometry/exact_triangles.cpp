@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "daemon/geometry/rounding.h"
-
 #include <boost/multiprecision/cpp_int.hpp>
+
+#include "daemon/geometry/rounding.h"
 
 namespace camway::geometry {
 namespace {

@@ -114,6 +114,13 @@ bool boxes_apart(const Triangle& a, const Triangle& b) {
   return false;
 }
 
+bool share_a_vertex(const Triangle& a, const Triangle& b) {
+  for (const Vec3& v : a) {
+    if (v == b[0] || v == b[1] || v == b[2]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool triangles_touch(const Triangle& a, const Triangle& b) {
@@ -123,7 +130,7 @@ bool triangles_touch(const Triangle& a, const Triangle& b) {
   if (!(local.scale < 0x1p250)) return triangles_touch_exactly(a, b);
   if (surely_apart(local)) return false;
   if (edge_surely_pierces(local.a, local.b, local.scale) ||
-      edge_surely_pierces(local.b, local.a, local.scale)) {
+      edge_surely_pierces(local.b, local.a, local.scale) || share_a_vertex(a, b)) {
     return true;
   }
   return triangles_touch_exactly(a, b);

@@ -35,9 +35,11 @@ struct ImportReport {
   std::uint64_t triangles = 0;
   std::uint64_t objects = 0;
   geometry::Box bounds_m;
-  std::uint64_t degenerate_triangles = 0;      ///< of zero area; kept out of the scene
-  std::uint64_t dropped_nonfinite = 0;         ///< triangles with a NaN or infinite coordinate
-  std::uint64_t dropped_bad_index = 0;         ///< faces that name a vertex that does not exist
+  std::uint64_t degenerate_triangles = 0;  ///< of zero area; kept out of the scene
+  std::uint64_t dropped_nonfinite = 0;     ///< triangles with a NaN or infinite coordinate
+  /// Faces that name a vertex that does not exist. (Not those that assimp mends itself: in an OFF
+  /// file it takes the last vertex instead, in a glTF file it leaves the face out.)
+  std::uint64_t dropped_bad_index = 0;
   std::uint64_t dropped_points_and_lines = 0;  ///< primitives that are no surface
 };
 

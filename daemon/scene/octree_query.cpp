@@ -82,6 +82,8 @@ class NearestSearch {
   [[nodiscard]] const Nearest& best() const { return best_; }
 
   void ask(std::uint32_t index) {
+    // Nothing is nearer than a touch, so only a lower index could still win.
+    if (best_.distance_m == 0.0 && index >= best_.triangle) return;
     const Triangle& triangle = scene_[index];
     const Box box = geometry::bounds(triangle);
     if (is_beyond(squared_distance_m2(box)) || asked_.before(index)) return;

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/import_record.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "daemon/geometry/exact_triangles.h"
+#include "daemon/geometry/rounding.h"
+#include "daemon/scene/import_format.h"
+
+namespace camway::scene {
+namespace {
+
+namespace format = import_format;
+using geometry::Vec3;
+
+/// Takes a record apart. Every count is checked against the bytes that are there before anything is
+/// allocated for it.
+class RecordReader {
+ public:
+  explicit RecordReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  template <class T>
+  bool read(T& value) {
+    if (rest_.size() < sizeof(T)) return false;
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_ = rest_.subspan(sizeof(T));
+    return true;
+  }
+
+  template <class Container>
+  bool read(Container& values, std::uint64_t count) {
+    using T = typename Container::value_type;
+    if (count > rest_.size() / sizeof(T)) return false;
+    values.resize(static_cast<std::size_t>(count));
+    if (count > 0) std::memcpy(values.data(), rest_.data(), values.size() * sizeof(T));
+    rest_ = rest_.subspan(values.size() * sizeof(T));
+    return true;
+  }
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::span<const std::byte> rest_;
+};
+
+struct Record {
+  format::Header header;
+  std::string text;
+  std::vector<format::Vertex> vertices;
+  std::vector<format::Triangle> triangles;
+  std::vector<format::Object> objects;
+  std::string names;
+};
+
+bool parse(std::span<const std::byte> bytes, Record& record) {
+  RecordReader reader(bytes);
+  return reader.read(record.header) && record.header.magic == format::kMagic &&
+         reader.read(record.text, record.header.text_bytes) &&
+         reader.read(record.vertices, record.header.vertices) &&
+         reader.read(record.triangles, record.header.triangles) &&
+         reader.read(record.objects, record.header.objects) &&
+         reader.read(record.names, record.header.name_bytes) && reader.at_end();
+}
+
+/// Texts out of a file end up in logs and JSON: what is not printable ASCII becomes '?'.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (c < 0x20 || c > 0x7e) c = '?';
+  }
+  return text;
+}
+
+/// File coordinates to metres in the asked orientation.
+Vec3 to_scene(const format::Vertex& v, const ImportOptions& options) {
+  const Vec3 p = options.scale * Vec3(double{v[0]}, double{v[1]}, double{v[2]});
+  switch (options.up) {
+    case UpAxis::kZToY:
+      return {p.x(), p.z(), -p.y()};
+    case UpAxis::kYToZ:
+      return {p.x(), -p.z(), p.y()};
+    case UpAxis::kAsInFile:
+      break;
+  }
+  return p;
+}
+
+bool usable(const Vec3& p) {
+  // False for NaN.
+  return (p.array().abs() < geometry::kLargestCoordinate_m).all();
+}
+
+/// Builds the mesh of what is sound in a record, and counts the rest.
+class MeshBuilder {
+ public:
+  MeshBuilder(const Record& record, const ImportOptions& options, ImportReport& report)
+      : record_(record),
+        options_(options),
+        report_(report),
+        new_index_(record.vertices.size(), kUnused) {}
+
+  Mesh build() {
+    std::size_t next = 0;
+    std::size_t name_at = 0;
+    for (const format::Object& object : record_.objects) {
+      const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
+      const std::size_t end =
+          std::min<std::size_t>(record_.triangles.size(), next + object.triangles);
+      for (; next < end; ++next) add(record_.triangles[next]);
+      const auto count = static_cast<std::uint32_t>(mesh_.triangles.size()) - first;
+      const std::size_t at = std::min(name_at, record_.names.size());
+      name_at += object.name_bytes;
+      if (count == 0) continue;
+      mesh_.objects.push_back(
+          {printable(record_.names.substr(at, object.name_bytes)), first, count});
+    }
+    add_unclaimed(next);
+    return std::move(mesh_);
+  }
+
+ private:
+  static constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+  /// Objects cover all triangles, whatever the record says of them.
+  void add_unclaimed(std::size_t next) {
+    const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
+    for (; next < record_.triangles.size(); ++next) add(record_.triangles[next]);
+    const auto count = static_cast<std::uint32_t>(mesh_.triangles.size()) - first;
+    if (count > 0) mesh_.objects.push_back({"", first, count});
+  }
+
+  void add(const format::Triangle& indices) {
+    geometry::Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (indices[k] >= record_.vertices.size()) {
+        ++report_.dropped_bad_index;
+        return;
+      }
+      triangle[k] = to_scene(record_.vertices[indices[k]], options_);
+    }
+    if (!usable(triangle[0]) || !usable(triangle[1]) || !usable(triangle[2])) {
+      ++report_.dropped_nonfinite;
+      return;
+    }
+    if (geometry::has_no_area_exactly(triangle)) {
+      ++report_.degenerate_triangles;
+      return;
+    }
+    std::array<std::uint32_t, 3> kept{};
+    for (std::size_t k = 0; k < 3; ++k) kept[k] = keep_vertex(indices[k], triangle[k]);
+    mesh_.triangles.push_back(kept);
+  }
+
+  /// Only vertices that a triangle uses are kept, in the order of their first use.
+  std::uint32_t keep_vertex(std::uint32_t old_index, const Vec3& position) {
+    std::uint32_t& index = new_index_[old_index];
+    if (index == kUnused) {
+      index = static_cast<std::uint32_t>(mesh_.vertices.size());
+      mesh_.vertices.push_back(position);
+    }
+    return index;
+  }
+
+  const Record& record_;
+  const ImportOptions& options_;
+  ImportReport& report_;
+  std::vector<std::uint32_t> new_index_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+ImportRecordResult read_import_record(std::span<const std::byte> bytes,
+                                      const ImportOptions& options, ImportReport& report) {
+  Record record;
+  if (!parse(bytes, record)) return {std::nullopt, "", true};
+  if (record.header.objects == 0) return {std::nullopt, printable(record.text), false};
+  report.format = printable(record.text);
+  report.dropped_points_and_lines = record.header.dropped_points_and_lines;
+  return {MeshBuilder(record, options, report).build(), "", false};
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "daemon/scene/import.h"
+
+namespace camway::scene {
+
+/// What the import process answered, checked as if an enemy had written it.
+struct ImportRecordResult {
+  std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
+  std::string refusal;       ///< why the reader refused the file, printable; else empty
+  bool broken = false;       ///< the bytes are no record; nothing else is set
+};
+
+/// Takes apart the record of `import_format.h`: no count is believed before the bytes are there,
+/// every index and coordinate is checked, scale and axes are applied. Triangles that cannot be used
+/// are left out and counted in `report`, which also gets the name of the format.
+///
+/// Left out as degenerate is only what has no area at all, in exact arithmetic on the scaled
+/// coordinates: however thin, anything with an area is an obstacle.
+ImportRecordResult read_import_record(std::span<const std::byte> bytes,
+                                      const ImportOptions& options, ImportReport& report);
+
+}  // namespace camway::scene
