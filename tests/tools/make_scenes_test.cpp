@@ -51,15 +51,17 @@ TEST(MakeScenes, WritesTheCommittedBytes) {
   fs::remove_all(folder);
 }
 
+geometry::Vec3 metres(const Point& p) {
+  const geometry::Vec3 um(static_cast<double>(p[0]), static_cast<double>(p[1]),
+                          static_cast<double>(p[2]));
+  return um / 1e6;
+}
+
 scene::Mesh mesh_of(const Scene& scene) {
   scene::Mesh mesh;
   for (const Triangle& triangle : scene.triangles()) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const Point& p : triangle) {
-      mesh.vertices.push_back(geometry::Vec3(static_cast<double>(p[0]), static_cast<double>(p[1]),
-                                             static_cast<double>(p[2])) /
-                              1e6);
-    }
+    for (const Point& p : triangle) mesh.vertices.push_back(metres(p));
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
   return mesh;
@@ -68,10 +70,8 @@ scene::Mesh mesh_of(const Scene& scene) {
 motion::Path path_of(const Request& request) {
   std::vector<motion::Pose> poses;
   for (const View& view : request.views) {
-    const geometry::Vec3 eye(static_cast<double>(view.eye[0]), static_cast<double>(view.eye[1]),
-                             static_cast<double>(view.eye[2]));
     const Quaternion& q = view.orientation;
-    poses.push_back({eye / 1e6, geometry::from_wxyz({q[0], q[1], q[2], q[3]})});
+    poses.push_back({metres(view.eye), geometry::from_wxyz({q[0], q[1], q[2], q[3]})});
   }
   const std::vector<double> derived = motion::derive_times_s(poses);
   std::vector<motion::Keyframe> keyframes;
@@ -105,7 +105,9 @@ TEST(MakeScenes, RequestsDoWhatTheirNamesSay) {
                 << " % of the time\n";
       const bool is_free = request.name.find("-free-") != std::string::npos;
       EXPECT_EQ(found->empty(), is_free) << request.name;
-      if (request.name.find("-graze-") != std::string::npos) EXPECT_LT(share, 0.5) << request.name;
+      if (request.name.find("-graze-") != std::string::npos) {
+        EXPECT_LT(share, 0.5) << request.name;
+      }
     }
   }
 }
@@ -186,12 +188,7 @@ TEST(MakeScenes, SolidsAreClosedAndFaceOutwards) {
   double six_volumes = 0.0;
   for (const Triangle& t : scene.triangles()) {
     for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
-    const auto v = [](const Point& p) {
-      return geometry::Vec3(static_cast<double>(p[0]), static_cast<double>(p[1]),
-                            static_cast<double>(p[2])) /
-             1e6;
-    };
-    six_volumes += v(t[0]).dot(v(t[1]).cross(v(t[2])));
+    six_volumes += metres(t[0]).dot(metres(t[1]).cross(metres(t[2])));
   }
   for (const auto& [edge, count] : edges) {
     ASSERT_EQ(count, (edges[{edge.second, edge.first}]));

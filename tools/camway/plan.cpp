@@ -203,8 +203,12 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
                result.timing.total_ms, result.collisions.size(), inserted_count(result),
                result.remaining_collisions.size(), flags.requests[i]);
     std::fflush(stdout);
-    if (result.status != Status::kOk) print_summary(flags.requests[i], result);
-    outcome = worse(outcome, exit_code_of(result.status));
+    const ExitCode code = exit_code_of(result.status);
+    // Of the others the table says all.
+    if (code == ExitCode::kInvalidInput || code == ExitCode::kOurFault) {
+      print_summary(flags.requests[i], result);
+    }
+    outcome = worse(outcome, code);
     outcome = worse(outcome, write_response(answer, (*files.value)[i], flags.no_timing));
   }
   fmt::print("{} of {} ok\n", ok_count, plural(flags.requests.size(), "request"));
