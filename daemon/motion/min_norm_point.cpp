@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <Eigen/QR>
@@ -14,7 +15,7 @@ namespace {
 using geometry::Vec4;
 
 // Major steps that real data needs: a handful. The cap only stops cycles that rounding makes.
-constexpr int kMaxMajorSteps = 500;
+constexpr int kMaxMajorSteps = 200;
 
 /// Points in general position whose hull holds the iterate, with its barycentric weights: Wolfe's
 /// "corral".
@@ -83,21 +84,26 @@ Vec4 min_norm_point(std::span<const Vec4> points) {
   };
   Corral corral{{points[0]}, {1.0}};
   Vec4 iterate = points[0];
+  Vec4 best = iterate;
+  double best_gap = std::numeric_limits<double>::infinity();
   for (int major = 0; major < kMaxMajorSteps; ++major) {
     const Vec4 next = lowest(iterate);
-    if (iterate.squaredNorm() - iterate.dot(next) <= kMinNormGap) break;
+    const double gap = iterate.squaredNorm() - iterate.dot(next);
+    if (gap < best_gap) {
+      best_gap = gap;
+      best = iterate;
+    }
+    // Lengths cannot tell iterates of a cluster apart, as its gaps enter them squared.
+    if (gap <= kMinNormGap) break;
     if (std::ranges::find(corral.points, next) != corral.points.end()) break;
-    if (corral.points.size() > 4)
-      break;  // a simplex around the origin: rounding is all that is left
+    if (corral.points.size() > 4) break;  // a simplex around the origin: all the rest is rounding
     corral.points.push_back(next);
     corral.weights.push_back(0.0);
     while (!move_towards(affine_minimiser(corral.points), corral)) {
     }
-    const Vec4 closer = corral.iterate();
-    if (!(closer.squaredNorm() < iterate.squaredNorm())) break;  // at the limit of rounding
-    iterate = closer;
+    iterate = corral.iterate();
   }
-  return iterate;
+  return best;
 }
 
 }  // namespace camway::motion

@@ -14,10 +14,10 @@ namespace camway::motion {
 /// one.
 ///
 /// Deviations: the affine sub-problem is solved by a pivoted QR decomposition of the differences
-/// instead of the normal equations, so that clusters do not square the condition number; major
-/// steps are capped (the last iterate is a point of the hull, too), as rounding may make a finite
-/// method cycle. Each major step is O(n). Precondition: `points` is not empty and each has about
-/// unit length.
+/// instead of the normal equations, so that clusters do not square the condition number. Major
+/// steps are capped, as rounding may make a finite method cycle, and the iterate with the least
+/// possible improvement is returned; each of them is a point of the hull. A step is O(n).
+/// Precondition: `points` is not empty and each has about unit length.
 geometry::Vec4 min_norm_point(std::span<const geometry::Vec4> points);
 
 /// Sixteen units of rounding of a squared unit length.

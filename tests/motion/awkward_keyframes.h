@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,11 @@ namespace camway::motion::test {
 struct AwkwardKeyframes {
   std::string name;
   std::vector<Keyframe> keyframes;
-  /// How much more than a well-spaced motion this one amplifies rounding of its keyframes.
-  double sensitivity = 1.0;
   bool has_half_turns = false;
 };
+
+/// How GoogleTest names a parameter.
+inline void PrintTo(const AwkwardKeyframes& set, std::ostream* out) { *out << set.name; }
 
 /// One set for each difficulty that is known. Deterministic.
 std::vector<AwkwardKeyframes> awkward_keyframes();
