@@ -191,7 +191,10 @@ TEST(MakeScenes, SolidsAreClosedAndFaceOutwards) {
     six_volumes += metres(t[0]).dot(metres(t[1]).cross(metres(t[2])));
   }
   for (const auto& [edge, count] : edges) {
-    ASSERT_EQ(count, (edges[{edge.second, edge.first}]));
+    const auto opposite = edges.find({edge.second, edge.first});
+    ASSERT_TRUE(opposite != edges.end() && opposite->second == count)
+        << "edge from " << metres(edge.first).transpose() << " to "
+        << metres(edge.second).transpose();
   }
   const double prism_m3 = 12 * 0.5 * 0.4 * 0.4 * 0.5 * 0.9;
   const double walls_m3 = 0.2 * (12.0 - 2.1 - 1.1) + 0.2 * (12.0 - 2.1);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "tools/make_scenes/solid.h"
+
+namespace camway::make_scenes {
+
+/// A maze of square cells, with a few walls taken out so that there are several ways round.
+class Maze {
+ public:
+  static constexpr int kColumns = 10;
+  static constexpr int kRows = 8;
+  static constexpr Um kPitch = mm(2000);     ///< from one cell's middle to the next
+  static constexpr Um kThickness = mm(200);  ///< of walls, floor and ceiling
+  static constexpr Um kHeight = mm(2400);
+
+  struct Cell {
+    int column;
+    int row;
+    bool operator==(const Cell&) const = default;
+  };
+
+  explicit Maze(std::uint64_t seed);
+
+  [[nodiscard]] Scene scene() const;
+
+  /// Whether one can pass from `a` to the neighbouring cell `b`.
+  [[nodiscard]] bool open(const Cell& a, const Cell& b) const;
+
+  /// A shortest way from `from` to `to`, both included.
+  [[nodiscard]] std::vector<Cell> way(const Cell& from, const Cell& to) const;
+
+  /// The middle of a cell at a height above the floor.
+  static Point middle(const Cell& cell, Um y);
+
+ private:
+  static constexpr std::size_t kCells = std::size_t{kColumns} * kRows;
+
+  static bool inside(const Cell& cell);
+  static std::size_t index(const Cell& cell);
+  void join(const Cell& a, const Cell& b);
+  void carve(const Cell& from, Dice& dice, std::array<bool, kCells>& visited);
+
+  std::array<bool, kCells> open_east_{};
+  std::array<bool, kCells> open_south_{};
+};
+
+}  // namespace camway::make_scenes

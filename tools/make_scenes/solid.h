@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+/// The generator of the scenes in `scenes/`. Geometry is integer arithmetic in micrometres, and
+/// poses use only operations that IEEE 754 rounds correctly (+, -, *, /, sqrt), so that the files
+/// have the same bytes wherever they are made. Standard library only.
+namespace camway::make_scenes {
+
+/// A length in micrometres.
+using Um = std::int64_t;
+constexpr Um mm(std::int64_t millimetres) { return millimetres * 1000; }
+
+/// A point of the scene: y up, right-handed.
+using Point = std::array<Um, 3>;
+using Triangle = std::array<Point, 3>;
+
+/// A rotation about the y axis with rational sine and cosine, so that it stays integer arithmetic.
+struct Turn {
+  std::int64_t cosine = 1;
+  std::int64_t sine = 0;
+  std::int64_t denominator = 1;
+};
+constexpr Turn kTurn0{1, 0, 1};
+constexpr Turn kTurn90{0, 1, 1};
+constexpr Turn kTurn180{-1, 0, 1};
+constexpr Turn kTurn270{0, -1, 1};
+constexpr Turn kTurn37{4, 3, 5};    // 36.9 degrees
+constexpr Turn kTurn23{12, 5, 13};  // 22.6 degrees
+constexpr Turn kTurnMinus28{15, -8, 17};
+
+/// First `first`, then `second`.
+Turn compose(const Turn& first, const Turn& second);
+
+/// Where a piece of furniture stands: turned about its own origin, then moved.
+struct Placement {
+  Point origin{};
+  Turn turn = kTurn0;
+
+  [[nodiscard]] Point operator()(const Point& local) const;
+};
+
+/// Triangles under names. Every vertex of an object is written once.
+class Scene {
+ public:
+  struct Object {
+    std::string name;
+    std::size_t first_triangle = 0;
+  };
+
+  /// What follows belongs to `name`.
+  void begin_object(const std::string& name);
+
+  void add_triangle(const Point& a, const Point& b, const Point& c);
+  /// Two triangles that share the diagonal from `a` to `c`.
+  void add_quad(const Point& a, const Point& b, const Point& c, const Point& d);
+  /// A closed box between two corners, given in the frame of `placement`.
+  void add_box(const Placement& placement, const Point& low, const Point& high);
+  /// A closed upright prism over a regular polygon. Precondition: `sides` divides 24.
+  void add_prism(const Placement& placement, const Point& base, Um radius, Um height, int sides);
+
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
+
+  /// Wavefront OBJ in metres with six decimals, one `o` per object.
+  [[nodiscard]] std::string obj(const std::string& title) const;
+
+ private:
+  std::vector<Triangle> triangles_;
+  std::vector<Object> objects_;
+};
+
+/// Point `index` of 24 on a circle of `radius` about the y axis, from +x towards -z.
+Point on_circle(Um radius, int index);
+
+/// A rectangle cut out of a wall or slab, in its own two coordinates.
+struct Opening {
+  Um u0, u1, v0, v1;
+};
+
+/// An upright wall of real thickness along x, from x0 to x1: `u` of an opening is x, `v` is y.
+struct WallAlongX {
+  Um x0, x1, y0, y1, z0, z1;
+};
+void add_wall(Scene& scene, const WallAlongX& wall, const std::vector<Opening>& openings = {});
+
+/// An upright wall along z: `u` of an opening is z, `v` is y.
+struct WallAlongZ {
+  Um z0, z1, y0, y1, x0, x1;
+};
+void add_wall(Scene& scene, const WallAlongZ& wall, const std::vector<Opening>& openings = {});
+
+/// A horizontal slab: `u` of an opening is x, `v` is z.
+struct Slab {
+  Um x0, x1, z0, z1, y0, y1;
+};
+void add_slab(Scene& scene, const Slab& slab, const std::vector<Opening>& openings = {});
+
+/// Numbers that only look random; the same everywhere (Steele et al. 2014, SplitMix64).
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  /// In [0, count).
+  std::int64_t below(std::int64_t count);
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace camway::make_scenes
