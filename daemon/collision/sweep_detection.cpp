@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
-#include <utility>
+#include <vector>
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/swept_surface.h"
@@ -27,35 +26,36 @@ struct HitRun {
   double t_d;  // highest parameter of the first step without a hit after the run
 };
 
+// Steps through the swept surface in order of its parameters. Each segment of the path is
+// tessellated when the walk gets there, as the first collision is often near.
 class SweepWalk {
  public:
-  SweepWalk(const scene::Octree& octree, std::vector<SweptTriangle> triangles)
-      : triangles_(std::move(triangles)), camera_triangles_(octree) {
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      camera_triangles_.insert(static_cast<std::uint32_t>(i), triangles_[i].triangle());
-    }
-  }
+  SweepWalk(const scene::Octree& octree, const motion::Path& path, const motion::Corners& corners_C,
+            double chord_error_m, double t_begin_s, double t_end_s)
+      : octree_(octree),
+        path_(path),
+        corners_C_(corners_C),
+        chord_error_m_(chord_error_m),
+        t_end_s_(t_end_s),
+        t_a_(t_begin_s),
+        tessellated_to_s_(t_begin_s),
+        segment_(path.segment_index(t_begin_s)) {}
 
-  // The next run, or nothing at the end of the path.
-  std::optional<HitRun> next_run(double t_begin_s, double t_end_s) {
-    double t_a = std::max(t_begin_s, resume_s_);
-    while (next_ < triangles_.size()) {
-      const Step step = take_step();
-      if (!step.hit) {
-        t_a = std::max(t_a, step.first_s);
-        continue;
+  // The next run, or nothing at the end of the path or when the deadline strikes.
+  std::optional<HitRun> next_run(const Deadline& deadline) {
+    std::optional<HitRun> run;
+    while (!deadline.passed()) {
+      const std::optional<Step> step = take_step();
+      if (!step) return run;
+      if (step->hit) {
+        if (!run) run = HitRun{t_a_, step->last_s, step->first_s, t_end_s_};
+        run->t_c = step->first_s;
+      } else if (run) {
+        run->t_d = t_a_ = step->last_s;
+        return run;
+      } else {
+        t_a_ = step->first_s;
       }
-      HitRun run{t_a, step.last_s, step.first_s, t_end_s};
-      while (next_ < triangles_.size()) {
-        const Step later = take_step();
-        if (!later.hit) {
-          run.t_d = later.last_s;
-          break;
-        }
-        run.t_c = later.first_s;
-      }
-      resume_s_ = run.t_d;
-      return run;
     }
     return std::nullopt;
   }
@@ -68,19 +68,44 @@ class SweepWalk {
   };
 
   // All triangles that begin at the same parameter: those of one step on the four sides.
-  Step take_step() {
+  std::optional<Step> take_step() {
+    while (next_ >= triangles_.size()) {
+      if (!tessellate_next_segment()) return std::nullopt;
+    }
     Step step{triangles_[next_].first_time_s(), triangles_[next_].last_time_s(), false};
     for (; next_ < triangles_.size() && triangles_[next_].first_time_s() == step.first_s; ++next_) {
       step.last_s = std::max(step.last_s, triangles_[next_].last_time_s());
-      step.hit = step.hit || camera_triangles_.first_hit(static_cast<std::uint32_t>(next_));
+      step.hit = step.hit || camera_triangles_->first_hit(static_cast<std::uint32_t>(next_));
     }
     return step;
   }
 
+  bool tessellate_next_segment() {
+    if (segment_ >= path_.segments().size() || tessellated_to_s_ >= t_end_s_) return false;
+    const double to_s = std::min(path_.segments()[segment_++].t1_s, t_end_s_);
+    triangles_ = motion::tessellate_swept_surface(path_, corners_C_, chord_error_m_,
+                                                  tessellated_to_s_, to_s);
+    tessellated_to_s_ = to_s;
+    next_ = 0;
+    camera_triangles_.emplace(octree_);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      camera_triangles_->insert(static_cast<std::uint32_t>(i), triangles_[i].triangle());
+    }
+    return true;
+  }
+
+  const scene::Octree& octree_;
+  const motion::Path& path_;
+  const motion::Corners& corners_C_;
+  const double chord_error_m_;
+  const double t_end_s_;
+
+  double t_a_;
+  double tessellated_to_s_;
+  std::size_t segment_;
   std::vector<SweptTriangle> triangles_;
-  scene::CameraTriangles camera_triangles_;
+  std::optional<scene::CameraTriangles> camera_triangles_;
   std::size_t next_ = 0;
-  double resume_s_ = -std::numeric_limits<double>::infinity();
 };
 
 class Bisection {
@@ -128,11 +153,9 @@ FirstCollision first_sweep_collision(const scene::Octree& octree, const motion::
                                      const motion::Corners& corners_C, double t_begin_s,
                                      double t_end_s, const SweepOptions& options,
                                      const Deadline& deadline) {
-  SweepWalk walk(octree, motion::tessellate_swept_surface(path, corners_C, options.chord_error_m,
-                                                          t_begin_s, t_end_s));
+  SweepWalk walk(octree, path, corners_C, options.chord_error_m, t_begin_s, t_end_s);
   const Bisection bisection(octree, path, corners_C, options.detect.tolerance_m);
-  while (const std::optional<HitRun> run = walk.next_run(t_begin_s, t_end_s)) {
-    if (deadline.passed()) return {false, std::nullopt};
+  while (const std::optional<HitRun> run = walk.next_run(deadline)) {
     const std::optional<double> t_i = bisection.boundary(run->t_a, run->t_b);
     const std::optional<double> t_f = bisection.boundary(run->t_d, run->t_c);
     if (t_i && t_f && *t_i <= *t_f) return {true, CollisionInterval{*t_i, *t_f}};
@@ -140,7 +163,7 @@ FirstCollision first_sweep_collision(const scene::Octree& octree, const motion::
         first_collision(octree, path, corners_C, run->t_a, run->t_d, options.detect, deadline);
     if (!settled.decided || settled.interval) return settled;
   }
-  return {};
+  return {!deadline.passed(), std::nullopt};
 }
 
 }  // namespace camway::collision

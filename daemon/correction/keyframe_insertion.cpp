@@ -15,9 +15,10 @@ using collision::CollisionInterval;
 using collision::FirstCollision;
 using motion::Keyframe;
 
-// A new keyframe keeps at least this share of the span between its neighbours from either of them:
-// closer, the spline through both would have to hurry beyond any use.
-constexpr double kLeastSpacing = 1e-3;
+// A new keyframe may ask the camera to move this many times as fast towards its neighbours as on
+// average. More, and the spline swings out by far more than the collision was deep, and collides
+// anew: the method runs away instead of converging.
+constexpr double kMostHurry = 10.0;
 
 // What is closer to the scene than the tolerance of detection counts as colliding. A new keyframe
 // keeps a multiple of it, so that the path has room to leave it at a slant.
@@ -32,7 +33,9 @@ class Corrector {
         corners_C_(corners_C),
         options_(options),
         deadline_(deadline),
+        radius_m_(motion::body_radius_m(corners_C)),
         keyframes_(std::move(keyframes)),
+        mean_speed_m_per_s_(mean_speed_m_per_s()),
         path_(motion::interpolate(keyframes_)) {}
 
   KeyframeInsertionResult run() && {
@@ -110,21 +113,34 @@ class Corrector {
     const auto next = std::upper_bound(
         keyframes_.begin(), keyframes_.end(), t_mid_s,
         [](double time_s, const Keyframe& keyframe) { return time_s < keyframe.time_s; });
-    if (!has_room(next, t_mid_s)) return false;
+    if (next == keyframes_.begin() || next == keyframes_.end()) return false;
+    if (inserted() >= options_.max_inserted_keyframes) return false;
     const PushOut pushed = push_out(octree_, corners_C_, path_.pose(t_mid_s),
                                     kMarginTolerances * options_.sweep.detect.tolerance_m);
     if (pushed.outcome != PushOutOutcome::kFree) return false;
-    keyframes_.insert(next, {t_mid_s, pushed.pose, motion::KeyframeOrigin::kInserted});
+    const Keyframe inserted{t_mid_s, pushed.pose, motion::KeyframeOrigin::kInserted};
+    if (hurries(*std::prev(next), inserted) || hurries(inserted, *next)) return false;
+    keyframes_.insert(next, inserted);
     path_ = motion::interpolate(keyframes_);
     return true;
   }
 
-  [[nodiscard]] bool has_room(std::vector<Keyframe>::const_iterator next, double time_s) const {
-    if (next == keyframes_.begin() || next == keyframes_.end()) return false;
-    if (inserted() >= options_.max_inserted_keyframes) return false;
-    const double before_s = std::prev(next)->time_s;
-    const double least_s = kLeastSpacing * (next->time_s - before_s);
-    return time_s - before_s > least_s && next->time_s - time_s > least_s;
+  // How far the body moves between two keyframes at the least.
+  [[nodiscard]] double travel_m(const Keyframe& from, const Keyframe& to) const {
+    return (to.pose.position - from.pose.position).norm() +
+           radius_m_ * from.pose.orientation.angularDistance(to.pose.orientation);
+  }
+
+  [[nodiscard]] double mean_speed_m_per_s() const {
+    double travelled_m = 0.0;
+    for (std::size_t i = 1; i < keyframes_.size(); ++i) {
+      travelled_m += travel_m(keyframes_[i - 1], keyframes_[i]);
+    }
+    return travelled_m / (keyframes_.back().time_s - keyframes_.front().time_s);
+  }
+
+  [[nodiscard]] bool hurries(const Keyframe& from, const Keyframe& to) const {
+    return travel_m(from, to) >= kMostHurry * mean_speed_m_per_s_ * (to.time_s - from.time_s);
   }
 
   [[nodiscard]] std::ptrdiff_t inserted() const {
@@ -137,8 +153,10 @@ class Corrector {
   const motion::Corners& corners_C_;
   const KeyframeInsertionOptions& options_;
   const collision::Deadline& deadline_;
+  const double radius_m_;
 
   std::vector<Keyframe> keyframes_;
+  const double mean_speed_m_per_s_;  // of the given keyframes
   motion::Path path_;
   bool timed_out_ = false;
 };
