@@ -188,6 +188,7 @@ TEST_F(CliPlan, RefusesBadFlags) {
       {"plan", "--request", free_, "--scale", "0"},
       {"plan", "--request", free_, "--scale", "-1"},
       {"plan", "--request", free_, "--up", "sideways"},
+      {"plan", "--request", free_, "--up", "7"},
       {"plan", "--request", free_, "--method", "magic"},
       {"plan", "--request", free_, "--deadline-s", "0"},
       {"plan", "--request", free_, free_},

@@ -237,7 +237,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
           "relative to the request's folder");
   command->add_option("--request", flags->requests, "Request file, '-' for standard input")
       ->required()
-      ->type_name("FILE...");
+      ->type_name("FILE");
   CLI::Option* response =
       command->add_option("--response", flags->response, "Response file [standard output]")
           ->type_name("FILE");

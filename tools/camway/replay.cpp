@@ -102,8 +102,8 @@ ExitCode replay_offline(const ReplayFlags& flags) {
   if (!scenes) return ExitCode::kInvalidInput;
   const std::vector<std::string> missing = missing_scenes(session, *scenes);
   for (const std::string& name : missing) {
-    print_error(
-        fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log, name, name));
+    print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
+                            printable(name), printable(name)));
   }
   if (!missing.empty()) return ExitCode::kInvalidInput;
   const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);
@@ -122,6 +122,31 @@ ExitCode run_replay(const ReplayFlags& flags) {
                          ": must be 1 to 11 letters, digits, '-' or '_'");
   }
   return flags.publish ? publish_log(flags.log, flags.publishing) : replay_offline(flags);
+}
+
+void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
+  command
+      .add_option("--scene", flags.scenes,
+                  "A scene by the name that the requests use; may stand several times; as "
+                  "camwayd's")
+      ->type_name(service::kSceneArgumentForm)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--threads", flags.run.threads,
+                  "Requests planned at the same time; the output does not depend on it")
+      ->check(CLI::Range(1u, 256u))
+      ->capture_default_str();
+  command
+      .add_option("--tolerance-m", flags.run.tolerance_m,
+                  "Count paths that stay this many metres from each other as equal; 0: only the "
+                  "same bits")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--responses", flags.responses_dir, "Folder for the response to each request")
+      ->type_name("DIR");
+  command.add_flag("--no-timing", flags.no_timing,
+                   "Leave times out of table and responses, so that two runs compare byte by byte");
 }
 
 void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
@@ -152,32 +177,9 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "replay", "Plan the requests of a recorded session again and compare with the answers");
   command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
-  command
-      ->add_option("--scene", flags->scenes,
-                   "A scene by the name that the requests use; may stand several times; as "
-                   "camwayd's")
-      ->type_name(service::kSceneArgumentForm)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
-  command
-      ->add_option("--threads", flags->run.threads,
-                   "Requests planned at the same time; the output does not depend on it")
-      ->check(CLI::Range(1u, 256u))
-      ->capture_default_str();
-  command
-      ->add_option("--tolerance-m", flags->run.tolerance_m,
-                   "Count paths that stay this many metres from each other as equal; 0: only the "
-                   "same bits")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--responses", flags->responses_dir, "Folder for the response to each request")
-      ->type_name("DIR");
-  command->add_flag(
-      "--no-timing", flags->no_timing,
-      "Leave times out of table and responses, so that two runs compare byte by byte");
+  add_offline_flags(*command, *flags);
   add_publish_flags(*command, *flags);
   command->footer(
       exit_code_help("an answer differs (with --publish: a request was not answered)") +

@@ -38,8 +38,8 @@ std::string row(const RecordedRequest& recorded, const ReplayedRequest& item, Ti
   const std::string status(planning::to_string(item.result.status));
   const std::string inserted = std::to_string(inserted_count(item.result));
   std::string line = fmt::format(
-      "{:<32} {:>8} {:<12} {:<20} {:>9}", recorded.ids.client_id, recorded.ids.request_id,
-      recorded.scene, change(recorded.answer ? recorded.answer->status : "-", status),
+      "{:<24} {:>16} {:<12} {:<20} {:>9}", recorded.ids.client_id, recorded.ids.request_id,
+      printable(recorded.scene), change(recorded.answer ? recorded.answer->status : "-", status),
       then ? change(std::to_string(inserted_count(*then)), inserted) : inserted);
   const bool compared = item.verdict != Verdict::kNotCompared;
   line +=
@@ -59,9 +59,16 @@ void add_note(std::string& out, std::uint64_t count, std::string_view what) {
 
 }  // namespace
 
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return text;
+}
+
 std::string report(const Session& session, const std::vector<ReplayedRequest>& replayed,
                    Times times) {
-  std::string out = fmt::format("{:<32} {:>8} {:<12} {:<20} {:>9} {:>10}", "client", "request",
+  std::string out = fmt::format("{:<24} {:>16} {:<12} {:<20} {:>9} {:>10}", "client", "request",
                                 "scene", "status", "inserted", "path_m");
   if (times == Times::kShown) out += fmt::format(" {:>11} {:>9}", "recorded_ms", "now_ms");
   out += "  verdict\n";

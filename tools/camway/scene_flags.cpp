@@ -29,7 +29,7 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
       .add_option("--up", flags.up,
                   "Turn the axes: z-to-y for a file with Z up and keyframes with Y up, y-to-z for "
                   "the reverse [as-in-file]")
-      ->transform(CLI::Transformer(kUpAxes))
+      ->transform(CLI::CheckedTransformer(kUpAxes).description("as-in-file|z-to-y|y-to-z"))
       ->type_name("AXES");
   return command.add_option("--scene", flags.file, "Scene file (OBJ, OFF, PLY, STL, glTF, ...)")
       ->type_name("FILE");
