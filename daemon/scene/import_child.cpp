@@ -209,9 +209,12 @@ int main(int argc, char** argv) {
   }
   // assimp catches bad_alloc and calls it something else; this comes before.
   std::set_new_handler([] { _exit(format::kExitOutOfMemory); });
+  int code = format::kExitInternal;
   try {
-    return import_file(argv[1]);
+    code = import_file(argv[1]);
   } catch (const std::exception& e) {
-    return refuse(e.what());
+    code = refuse(e.what());
   }
+  // What was written is complete; what assimp left behind at exit can only fail.
+  _exit(code);
 }

@@ -15,11 +15,12 @@ namespace camway::scene::import_format {
 inline constexpr std::uint64_t kMagic = 0x314D'5941'574D'4143;  // "CAMWAYM1"
 inline constexpr int kOutputFd = 3;
 
-/// Exit codes of `camway-import`.
-inline constexpr int kExitOk = 0;           ///< a mesh was written
-inline constexpr int kExitRefused = 1;      ///< `text` says why the file cannot be read
-inline constexpr int kExitOutOfMemory = 2;  ///< nothing was written
-inline constexpr int kExitInternal = 3;     ///< bad arguments, or writing failed
+/// Exit codes of `camway-import`. Any other is a crash: sanitizers and abort handlers use small
+/// ones.
+inline constexpr int kExitOk = 0;            ///< a mesh was written
+inline constexpr int kExitRefused = 40;      ///< `text` says why the file cannot be read
+inline constexpr int kExitOutOfMemory = 41;  ///< nothing was written
+inline constexpr int kExitInternal = 42;     ///< bad arguments, or writing failed
 
 struct Header {
   std::uint64_t magic = kMagic;

@@ -166,10 +166,10 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
     }
     case import_format::kExitOutOfMemory:
       return {End::kOutOfMemory, {}, ""};
+    case import_format::kExitInternal:
+      return {End::kNotStarted, {}, std::string(kProgram) + " cannot set its limits or write"};
     default:
-      return {End::kNotStarted,
-              {},
-              std::string(kProgram) + " ended with exit code " + std::to_string(code)};
+      return {End::kCrashed, {}, "exit code " + std::to_string(code)};
   }
 }
 
