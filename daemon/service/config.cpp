@@ -13,7 +13,10 @@ std::string ServiceConfig::fault() const {
   if (workers < 1 || workers > 256) {
     return "workers: " + std::to_string(workers) + " is not within 1 to 256";
   }
-  if (queue_capacity < 1) return "queue: must hold at least 1 request";
+  if (queue_capacity < 1 || queue_capacity > kMaxQueueCapacity) {
+    return "queue: " + std::to_string(queue_capacity) + " is not within 1 to " +
+           std::to_string(kMaxQueueCapacity);
+  }
   if (!(deadline.default_s > 0.0) || !(deadline.default_s <= deadline.max_s)) {
     return "deadline: the default must be above 0 and at most the maximum";
   }

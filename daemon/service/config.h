@@ -11,12 +11,14 @@
 
 namespace camway::service {
 
+inline constexpr std::size_t kMaxQueueCapacity = 100'000;
+
 /// How the service behaves. Every default works.
 struct ServiceConfig {
-  std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
-  int workers = 1;                ///< `--workers` [Limit: 1 <= value <= 256]
-  std::size_t queue_capacity =
-      64;  ///< requests that wait for a worker; `--queue` [Limit: 1 <= value]
+  std::string prefix = "CAMWAY";    ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
+  int workers = 1;                  ///< `--workers` [Limit: 1 <= value <= 256]
+  std::size_t queue_capacity = 64;  ///< requests that wait for a worker; `--queue`
+                                    ///< [Limit: 1 <= value <= kMaxQueueCapacity]
   DeadlineLimits deadline;
   PageAssembly<plan_request_t>::Limits assembly;
   AnswerCache::Limits cache;

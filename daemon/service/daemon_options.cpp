@@ -54,7 +54,9 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                      std::string(kDefaultLcmUrl) + "]");
   app.add_option("--workers", options.service.workers, "Requests planned at the same time")
       ->default_str("one for each core");
+  // CLI11 would read -1 as the largest number there is.
   app.add_option("--queue", options.service.queue_capacity, "Requests that may wait for a worker")
+      ->check(CLI::Range(std::size_t{1}, kMaxQueueCapacity))
       ->capture_default_str();
   app.add_option("--deadline-s", options.service.deadline.default_s,
                  "Planning time of requests that name none, seconds")

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/service/transport.h"
+#include "daemon/service/wire_pages.h"
+
+namespace camway::testing {
+
+/// A transport in memory. The test delivers messages and looks at what was published, from any
+/// thread.
+class FakeTransport final : public service::Transport {
+ public:
+  struct Message {
+    std::string channel;
+    service::Bytes bytes;
+  };
+
+  bool subscribe(const std::string& channel, int queue_capacity, Handler handler) override;
+  bool publish(const std::string& channel, std::span<const std::uint8_t> message) override;
+  bool poll(std::chrono::milliseconds timeout) override;
+  void wake() noexcept override;
+
+  /// Queues a message for whoever subscribed to `channel`.
+  void deliver(std::string channel, service::Bytes bytes);
+
+  /// From now on: subscribing fails, publishing fails, polling fails.
+  void fail_subscribe();
+  void fail_publish();
+  void break_down();
+
+  [[nodiscard]] std::vector<Message> published() const;
+  [[nodiscard]] std::vector<service::Bytes> published_on(const std::string& channel) const;
+  /// Number `index` of them; waits for it, and gives nothing if it does not come.
+  [[nodiscard]] std::optional<service::Bytes> message_on(const std::string& channel,
+                                                         std::size_t index) const;
+
+  /// Waits until `enough(what was published so far)`; false if that takes longer than any test
+  /// should.
+  [[nodiscard]] bool wait_until(
+      const std::function<bool(const std::vector<Message>&)>& enough) const;
+  [[nodiscard]] bool wait_for_messages_on(const std::string& channel, std::size_t count) const;
+
+ private:
+  mutable std::mutex mutex_;  ///< guards all below but handlers_, which the poller owns
+  mutable std::condition_variable changed_;
+  std::deque<Message> incoming_;
+  std::vector<Message> published_;
+  bool woken_ = false;
+  bool subscribe_fails_ = false;
+  bool publish_fails_ = false;
+  bool broken_ = false;
+  std::map<std::string, Handler> handlers_;
+};
+
+}  // namespace camway::testing

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "tests/service/plan_samples.h"
+
+#include <utility>
+#include <vector>
+
+namespace camway::testing {
+namespace {
+
+double number(Random& random) { return std::uniform_real_distribution<double>(-50, 50)(random); }
+
+motion::Keyframe keyframe(double time_s, Random& random) {
+  motion::Keyframe keyframe;
+  keyframe.time_s = time_s;
+  for (double& value : keyframe.pose.position) value = number(random);
+  for (double& value : keyframe.pose.orientation.coeffs()) value = number(random);
+  return keyframe;
+}
+
+motion::Segment segment(double t0_s, double t1_s, Random& random) {
+  motion::Segment segment;
+  segment.t0_s = t0_s;
+  segment.t1_s = t1_s;
+  for (geometry::Vec3& point : segment.position) {
+    for (double& value : point) value = number(random);
+  }
+  for (geometry::Vec4& point : segment.orientation) {
+    for (double& value : point) value = number(random);
+  }
+  return segment;
+}
+
+}  // namespace
+
+planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
+  planning::PlanRequest request;
+  request.scene = "room";
+  request.camera = {1.5, 1.0, 0.1};
+  request.has_times = below(random, 2) == 0;
+  request.options.deadline_s = 3.25;
+  request.options.chord_error_m = 0.0078125;
+  request.options.interval_tolerance_m = 1e-5;
+  request.options.max_inserted_keyframes = 17;
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
+  }
+  return request;
+}
+
+planning::PlanResult sample_result(std::size_t segments, Random& random) {
+  planning::PlanResult result;
+  result.status = planning::Status::kPartial;
+  result.message = "2 of the path's collisions remain";
+  std::vector<motion::Segment> path;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const double t0_s = 0.1 * static_cast<double>(i);
+    path.push_back(segment(t0_s, 0.1 * static_cast<double>(i + 1), random));
+    for (const motion::KeyframeOrigin origin :
+         {motion::KeyframeOrigin::kGiven, motion::KeyframeOrigin::kInserted}) {
+      result.keyframes.push_back(keyframe(t0_s, random));
+      result.keyframes.back().origin = origin;
+    }
+    result.collisions.push_back({t0_s, t0_s + 0.01});
+  }
+  if (!path.empty()) result.path = motion::Path(std::move(path));
+  result.remaining_collisions = {{0.125, 0.25}, {0.5, 0.5}};
+  result.certificate = {true, 0.0123};
+  result.timing = {0.0, 1.5, 2.5, 3.5, 4.5, 12.0};
+  return result;
+}
+
+std::shared_ptr<const scene::Snapshot> empty_scene(std::string name) {
+  auto snapshot = std::make_shared<scene::Snapshot>();
+  snapshot->name = std::move(name);
+  snapshot->revision = 7;
+  snapshot->digest = "0123456789abcdef0123456789abcdef";
+  return snapshot;
+}
+
+}  // namespace camway::testing

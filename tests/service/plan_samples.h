@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+#include "daemon/scene/snapshot.h"
+#include "tests/service/random_messages.h"
+
+/// Requests, results and scenes for tests of the wire: of the right form, without meaning.
+namespace camway::testing {
+
+/// Finite numbers, `keyframes` of them, times increasing.
+planning::PlanRequest sample_request(std::size_t keyframes, Random& random);
+
+/// A result as planning might return it, with a path of `segments` segments and twice as many
+/// keyframes, half of them inserted.
+planning::PlanResult sample_result(std::size_t segments, Random& random);
+
+/// An empty scene.
+std::shared_ptr<const scene::Snapshot> empty_scene(std::string name);
+
+}  // namespace camway::testing

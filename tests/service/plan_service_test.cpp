@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/plan_service.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "daemon/service/wire_convert.h"
+#include "tests/service/plan_samples.h"
+#include "tests/service/running_service.h"
+
+namespace camway::service {
+namespace {
+
+using testing::echo_result;
+using testing::request_with;
+using testing::RunningService;
+
+ServiceConfig with_workers(int workers, std::size_t queue_capacity) {
+  ServiceConfig config;
+  config.workers = workers;
+  config.queue_capacity = queue_capacity;
+  return config;
+}
+
+/// The answer without what may differ between two runs.
+Bytes without_time(plan_response_t answer) {
+  answer.utime = 0;
+  return wire::encode(answer);
+}
+
+/// What the service should say to `request` if `planner` is the echo.
+Bytes expected_echo(const plan_request_t& request, const DeadlineLimits& limits = {}) {
+  return without_time(to_wire(echo_result(*from_wire(request, limits).request),
+                              {{request.client_id, request.request_id, 0},
+                               request.scene,
+                               7,
+                               "0123456789abcdef0123456789abcdef"}));
+}
+
+TEST(PlanService, AnswersARequestOnItsClientsChannel) {
+  RunningService daemon;
+  const plan_request_t request = request_with(1);
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_GT(answer->utime, 1'600'000'000'000'000) << "microseconds since 1970";
+  EXPECT_EQ(without_time(*answer), expected_echo(request));
+  EXPECT_NE(daemon.log_text().find("answered client=tester request=1 scene=room status=ok"),
+            std::string::npos)
+      << daemon.log_text();
+}
+
+TEST(PlanService, LongRequestsAndAnswersTravelInPages) {
+  RunningService daemon;
+  const plan_request_t request = request_with(1, 3000);
+  std::vector<Bytes> pages = encode_pages(request);
+  ASSERT_GT(pages.size(), 3U);
+  std::reverse(pages.begin(), pages.end());
+  for (Bytes& page : pages) daemon.send_on(daemon.channels.plan_request(), std::move(page));
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(without_time(*answer), expected_echo(request));
+  for (const auto& message : daemon.transport.published()) {
+    EXPECT_LE(message.bytes.size(), wire::kMaxMessageBytes);
+  }
+}
+
+TEST(PlanService, ARepeatedRequestGetsTheSameBytesWithoutPlanning) {
+  RunningService daemon;
+  plan_request_t request = request_with(1, 1500);
+  daemon.send(request);
+  ASSERT_TRUE(daemon.answer_to(request));
+  const std::string channel = daemon.channels.plan_response("tester");
+  const std::vector<Bytes> first = daemon.transport.published_on(channel);
+  ASSERT_GT(first.size(), 2U);
+  request.utime = 99;  // a client that sends again may say when
+  daemon.send(request);
+  ASSERT_TRUE(daemon.answer_to(request, first.size()));
+  const std::vector<Bytes> both = daemon.transport.published_on(channel);
+  ASSERT_EQ(both.size(), 2 * first.size());
+  EXPECT_TRUE(std::equal(first.begin(), first.end(),
+                         both.begin() + static_cast<std::ptrdiff_t>(first.size())));
+  EXPECT_EQ(daemon.planner.calls(), 1);
+}
+
+TEST(PlanService, ARequestThatIsBeingPlannedIsNotPlannedTwice) {
+  RunningService daemon(with_workers(2, 8));
+  daemon.planner.hold();
+  const plan_request_t request = request_with(1);
+  daemon.send(request);
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  for (int i = 0; i < 5; ++i) daemon.send(request);
+  // Requests are handled in order, so once this one is planned the five have been looked at.
+  const plan_request_t next = request_with(2);
+  daemon.send(next);
+  ASSERT_TRUE(daemon.planner.wait_for_calls(2));
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(request));
+  ASSERT_TRUE(daemon.answer_to(next));
+  EXPECT_EQ(daemon.stop(), RunOutcome::kDrained);
+  EXPECT_EQ(daemon.planner.calls(), 2);
+  EXPECT_EQ(daemon.transport.published_on(daemon.channels.plan_response("tester")).size(), 2U);
+}
+
+TEST(PlanService, TheSameIdForAnotherRequestIsAnError) {
+  RunningService daemon;
+  plan_request_t request = request_with(1);
+  daemon.send(request);
+  ASSERT_TRUE(daemon.answer_to(request));
+  plan_request_t other = request;
+  other.camera.near_m *= 2;
+  daemon.send(other);
+  const std::optional<plan_response_t> answer = daemon.answer_to(other, 1);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
+  EXPECT_EQ(answer->message, "request_id: 1 was used before for another request");
+  EXPECT_EQ(daemon.planner.calls(), 1);
+  daemon.send(request);
+  EXPECT_EQ(daemon.answer_to(request, 2)->status, plan_response_t::STATUS_OK)
+      << "the first request keeps its answer";
+}
+
+TEST(PlanService, RefusesWhatTheQueueCannotHoldAndTakesItLater) {
+  RunningService daemon(with_workers(1, 1));
+  daemon.planner.hold();
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  daemon.send(request_with(2));
+  const plan_request_t refused = request_with(3);
+  daemon.send(refused);
+  const std::optional<plan_response_t> answer = daemon.answer_to(refused);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_OVERLOADED);
+  EXPECT_NE(answer->message.find("send it again later"), std::string::npos) << answer->message;
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(request_with(2)));
+  daemon.send(refused);
+  const std::optional<plan_response_t> later = daemon.answer_to(refused, 3);
+  ASSERT_TRUE(later);
+  EXPECT_EQ(later->status, plan_response_t::STATUS_OK);
+}
+
+TEST(PlanService, SaysWhichScenesThereAre) {
+  RunningService daemon;
+  plan_request_t request = request_with(1);
+  request.scene = "cellar";
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_UNKNOWN_SCENE);
+  EXPECT_EQ(answer->message, "scene: 'cellar' is unknown; there are: 'hall' 'room'");
+  EXPECT_EQ(answer->scene, "cellar");
+  EXPECT_EQ(answer->scene_revision, 0);
+}
+
+TEST(PlanService, PassesOnWhatPlanningFoundInvalid) {
+  RunningService daemon({}, [](const planning::PlanRequest& request) {
+    planning::PlanResult result;
+    const std::optional<planning::InvalidRequest> fault = planning::validate(request);
+    result.status = fault ? planning::Status::kInvalid : planning::Status::kOk;
+    if (fault) {
+      result.message = fault->message;
+      result.keyframe = fault->keyframe;
+    }
+    return result;
+  });
+  plan_request_t request = request_with(1);
+  std::fill_n(request.keyframes[2].orientation_wxyz, 4, 0.0);
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
+  EXPECT_EQ(answer->keyframe, 2);
+  EXPECT_NE(answer->message.find("keyframes[2].orientation"), std::string::npos);
+
+  plan_request_t unknown_method = request_with(2);
+  unknown_method.method = "magic";
+  daemon.send(unknown_method);
+  EXPECT_EQ(daemon.answer_to(unknown_method)->message, "method: 'magic' is unknown");
+}
+
+TEST(PlanService, APlannerThatThrowsIsAnInternalError) {
+  RunningService daemon({}, [](const planning::PlanRequest& request) {
+    if (request.keyframes.size() == 3) throw std::runtime_error("out of luck");
+    return echo_result(request);
+  });
+  daemon.send(request_with(1, 3));
+  const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1, 3));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INTERNAL_ERROR);
+  EXPECT_EQ(answer->message, "internal error: out of luck");
+  daemon.send(request_with(2, 4));
+  EXPECT_EQ(daemon.answer_to(request_with(2, 4))->status, plan_response_t::STATUS_OK);
+}
+
+TEST(PlanService, AnAnswerBeyondAllPagesIsAnErrorThatSaysSo) {
+  RunningService daemon({}, [](const planning::PlanRequest&) {
+    planning::PlanResult result;
+    result.collisions.resize(std::size_t{1024} * 3800);
+    return result;
+  });
+  daemon.send(request_with(1));
+  const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INTERNAL_ERROR);
+  EXPECT_NE(answer->message.find("more than the 1024 allowed"), std::string::npos);
+}
+
+TEST(PlanService, DeadlinesAreLimitedByTheConfiguration) {
+  ServiceConfig config;
+  config.deadline = {.default_s = 0.5, .max_s = 2.0};
+  RunningService daemon(config, [](const planning::PlanRequest& request) {
+    planning::PlanResult result = echo_result(request);
+    result.message = std::to_string(request.options.deadline_s);
+    return result;
+  });
+  plan_request_t request = request_with(1);
+  request.deadline_s = 100.0;
+  daemon.send(request);
+  EXPECT_EQ(daemon.answer_to(request)->message, std::to_string(2.0));
+  request.request_id = 2;
+  request.deadline_s = 0.0;
+  daemon.send(request);
+  EXPECT_EQ(daemon.answer_to(request)->message, std::to_string(0.5));
+}
+
+TEST(PlanService, AnswersDoNotDependOnTheNumberOfWorkers) {
+  constexpr std::int64_t kRequests = 40;
+  const auto answers = [](int workers) {
+    RunningService daemon(with_workers(workers, 100));
+    for (std::int64_t id = 0; id < kRequests; ++id) daemon.send(request_with(id, 400));
+    std::vector<Bytes> all;
+    for (std::int64_t id = 0; id < kRequests; ++id) {
+      all.push_back(without_time(daemon.answer_to(request_with(id, 400)).value()));
+    }
+    return all;
+  };
+  EXPECT_EQ(answers(1), answers(4));
+}
+
+}  // namespace
+}  // namespace camway::service

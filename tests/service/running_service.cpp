@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "tests/service/running_service.h"
+
+#include <gtest/gtest.h>
+#include <spdlog/sinks/base_sink.h>
+
+#include <chrono>
+
+#include "daemon/service/wire_convert.h"
+#include "tests/service/plan_samples.h"
+
+namespace camway::testing {
+
+planning::PlanResult FakePlanner::plan(const planning::PlanRequest& request) {
+  std::unique_lock lock(mutex_);
+  ++calls_;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return !held_; });
+  lock.unlock();
+  return result_(request);
+}
+
+void FakePlanner::hold() {
+  const std::lock_guard lock(mutex_);
+  held_ = true;
+}
+
+void FakePlanner::release() {
+  {
+    const std::lock_guard lock(mutex_);
+    held_ = false;
+  }
+  changed_.notify_all();
+}
+
+bool FakePlanner::wait_for_calls(int count) const {
+  std::unique_lock lock(mutex_);
+  return changed_.wait_for(lock, std::chrono::seconds(30), [&] { return calls_ >= count; });
+}
+
+int FakePlanner::calls() const {
+  const std::lock_guard lock(mutex_);
+  return calls_;
+}
+
+planning::PlanResult echo_result(const planning::PlanRequest& request) {
+  planning::PlanResult result;
+  result.status = planning::Status::kOk;
+  result.message = "as asked";
+  result.keyframes = request.keyframes;
+  std::vector<motion::Segment> segments(request.keyframes.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    segments[i].t0_s = static_cast<double>(i);
+    segments[i].t1_s = static_cast<double>(i + 1);
+    segments[i].position.fill(request.keyframes[i].pose.position);
+    segments[i].orientation.fill(geometry::wxyz(request.keyframes[i].pose.orientation));
+  }
+  if (!segments.empty()) result.path = motion::Path(std::move(segments));
+  return result;
+}
+
+/// What the service logs. The sink locks for writing; the text is read under the same lock.
+struct RunningService::Log {
+  class Sink final : public spdlog::sinks::base_sink<std::mutex> {
+   public:
+    std::string text() {
+      const std::lock_guard lock(mutex_);
+      return text_;
+    }
+
+   private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+      text_.append(message.payload.data(), message.payload.size()).append("\n");
+    }
+    void flush_() override {}
+
+    std::string text_;
+  };
+
+  std::shared_ptr<Sink> sink = std::make_shared<Sink>();
+  std::shared_ptr<spdlog::logger> logger = std::make_shared<spdlog::logger>("test", sink);
+};
+
+RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result)
+    : planner(std::move(result)), channels{config.prefix}, log_(std::make_unique<Log>()) {
+  scenes.put(empty_scene("room"));
+  scenes.put(empty_scene("hall"));
+  service_.emplace(
+      transport, scenes, std::move(config),
+      [this](const scene::Snapshot&, const planning::PlanRequest& request) {
+        return planner.plan(request);
+      },
+      log_->logger);
+  loop_ = std::thread([this] { outcome_ = service_->run(); });
+}
+
+RunningService::~RunningService() {
+  planner.release();
+  if (loop_.joinable()) stop();
+}
+
+void RunningService::send(const plan_request_t& request) {
+  for (service::Bytes& page : service::encode_pages(request)) {
+    send_on(channels.plan_request(), std::move(page));
+  }
+}
+
+void RunningService::send_on(const std::string& channel, service::Bytes bytes) {
+  transport.deliver(channel, std::move(bytes));
+}
+
+std::optional<plan_response_t> RunningService::answer_to(const plan_request_t& request,
+                                                         std::size_t skip_pages) {
+  const std::string channel = channels.plan_response(request.client_id);
+  service::PageAssembly<plan_response_t> assembly;
+  for (std::size_t seen = skip_pages;; ++seen) {
+    const std::optional<service::Bytes> bytes = transport.message_on(channel, seen);
+    if (!bytes) return std::nullopt;
+    wire::Decoded<plan_response_t> decoded = wire::decode<plan_response_t>(*bytes);
+    if (!decoded.message) {
+      ADD_FAILURE() << decoded.fault.text("plan_response_t");
+      return std::nullopt;
+    }
+    if (decoded.message->request_id != request.request_id) continue;
+    auto outcome = assembly.add(std::move(*decoded.message));
+    if (outcome.whole) return outcome.whole;
+  }
+}
+
+service::RunOutcome RunningService::stop() {
+  service_->request_stop();
+  return wait_for_end();
+}
+
+service::RunOutcome RunningService::wait_for_end() {
+  loop_.join();
+  return *outcome_;
+}
+
+std::string RunningService::log_text() const { return log_->sink->text(); }
+
+plan_request_t request_with(std::int64_t request_id, std::size_t keyframes) {
+  Random random(kSeed + static_cast<std::uint64_t>(request_id));
+  return service::to_wire(sample_request(keyframes, random), {"tester", request_id, 0});
+}
+
+}  // namespace camway::testing

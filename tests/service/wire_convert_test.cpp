@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/wire_convert.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "lcmtypes/wire_check.h"
+#include "tests/service/plan_samples.h"
+
+namespace camway::service {
+namespace {
+
+using testing::kSeed;
+using testing::Random;
+using testing::sample_request;
+using testing::sample_result;
+
+const RequestIds kIds{"tester", -3, 1'000'000};
+
+plan_request_t minimal_request() {
+  plan_request_t wire{};
+  wire.client_id = "tester";
+  wire.num_pages = 1;
+  wire.max_inserted_keyframes = -1;
+  return wire;
+}
+
+// Bytes compare every bit of every number, NaN and -0 included, without a comparison of ours.
+TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  for (const std::size_t keyframes : {0U, 1U, 2U, 50U}) {
+    const plan_request_t wire = to_wire(sample_request(keyframes, random), kIds);
+    EXPECT_EQ(wire.client_id, kIds.client_id);
+    EXPECT_EQ(wire.request_id, kIds.request_id);
+    EXPECT_EQ(wire.num_keyframes, static_cast<std::int32_t>(keyframes));
+    const ConvertedRequest back = from_wire(wire);
+    ASSERT_TRUE(back.request) << back.error;
+    EXPECT_EQ(wire::encode(to_wire(*back.request, kIds)), wire::encode(wire));
+  }
+}
+
+TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  const AnswerHeader header{kIds, "room", 7, "abc"};
+  for (const std::size_t segments : {0U, 1U, 40U}) {
+    const planning::PlanResult result = sample_result(segments, random);
+    const plan_response_t wire = to_wire(result, header);
+    const ConvertedResult back = from_wire(wire);
+    ASSERT_TRUE(back.result) << back.error;
+    EXPECT_EQ(wire::encode(to_wire(*back.result, header)), wire::encode(wire));
+    EXPECT_EQ(back.result->status, result.status);
+    EXPECT_EQ(back.result->message, result.message);
+    EXPECT_EQ(back.result->path.segments().size(), segments);
+    EXPECT_EQ(back.result->remaining_collisions, result.remaining_collisions);
+    EXPECT_FALSE(back.result->keyframe);
+  }
+}
+
+TEST(WireConvert, QuaternionsAreOrderedWxyzOnTheWire) {
+  planning::PlanRequest request;
+  request.keyframes.resize(1);
+  request.keyframes[0].pose.orientation = geometry::Quat(0.1, 0.2, 0.3, 0.4);  // w, x, y, z
+  const plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.keyframes[0].orientation_wxyz[0], 0.1);
+  EXPECT_EQ(wire.keyframes[0].orientation_wxyz[3], 0.4);
+  EXPECT_EQ(from_wire(wire).request->keyframes[0].pose.orientation.w(), 0.1);
+}
+
+TEST(WireConvert, EveryPlanningStatusHasItsNumber) {
+  using planning::Status;
+  const std::vector<std::pair<Status, std::int32_t>> table{
+      {Status::kOk, 0},           {Status::kPartial, 1}, {Status::kInfeasible, 2},
+      {Status::kTimeout, 3},      {Status::kInvalid, 4}, {Status::kUnknownScene, 5},
+      {Status::kInternalError, 6}};
+  for (const auto& [status, number] : table) {
+    planning::PlanResult result;
+    result.status = status;
+    const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+    EXPECT_EQ(wire.status, number);
+    EXPECT_EQ(from_wire(wire).result->status, status);
+    EXPECT_EQ(status_name(number), planning::to_string(status));
+  }
+  for (const std::int32_t number : {7, 8, 9, -1, 1000}) {
+    EXPECT_FALSE(from_wire(plain_answer(number, "later", {kIds, "", 0, ""})).result);
+  }
+  EXPECT_EQ(from_wire(plain_answer(7, "later", {kIds, "", 0, ""})).error, "overloaded: later");
+}
+
+TEST(WireConvert, KeyframeAtFaultIsMinusOneForNone) {
+  planning::PlanResult result;
+  EXPECT_EQ(to_wire(result, {kIds, "", 0, ""}).keyframe, -1);
+  result.keyframe = 3;
+  const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+  EXPECT_EQ(wire.keyframe, 3);
+  EXPECT_EQ(from_wire(wire).result->keyframe, 3U);
+}
+
+TEST(WireConvert, ZerosAskForDefaults) {
+  const planning::PlanOptions defaults;
+  const ConvertedRequest converted = from_wire(minimal_request(), {.default_s = 4.0, .max_s = 8.0});
+  ASSERT_TRUE(converted.request);
+  planning::PlanOptions expected = defaults;
+  expected.deadline_s = 4.0;
+  EXPECT_EQ(converted.request->options, expected);
+}
+
+TEST(WireConvert, DeadlinesAreCutToTheMaximum) {
+  const auto deadline_of = [](double wire_s) {
+    plan_request_t wire = minimal_request();
+    wire.deadline_s = wire_s;
+    return from_wire(wire, {.default_s = 4.0, .max_s = 8.0}).request->options.deadline_s;
+  };
+  EXPECT_EQ(deadline_of(7.5), 7.5);
+  EXPECT_EQ(deadline_of(8.5), 8.0);
+  EXPECT_EQ(deadline_of(std::numeric_limits<double>::infinity()), 8.0);
+  // These are for planning::validate to refuse.
+  EXPECT_EQ(deadline_of(-1.0), -1.0);
+  EXPECT_TRUE(std::isnan(deadline_of(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST(WireConvert, ValuesAreLeftToValidation) {
+  plan_request_t wire = minimal_request();
+  wire.chord_error_m = -1.0;
+  wire.keyframes.resize(1);
+  wire.keyframes[0].position_m[1] = std::numeric_limits<double>::quiet_NaN();
+  wire.keyframes[0].origin = keyframe_t::ORIGIN_INSERTED;
+  const ConvertedRequest converted = from_wire(wire);
+  ASSERT_TRUE(converted.request);
+  EXPECT_EQ(converted.request->options.chord_error_m, -1.0);
+  EXPECT_TRUE(std::isnan(converted.request->keyframes[0].pose.position.y()));
+  EXPECT_EQ(converted.request->keyframes[0].origin, motion::KeyframeOrigin::kGiven);
+  EXPECT_TRUE(planning::validate(*converted.request));
+}
+
+TEST(WireConvert, UnknownMethodIsAnErrorThatNamesIt) {
+  plan_request_t wire = minimal_request();
+  wire.method = "magic";
+  EXPECT_EQ(from_wire(wire).error, "method: 'magic' is unknown");
+}
+
+TEST(WireConvert, SegmentsThatAreNoPathAreRefused) {
+  Random random(kSeed);
+  const plan_response_t good = to_wire(sample_result(4, random), {kIds, "room", 7, "abc"});
+  plan_response_t gap = good;
+  gap.segments[2].t0_s += 0.01;
+  EXPECT_EQ(from_wire(gap).error, "segments[2]: does not begin where the one before ends");
+  plan_response_t backward = good;
+  backward.segments[0].t1_s = backward.segments[0].t0_s;
+  EXPECT_EQ(from_wire(backward).error, "segments[0]: its times do not increase");
+  plan_response_t nan = good;
+  nan.segments[3].t1_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(from_wire(nan).error, "segments[3]: its times do not increase");
+}
+
+TEST(WireConvert, LongTextsAreCutBetweenCharacters) {
+  EXPECT_EQ(clipped("abcdef", 4), "abcd");
+  EXPECT_EQ(clipped("abcd", 4), "abcd");
+  EXPECT_EQ(clipped(std::string_view("ab\0cd", 5), 4), "ab");
+  EXPECT_EQ(clipped("abc\xc3\xa4", 4), "abc");  // ä: two bytes
+  EXPECT_EQ(clipped("abc\xc3\xa4", 5), "abc\xc3\xa4");
+  EXPECT_EQ(clipped("\x80\x80\x80", 2), "");  // never UTF-8, still ends
+  planning::PlanResult result;
+  result.message = std::string(5000, 'm');
+  const plan_response_t wire = to_wire(result, {kIds, std::string(5000, 's'), 0, ""});
+  EXPECT_FALSE(wire::check(wire::layout_of<plan_response_t>(), wire::encode(wire)));
+}
+
+}  // namespace
+}  // namespace camway::service
