@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// A client process of the integration tests:
+//
+//   planning_client CLIENT_ID SCENE REQUEST.json...
+//
+// plans each request and prints `answer FILE STATUS HASH-OF-THE-PATH`, and the error if there is
+// one. Exit code 0 if the daemon answered all of them, whatever it said; 1 if not.
+#include <camway/client.h>
+
+#include <cstdint>
+#include <cstring>
+#include <iostream>
+#include <string>
+#include <type_traits>
+
+#include "tools/client_request.h"
+#include "tools/json_io.h"
+
+namespace {
+
+/// FNV-1a over the bits of all numbers.
+std::uint64_t hash_of(const camway::Path& path) {
+  static_assert(sizeof(camway::Segment) == 42 * sizeof(double), "no padding to hash");
+  std::uint64_t hash = 14695981039346656037u;
+  for (const camway::Segment& segment : path.segments()) {
+    unsigned char bytes[sizeof(segment)];
+    std::memcpy(bytes, &segment, sizeof(segment));
+    for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211u;
+  }
+  return hash;
+}
+
+bool from_daemon(camway::Status status) { return static_cast<int>(status) < 100; }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4) return 2;
+  camway::ClientOptions options;
+  options.client_id = argv[1];
+  options.retries = 1000;
+  camway::Client client(options);
+  bool all_answered = true;
+  for (int i = 3; i < argc; ++i) {
+    const auto request = camway::tools::read_plan_request(argv[i]);
+    if (!request.value) {
+      std::cerr << request.error << '\n';
+      return 2;
+    }
+    const camway::PlanResponse response =
+        client.plan(camway::tools::to_client_request(*request.value, argv[2]));
+    std::cout << "answer " << argv[i] << ' ' << to_string(response.status) << ' ' << std::hex
+              << hash_of(response.path) << std::dec << std::endl;
+    if (!response.ok()) std::cout << "error " << response.error << std::endl;
+    all_answered = all_answered && from_daemon(response.status);
+  }
+  return all_answered ? 0 : 1;
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/integration/fixture.h"
+
+namespace camway::integration {
+namespace {
+
+using testing::HasSubstr;
+
+class PlanningTest : public IntegrationTest {};
+
+TEST_F(PlanningTest, AnswersSeveralClientsOnSeveralScenesAtOnce) {
+  start_daemon();
+  const std::vector<std::string> office{"office-free-corridor", "office-free-door",
+                                        "office-graze-door", "office-impossible-safe"};
+  std::vector<std::unique_ptr<Process>> clients;
+  clients.push_back(start_client("a", "office", office));
+  clients.push_back(start_client("b", "office", office));
+  clients.push_back(start_client("c", "maze", {"maze-free-cells", "maze-graze-corners"}));
+  clients.push_back(start_client("d", "gallery", {"gallery-free-aisle", "gallery-free-ring"}));
+  for (auto& client : clients) EXPECT_EQ(client->wait(), 0) << client->output();
+
+  for (const auto& client : clients) {
+    for (const ClientLine& line : lines_of(*client)) {
+      SCOPED_TRACE(client->output());
+      const auto is_of = [&](const char* kind) {
+        return line.request.find(kind) != std::string::npos;
+      };
+      EXPECT_TRUE(line.status == "ok" || !is_of("-free-"));
+      EXPECT_TRUE(line.status != "ok" || !is_of("-impossible-"));
+    }
+  }
+  // The same request gets the same path to the last bit, whoever asks.
+  const std::vector<ClientLine> a = lines_of(*clients[0]);
+  const std::vector<ClientLine> b = lines_of(*clients[1]);
+  ASSERT_EQ(a.size(), office.size());
+  ASSERT_EQ(b.size(), office.size());
+  for (std::size_t i = 0; i < office.size(); ++i) {
+    EXPECT_EQ(a[i].status, b[i].status) << office[i];
+    EXPECT_EQ(a[i].path_hash, b[i].path_hash) << office[i];
+  }
+  EXPECT_NE(a[0].path_hash, a[1].path_hash);  // the hash tells paths apart
+}
+
+TEST_F(PlanningTest, AnswerDoesNotDependOnTheNumberOfWorkers) {
+  const std::vector<std::string> requests{"office-free-atrium", "office-graze-slalom",
+                                          "office-free-stairs"};
+  std::set<std::vector<std::string>> outcomes;
+  for (const std::string workers : {"1", "3"}) {
+    start_daemon({"--workers", workers});
+    std::vector<std::string> outcome;
+    std::vector<std::unique_ptr<Process>> clients;
+    for (const std::string& request : requests) {
+      clients.push_back(start_client(request, "office", {request}));
+    }
+    for (auto& client : clients) {
+      ASSERT_EQ(client->wait(), 0) << client->output();
+      for (const ClientLine& line : lines_of(*client)) {
+        outcome.push_back(line.status + " " + line.path_hash);
+      }
+    }
+    EXPECT_EQ(outcome.size(), requests.size());
+    outcomes.insert(outcome);
+  }
+  EXPECT_EQ(outcomes.size(), 1u);
+}
+
+TEST_F(PlanningTest, HeartbeatListsTheScenes) {
+  start_daemon();
+  Client client;
+  const DaemonStatus status = client.status();
+  ASSERT_TRUE(status.ok()) << status.error;
+  EXPECT_EQ(status.total_scenes, 3);
+  ASSERT_EQ(status.scenes.size(), 3u);
+  EXPECT_EQ(status.scenes[0].name, "gallery");
+  EXPECT_EQ(status.scenes[1].name, "maze");
+  EXPECT_EQ(status.scenes[2].name, "office");
+  EXPECT_GT(status.scenes[2].num_triangles, 30'000);
+  EXPECT_EQ(status.scenes[2].occupancy_resolution_m, 0.2);
+  EXPECT_EQ(status.scenes[1].occupancy_resolution_m, 0.0);
+  EXPECT_GE(status.scenes[2].bounds_max_m[0] - status.scenes[2].bounds_min_m[0], 30.0);
+}
+
+TEST_F(PlanningTest, PathPassesThroughEveryGivenKeyframe) {
+  start_daemon();
+  Client client(patient());
+  const PlanRequest request = request_of("office-free-timed", "office");
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error;
+  std::size_t given = 0;
+  for (const Keyframe& keyframe : response.keyframes) {
+    if (keyframe.inserted) continue;
+    ASSERT_LT(given, request.keyframes.size());
+    EXPECT_EQ(keyframe.time_s, request.keyframes[given].time_s);
+    // Control points at joins are the keyframes' own numbers, up to a few roundings of metres.
+    const Pose pose = response.path.pose(keyframe.time_s);
+    double dot = 0.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      EXPECT_NEAR(pose.position_m[d], request.keyframes[given].position_m[d], 1e-12);
+    }
+    for (std::size_t d = 0; d < 4; ++d) {
+      dot += pose.orientation_wxyz[d] * request.keyframes[given].orientation_wxyz[d];
+    }
+    // The files hold 12 decimals, so their quaternions are of unit length to 1e-12 only.
+    EXPECT_NEAR(std::abs(dot), 1.0, 1e-11);
+    ++given;
+  }
+  EXPECT_EQ(given, request.keyframes.size());
+}
+
+TEST_F(PlanningTest, LongRequestsAndAnswersTravelInPages) {
+  start_daemon();
+  // To and fro along the free stretch between the keyframes of a request that is a line.
+  PlanRequest request = request_of("office-free-straight", "office");
+  ASSERT_EQ(request.keyframes.size(), 2u);
+  const std::vector<Keyframe> ends = request.keyframes;
+  request.keyframes.clear();
+  constexpr int kKeyframes = 3000;
+  constexpr int kSwing = 100;
+  for (int i = 0; i < kKeyframes; ++i) {
+    const int phase = i % (2 * kSwing);
+    const double share = double(phase < kSwing ? phase : 2 * kSwing - phase) / kSwing;
+    Keyframe keyframe = ends[0];
+    for (std::size_t d = 0; d < 3; ++d) {
+      keyframe.position_m[d] += share * (ends[1].position_m[d] - ends[0].position_m[d]);
+    }
+    keyframe.time_s = i;
+    request.keyframes.push_back(keyframe);
+  }
+  request.has_times = true;
+  request.deadline_s = 30.0;
+  Client client(patient());
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.keyframes.size(), std::size_t(kKeyframes));
+  EXPECT_GE(response.path.segments().size(), std::size_t(kKeyframes - 1));
+  EXPECT_EQ(response.path.end(), double(kKeyframes - 1));
+}
+
+TEST_F(PlanningTest, SameIdGetsTheSameAnswerWithoutPlanningAgain) {
+  start_daemon();
+  Client client(patient());
+  PlanRequest request = request_of("office-free-door", "office");
+  request.request_id = 77;
+  const PlanResponse first = client.plan(request);
+  ASSERT_TRUE(first.ok()) << first.error;
+  const PlanResponse again = client.plan(request);
+  ASSERT_TRUE(again.ok()) << again.error;
+  EXPECT_EQ(first.timing.total_ms, again.timing.total_ms);  // of the one time that it was planned
+  EXPECT_TRUE(eventually([&] { return client.status().repeated_requests >= 1; }));
+
+  request.keyframes[0].position_m[0] += 0.01;
+  const PlanResponse other = client.plan(request);
+  EXPECT_EQ(other.status, Status::kInvalid);
+  EXPECT_THAT(other.error, HasSubstr("77"));
+}
+
+}  // namespace
+}  // namespace camway::integration
