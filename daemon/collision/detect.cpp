@@ -45,6 +45,30 @@ double largest_coordinate_m(const Segment& segment) {
   return largest;
 }
 
+// How far a point of the body travels at the most, from the lengths of the control polygons.
+double travel_bound_m(const motion::Path& path, double radius_m) {
+  double travel_m = 0.0;
+  for (const Segment& segment : path.segments()) {
+    for (std::size_t i = 1; i < segment.position.size(); ++i) {
+      travel_m += (segment.position[i] - segment.position[i - 1]).norm();
+    }
+    travel_m += 2.0 * radius_m * motion::motion_bound(segment).turn_rad;
+  }
+  return travel_m;
+}
+
+void join_close_intervals(std::vector<CollisionInterval>& intervals, double gap_s) {
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < intervals.size(); ++i) {
+    if (intervals[i].t_begin_s - intervals[kept].t_end_s < gap_s) {
+      intervals[kept].t_end_s = intervals[i].t_end_s;
+    } else {
+      intervals[++kept] = intervals[i];
+    }
+  }
+  if (!intervals.empty()) intervals.resize(kept + 1);
+}
+
 // Walks the path from left to right, splitting what is undecided, and strings the colliding pieces
 // together to intervals.
 class Detector {
@@ -163,7 +187,12 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(
   Detector detector(octree, corners_C, options, deadline, /*only_first=*/false);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return std::nullopt;
-  return detector.intervals();
+  std::vector<CollisionInterval> intervals = detector.intervals();
+  if (intervals.size() > 1) {
+    const double travel_m = travel_bound_m(path, motion::body_radius_m(corners_C));
+    join_close_intervals(intervals, options.gap_m / travel_m * (path.end_s() - path.begin_s()));
+  }
+  return intervals;
 }
 
 FirstCollision first_collision(const scene::Octree& octree, const motion::Path& path,

@@ -18,7 +18,9 @@ struct DetectOptions {
   /// resolution counts as colliding. [Limit: 0 < value] [Units: metres]
   double tolerance_m = 1e-4;
   /// Inside a colliding stretch, a free gap shorter than this may be counted as colliding, so that
-  /// a long collision does not cost the finest resolution everywhere. [Limit: tolerance_m <= value]
+  /// a long collision does not cost the finest resolution everywhere; and intervals closer in time
+  /// than the body takes for this on average over the path are joined, as nobody could use the gap.
+  /// [Limit: tolerance_m <= value] [Units: metres]
   double gap_m = 5e-3;
 };
 

@@ -133,6 +133,20 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
 }
 
+TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
+  const double gap_m = DetectOptions{}.gap_m;
+  for (const auto& [apart_m, intervals] :
+       {std::pair(0.5 * gap_m, 1u), std::pair(2.0 * gap_m, 2u)}) {
+    Mesh mesh;
+    for (const double z : {0.0, apart_m}) {
+      testing::add_triangle(mesh, {-50, -50, z}, {50, -50, z}, {0, 80, z});
+    }
+    EXPECT_EQ(detect(Octree::build(mesh), path, corners_C).size(), intervals) << apart_m;
+  }
+}
+
 // The oracle: dense sampling may overlook a collision but never invents one.
 TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
   constexpr std::uint64_t kSeed = 5;
