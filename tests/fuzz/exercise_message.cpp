@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/exercise_message.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include <camway/occupancy_request_t.hpp>
+#include <camway/plan_request_t.hpp>
+
+#include "daemon/planning/request.h"
+#include "daemon/service/answer_cache.h"
+#include "daemon/service/occupancy_answer.h"
+#include "daemon/service/wire_convert.h"
+#include "daemon/service/wire_pages.h"
+#include "lcmtypes/wire_check.h"
+
+namespace camway::testing {
+namespace {
+
+void require(bool promise, const char* text) {
+  if (promise) return;
+  std::fprintf(stderr, "broken promise: %s\n", text);
+  std::abort();
+}
+
+template <class Message>
+std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
+  wire::Decoded<Message> result = wire::decode<Message>(bytes);
+  if (!result.message) {
+    require(!result.fault.reason.empty(), "a refusal has a reason");
+    static_cast<void>(wire::peek_sender(wire::layout_of<Message>(), bytes));
+    return std::nullopt;
+  }
+  const std::vector<std::uint8_t> again = wire::encode(*result.message);
+  require(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()),
+          "what is accepted encodes to the same bytes");
+  return std::move(result.message);
+}
+
+void exercise(const plan_request_t& message) {
+  service::PageAssembly<plan_request_t> pages;
+  const auto outcome = pages.add(message);
+  require(outcome.whole.has_value() + !outcome.error.empty() + (pages.half_received() > 0) == 1,
+          "a page completes a message, waits or is refused");
+  if (!outcome.whole) return;
+  static_cast<void>(service::digest_of(*outcome.whole));
+  const service::ConvertedRequest converted = service::from_wire(*outcome.whole);
+  require(converted.request.has_value() == converted.error.empty(), "a request or a reason");
+  if (converted.request) static_cast<void>(planning::validate(*converted.request));
+}
+
+}  // namespace
+
+int exercise_message(std::span<const std::uint8_t> bytes) {
+  int right = 0;
+  if (const auto request = decoded<plan_request_t>(bytes)) {
+    exercise(*request);
+    ++right;
+  }
+  if (const auto batch = decoded<occupancy_request_t>(bytes)) {
+    static_cast<void>(service::batch_fault(*batch));
+    ++right;
+  }
+  return right;
+}
+
+}  // namespace camway::testing

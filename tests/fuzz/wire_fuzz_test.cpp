@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// The fuzzer's entry point on mutants of a fixed seed, so that every build runs it.
+#include <gtest/gtest.h>
+
+#include <camway/occupancy_request_t.hpp>
+#include <camway/plan_request_t.hpp>
+
+#include "lcmtypes/wire_check.h"
+#include "tests/fuzz/exercise_message.h"
+#include "tests/service/random_messages.h"
+
+namespace camway::testing {
+namespace {
+
+template <class Message>
+class WireFuzz : public ::testing::Test {};
+using Inbound = ::testing::Types<plan_request_t, occupancy_request_t>;
+TYPED_TEST_SUITE(WireFuzz, Inbound);
+
+TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {
+  constexpr int kMutants = 20'000;
+  Random random(kSeed);
+  std::vector<std::uint8_t> original;
+  int right = 0;
+  for (int trial = 0; trial < kMutants; ++trial) {
+    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    if (trial % 20 == 0) original = wire::encode(random_message<TypeParam>(random));
+    std::vector<std::uint8_t> bytes = original;
+    mutate(bytes, random);
+    ASSERT_NO_THROW(right += exercise_message(bytes));
+  }
+  EXPECT_GT(right, kMutants / 50) << "the mutants are too wild to reach the converters";
+  EXPECT_LT(right, kMutants);
+}
+
+TYPED_TEST(WireFuzz, NoiseBreaksNoPromise) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 5000; ++trial) {
+    std::vector<std::uint8_t> bytes(below(random, 300));
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    ASSERT_EQ(exercise_message(bytes), 0) << "seed " << kSeed << ", trial " << trial;
+  }
+}
+
+}  // namespace
+}  // namespace camway::testing
