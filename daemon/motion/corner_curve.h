@@ -22,7 +22,7 @@ struct RationalCurve {
 /// Deviation from Johnstone & Williams, "A rational model of the surface swept by a curve" (1995),
 /// whose programs stay at degree 12 by adding position points, elevated as a polynomial, to the
 /// rational rotation's points N_j/W_j. That is a different curve wherever weights vary; it misses
-/// the true one by centimetres on metre-sized turns (the tests measure it).
+/// the true one by a centimetre on metre-sized steps (the tests measure it).
 RationalCurve corner_curve(const Segment& segment, const geometry::Vec3& corner_C);
 
 }  // namespace camway::motion

@@ -18,7 +18,9 @@ class Path {
   explicit Path(std::vector<Segment> segments);
 
   [[nodiscard]] bool empty() const { return segments_.empty(); }
-  [[nodiscard]] std::span<const Segment> segments() const { return segments_; }
+  [[nodiscard]] std::span<const Segment> segments() const& { return segments_; }
+  /// Not of a temporary: the span would outlive it.
+  std::span<const Segment> segments() const&& = delete;
   /// Precondition of everything below: not empty.
   [[nodiscard]] double begin_s() const;
   [[nodiscard]] double end_s() const;

@@ -96,7 +96,7 @@ std::vector<Keyframe> full_turn() {
 }  // namespace
 
 std::vector<AwkwardKeyframes> awkward_keyframes() {
-  Random random(60);
+  Random random(kAwkwardSeed);
   const double degree_rad = std::numbers::pi / 180.0;
   return {
       {"Two", with_times(random_poses(random, 2))},

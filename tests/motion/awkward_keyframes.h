@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -16,8 +17,12 @@ struct AwkwardKeyframes {
   bool has_half_turns = false;
 };
 
-/// How GoogleTest names a parameter.
-inline void PrintTo(const AwkwardKeyframes& set, std::ostream* out) { *out << set.name; }
+inline constexpr std::uint64_t kAwkwardSeed = 60;
+
+/// How GoogleTest prints a parameter.
+inline void PrintTo(const AwkwardKeyframes& set, std::ostream* out) {
+  *out << set.name << ", seed " << kAwkwardSeed;
+}
 
 /// One set for each difficulty that is known. Deterministic.
 std::vector<AwkwardKeyframes> awkward_keyframes();

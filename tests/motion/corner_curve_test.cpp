@@ -75,13 +75,14 @@ Vec3 short_cut_at(const Segment& segment, const Vec3& corner_C, double u) {
   return value.head<3>() / value[3];
 }
 
-TEST(CornerCurve, DegreeTwelveWouldMissByCentimetres) {
+TEST(CornerCurve, DegreeTwelveWouldMissByACentimetre) {
   Random random(104);
   double largest_m = 0.0;
   for (int repeat = 0; repeat < 200; ++repeat) {
     const std::vector<Keyframe> keyframes = test::with_times(
         {{Vec3::Zero(), random.rotation()}, {random.vector(1.0), random.rotation()}});
-    for (const Segment& segment : interpolate(keyframes).segments()) {
+    const Path path = interpolate(keyframes);
+    for (const Segment& segment : path.segments()) {
       for (int k = 0; k <= 20; ++k)
         largest_m = std::max(largest_m, (short_cut_at(segment, Vec3(0.1, 0.1, -0.1), k / 20.0) -
                                          corner_at(segment, Vec3(0.1, 0.1, -0.1), k / 20.0))
