@@ -156,7 +156,7 @@ double unit_for_scale(double scale) {
 //  for the
 //     rounding of the six dot products: 56u·scale.
 //  5. The final square root and sum of squares: 3u·2·sqrt(3)·scale = 11u·scale.
-// Sum: 162u·scale; 192 covers the second order. Tests see less than a tenth of it.
+// Sum: 162u·scale; 192 covers the second order. Tests see about a tenth of it.
 double triangle_distance_error_m(double scale_m) {
   return 192.0 * kUnitRoundoff * scale_m + kSmallestNormal;
 }
