@@ -71,7 +71,7 @@ std::vector<View> facing(const std::vector<Point>& eyes, const Direction& forwar
 }
 
 std::string to_json(const Request& request, const std::string& scene) {
-  std::string text = "{\n  \"scene\": \"" + scene + "\",\n  \"camera\": {\"fov_x_deg\": " +
+  std::string text = "{\n  \"scene\": \"../" + scene + "\",\n  \"camera\": {\"fov_x_deg\": " +
                      std::to_string(request.lens.fov_x_deg) +
                      ", \"fov_y_deg\": " + std::to_string(request.lens.fov_y_deg) +
                      ", \"near\": " + metres(request.lens.near) + "},\n  \"keyframes\": [\n";
