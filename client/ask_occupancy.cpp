@@ -22,7 +22,8 @@ struct PartAnswer {
 
 std::string explain(const occupancy_response_t& response) {
   const std::string said = response.message.empty() ? "(no reason given)" : response.message;
-  return to_string(static_cast<Status>(response.status)) + ": " + said;
+  return to_string(static_cast<Status>(response.status)) + " (scene \"" + response.scene +
+         "\"): " + said;
 }
 
 PartAnswer ask_part(Session& session, const occupancy_request_t& request,

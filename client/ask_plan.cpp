@@ -15,9 +15,6 @@ namespace {
 std::string explain(const PlanResponse& response) {
   const std::string said = response.message.empty() ? "(no reason given)" : response.message;
   switch (response.status) {
-    case Status::kPartial:
-      return "the path still collides in " + std::to_string(response.remaining.size()) +
-             " intervals: " + said;
     case Status::kTimeout:
       return "planning ran out of time; raise PlanRequest.deadline_s: " + said;
     case Status::kUnknownScene:

@@ -1,0 +1,36 @@
+# What `cmake --install` puts where: the client for find_package(camway), the wire types for other
+# languages, and the daemon (other programs are installed
+# where they are defined).
+include(CMakePackageConfigHelpers)
+
+install(TARGETS camwayd)
+
+# The installed client library holds the wire checks too and exports nothing of our build: users need
+# LCM and the standard library only.
+add_library(camway_client_installed STATIC
+  $<TARGET_OBJECTS:camway_client> $<TARGET_OBJECTS:camway_wire>)
+set_target_properties(camway_client_installed PROPERTIES
+  OUTPUT_NAME camway LINKER_LANGUAGE CXX EXPORT_NAME client)
+target_include_directories(camway_client_installed INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(camway_client_installed INTERFACE cxx_std_17)
+target_link_libraries(camway_client_installed INTERFACE LCM::lcm)
+
+set(camway_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/camway)
+install(TARGETS camway_client_installed EXPORT camway-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
+install(EXPORT camway-targets NAMESPACE camway:: DESTINATION ${camway_package_dir}
+        COMPONENT client)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/camway DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        COMPONENT client FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/lcmtypes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/lcmtypes
+        COMPONENT client FILES_MATCHING PATTERN "*.lcm" PATTERN "README.md")
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/camwayConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/camwayConfig.cmake INSTALL_DESTINATION ${camway_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/camwayConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/camwayConfig.cmake
+              ${PROJECT_BINARY_DIR}/camwayConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindLCM.cmake
+        DESTINATION ${camway_package_dir} COMPONENT client)
