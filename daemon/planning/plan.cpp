@@ -44,6 +44,10 @@ std::vector<Keyframe> prepared_keyframes(const PlanRequest& request) {
   return keyframes;
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 // The stages in order, each adding to the result.
 class Planner {
  public:
@@ -131,14 +135,16 @@ class Planner {
     const std::size_t remaining = result_.remaining_collisions.size();
     if (remaining == 0) {
       result_.status = Status::kOk;
-      result_.message = fmt::format("{} collisions found, {} keyframes inserted, none remain",
-                                    result_.collisions.size(), inserted);
+      result_.message = fmt::format("{} found, {} inserted, none remain",
+                                    counted(result_.collisions.size(), "collision"),
+                                    counted(inserted, "keyframe"));
       return;
     }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
-    result_.message =
-        fmt::format("{}{} of the path's collisions remain ({} keyframes inserted)",
-                    timed_out_ ? "the deadline came first; " : "", remaining, inserted);
+    result_.message = fmt::format("{}{} found, {} inserted, {} left on the path",
+                                  timed_out_ ? "the deadline came first: " : "",
+                                  counted(result_.collisions.size(), "collision"),
+                                  counted(inserted, "keyframe"), remaining);
   }
 
   std::optional<std::vector<CollisionInterval>> detect() const {
@@ -163,7 +169,7 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
-  // What the deadline leaves to be told honestly: the check of the best path so far.
+  // Beyond the deadline, as an answer without a check of its path would be worth nothing.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
   const scene::Octree& octree_;
