@@ -61,7 +61,7 @@ struct Core {
   Warnings publish_warnings;
   Outbox outbox;
   Mailbox mailbox;
-  WorkerPool workers;  ///< last, so that running jobs find the rest still there
+  WorkerPool workers;
 };
 
 }  // namespace camway::service

@@ -28,6 +28,9 @@ Service::Service(Transport& transport, const scene::SceneStore& scenes, ServiceC
       plans_(core_, std::move(planner)),
       occupancy_(core_) {}
 
+// Jobs use the plan service, which would go before the workers in `core_` if nothing were done.
+Service::~Service() { core_.workers.stop(); }
+
 RunOutcome Service::run() {
   if (!subscribe()) return RunOutcome::kNotSubscribed;
   heartbeat(Clock::now());

@@ -29,10 +29,13 @@ class Service {
   /// `transport` and `scenes` must outlive the service. Precondition: `config.fault()` is empty.
   Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
           Planner planner, std::shared_ptr<spdlog::logger> log);
+  /// Waits for what is still being planned, which it does not answer any more.
+  ~Service();
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
 
   /// Serves until `request_stop`. Logs "ready" and publishes a first status when subscriptions are
-  /// in place. To be called once. After `kAbandoned` the destructor still waits for the planning
-  /// that was abandoned.
+  /// in place. To be called once.
   RunOutcome run();
 
   /// From any thread: begins the stop. What is being planned is finished and answered, within the

@@ -6,12 +6,18 @@
 
 namespace camway::service {
 
-WorkerPool::WorkerPool(int workers, std::size_t queue_capacity) : queue_capacity_(queue_capacity) {
+WorkerPool::WorkerPool(int workers, std::size_t queue_capacity)
+    : workers_(workers), queue_capacity_(queue_capacity) {
   threads_.reserve(static_cast<std::size_t>(workers));
   for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
-WorkerPool::~WorkerPool() { close(); }
+WorkerPool::~WorkerPool() { stop(); }
+
+void WorkerPool::stop() {
+  close();
+  threads_.clear();
+}
 
 bool WorkerPool::try_submit(Job job) {
   {

@@ -22,7 +22,7 @@ class WorkerPool {
 
   /// [Limit: 1 <= workers, 1 <= queue_capacity]
   WorkerPool(int workers, std::size_t queue_capacity);
-  /// Waits for the jobs that are running; those still queued are dropped.
+  /// As `stop`.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
@@ -33,21 +33,26 @@ class WorkerPool {
   /// Lets no more jobs in and hands back those that nobody has begun.
   std::vector<Job> close();
 
+  /// Drops the jobs that nobody has begun, waits for the others and ends the threads. To be called
+  /// before anything goes that a job uses. Not for two threads at a time.
+  void stop();
+
   [[nodiscard]] bool closed() const;
   [[nodiscard]] std::size_t queued() const;
   [[nodiscard]] std::size_t running() const;
-  [[nodiscard]] int workers() const { return static_cast<int>(threads_.size()); }
+  [[nodiscard]] int workers() const { return workers_; }
 
  private:
   void work();
 
+  const int workers_;
   const std::size_t queue_capacity_;
   mutable std::mutex mutex_;  ///< guards everything below but threads_
   std::condition_variable changed_;
   std::deque<Job> queue_;
   std::size_t running_ = 0;
   bool closed_ = false;
-  std::vector<std::jthread> threads_;  ///< last, so that they end before what they use
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace camway::service

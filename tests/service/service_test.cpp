@@ -241,6 +241,23 @@ TEST(Service, StopFinishesWhatIsBeingPlannedAndRefusesTheRest) {
   EXPECT_EQ(daemon.planner.calls(), 1);
 }
 
+// A worker counts as idle only some instants after it woke the loop with its answer: a stop that
+// looked in between and then waited for another wake would sit out its limit.
+TEST(Service, StopEndsAsSoonAsTheLastAnswerIsOut) {
+  const auto begin = std::chrono::steady_clock::now();
+  for (int round = 0; round < 200; ++round) {
+    RunningService daemon;
+    daemon.planner.hold();
+    daemon.send(request_with(1));
+    ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+    std::thread releaser([&] { daemon.planner.release(); });
+    EXPECT_EQ(daemon.stop(), RunOutcome::kDrained);
+    releaser.join();
+    ASSERT_LT(std::chrono::steady_clock::now() - begin, ServiceConfig{}.drain_limit)
+        << "in round " << round;
+  }
+}
+
 TEST(Service, StopWaitsNoLongerThanItsLimit) {
   ServiceConfig config;
   config.drain_limit = std::chrono::milliseconds(30);
