@@ -19,8 +19,6 @@ constexpr char kFooter[] =
     "line or scene file.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";
 
-const std::vector<std::string> kLogLevels{"trace", "debug", "info", "warn", "error", "off"};
-
 std::string default_url() {
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   const bool set = from_environment != nullptr && *from_environment != '\0';
@@ -65,7 +63,7 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "Longest planning time that a request may ask for, seconds")
       ->capture_default_str();
   app.add_option("--log-level", raw.log_level, "What is logged on stderr")
-      ->check(CLI::IsMember(kLogLevels))
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
 }
 

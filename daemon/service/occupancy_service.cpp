@@ -52,7 +52,7 @@ void OccupancyService::on_malformed(std::span<const std::uint8_t> message,
   send(plain_occupancy_answer(request, occupancy_response_t::STATUS_MALFORMED, reason));
 }
 
-void OccupancyService::on_request(std::shared_ptr<const occupancy_request_t> request) {
+void OccupancyService::on_request(const std::shared_ptr<const occupancy_request_t>& request) {
   std::shared_ptr<const scene::Snapshot> snapshot = core_.scenes.find(request->scene);
   if (!snapshot) {
     send(plain_occupancy_answer(

@@ -24,7 +24,7 @@ class OccupancyService {
 
  private:
   void on_malformed(std::span<const std::uint8_t> message, std::string_view reason);
-  void on_request(std::shared_ptr<const occupancy_request_t> request);
+  void on_request(const std::shared_ptr<const occupancy_request_t>& request);
   void refuse_overloaded(const occupancy_request_t& request);
   void send(occupancy_response_t answer);
 

@@ -33,7 +33,7 @@ StopSignals::StopSignals(std::function<void(int)> on_stop)
 StopSignals::~StopSignals() {
   waiter_.request_stop();
   // Ends the wait if no signal came; blocked and directed at that thread, it reaches nobody else.
-  pthread_kill(waiter_.native_handle(), SIGTERM);
+  pthread_kill(waiter_.native_handle(), SIGINT);
 }
 
 }  // namespace camway::service
