@@ -16,6 +16,7 @@ namespace camway {
 
 struct ClientOptions {
   /// LCM network; empty: the environment's LCM_DEFAULT_URL, else multicast that stays on this host.
+  /// To reach other hosts: "udpm://239.255.76.67:7667?ttl=1", the daemon's `--url` likewise.
   std::string url;
   std::string prefix = "CAMWAY";  ///< of all channels, as the daemon's [Limit: [A-Za-z0-9_-]{1,11}]
   std::string client_id;          ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one

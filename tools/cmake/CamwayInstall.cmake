@@ -1,6 +1,5 @@
 # What `cmake --install` puts where: the client for find_package(camway), the wire types for other
-# languages, and the daemon (other programs are installed
-# where they are defined).
+# languages, and the daemon (other programs are installed where they are defined).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS camwayd)
