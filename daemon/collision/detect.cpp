@@ -2,9 +2,8 @@
 #include "daemon/collision/detect.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "daemon/collision/near_quad.h"
+#include "daemon/collision/piece.h"
 #include "daemon/motion/motion_bound.h"
 
 namespace camway::collision {
@@ -12,38 +11,6 @@ namespace camway::collision {
 namespace {
 
 using motion::Segment;
-
-// De Casteljau in degrees 3 and 6, one division by a length, one rotation, one translation and the
-// distance kernel: fewer than 64 roundings stand between the control points and a distance, each at
-// most half an ulp of the largest coordinate involved.
-constexpr double kRoundings = 64.0;
-
-// A stretch of a segment. Kept as parameters of the whole, not as control points of its own, so
-// that rounding does not add up over sub-divisions.
-struct Piece {
-  const Segment* segment;
-  double u0;
-  double u1;
-
-  [[nodiscard]] double middle() const { return 0.5 * (u0 + u1); }
-  [[nodiscard]] Piece left() const { return {segment, u0, middle()}; }
-  [[nodiscard]] Piece right() const { return {segment, middle(), u1}; }
-  [[nodiscard]] double time_s(double u) const {
-    return u >= 1.0 ? segment->t1_s : segment->t0_s + u * (segment->t1_s - segment->t0_s);
-  }
-  [[nodiscard]] double begin_s() const { return time_s(u0); }
-  [[nodiscard]] double end_s() const { return time_s(u1); }
-  // A piece so short that its middle is one of its ends cannot be split.
-  [[nodiscard]] bool splittable() const { return middle() > u0 && middle() < u1; }
-};
-
-double largest_coordinate_m(const Segment& segment) {
-  double largest = 0.0;
-  for (const geometry::Vec3& point : segment.position) {
-    largest = std::max(largest, point.cwiseAbs().maxCoeff());
-  }
-  return largest;
-}
 
 // How far a point of the body travels at the most, from the lengths of the control polygons.
 double travel_bound_m(const motion::Path& path, double radius_m) {
@@ -97,21 +64,8 @@ class Detector {
   [[nodiscard]] const std::vector<CollisionInterval>& intervals() const { return intervals_; }
 
  private:
-  struct Look {
-    bool free;           // the whole piece, proved by distance
-    bool touches;        // at the middle
-    double deviation_m;  // of any point of the body from where it is at the middle
-  };
-
   [[nodiscard]] Look look(const Piece& piece) const {
-    const double deviation_m =
-        motion::deviation_m(motion::motion_bound(*piece.segment, piece.u0, piece.u1), radius_m_);
-    const std::array<geometry::Triangle, 2> quad = near_quad_triangles(
-        motion::corners_W(corners_C_, motion::pose_at(*piece.segment, piece.middle())));
-    const double rounding_m = kRoundings * std::numeric_limits<double>::epsilon() *
-                              (largest_coordinate_m(*piece.segment) + radius_m_ + deviation_m);
-    const std::optional<scene::Nearest> nearest = octree_.nearest(quad, deviation_m + rounding_m);
-    return {!nearest.has_value(), nearest && nearest->distance_m == 0.0, deviation_m};
+    return look_at(octree_, corners_C_, radius_m_, piece, /*beyond_m=*/0.0);
   }
 
   void visit(const Piece& piece) {
@@ -121,11 +75,11 @@ class Detector {
       return;
     }
     const Look seen = look(piece);
-    if (seen.free) {
+    if (!seen.distance_m) {
       close();
       return;
     }
-    const double resolution_m = seen.touches ? options_.gap_m : options_.tolerance_m;
+    const double resolution_m = *seen.distance_m == 0.0 ? options_.gap_m : options_.tolerance_m;
     if (seen.deviation_m <= resolution_m || !piece.splittable()) {
       extend(piece);
       return;
@@ -150,7 +104,7 @@ class Detector {
   // Where, at the finest resolution, the first part of `piece` begins that is not free.
   [[nodiscard]] std::optional<double> first_not_free(const Piece& piece) const {
     const Look seen = look(piece);
-    if (seen.free) return std::nullopt;
+    if (!seen.distance_m) return std::nullopt;
     if (seen.deviation_m <= options_.tolerance_m || !piece.splittable()) return piece.begin_s();
     const std::optional<double> left = first_not_free(piece.left());
     return left ? left : first_not_free(piece.right());
@@ -159,7 +113,7 @@ class Detector {
   // Where the last such part ends.
   [[nodiscard]] std::optional<double> last_not_free(const Piece& piece) const {
     const Look seen = look(piece);
-    if (seen.free) return std::nullopt;
+    if (!seen.distance_m) return std::nullopt;
     if (seen.deviation_m <= options_.tolerance_m || !piece.splittable()) return piece.end_s();
     const std::optional<double> right = last_not_free(piece.right());
     return right ? right : last_not_free(piece.left());

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/keyframe_insertion.h"
@@ -60,6 +61,7 @@ class Planner {
   PlanResult run() && {
     if (prepare()) {
       correct(find_collisions());
+      certify();
       conclude();
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
@@ -127,6 +129,16 @@ class Planner {
     result_.timing.certify_ms = lap_ms();
   }
 
+  // The search for collisions is the proof: what it does not list is free, rounding included.
+  void certify() {
+    if (!result_.remaining_collisions.empty()) return;
+    result_.certificate.certified = true;
+    const std::optional<collision::PathClearance> clearance = collision::path_clearance(
+        octree_, result_.path, corners_C_, Deadline::after_s(kFinalCheckBudget_s));
+    if (clearance) result_.certificate.clearance_lower_bound_m = clearance->lower_bound_m;
+    result_.timing.certify_ms += lap_ms();
+  }
+
   void conclude() {
     const std::size_t inserted = static_cast<std::size_t>(std::count_if(
         result_.keyframes.begin(), result_.keyframes.end(), [](const Keyframe& keyframe) {
@@ -135,9 +147,10 @@ class Planner {
     const std::size_t remaining = result_.remaining_collisions.size();
     if (remaining == 0) {
       result_.status = Status::kOk;
-      result_.message = fmt::format("{} found, {} inserted, none remain",
-                                    counted(result_.collisions.size(), "collision"),
-                                    counted(inserted, "keyframe"));
+      result_.message =
+          fmt::format("{} found, {} inserted, proved free with {:.3g} m clearance",
+                      counted(result_.collisions.size(), "collision"),
+                      counted(inserted, "keyframe"), result_.certificate.clearance_lower_bound_m);
       return;
     }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;

@@ -14,7 +14,7 @@
 namespace camway::planning {
 
 enum class Status {
-  kOk,       ///< the path is free of collision as far as the final check can tell; see certificate
+  kOk,       ///< the path is proved free of collision; see the certificate
   kPartial,  ///< a path, but with the remaining collisions listed
   kInfeasible,     ///< no path exists, and that was proved
   kTimeout,        ///< the deadline came first; the best path so far with its remaining collisions

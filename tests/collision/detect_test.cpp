@@ -44,9 +44,7 @@ Mesh plate_at_z0() {
 TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
   const Octree octree = Octree::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  constexpr std::uint64_t kSeed = 11;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random = testing::seeded(11);
   for (int run = 0; run < 200; ++run) {
     const Quat orientation = testing::random_rotation(random);
     double lowest_m = 1.0;
@@ -149,9 +147,7 @@ TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
 
 // The oracle: dense sampling may overlook a collision but never invents one.
 TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
-  constexpr std::uint64_t kSeed = 5;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random = testing::seeded(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const DetectOptions options;

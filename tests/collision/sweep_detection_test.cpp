@@ -42,9 +42,7 @@ TEST(SweepDetection, BracketsACuboidInTheWay) {
 }
 
 TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
-  constexpr std::uint64_t kSeed = 21;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random = testing::seeded(21);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   int compared = 0;

@@ -72,9 +72,7 @@ TEST(PushOutRule, ABadCornerWithClearEdgesTakesItsDepthFromTheCentre) {
 }
 
 TEST(PushOut, EndsFreeWithTheMarginAndKeepsTheOrientation) {
-  constexpr std::uint64_t kSeed = 3;
-  RecordProperty("seed", static_cast<int>(kSeed));
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random = testing::seeded(3);
   std::uniform_real_distribution<double> where(-0.04, 0.05);
   int pushed_out = 0;
   for (int run = 0; run < 200; ++run) {

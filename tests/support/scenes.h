@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -15,6 +16,12 @@ namespace camway::testing {
 
 using geometry::Quat;
 using geometry::Vec3;
+
+/// A generator whose seed is in the test's output, so that a failure can be repeated.
+inline std::mt19937_64 seeded(std::uint64_t seed) {
+  std::printf("[   SEED   ] %llu\n", static_cast<unsigned long long>(seed));
+  return std::mt19937_64(seed);
+}
 
 /// Adds an axis-parallel cuboid of 12 triangles.
 inline void add_cuboid(scene::Mesh& mesh, const Vec3& min, const Vec3& max) {

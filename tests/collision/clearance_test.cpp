@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include "daemon/collision/detect.h"
+#include "daemon/collision/near_quad.h"
+#include "daemon/motion/interpolate.h"
+#include "tests/support/scenes.h"
+
+namespace camway::collision {
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using motion::Corners;
+using motion::Keyframe;
+using motion::Path;
+using scene::Mesh;
+using scene::Octree;
+
+PathClearance clearance(const Octree& octree, const Path& path, const Corners& corners_C) {
+  return path_clearance(octree, path, corners_C, Deadline::never())
+      .value_or(PathClearance{-1.0, -1.0});
+}
+
+bool detect_free(const Octree& octree, const Path& path, const Corners& corners_C) {
+  const auto found = detect_collisions(octree, path, corners_C, path.begin_s(), path.end_s(), {},
+                                       Deadline::never());
+  return found && found->empty();
+}
+
+TEST(PathClearance, OfAPassBesideAWallIsKnown) {
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  for (const double distance_m : {10.0, 1.0, 0.03, 1e-3, 1e-6}) {
+    Mesh mesh;
+    const double wall_x = corners_C[0].x() + distance_m;
+    testing::add_triangle(mesh, {wall_x, -90, -90}, {wall_x, 90, -90}, {wall_x, 0, 90});
+    const Path path =
+        motion::interpolate(std::vector<Keyframe>{{0.0, {{-0.5, 0, 1}, Quat::Identity()}},
+                                                  {1.0, {{0, 0, 0}, Quat::Identity()}},
+                                                  {2.0, {{-0.5, 0, -1}, Quat::Identity()}}});
+    const PathClearance found = clearance(Octree::build(mesh), path, corners_C);
+    EXPECT_LE(found.lower_bound_m, distance_m);
+    EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceGap) * distance_m * 0.999);
+    EXPECT_GE(found.upper_bound_m, distance_m * 0.999999);
+  }
+}
+
+// The oracle: dense samples, each with its distance by brute force over all triangles.
+TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
+  std::mt19937_64 random = testing::seeded(77);
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  int positive = 0;
+  for (int run = 0; run < 30; ++run) {
+    const Octree octree = Octree::build(testing::scattered_triangles(random, 12, 0.1));
+    std::vector<Keyframe> keyframes;
+    for (int i = 0; i < 3; ++i) {
+      keyframes.push_back(
+          {static_cast<double>(i),
+           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+    }
+    const Path path = motion::interpolate(keyframes);
+    const PathClearance found = clearance(octree, path, corners_C);
+    double sampled_m = kLargestClearance_m;
+    for (int i = 0; i <= 1000; ++i) {
+      const std::optional<double> gap_m =
+          clearance_m(octree, corners_C, path.pose(2.0 * i / 1000), sampled_m);
+      sampled_m = gap_m.value_or(sampled_m);
+    }
+    EXPECT_LE(found.lower_bound_m, sampled_m) << "run " << run;
+    const bool free = detect_free(octree, path, corners_C);
+    EXPECT_EQ(found.lower_bound_m > 0.0, free) << "run " << run;
+    if (!free) continue;
+    ++positive;
+    // Samples are at most a few millimetres of motion apart.
+    EXPECT_GE(found.lower_bound_m, 0.85 * (sampled_m - 0.01)) << "run " << run;
+  }
+  EXPECT_GT(positive, 3);
+}
+
+TEST(PathClearance, IsZeroForACollision) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  const Path path = motion::interpolate(std::vector<Keyframe>{
+      {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});
+  EXPECT_EQ(clearance(Octree::build(mesh), path, corners_C).lower_bound_m, 0.0);
+}
+
+TEST(PathClearance, HoldsFarFromTheOriginAndForTinyCameras) {
+  motion::Camera camera = testing::small_camera();
+  camera.near_m = 1e-3;
+  const Corners corners_C = motion::near_corners_C(camera);
+  const Vec3 far(1e6, -1e6, 1e6);
+  const double distance_m = 0.02;
+  Mesh mesh;
+  const double wall_x = far.x() + corners_C[0].x() + distance_m;
+  testing::add_triangle(mesh, {wall_x, far.y() - 9, far.z() - 9},
+                        {wall_x, far.y() + 9, far.z() - 9}, {wall_x, far.y(), far.z() + 9});
+  const Path path =
+      motion::interpolate(std::vector<Keyframe>{{0.0, {far + Vec3(0, 0, 1), Quat::Identity()}},
+                                                {1.0, {far - Vec3(0, 0, 1), Quat::Identity()}}});
+  const PathClearance found = clearance(Octree::build(mesh), path, corners_C);
+  // A coordinate of 1e6 m is stored to 1e-10 m.
+  EXPECT_LE(found.lower_bound_m, distance_m + 1e-9);
+  EXPECT_GE(found.lower_bound_m, 0.89 * distance_m);
+}
+
+TEST(PathClearance, IsUndecidedWhenTheDeadlineStrikes) {
+  const Path path = motion::interpolate(std::vector<Keyframe>{
+      {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});
+  const Corners corners_C = motion::near_corners_C(testing::small_camera());
+  EXPECT_FALSE(path_clearance(Octree::build(Mesh{}), path, corners_C, Deadline::after_s(0.0)));
+}
+
+}  // namespace
+}  // namespace camway::collision
