@@ -35,6 +35,15 @@ constexpr bool is_client_id(std::string_view text) {
 }
 constexpr bool is_prefix(std::string_view text) { return is_plain_name(text, kMaxPrefixLength); }
 
+/// `text` of a peer without control characters, which could forge lines of a log or change what a
+/// terminal shows.
+inline std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return text;
+}
+
 /// Names of all channels. Preconditions: `is_prefix(prefix)`, `is_client_id(client_id)`.
 struct Channels {
   std::string prefix = "CAMWAY";

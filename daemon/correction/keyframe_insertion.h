@@ -33,14 +33,14 @@ struct KeyframeInsertionResult {
 ///
 /// Deviations: collisions are with the filled near quadrilateral, so the enclosed ones that the
 /// paper's sweep misses are looked for too, before each interval. An interval that cannot be
-/// corrected gives back its keyframes, so that a failure leaves no dents behind. The new spline
+/// corrected gives back its keyframes. A keyframe that would make the camera hurry to it ten times
+/// as fast as on average is refused, and each keeps a margin of ten tolerances. The new spline
 /// differs from the old one beyond `[t_i, t_f]` too; therefore the path is gone through again
 /// until a round finds nothing (the paper goes through it once).
 ///
 /// Limits of the method itself, kept because it is the reference that others are measured against:
-///  - no direction where no corner is bad (an object inside the quadrilateral, clear of the
-///  segments
-///    to its corners), where all are (a wall head-on), or where the good ones are opposite;
+///  - no direction where no corner is bad (an object inside the quadrilateral that no segment to a
+///    corner meets), where all are (a wall head-on), or where the good ones are opposite;
 ///  - the orientation is never changed, so a slot that needs a turn is not passed;
 ///  - a keyframe moves by about the depth of the collision: a way round a wall is not found;
 ///  - every insertion bends the whole spline; corrections can undo one another, and keyframes close

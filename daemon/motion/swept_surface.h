@@ -56,8 +56,8 @@ std::vector<SweptTriangle> tessellate_swept_surface(const Path& path, const Corn
 /// strip.
 inline constexpr double kSweptRounding = 64.0 * 2.220446049250313e-16;
 
-/// 8 triangles each; about 110 MB at most.
-inline constexpr std::size_t kMaxSweptStrips = 131072;
+/// 8 triangles each: about 14 MB and a few tenths of a second at most.
+inline constexpr std::size_t kMaxSweptStrips = 16384;
 
 inline constexpr int kMaxSweptDepth = 30;
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/keyframe_insertion.h"
 #include "daemon/motion/interpolate.h"
+#include "daemon/planning/check.h"
 
 namespace camway::planning {
 
@@ -49,6 +49,13 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+double colliding_s(const std::vector<CollisionInterval>& intervals) {
+  double sum_s = 0.0;
+  for (const CollisionInterval& interval : intervals)
+    sum_s += interval.t_end_s - interval.t_begin_s;
+  return sum_s;
+}
+
 // The stages in order, each adding to the result.
 class Planner {
  public:
@@ -62,6 +69,7 @@ class Planner {
     if (prepare()) {
       correct(find_collisions());
       certify();
+      keep_the_better_path();
       conclude();
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
@@ -112,16 +120,17 @@ class Planner {
     result_.path = std::move(corrected.path);
     timed_out_ = corrected.timed_out;
     result_.timing.correct_ms = lap_ms();
-    check(Deadline::after_s(kFinalCheckBudget_s));
   }
 
-  // The final check of the corrected path, which also runs when correction ran out of time.
-  void check(const Deadline& budget) {
-    const std::optional<std::vector<CollisionInterval>> remaining =
-        collision::detect_collisions(octree_, result_.path, corners_C_, result_.path.begin_s(),
-                                     result_.path.end_s(), detect_, budget);
-    if (remaining) {
-      result_.remaining_collisions = *remaining;
+  // The final check of the path as it will be returned, which also runs when correction ran out of
+  // time: an answer without it would be worth nothing.
+  void certify() {
+    if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
+    const Deadline budget = Deadline::after_s(kFinalCheckBudget_s);
+    PathCheck check = check_path(octree_, result_.path, corners_C_, detect_, budget, budget);
+    if (check.complete) {
+      result_.remaining_collisions = std::move(check.collisions);
+      result_.certificate = check.certificate;
     } else {
       timed_out_ = true;
       mark_all_as_remaining();
@@ -129,14 +138,26 @@ class Planner {
     result_.timing.certify_ms = lap_ms();
   }
 
-  // The search for collisions is the proof: what it does not list is free, rounding included.
-  void certify() {
-    if (!result_.remaining_collisions.empty()) return;
-    result_.certificate.certified = true;
-    const std::optional<collision::PathClearance> clearance = collision::path_clearance(
-        octree_, result_.path, corners_C_, Deadline::after_s(kFinalCheckBudget_s));
-    if (clearance) result_.certificate.clearance_lower_bound_m = clearance->lower_bound_m;
-    result_.timing.certify_ms += lap_ms();
+  // Corrections of some intervals can bend the spline into others. Who gets a path that collides
+  // anyway shall not get one that collides for longer than what he asked for.
+  void keep_the_better_path() {
+    if (colliding_s(result_.remaining_collisions) <= colliding_s(result_.collisions)) return;
+    if (result_.collisions.empty()) return;
+    std::erase_if(result_.keyframes, [](const Keyframe& keyframe) {
+      return keyframe.origin == motion::KeyframeOrigin::kInserted;
+    });
+    result_.path = motion::interpolate(result_.keyframes);
+    result_.remaining_collisions = result_.collisions;
+  }
+
+  // Fine for a flight around an object, but more often the unit or the axes of the file are not
+  // what was assumed, and then everything looks free.
+  [[nodiscard]] std::string note() const {
+    const bool inside = std::ranges::any_of(result_.keyframes, [&](const Keyframe& keyframe) {
+      return octree_.bounds().contains(keyframe.pose.position);
+    });
+    if (inside || octree_.bounds().isEmpty()) return {};
+    return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
   }
 
   void conclude() {
@@ -150,14 +171,16 @@ class Planner {
       result_.message =
           fmt::format("{} found, {} inserted, proved free with {:.3g} m clearance",
                       counted(result_.collisions.size(), "collision"),
-                      counted(inserted, "keyframe"), result_.certificate.clearance_lower_bound_m);
+                      counted(inserted, "keyframe"), result_.certificate.clearance_lower_bound_m) +
+          note();
       return;
     }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
     result_.message = fmt::format("{}{} found, {} inserted, {} left on the path",
                                   timed_out_ ? "the deadline came first: " : "",
                                   counted(result_.collisions.size(), "collision"),
-                                  counted(inserted, "keyframe"), remaining);
+                                  counted(inserted, "keyframe"), remaining) +
+                      note();
   }
 
   std::optional<std::vector<CollisionInterval>> detect() const {
@@ -182,7 +205,7 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
-  // Beyond the deadline, as an answer without a check of its path would be worth nothing.
+  // Beyond the deadline.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
   const scene::Octree& octree_;

@@ -13,10 +13,10 @@ namespace camway::planning {
 /// request give a bit-identical result, timing apart, unless the deadline strikes. Every outcome is
 /// a result; safe from any thread.
 ///
-/// `ok` and `certificate.certified` go together: the search for collisions ran on the final segments
-/// exactly as they are returned, and everything it does not list is free, at every instant and with
-/// the rounding of the computation bounded (`collision/piece.h` has the proof, ARCHITECTURE.md its
-/// assumptions).
+/// `ok` and `certificate.certified` go together: the search for collisions ran on the final
+/// segments exactly as they are returned, and everything it does not list is free, at every instant
+/// and with the rounding of the computation bounded (`collision/piece.h` has the proof,
+/// ARCHITECTURE.md its assumptions).
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const collision::Deadline& deadline);
 

@@ -23,14 +23,14 @@ std::optional<Method> method_from_string(std::string_view text);
 /// What a request may ask for. Every default works.
 struct PlanOptions {
   Method method = Method::kKeyframeInsertion;
-  /// Planning stops at this and answers `timeout` with what it has. [Limit: 0 < value] [Units:
-  /// seconds]
+  /// Planning stops at this and answers `timeout` with what it has; the check of that may take a
+  /// second more. [Limit: 0 < value] [Units: seconds]
   double deadline_s = 10.0;
-  /// How far the tessellated swept surface may stray from the true one. [Limit: 0 < value] [Units:
-  /// metres]
+  /// How far the tessellated swept surface may stray from the true one.
+  /// [Limit: kLeastChordError_m <= value] [Units: metres]
   double chord_error_m = 0.005;
   /// To how much motion of a corner the ends of collision intervals are bracketed.
-  /// [Limit: 0 < value] [Units: metres]
+  /// [Limit: kLeastIntervalTolerance_m <= value] [Units: metres]
   double interval_tolerance_m = 1e-4;
   /// Cut-off of the correction, per request. [Limit: 0 <= value]
   std::int32_t max_inserted_keyframes = 200;
@@ -61,7 +61,11 @@ std::optional<InvalidRequest> validate(const PlanRequest& request);
 /// Largest numbers that a request may hold.
 inline constexpr std::size_t kMaxKeyframes = 100'000;
 inline constexpr double kMaxCoordinate_m = 1e9;  ///< doubles still resolve 0.1 micrometre there
-inline constexpr double kMaxTime_s = 1e10;       ///< seconds since 1970 fit
+/// Finer than this, tessellation takes seconds and tells nothing more: the check does not rest on
+/// it.
+inline constexpr double kLeastChordError_m = 1e-5;
+inline constexpr double kLeastIntervalTolerance_m = 1e-9;  ///< rounding far from the origin
+inline constexpr double kMaxTime_s = 1e10;                 ///< seconds since 1970 fit
 /// Times closer than this share of their size leave too few digits for a parameter between them.
 inline constexpr double kLeastRelativeTimeStep = 1e-12;
 /// A shorter quaternion is meant to be zero, and its square would lose digits to underflow.

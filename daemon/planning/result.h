@@ -14,8 +14,8 @@
 namespace camway::planning {
 
 enum class Status {
-  kOk,       ///< the path is proved free of collision; see the certificate
-  kPartial,  ///< a path, but with the remaining collisions listed
+  kOk,             ///< the path is proved free of collision; see the certificate
+  kPartial,        ///< a path, but with the remaining collisions listed
   kInfeasible,     ///< no path exists, and that was proved
   kTimeout,        ///< the deadline came first; the best path so far with its remaining collisions
   kInvalid,        ///< the request cannot be planned; the message says which part of it

@@ -22,9 +22,9 @@ InvalidRequest invalid(std::string field, std::string_view reason,
 
 std::optional<InvalidRequest> check_angle(std::string_view field, double angle_rad) {
   if (angle_rad > 0.0 && angle_rad < std::numbers::pi) return std::nullopt;
-  return invalid(
-      std::string(field),
-      fmt::format("is {} rad; it must lie between 0 and pi (0 and 180 degrees)", angle_rad));
+  return invalid(std::string(field),
+                 fmt::format("is {} degrees ({} rad); it must lie between 0 and 180 degrees",
+                             angle_rad * (180.0 / std::numbers::pi), angle_rad));
 }
 
 std::optional<InvalidRequest> check_camera(const motion::Camera& camera) {
@@ -85,14 +85,24 @@ std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes
 }
 
 std::optional<InvalidRequest> check_options(const PlanOptions& options) {
+  const auto at_least = [](std::string_view field, double value,
+                           double least) -> std::optional<InvalidRequest> {
+    if (value >= least && std::isfinite(value)) return std::nullopt;
+    return invalid(std::string(field),
+                   fmt::format("is {}; it must be at least {:g} and finite", value, least));
+  };
   const auto positive = [](std::string_view field, double value) -> std::optional<InvalidRequest> {
     if (value > 0.0 && std::isfinite(value)) return std::nullopt;
     return invalid(std::string(field), fmt::format("is {}; it must be above 0 and finite", value));
   };
   if (auto fault = positive("options.deadline_s", options.deadline_s)) return fault;
-  if (auto fault = positive("options.chord_error_m", options.chord_error_m)) return fault;
-  if (auto fault = positive("options.interval_tolerance_m", options.interval_tolerance_m))
+  if (auto fault = at_least("options.chord_error_m", options.chord_error_m, kLeastChordError_m)) {
     return fault;
+  }
+  if (auto fault = at_least("options.interval_tolerance_m", options.interval_tolerance_m,
+                            kLeastIntervalTolerance_m)) {
+    return fault;
+  }
   if (options.max_inserted_keyframes < 0) {
     return invalid("options.max_inserted_keyframes",
                    fmt::format("is {}; it must be at least 0", options.max_inserted_keyframes));

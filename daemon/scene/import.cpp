@@ -31,7 +31,8 @@ std::string reason_not_to_read(const fs::path& file) {
 /// Why the reader refused the file, without its name, which the caller adds.
 std::string refusal(const fs::path& file, const std::string& reason) {
   if (reason.starts_with("No suitable reader found")) {
-    return "files of type '" + file.extension().string() + "' are not supported";
+    return "no reader recognises it: files of type '" + file.extension().string() +
+           "' are not supported, or its content is not what the name says";
   }
   return "cannot be read: " + reason;
 }
@@ -89,6 +90,16 @@ ImportResult import_mesh(const fs::path& file, const ImportOptions& options) {
     result.error = file.string() + ": " + reason;
   }
   return result;
+}
+
+std::string_view importer_note(std::string_view format) {
+  if (format.find("Collada") != std::string_view::npos) {
+    return "the reader has already applied the file's own <unit> and <up_axis> (to metres, Y up)";
+  }
+  if (format.find("FBX") != std::string_view::npos) {
+    return "an FBX file's own unit is often the centimetre; it is not applied";
+  }
+  return {};
 }
 
 }  // namespace camway::scene

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "daemon/scene/mesh.h"
 
@@ -42,6 +43,10 @@ struct ImportReport {
   std::uint64_t dropped_bad_index = 0;
   std::uint64_t dropped_points_and_lines = 0;  ///< primitives that are no surface
 };
+
+/// What the reader of a format does to units and axes before we see a coordinate, as a sentence for
+/// the user; empty where coordinates are those of the file.
+std::string_view importer_note(std::string_view format);
 
 /// Either a mesh or a reason. `report` is filled as far as the import came.
 struct ImportResult {

@@ -15,7 +15,8 @@ namespace camway::service {
 namespace {
 
 constexpr char kFooter[] =
-    "Exit codes: 0 stopped by SIGTERM or SIGINT, 1 LCM cannot be used or failed, 2 wrong command "
+    "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
+    "signal ends it at once), 1 LCM cannot be used or failed, 2 wrong command "
     "line or scene file.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";
 

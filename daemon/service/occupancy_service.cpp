@@ -34,6 +34,8 @@ void OccupancyService::on_message(std::span<const std::uint8_t> message) {
     on_malformed(message, "occupancy_request_t.client_id: is not of [A-Za-z0-9_-]{1,32}");
     return;
   }
+  // No scene of ours has a name with control characters, so nothing is lost.
+  decoded.message->scene = wire::printable(decoded.message->scene);
   on_request(std::make_shared<const occupancy_request_t>(std::move(*decoded.message)));
 }
 

@@ -77,6 +77,9 @@ void PlanService::on_message(std::span<const std::uint8_t> message) {
     on_malformed(message, "plan_request_t.client_id: is not of [A-Za-z0-9_-]{1,32}");
     return;
   }
+  // No scene or method of ours has a name with control characters, so nothing is lost.
+  decoded.message->scene = wire::printable(decoded.message->scene);
+  decoded.message->method = wire::printable(decoded.message->method);
   PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*decoded.message));
   if (!outcome.error.empty()) on_malformed(message, "plan_request_t." + outcome.error);
   if (outcome.whole) on_request(std::move(*outcome.whole));

@@ -98,6 +98,43 @@ TEST(Plan, AWallHeadOnIsPartialWithWhatRemains) {
   EXPECT_FALSE(result.certificate.certified);
 }
 
+double colliding_s(const std::vector<collision::CollisionInterval>& intervals) {
+  double sum_s = 0.0;
+  for (const auto& interval : intervals) sum_s += interval.t_end_s - interval.t_begin_s;
+  return sum_s;
+}
+
+TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
+  std::mt19937_64 random = testing::seeded(4);
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  int partial = 0;
+  for (int run = 0; run < 40; ++run) {
+    const auto snapshot = snapshot_of(testing::scattered_triangles(random, 60, 0.3));
+    PlanRequest request = bulging_tour();
+    request.has_times = false;
+    for (motion::Keyframe& keyframe : request.keyframes) {
+      keyframe.pose = {{place(random), place(random), place(random)},
+                       testing::random_rotation(random)};
+    }
+    const PlanResult result = plan(*snapshot, request);
+    if (result.status != Status::kPartial) continue;
+    ++partial;
+    EXPECT_LE(colliding_s(result.remaining_collisions), colliding_s(result.collisions)) << run;
+  }
+  EXPECT_GT(partial, 10);
+}
+
+TEST(Plan, NotesThatNoKeyframeLiesInTheScene) {
+  Mesh hall;
+  testing::add_cuboid(hall, {-3, -3, -3}, {3, 3, 3});
+  const auto snapshot = snapshot_of(std::move(hall));
+  PlanRequest request = bulging_tour();
+  EXPECT_THAT(plan(*snapshot, request).message, ::testing::Not(::testing::HasSubstr("scale")));
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.pose.position *= 39.37;
+  request.keyframes[1].pose.position.x() += 100.0;
+  EXPECT_THAT(plan(*snapshot, request).message, ::testing::HasSubstr("scale"));
+}
+
 TEST(Plan, ACollidingKeyframeIsNamed) {
   PlanRequest request = bulging_tour();
   request.keyframes[1].pose.position = {0.35, 0, 0.0};

@@ -62,6 +62,7 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"options.interval_tolerance_m",
        {},
        [](PlanRequest& r) { r.options.interval_tolerance_m = -1.0; }},
+      {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = 1e-9; }},
       {"options.max_inserted_keyframes",
        {},
        [](PlanRequest& r) { r.options.max_inserted_keyframes = -1; }},

@@ -23,6 +23,7 @@ ExitCode worse(ExitCode a, ExitCode b);
 /// Each adds its subcommand to `app`. When it is the one that was called it runs inside `app.parse`
 /// and leaves its outcome in `exit_code`, which must outlive `app`.
 void add_plan_command(CLI::App& app, ExitCode& exit_code);
+void add_check_command(CLI::App& app, ExitCode& exit_code);
 void add_info_command(CLI::App& app, ExitCode& exit_code);
 void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
 void add_replay_command(CLI::App& app, ExitCode& exit_code);

@@ -38,6 +38,7 @@ OrderedJson import_json(const scene::ImportReport& report) {
   json["degenerate_triangles"] = report.degenerate_triangles;
   json["dropped_nonfinite"] = report.dropped_nonfinite;
   json["dropped_bad_index"] = report.dropped_bad_index;
+  json["note"] = scene::importer_note(report.format);
   json["dropped_points_and_lines"] = report.dropped_points_and_lines;
   return json;
 }
@@ -91,8 +92,11 @@ void print_import(const scene::ImportReport& report) {
   fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);
   fmt::print("dropped      {} not finite, {} with a bad index, {} points and lines\n",
              report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines);
-  fmt::print("assumed      {} m per unit of the file, axes {} (see --scale and --up)\n",
-             report.scale, to_string(report.up));
+  fmt::print("assumed      {} m per unit, axes {} (see --scale and --up)\n", report.scale,
+             to_string(report.up));
+  if (const std::string_view note = scene::importer_note(report.format); !note.empty()) {
+    fmt::print("             {}\n", note);
+  }
 }
 
 void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double load_ms) {

@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
       "more.\n" +
       camway::tools::exit_code_help("a negative answer (no free path, a replay that differs)"));
   camway::tools::add_plan_command(app, exit_code);
+  camway::tools::add_check_command(app, exit_code);
   camway::tools::add_info_command(app, exit_code);
   camway::tools::add_occupancy_command(app, exit_code);
   camway::tools::add_replay_command(app, exit_code);

@@ -103,7 +103,7 @@ ExitCode replay_offline(const ReplayFlags& flags) {
   const std::vector<std::string> missing = missing_scenes(session, *scenes);
   for (const std::string& name : missing) {
     print_error(fmt::format("{}: asks for the scene '{}': add --scene {}=FILE", flags.log,
-                            printable(name), printable(name)));
+                            wire::printable(name), wire::printable(name)));
   }
   if (!missing.empty()) return ExitCode::kInvalidInput;
   const std::vector<ReplayedRequest> replayed = replay(session, *scenes, flags.run);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "lcmtypes/channels.h"
 #include "tools/camway/replay_run.h"
 
 namespace camway::tools {
@@ -37,10 +38,11 @@ std::string row(const RecordedRequest& recorded, const ReplayedRequest& item, Ti
       recorded.answer && recorded.answer->result ? &*recorded.answer->result : nullptr;
   const std::string status(planning::to_string(item.result.status));
   const std::string inserted = std::to_string(inserted_count(item.result));
-  std::string line = fmt::format(
-      "{:<24} {:>16} {:<12} {:<20} {:>9}", recorded.ids.client_id, recorded.ids.request_id,
-      printable(recorded.scene), change(recorded.answer ? recorded.answer->status : "-", status),
-      then ? change(std::to_string(inserted_count(*then)), inserted) : inserted);
+  std::string line =
+      fmt::format("{:<24} {:>16} {:<12} {:<20} {:>9}", recorded.ids.client_id,
+                  recorded.ids.request_id, wire::printable(recorded.scene),
+                  change(recorded.answer ? recorded.answer->status : "-", status),
+                  then ? change(std::to_string(inserted_count(*then)), inserted) : inserted);
   const bool compared = item.verdict != Verdict::kNotCompared;
   line +=
       compared ? fmt::format(" {:>10.3g}", item.difference.path_m) : fmt::format(" {:>10}", "-");
@@ -58,13 +60,6 @@ void add_note(std::string& out, std::uint64_t count, std::string_view what) {
 }
 
 }  // namespace
-
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  }
-  return text;
-}
 
 std::string report(const Session& session, const std::vector<ReplayedRequest>& replayed,
                    Times times) {

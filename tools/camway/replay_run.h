@@ -47,9 +47,6 @@ std::vector<std::string> missing_scenes(const Session& session, const Scenes& sc
 std::vector<ReplayedRequest> replay(const Session& session, const Scenes& scenes,
                                     const ReplayOptions& options);
 
-/// `text` of a log without control characters, which could change what a terminal shows.
-std::string printable(std::string text);
-
 enum class Times { kShown, kHidden };
 
 /// A table with a line per request, then what was left out, then the verdict.
