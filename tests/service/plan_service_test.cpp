@@ -155,6 +155,17 @@ TEST(PlanService, SaysWhichScenesThereAre) {
   EXPECT_EQ(answer->scene_revision, 0);
 }
 
+TEST(PlanService, KeepsControlCharactersOfAPeerOutOfAnswersAndLogs) {
+  RunningService daemon;
+  plan_request_t request = request_with(2);
+  request.scene = "off\nice\x1b[31m";
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->scene, "off?ice?[31m");
+  EXPECT_EQ(answer->message.find_first_of("\n\x1b"), std::string::npos);
+}
+
 TEST(PlanService, PassesOnWhatPlanningFoundInvalid) {
   RunningService daemon({}, [](const planning::PlanRequest& request) {
     planning::PlanResult result;
