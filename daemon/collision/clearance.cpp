@@ -15,9 +15,9 @@ constexpr double kRoundDown = 1.0 - 4.0 * 2.220446049250313e-16;
 
 class ClearanceSearch {
  public:
-  ClearanceSearch(const scene::Octree& octree, const motion::Corners& corners_C,
+  ClearanceSearch(const scene::SceneIndex& index, const motion::Corners& corners_C,
                   const Deadline& deadline)
-      : octree_(octree),
+      : index_(index),
         corners_C_(corners_C),
         radius_m_(motion::body_radius_m(corners_C)),
         deadline_(deadline) {}
@@ -37,7 +37,7 @@ class ClearanceSearch {
   // Looks at a piece; false where no distance above 0 can be proved.
   bool settle(const Piece& piece) {
     const double enough_m = (1.0 - kClearanceGap) * upper_m_;
-    const Look seen = look_at(octree_, corners_C_, radius_m_, piece, enough_m);
+    const Look seen = look_at(index_, corners_C_, radius_m_, piece, enough_m);
     if (!seen.distance_m) {
       lower_m_ = std::min(lower_m_, enough_m);
       return true;
@@ -58,7 +58,7 @@ class ClearanceSearch {
     return true;
   }
 
-  const scene::Octree& octree_;
+  const scene::SceneIndex& index_;
   const motion::Corners& corners_C_;
   const double radius_m_;
   const Deadline& deadline_;
@@ -70,10 +70,11 @@ class ClearanceSearch {
 
 }  // namespace
 
-std::optional<PathClearance> path_clearance(const scene::Octree& octree, const motion::Path& path,
+std::optional<PathClearance> path_clearance(const scene::SceneIndex& index,
+                                            const motion::Path& path,
                                             const motion::Corners& corners_C,
                                             const Deadline& deadline) {
-  return ClearanceSearch(octree, corners_C, deadline).run(path);
+  return ClearanceSearch(index, corners_C, deadline).run(path);
 }
 
 }  // namespace camway::collision

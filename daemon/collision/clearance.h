@@ -6,7 +6,7 @@
 #include "daemon/collision/deadline.h"
 #include "daemon/motion/camera.h"
 #include "daemon/motion/path.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 
@@ -28,7 +28,8 @@ inline constexpr double kLargestClearance_m = 100.0;
 /// Branch and bound over the path with the bound of `look_at`: a piece is final when its distance
 /// is proved to stay within `kClearanceGap` of the least found so far, or above. Covers every
 /// instant, rounding included. Nothing if the deadline struck first.
-std::optional<PathClearance> path_clearance(const scene::Octree& octree, const motion::Path& path,
+std::optional<PathClearance> path_clearance(const scene::SceneIndex& index,
+                                            const motion::Path& path,
                                             const motion::Corners& corners_C,
                                             const Deadline& deadline);
 

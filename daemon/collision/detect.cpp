@@ -40,9 +40,9 @@ void join_close_intervals(std::vector<CollisionInterval>& intervals, double gap_
 // together to intervals.
 class Detector {
  public:
-  Detector(const scene::Octree& octree, const motion::Corners& corners_C,
+  Detector(const scene::SceneIndex& index, const motion::Corners& corners_C,
            const DetectOptions& options, const Deadline& deadline, bool only_first)
-      : octree_(octree),
+      : index_(index),
         corners_C_(corners_C),
         radius_m_(motion::body_radius_m(corners_C)),
         options_(options),
@@ -65,7 +65,7 @@ class Detector {
 
  private:
   [[nodiscard]] Look look(const Piece& piece) const {
-    return look_at(octree_, corners_C_, radius_m_, piece, /*beyond_m=*/0.0);
+    return look_at(index_, corners_C_, radius_m_, piece, /*beyond_m=*/0.0);
   }
 
   void visit(const Piece& piece) {
@@ -119,7 +119,7 @@ class Detector {
     return right ? right : last_not_free(piece.left());
   }
 
-  const scene::Octree& octree_;
+  const scene::SceneIndex& index_;
   const motion::Corners& corners_C_;
   const double radius_m_;
   const DetectOptions& options_;
@@ -136,9 +136,9 @@ class Detector {
 }  // namespace
 
 std::optional<std::vector<CollisionInterval>> detect_collisions(
-    const scene::Octree& octree, const motion::Path& path, const motion::Corners& corners_C,
+    const scene::SceneIndex& index, const motion::Path& path, const motion::Corners& corners_C,
     double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline) {
-  Detector detector(octree, corners_C, options, deadline, /*only_first=*/false);
+  Detector detector(index, corners_C, options, deadline, /*only_first=*/false);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return std::nullopt;
   std::vector<CollisionInterval> intervals = detector.intervals();
@@ -149,10 +149,10 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(
   return intervals;
 }
 
-FirstCollision first_collision(const scene::Octree& octree, const motion::Path& path,
+FirstCollision first_collision(const scene::SceneIndex& index, const motion::Path& path,
                                const motion::Corners& corners_C, double t_begin_s, double t_end_s,
                                const DetectOptions& options, const Deadline& deadline) {
-  Detector detector(octree, corners_C, options, deadline, /*only_first=*/true);
+  Detector detector(index, corners_C, options, deadline, /*only_first=*/true);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return {false, std::nullopt};
   if (detector.intervals().empty()) return {};

@@ -8,7 +8,7 @@
 #include "daemon/collision/interval.h"
 #include "daemon/motion/camera.h"
 #include "daemon/motion/path.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 
@@ -30,7 +30,7 @@ struct DetectOptions {
 /// within the stretch (He & van den Berg 2014, with the motion bound of `motion/motion_bound.h`).
 /// Nothing if the deadline struck before the end.
 std::optional<std::vector<CollisionInterval>> detect_collisions(
-    const scene::Octree& octree, const motion::Path& path, const motion::Corners& corners_C,
+    const scene::SceneIndex& index, const motion::Path& path, const motion::Corners& corners_C,
     double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline);
 
 /// Only the first of them, with its end.
@@ -38,7 +38,7 @@ struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first
   std::optional<CollisionInterval> interval;
 };
-FirstCollision first_collision(const scene::Octree& octree, const motion::Path& path,
+FirstCollision first_collision(const scene::SceneIndex& index, const motion::Path& path,
                                const motion::Corners& corners_C, double t_begin_s, double t_end_s,
                                const DetectOptions& options, const Deadline& deadline);
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "daemon/motion/camera.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 
@@ -14,12 +14,12 @@ std::array<geometry::Triangle, 2> near_quad_triangles(const motion::Corners& cor
 
 /// Whether the filled near quadrilateral at `pose` touches the scene: an object that slips through
 /// its interior counts, not only one that crosses its outline.
-bool collides(const scene::Octree& octree, const motion::Corners& corners_C,
+bool collides(const scene::SceneIndex& index, const motion::Corners& corners_C,
               const motion::Pose& pose);
 
 /// Distance from the filled near quadrilateral at `pose` to the scene, 0 where they touch; nothing
 /// if it is `cutoff_m` or more.
-std::optional<double> clearance_m(const scene::Octree& octree, const motion::Corners& corners_C,
+std::optional<double> clearance_m(const scene::SceneIndex& index, const motion::Corners& corners_C,
                                   const motion::Pose& pose, double cutoff_m);
 
 }  // namespace camway::collision

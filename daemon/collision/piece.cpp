@@ -16,7 +16,7 @@ constexpr double kRoundUp = 1.0 + 2.0 * 2.220446049250313e-16;
 
 }  // namespace
 
-Look look_at(const scene::Octree& octree, const motion::Corners& corners_C, double body_radius_m,
+Look look_at(const scene::SceneIndex& index, const motion::Corners& corners_C, double body_radius_m,
              const Piece& piece, double beyond_m) {
   const motion::Segment& segment = *piece.segment;
   const double deviation_m =
@@ -24,9 +24,9 @@ Look look_at(const scene::Octree& octree, const motion::Corners& corners_C, doub
   const std::array<geometry::Triangle, 2> quad =
       near_quad_triangles(motion::corners_W(corners_C, motion::pose_at(segment, piece.middle())));
   const double rounding_m = motion::corner_rounding_m(segment, piece.middle(), body_radius_m) +
-                            octree.nearest_error_m(quad);
+                            index.nearest_error_m(quad);
   const std::optional<scene::Nearest> nearest =
-      octree.nearest(quad, (deviation_m + rounding_m + beyond_m) * kRoundUp);
+      index.nearest(quad, (deviation_m + rounding_m + beyond_m) * kRoundUp);
   if (!nearest) return {deviation_m, rounding_m, std::nullopt};
   return {deviation_m, rounding_m, nearest->distance_m};
 }

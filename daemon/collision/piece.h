@@ -5,7 +5,7 @@
 
 #include "daemon/motion/camera.h"
 #include "daemon/motion/segment.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 
@@ -44,7 +44,7 @@ struct Look {
 /// |D - d| <= rounding. Every point of the body is, anywhere on the piece, within `deviation_m` of
 /// where it is at the middle. So the distance is everywhere at least D - deviation, and if d is
 /// greater than deviation + rounding + beyond, it is everywhere greater than `beyond_m`.
-Look look_at(const scene::Octree& octree, const motion::Corners& corners_C, double body_radius_m,
+Look look_at(const scene::SceneIndex& index, const motion::Corners& corners_C, double body_radius_m,
              const Piece& piece, double beyond_m);
 
 }  // namespace camway::collision

@@ -30,9 +30,10 @@ struct HitRun {
 // tessellated when the walk gets there, as the first collision is often near.
 class SweepWalk {
  public:
-  SweepWalk(const scene::Octree& octree, const motion::Path& path, const motion::Corners& corners_C,
-            double chord_error_m, double t_begin_s, double t_end_s)
-      : octree_(octree),
+  SweepWalk(const scene::SceneIndex& index, const motion::Path& path,
+            const motion::Corners& corners_C, double chord_error_m, double t_begin_s,
+            double t_end_s)
+      : index_(index),
         path_(path),
         corners_C_(corners_C),
         chord_error_m_(chord_error_m),
@@ -87,14 +88,14 @@ class SweepWalk {
                                                   tessellated_to_s_, to_s);
     tessellated_to_s_ = to_s;
     next_ = 0;
-    camera_triangles_.emplace(octree_);
+    camera_triangles_.emplace(index_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       camera_triangles_->insert(static_cast<std::uint32_t>(i), triangles_[i].triangle());
     }
     return true;
   }
 
-  const scene::Octree& octree_;
+  const scene::SceneIndex& index_;
   const motion::Path& path_;
   const motion::Corners& corners_C_;
   const double chord_error_m_;
@@ -110,9 +111,9 @@ class SweepWalk {
 
 class Bisection {
  public:
-  Bisection(const scene::Octree& octree, const motion::Path& path, const motion::Corners& corners_C,
-            double tolerance_m)
-      : octree_(octree), path_(path), corners_C_(corners_C), tolerance_m_(tolerance_m) {}
+  Bisection(const scene::SceneIndex& index, const motion::Path& path,
+            const motion::Corners& corners_C, double tolerance_m)
+      : index_(index), path_(path), corners_C_(corners_C), tolerance_m_(tolerance_m) {}
 
   // The last parameter known to be free next to a change between `free_s` and `colliding_s` (in
   // either order), or nothing if these two do not bracket one.
@@ -128,7 +129,7 @@ class Bisection {
 
  private:
   [[nodiscard]] bool collides_at(double time_s) const {
-    return collides(octree_, corners_C_, path_.pose(time_s));
+    return collides(index_, corners_C_, path_.pose(time_s));
   }
 
   [[nodiscard]] double corner_motion_m(double t0_s, double t1_s) const {
@@ -141,7 +142,7 @@ class Bisection {
     return largest;
   }
 
-  const scene::Octree& octree_;
+  const scene::SceneIndex& index_;
   const motion::Path& path_;
   const motion::Corners& corners_C_;
   double tolerance_m_;
@@ -149,18 +150,18 @@ class Bisection {
 
 }  // namespace
 
-FirstCollision first_sweep_collision(const scene::Octree& octree, const motion::Path& path,
+FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motion::Path& path,
                                      const motion::Corners& corners_C, double t_begin_s,
                                      double t_end_s, const SweepOptions& options,
                                      const Deadline& deadline) {
-  SweepWalk walk(octree, path, corners_C, options.chord_error_m, t_begin_s, t_end_s);
-  const Bisection bisection(octree, path, corners_C, options.detect.tolerance_m);
+  SweepWalk walk(index, path, corners_C, options.chord_error_m, t_begin_s, t_end_s);
+  const Bisection bisection(index, path, corners_C, options.detect.tolerance_m);
   while (const std::optional<HitRun> run = walk.next_run(deadline)) {
     const std::optional<double> t_i = bisection.boundary(run->t_a, run->t_b);
     const std::optional<double> t_f = bisection.boundary(run->t_d, run->t_c);
     if (t_i && t_f && *t_i <= *t_f) return {true, CollisionInterval{*t_i, *t_f}};
     const FirstCollision settled =
-        first_collision(octree, path, corners_C, run->t_a, run->t_d, options.detect, deadline);
+        first_collision(index, path, corners_C, run->t_a, run->t_d, options.detect, deadline);
     if (!settled.decided || settled.interval) return settled;
   }
   return {!deadline.passed(), std::nullopt};

@@ -27,7 +27,7 @@ struct SweepOptions {
 ///    them or only the tessellation touches it, `first_collision` decides.
 /// Objects inside the swept tube that touch none of its sides are not found here: that is the
 /// paper's gap, which `first_collision` closes.
-FirstCollision first_sweep_collision(const scene::Octree& octree, const motion::Path& path,
+FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motion::Path& path,
                                      const motion::Corners& corners_C, double t_begin_s,
                                      double t_end_s, const SweepOptions& options,
                                      const Deadline& deadline);

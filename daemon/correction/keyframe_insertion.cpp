@@ -26,10 +26,10 @@ constexpr double kMarginTolerances = 10.0;
 
 class Corrector {
  public:
-  Corrector(const scene::Octree& octree, std::vector<Keyframe> keyframes,
+  Corrector(const scene::SceneIndex& index, std::vector<Keyframe> keyframes,
             const motion::Corners& corners_C, const KeyframeInsertionOptions& options,
             const collision::Deadline& deadline)
-      : octree_(octree),
+      : index_(index),
         corners_C_(corners_C),
         options_(options),
         deadline_(deadline),
@@ -82,10 +82,10 @@ class Corrector {
   // what the tube encloses by the distance-based check of all that lies before.
   std::optional<CollisionInterval> next_collision(double t_begin_s, double t_end_s) {
     const FirstCollision side = collision::first_sweep_collision(
-        octree_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
+        index_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
     const double before_s = side.interval ? side.interval->t_begin_s : t_end_s;
     const FirstCollision enclosed = collision::first_collision(
-        octree_, path_, corners_C_, t_begin_s, before_s, options_.sweep.detect, deadline_);
+        index_, path_, corners_C_, t_begin_s, before_s, options_.sweep.detect, deadline_);
     timed_out_ = timed_out_ || !side.decided || !enclosed.decided;
     if (!enclosed.interval) return side.interval;
     // Cut short by `before_s`, it is the beginning of the same collision.
@@ -115,7 +115,7 @@ class Corrector {
         [](double time_s, const Keyframe& keyframe) { return time_s < keyframe.time_s; });
     if (next == keyframes_.begin() || next == keyframes_.end()) return false;
     if (inserted() >= options_.max_inserted_keyframes) return false;
-    const PushOut pushed = push_out(octree_, corners_C_, path_.pose(t_mid_s),
+    const PushOut pushed = push_out(index_, corners_C_, path_.pose(t_mid_s),
                                     kMarginTolerances * options_.sweep.detect.tolerance_m);
     if (pushed.outcome != PushOutOutcome::kFree) return false;
     const Keyframe inserted{t_mid_s, pushed.pose, motion::KeyframeOrigin::kInserted};
@@ -149,7 +149,7 @@ class Corrector {
     });
   }
 
-  const scene::Octree& octree_;
+  const scene::SceneIndex& index_;
   const motion::Corners& corners_C_;
   const KeyframeInsertionOptions& options_;
   const collision::Deadline& deadline_;
@@ -163,12 +163,12 @@ class Corrector {
 
 }  // namespace
 
-KeyframeInsertionResult insert_keyframes(const scene::Octree& octree,
+KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
                                          const std::vector<motion::Keyframe>& keyframes,
                                          const motion::Corners& corners_C,
                                          const KeyframeInsertionOptions& options,
                                          const collision::Deadline& deadline) {
-  return Corrector(octree, keyframes, corners_C, options, deadline).run();
+  return Corrector(index, keyframes, corners_C, options, deadline).run();
 }
 
 }  // namespace camway::correction

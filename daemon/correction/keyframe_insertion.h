@@ -46,7 +46,7 @@ struct KeyframeInsertionResult {
 ///  - every insertion bends the whole spline; corrections can undo one another, and keyframes close
 ///    in time make the camera hurry and swing;
 ///  - cut-offs end it without telling whether a path exists.
-KeyframeInsertionResult insert_keyframes(const scene::Octree& octree,
+KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
                                          const std::vector<motion::Keyframe>& keyframes,
                                          const motion::Corners& corners_C,
                                          const KeyframeInsertionOptions& options,

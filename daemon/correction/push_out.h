@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "daemon/motion/camera.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::correction {
 
@@ -21,7 +21,7 @@ struct PushOutRule {
 /// Good and bad corners, direction and depth at `pose` (Ptacek & Johnstone 2006, section 4).
 /// Where neither edge next to a bad corner hits anything, the paper says nothing; the distance from
 /// the corner to the nearest hit on its own segment to the centre is its depth then.
-PushOutRule push_out_rule(const scene::Octree& octree, const motion::Corners& corners_C,
+PushOutRule push_out_rule(const scene::SceneIndex& index, const motion::Corners& corners_C,
                           const motion::Pose& pose);
 
 enum class PushOutOutcome {
@@ -49,7 +49,7 @@ inline constexpr double kLeastStepShare = 0.02;
 /// the wall; where the rule has nothing left to say, the last direction is followed until
 /// `margin_m` is clear, so that a neighbourhood of the new keyframe can be free and not just
 /// itself.
-PushOut push_out(const scene::Octree& octree, const motion::Corners& corners_C,
+PushOut push_out(const scene::SceneIndex& index, const motion::Corners& corners_C,
                  const motion::Pose& pose, double margin_m);
 
 }  // namespace camway::correction

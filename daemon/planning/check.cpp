@@ -18,19 +18,19 @@ constexpr double kJoinRoundings = 1000.0;
 
 }  // namespace
 
-PathCheck check_path(const scene::Octree& octree, const motion::Path& path,
+PathCheck check_path(const scene::SceneIndex& index, const motion::Path& path,
                      const motion::Corners& corners_C, const collision::DetectOptions& options,
                      const collision::Deadline& deadline,
                      const collision::Deadline& clearance_deadline) {
   PathCheck check;
-  const auto found = collision::detect_collisions(octree, path, corners_C, path.begin_s(),
+  const auto found = collision::detect_collisions(index, path, corners_C, path.begin_s(),
                                                   path.end_s(), options, deadline);
   if (!found) return check;
   check.complete = true;
   check.collisions = *found;
   if (!found->empty()) return check;
   check.certificate.certified = true;
-  const auto clearance = collision::path_clearance(octree, path, corners_C, clearance_deadline);
+  const auto clearance = collision::path_clearance(index, path, corners_C, clearance_deadline);
   if (clearance) check.certificate.clearance_lower_bound_m = clearance->lower_bound_m;
   return check;
 }

@@ -8,7 +8,7 @@
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
 #include "daemon/planning/result.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::planning {
 
@@ -22,7 +22,7 @@ struct PathCheck {
 /// Searches the whole path for collisions and, where there are none, bounds its clearance. The
 /// search is the proof: what it does not list is free, at every instant and rounding included
 /// (`collision/piece.h`). The clearance has `clearance_deadline`; 0 if that strikes.
-PathCheck check_path(const scene::Octree& octree, const motion::Path& path,
+PathCheck check_path(const scene::SceneIndex& index, const motion::Path& path,
                      const motion::Corners& corners_C, const collision::DetectOptions& options,
                      const collision::Deadline& deadline,
                      const collision::Deadline& clearance_deadline);

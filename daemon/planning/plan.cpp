@@ -60,7 +60,7 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 class Planner {
  public:
   Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
-      : octree_(snapshot.octree),
+      : index_(snapshot.index),
         request_(request),
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
@@ -86,7 +86,7 @@ class Planner {
     corners_C_ = motion::near_corners_C(request_.camera);
     result_.keyframes = prepared_keyframes(request_);
     for (std::size_t i = 0; i < result_.keyframes.size(); ++i) {
-      if (!collision::collides(octree_, corners_C_, result_.keyframes[i].pose)) continue;
+      if (!collision::collides(index_, corners_C_, result_.keyframes[i].pose)) continue;
       refuse(fmt::format("keyframes[{}]: the near quadrilateral collides with the scene there", i),
              i);
       return false;
@@ -115,7 +115,7 @@ class Planner {
     options.sweep = {request_.options.chord_error_m, detect_};
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     correction::KeyframeInsertionResult corrected =
-        correction::insert_keyframes(octree_, result_.keyframes, corners_C_, options, deadline_);
+        correction::insert_keyframes(index_, result_.keyframes, corners_C_, options, deadline_);
     result_.keyframes = std::move(corrected.keyframes);
     result_.path = std::move(corrected.path);
     timed_out_ = corrected.timed_out;
@@ -127,7 +127,7 @@ class Planner {
   void certify() {
     if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
     const Deadline budget = Deadline::after_s(kFinalCheckBudget_s);
-    PathCheck check = check_path(octree_, result_.path, corners_C_, detect_, budget, budget);
+    PathCheck check = check_path(index_, result_.path, corners_C_, detect_, budget, budget);
     if (check.complete) {
       result_.remaining_collisions = std::move(check.collisions);
       result_.certificate = check.certificate;
@@ -154,9 +154,9 @@ class Planner {
   // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
     const bool inside = std::ranges::any_of(result_.keyframes, [&](const Keyframe& keyframe) {
-      return octree_.bounds().contains(keyframe.pose.position);
+      return index_.bounds().contains(keyframe.pose.position);
     });
-    if (inside || octree_.bounds().isEmpty()) return {};
+    if (inside || index_.bounds().isEmpty()) return {};
     return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
   }
 
@@ -184,7 +184,7 @@ class Planner {
   }
 
   std::optional<std::vector<CollisionInterval>> detect() const {
-    return collision::detect_collisions(octree_, result_.path, corners_C_, result_.path.begin_s(),
+    return collision::detect_collisions(index_, result_.path, corners_C_, result_.path.begin_s(),
                                         result_.path.end_s(), detect_, deadline_);
   }
 
@@ -208,7 +208,7 @@ class Planner {
   // Beyond the deadline.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
-  const scene::Octree& octree_;
+  const scene::SceneIndex& index_;
   const PlanRequest& request_;
   const Deadline& deadline_;
   const collision::DetectOptions detect_;

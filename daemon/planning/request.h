@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/motion/camera.h"
+#include "daemon/motion/body.h"
 #include "daemon/motion/keyframe.h"
 
 namespace camway::planning {
@@ -32,6 +32,9 @@ struct PlanOptions {
   /// To how much motion of a corner the ends of collision intervals are bracketed.
   /// [Limit: kLeastIntervalTolerance_m <= value] [Units: metres]
   double interval_tolerance_m = 1e-4;
+  /// How far the body has to stay from the scene; nearer is a collision.
+  /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
+  double clearance_m = 0.0;
   /// Cut-off of the correction, per request. [Limit: 0 <= value]
   std::int32_t max_inserted_keyframes = 200;
 
@@ -42,6 +45,8 @@ struct PlanOptions {
 struct PlanRequest {
   std::string scene;  ///< id or path; planning itself only echoes it
   motion::Camera camera;
+  /// What moves, if it is not the near quadrilateral of `camera`.
+  std::optional<motion::BodyShape> body;
   std::vector<motion::Keyframe> keyframes;
   bool has_times = false;  ///< false: `keyframes[i].time_s` mean nothing yet and are derived
   PlanOptions options;

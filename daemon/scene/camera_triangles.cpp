@@ -19,7 +19,7 @@ void CameraTriangles::insert(std::uint32_t id, const geometry::Triangle& triangl
   remove(id);
   Placed& placed = triangles_[id];
   placed.triangle = triangle;
-  octree_->leaves_touching(triangle, placed.leaves);
+  index_->leaves_touching(triangle, placed.leaves);
   for (const std::uint32_t leaf : placed.leaves) ids_in_leaf_[leaf].push_back(id);
 }
 
@@ -29,9 +29,9 @@ std::optional<std::uint32_t> CameraTriangles::first_hit(std::uint32_t id) const 
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t lowest = kNone;
   for (const std::uint32_t leaf : found->second.leaves) {
-    for (const std::uint32_t index : octree_->leaf_triangles(leaf)) {
+    for (const std::uint32_t index : index_->leaf_triangles(leaf)) {
       if (index >= lowest) break;
-      if (geometry::triangles_touch(found->second.triangle, octree_->triangles()[index])) {
+      if (geometry::triangles_touch(found->second.triangle, index_->triangles()[index])) {
         lowest = index;
       }
     }

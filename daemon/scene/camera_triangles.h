@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "daemon/geometry/types.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::scene {
 
@@ -21,7 +21,7 @@ namespace camway::scene {
 /// Const calls are safe from any thread; the tree must outlive this.
 class CameraTriangles {
  public:
-  explicit CameraTriangles(const Octree& octree) : octree_(&octree) {}
+  explicit CameraTriangles(const SceneIndex& index) : index_(&index) {}
 
   /// Passes `triangle` down to its leaves under `id`, replacing what had that id.
   void insert(std::uint32_t id, const geometry::Triangle& triangle);
@@ -29,7 +29,7 @@ class CameraTriangles {
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 
   /// The lowest scene triangle that camera triangle `id` touches, or nothing; nothing for an
-  /// unknown id. The answer is that of `Octree::first_intersection`.
+  /// unknown id. The answer is that of `SceneIndex::first_intersection`.
   [[nodiscard]] std::optional<std::uint32_t> first_hit(std::uint32_t id) const;
 
   /// Ids of the camera triangles in `leaf`, increasing.
@@ -54,7 +54,7 @@ class CameraTriangles {
 
   void remove(std::uint32_t id);
 
-  const Octree* octree_;
+  const SceneIndex* index_;
   std::map<std::uint32_t, Placed> triangles_;  ///< ordered: iteration is in order of id
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> ids_in_leaf_;  ///< looked up only
 };

@@ -5,7 +5,7 @@
 
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_box.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::scene {
 
@@ -33,7 +33,7 @@ Box root_cell(const Box& bounds) {
 /// Top down: a node's triangles are dealt to its octants, then each octant is built in turn.
 class OctreeBuilder {
  public:
-  OctreeBuilder(Octree& tree, const OctreeOptions& options) : tree_(tree), options_(options) {}
+  OctreeBuilder(SceneIndex& tree, const IndexOptions& options) : tree_(tree), options_(options) {}
 
   void build() {
     const std::size_t count = tree_.triangles_.size();
@@ -156,13 +156,13 @@ class OctreeBuilder {
     tree_.leaf_begin_.push_back(static_cast<std::uint32_t>(tree_.references_.size()));
   }
 
-  Octree& tree_;
-  OctreeOptions options_;
+  SceneIndex& tree_;
+  IndexOptions options_;
 };
 
-Octree Octree::build(const Mesh& mesh, const OctreeOptions& options) {
-  assert(options.threshold >= 1 && options.max_depth <= kMaxOctreeDepth);
-  Octree tree;
+SceneIndex SceneIndex::build(const Mesh& mesh, const IndexOptions& options) {
+  assert(options.threshold >= 1 && options.max_depth <= kMaxIndexDepth);
+  SceneIndex tree;
   tree.triangles_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     tree.triangles_.push_back(mesh.triangle(i));
@@ -170,7 +170,7 @@ Octree Octree::build(const Mesh& mesh, const OctreeOptions& options) {
   }
   if (tree.triangles_.empty()) return tree;
   OctreeBuilder(tree, options).build();
-  OctreeStatistics& s = tree.statistics_;
+  IndexStatistics& s = tree.statistics_;
   s.nodes = tree.nodes_.size();
   s.leaves = tree.leaf_begin_.size() - 1;
   s.triangles = tree.triangles_.size();

@@ -19,7 +19,7 @@ SnapshotResult build(std::string name, Mesh mesh, ImportReport report,
   }
   snapshot->name = std::move(name);
   snapshot->digest = mesh_digest(mesh);
-  snapshot->octree = Octree::build(mesh, options.octree);
+  snapshot->index = SceneIndex::build(mesh, options.index);
   snapshot->mesh = std::move(mesh);
   snapshot->report = std::move(report);
   return {std::move(snapshot), ""};

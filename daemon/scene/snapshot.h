@@ -10,7 +10,7 @@
 #include "daemon/scene/import.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/occupancy_map.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::scene {
 
@@ -21,14 +21,14 @@ struct Snapshot {
   std::uint64_t revision = 1;
   std::string digest;  ///< of the triangles, 32 hexadecimal digits; equal content, equal digest
   Mesh mesh;
-  Octree octree;
+  SceneIndex index;
   std::shared_ptr<const OccupancyMap> occupancy;  ///< null unless a resolution was given
   ImportReport report;
 };
 
 struct SnapshotOptions {
   ImportOptions import;
-  OctreeOptions octree;
+  IndexOptions index;
   std::optional<double> occupancy_resolution_m;  ///< no mirror without it
 };
 

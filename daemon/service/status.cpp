@@ -16,9 +16,9 @@ scene_info_t info_of(const scene::Snapshot& snapshot) {
   info.revision = static_cast<std::int64_t>(snapshot.revision);
   info.digest = clipped(snapshot.digest, wire::kMaxDigestBytes);
   info.num_triangles = static_cast<std::int64_t>(snapshot.mesh.triangles.size());
-  if (!snapshot.octree.bounds().isEmpty()) {
-    std::copy_n(snapshot.octree.bounds().min().data(), 3, info.bounds_min_m);
-    std::copy_n(snapshot.octree.bounds().max().data(), 3, info.bounds_max_m);
+  if (!snapshot.index.bounds().isEmpty()) {
+    std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
+    std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);
   }
   if (snapshot.occupancy) info.occupancy_resolution_m = snapshot.occupancy->resolution_m();
   return info;

@@ -17,15 +17,15 @@ using motion::Corners;
 using motion::Keyframe;
 using motion::Path;
 using scene::Mesh;
-using scene::Octree;
+using scene::SceneIndex;
 
-PathClearance clearance(const Octree& octree, const Path& path, const Corners& corners_C) {
-  return path_clearance(octree, path, corners_C, Deadline::never())
+PathClearance clearance(const SceneIndex& index, const Path& path, const Corners& corners_C) {
+  return path_clearance(index, path, corners_C, Deadline::never())
       .value_or(PathClearance{-1.0, -1.0});
 }
 
-bool detect_free(const Octree& octree, const Path& path, const Corners& corners_C) {
-  const auto found = detect_collisions(octree, path, corners_C, path.begin_s(), path.end_s(), {},
+bool detect_free(const SceneIndex& index, const Path& path, const Corners& corners_C) {
+  const auto found = detect_collisions(index, path, corners_C, path.begin_s(), path.end_s(), {},
                                        Deadline::never());
   return found && found->empty();
 }
@@ -40,7 +40,7 @@ TEST(PathClearance, OfAPassBesideAWallIsKnown) {
         motion::interpolate(std::vector<Keyframe>{{0.0, {{-0.5, 0, 1}, Quat::Identity()}},
                                                   {1.0, {{0, 0, 0}, Quat::Identity()}},
                                                   {2.0, {{-0.5, 0, -1}, Quat::Identity()}}});
-    const PathClearance found = clearance(Octree::build(mesh), path, corners_C);
+    const PathClearance found = clearance(SceneIndex::build(mesh), path, corners_C);
     EXPECT_LE(found.lower_bound_m, distance_m);
     EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceGap) * distance_m * 0.999);
     EXPECT_GE(found.upper_bound_m, distance_m * 0.999999);
@@ -54,7 +54,7 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   int positive = 0;
   for (int run = 0; run < 30; ++run) {
-    const Octree octree = Octree::build(testing::scattered_triangles(random, 12, 0.1));
+    const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 12, 0.1));
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 3; ++i) {
       keyframes.push_back(
@@ -62,15 +62,15 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
            {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
     }
     const Path path = motion::interpolate(keyframes);
-    const PathClearance found = clearance(octree, path, corners_C);
+    const PathClearance found = clearance(index, path, corners_C);
     double sampled_m = kLargestClearance_m;
     for (int i = 0; i <= 1000; ++i) {
       const std::optional<double> gap_m =
-          clearance_m(octree, corners_C, path.pose(2.0 * i / 1000), sampled_m);
+          clearance_m(index, corners_C, path.pose(2.0 * i / 1000), sampled_m);
       sampled_m = gap_m.value_or(sampled_m);
     }
     EXPECT_LE(found.lower_bound_m, sampled_m) << "run " << run;
-    const bool free = detect_free(octree, path, corners_C);
+    const bool free = detect_free(index, path, corners_C);
     EXPECT_EQ(found.lower_bound_m > 0.0, free) << "run " << run;
     if (!free) continue;
     ++positive;
@@ -86,7 +86,7 @@ TEST(PathClearance, IsZeroForACollision) {
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});
-  EXPECT_EQ(clearance(Octree::build(mesh), path, corners_C).lower_bound_m, 0.0);
+  EXPECT_EQ(clearance(SceneIndex::build(mesh), path, corners_C).lower_bound_m, 0.0);
 }
 
 TEST(PathClearance, HoldsFarFromTheOriginAndForTinyCameras) {
@@ -102,7 +102,7 @@ TEST(PathClearance, HoldsFarFromTheOriginAndForTinyCameras) {
   const Path path =
       motion::interpolate(std::vector<Keyframe>{{0.0, {far + Vec3(0, 0, 1), Quat::Identity()}},
                                                 {1.0, {far - Vec3(0, 0, 1), Quat::Identity()}}});
-  const PathClearance found = clearance(Octree::build(mesh), path, corners_C);
+  const PathClearance found = clearance(SceneIndex::build(mesh), path, corners_C);
   // A coordinate of 1e6 m is stored to 1e-10 m.
   EXPECT_LE(found.lower_bound_m, distance_m + 1e-9);
   EXPECT_GE(found.lower_bound_m, 0.89 * distance_m);
@@ -112,7 +112,7 @@ TEST(PathClearance, IsUndecidedWhenTheDeadlineStrikes) {
   const Path path = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  EXPECT_FALSE(path_clearance(Octree::build(Mesh{}), path, corners_C, Deadline::after_s(0.0)));
+  EXPECT_FALSE(path_clearance(SceneIndex::build(Mesh{}), path, corners_C, Deadline::after_s(0.0)));
 }
 
 }  // namespace

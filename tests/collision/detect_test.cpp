@@ -19,17 +19,17 @@ using motion::Corners;
 using motion::Keyframe;
 using motion::Path;
 using scene::Mesh;
-using scene::Octree;
+using scene::SceneIndex;
 
 Path straight(const Vec3& from, const Vec3& to, const Quat& orientation) {
   return motion::interpolate(
       std::vector<Keyframe>{{0.0, {from, orientation}}, {1.0, {to, orientation}}});
 }
 
-std::vector<CollisionInterval> detect(const Octree& octree, const Path& path,
+std::vector<CollisionInterval> detect(const SceneIndex& index, const Path& path,
                                       const Corners& corners_C, const DetectOptions& options = {}) {
   const std::optional<std::vector<CollisionInterval>> found = detect_collisions(
-      octree, path, corners_C, path.begin_s(), path.end_s(), options, Deadline::never());
+      index, path, corners_C, path.begin_s(), path.end_s(), options, Deadline::never());
   return found.value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
 }
 
@@ -42,7 +42,7 @@ Mesh plate_at_z0() {
 // A quadrilateral that flies straight through a plane touches it exactly while its foremost and its
 // rearmost corner are on different sides.
 TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
-  const Octree octree = Octree::build(plate_at_z0());
+  const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   std::mt19937_64 random = testing::seeded(11);
   for (int run = 0; run < 200; ++run) {
@@ -54,7 +54,7 @@ TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
       highest_m = std::max(highest_m, (orientation * corner_C).z());
     }
     const Path path = straight({0, 0, 2}, {0, 0, -2}, orientation);
-    const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+    const std::vector<CollisionInterval> found = detect(index, path, corners_C);
     ASSERT_EQ(found.size(), 1u) << "run " << run;
     // z(t) = 2 - 4t: the foremost corner arrives at t = (2 + lowest) / 4. The speed is 4 m/s, and a
     // bracket may be two tolerances wide: one of the resolution, one of the stretch it lies in.
@@ -68,10 +68,10 @@ TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
 
 // Met at one instant only: no sampling finds it.
 TEST(DetectCollisions, PlateParallelToTheQuadrilateralIsFound) {
-  const Octree octree = Octree::build(plate_at_z0());
+  const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -1.3}, Quat::Identity());
-  const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+  const std::vector<CollisionInterval> found = detect(index, path, corners_C);
   ASSERT_EQ(found.size(), 1u);
   const double instant_s = (2.0 - 0.1) / 3.3;
   EXPECT_LE(found[0].t_begin_s, instant_s);
@@ -82,10 +82,10 @@ TEST(DetectCollisions, PlateParallelToTheQuadrilateralIsFound) {
 TEST(DetectCollisions, ObjectEnclosedByTheSweptTubeIsFound) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});
-  const Octree octree = Octree::build(mesh);
+  const SceneIndex index = SceneIndex::build(mesh);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
-  const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+  const std::vector<CollisionInterval> found = detect(index, path, corners_C);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].t_begin_s, (2.0 - 0.1 - 0.005) / 4.0, 1e-4);
   EXPECT_NEAR(found[0].t_end_s, (2.0 - 0.1 + 0.005) / 4.0, 1e-4);
@@ -94,16 +94,16 @@ TEST(DetectCollisions, ObjectEnclosedByTheSweptTubeIsFound) {
 TEST(DetectCollisions, AClearPassIsFreeDownToTheTolerance) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-1, -1, -1}, {1, 1, 1});
-  const Octree octree = Octree::build(mesh);
+  const SceneIndex index = SceneIndex::build(mesh);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const double half_height_m = corners_C[0].y();
   const double gap_m = 2.0 * DetectOptions{}.tolerance_m;
   const double eye_y_m = 1.0 + half_height_m + gap_m;
   EXPECT_TRUE(
-      detect(octree, straight({0, eye_y_m, 3}, {0, eye_y_m, -3}, Quat::Identity()), corners_C)
+      detect(index, straight({0, eye_y_m, 3}, {0, eye_y_m, -3}, Quat::Identity()), corners_C)
           .empty());
   const double touching_y_m = 1.0 + half_height_m;
-  EXPECT_EQ(detect(octree, straight({0, touching_y_m, 3}, {0, touching_y_m, -3}, Quat::Identity()),
+  EXPECT_EQ(detect(index, straight({0, touching_y_m, 3}, {0, touching_y_m, -3}, Quat::Identity()),
                    corners_C)
                 .size(),
             1u);
@@ -114,18 +114,18 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   for (const double z : {1.0, 0.0, -1.0}) {
     testing::add_triangle(mesh, {-50, -50, z}, {50, -50, z}, {0, 80, z});
   }
-  const Octree octree = Octree::build(mesh);
+  const SceneIndex index = SceneIndex::build(mesh);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
-  const std::vector<CollisionInterval> found = detect(octree, path, corners_C);
+  const std::vector<CollisionInterval> found = detect(index, path, corners_C);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_LT(found[0].t_end_s, found[1].t_begin_s);
   EXPECT_LT(found[1].t_end_s, found[2].t_begin_s);
   const FirstCollision first =
-      first_collision(octree, path, corners_C, path.begin_s(), path.end_s(), {}, Deadline::never());
+      first_collision(index, path, corners_C, path.begin_s(), path.end_s(), {}, Deadline::never());
   ASSERT_TRUE(first.decided && first.interval);
   EXPECT_EQ(*first.interval, found[0]);
-  const FirstCollision later = first_collision(octree, path, corners_C, found[0].t_end_s + 0.01,
+  const FirstCollision later = first_collision(index, path, corners_C, found[0].t_end_s + 0.01,
                                                path.end_s(), {}, Deadline::never());
   ASSERT_TRUE(later.decided && later.interval);
   EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
@@ -141,7 +141,7 @@ TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
     for (const double z : {0.0, apart_m}) {
       testing::add_triangle(mesh, {-50, -50, z}, {50, -50, z}, {0, 80, z});
     }
-    EXPECT_EQ(detect(Octree::build(mesh), path, corners_C).size(), intervals) << apart_m;
+    EXPECT_EQ(detect(SceneIndex::build(mesh), path, corners_C).size(), intervals) << apart_m;
   }
 }
 
@@ -153,7 +153,7 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
   const DetectOptions options;
   int colliding_samples = 0;
   for (int run = 0; run < 25; ++run) {
-    const Octree octree = Octree::build(testing::scattered_triangles(random, 60, 0.15));
+    const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 60, 0.15));
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 5; ++i) {
       keyframes.push_back(
@@ -161,7 +161,7 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
            {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
     }
     const Path path = motion::interpolate(keyframes);
-    const std::vector<CollisionInterval> found = detect(octree, path, corners_C, options);
+    const std::vector<CollisionInterval> found = detect(index, path, corners_C, options);
     const auto inside = [&](double time_s) {
       return std::any_of(found.begin(), found.end(), [&](const CollisionInterval& interval) {
         return interval.t_begin_s <= time_s && time_s <= interval.t_end_s;
@@ -169,14 +169,14 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
     };
     for (int i = 0; i <= 4000; ++i) {
       const double time_s = 4.0 * i / 4000;
-      if (!collides(octree, corners_C, path.pose(time_s))) continue;
+      if (!collides(index, corners_C, path.pose(time_s))) continue;
       ++colliding_samples;
       EXPECT_TRUE(inside(time_s)) << "run " << run << ", t = " << time_s;
     }
     for (const CollisionInterval& interval : found) {
       // At an end the body is no further from the scene than it moves within the undecided stretch.
       for (const double end_s : {interval.t_begin_s, interval.t_end_s}) {
-        EXPECT_TRUE(clearance_m(octree, corners_C, path.pose(end_s), 3.0 * options.tolerance_m))
+        EXPECT_TRUE(clearance_m(index, corners_C, path.pose(end_s), 3.0 * options.tolerance_m))
             << "run " << run << ", end at " << end_s;
       }
     }
@@ -185,18 +185,18 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
 }
 
 TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
-  const Octree octree = Octree::build(plate_at_z0());
+  const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
-  EXPECT_FALSE(detect_collisions(octree, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)));
+  EXPECT_FALSE(detect_collisions(index, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)));
   EXPECT_FALSE(
-      first_collision(octree, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)).decided);
+      first_collision(index, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)).decided);
 }
 
 TEST(DetectCollisions, AnEmptySceneIsFree) {
-  const Octree octree = Octree::build(Mesh{});
+  const SceneIndex index = SceneIndex::build(Mesh{});
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  EXPECT_TRUE(detect(octree, straight({0, 0, 2}, {0, 0, -2}, Quat::Identity()), corners_C).empty());
+  EXPECT_TRUE(detect(index, straight({0, 0, 2}, {0, 0, -2}, Quat::Identity()), corners_C).empty());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using motion::Corners;
 using motion::Keyframe;
 using motion::KeyframeOrigin;
 using scene::Mesh;
-using scene::Octree;
+using scene::SceneIndex;
 
 Corners corners_C() { return motion::near_corners_C(testing::small_camera()); }
 
@@ -30,28 +30,28 @@ std::vector<Keyframe> bulging_tour() {
           {4.0, {{0, 0, -2}, Quat::Identity()}}};
 }
 
-KeyframeInsertionResult correct(const Octree& octree, const std::vector<Keyframe>& keyframes,
+KeyframeInsertionResult correct(const SceneIndex& index, const std::vector<Keyframe>& keyframes,
                                 const KeyframeInsertionOptions& options = {}) {
-  return insert_keyframes(octree, keyframes, corners_C(), options, Deadline::never());
+  return insert_keyframes(index, keyframes, corners_C(), options, Deadline::never());
 }
 
-std::vector<CollisionInterval> collisions(const Octree& octree, const motion::Path& path) {
-  return *collision::detect_collisions(octree, path, corners_C(), path.begin_s(), path.end_s(), {},
+std::vector<CollisionInterval> collisions(const SceneIndex& index, const motion::Path& path) {
+  return *collision::detect_collisions(index, path, corners_C(), path.begin_s(), path.end_s(), {},
                                        Deadline::never());
 }
 
-Octree column_at(double x_min, double z) {
+SceneIndex column_at(double x_min, double z) {
   Mesh mesh;
   testing::add_cuboid(mesh, {x_min, -3, z - 0.1}, {x_min + 0.2, 3, z + 0.1});
-  return Octree::build(mesh);
+  return SceneIndex::build(mesh);
 }
 
 TEST(KeyframeInsertion, AGrazedColumnIsCorrected) {
-  const Octree octree = column_at(0.31, -0.1);
+  const SceneIndex index = column_at(0.31, -0.1);
   const std::vector<Keyframe> given = bulging_tour();
-  ASSERT_FALSE(collisions(octree, motion::interpolate(given)).empty());
-  const KeyframeInsertionResult result = correct(octree, given);
-  EXPECT_TRUE(collisions(octree, result.path).empty());
+  ASSERT_FALSE(collisions(index, motion::interpolate(given)).empty());
+  const KeyframeInsertionResult result = correct(index, given);
+  EXPECT_TRUE(collisions(index, result.path).empty());
   EXPECT_EQ(result.gave_up, 0);
   EXPECT_GT(result.keyframes.size(), given.size());
   // The given keyframes are all there, untouched, and in order with the inserted ones.
@@ -70,8 +70,8 @@ TEST(KeyframeInsertion, AGrazedColumnIsCorrected) {
 }
 
 TEST(KeyframeInsertion, AFreePathIsLeftAlone) {
-  const Octree octree = column_at(3.0, 0.0);
-  const KeyframeInsertionResult result = correct(octree, bulging_tour());
+  const SceneIndex index = column_at(3.0, 0.0);
+  const KeyframeInsertionResult result = correct(index, bulging_tour());
   EXPECT_EQ(result.keyframes.size(), bulging_tour().size());
   EXPECT_EQ(result.rounds, 0);
 }
@@ -80,30 +80,30 @@ TEST(KeyframeInsertion, TwoCollisionsAreBothCorrected) {
   Mesh mesh;
   testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
   testing::add_cuboid(mesh, {0.24, -3, 1.05}, {0.5, 3, 1.2});
-  const Octree octree = Octree::build(mesh);
-  ASSERT_EQ(collisions(octree, motion::interpolate(bulging_tour())).size(), 2u);
-  const KeyframeInsertionResult result = correct(octree, bulging_tour());
-  EXPECT_TRUE(collisions(octree, result.path).empty());
+  const SceneIndex index = SceneIndex::build(mesh);
+  ASSERT_EQ(collisions(index, motion::interpolate(bulging_tour())).size(), 2u);
+  const KeyframeInsertionResult result = correct(index, bulging_tour());
+  EXPECT_TRUE(collisions(index, result.path).empty());
 }
 
 TEST(KeyframeInsertion, AWallHeadOnIsGivenUpAndLeavesNoDents) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-50, -50, -0.05}, {50, 50, 0.05});
-  const Octree octree = Octree::build(mesh);
+  const SceneIndex index = SceneIndex::build(mesh);
   const std::vector<Keyframe> given = bulging_tour();
-  const KeyframeInsertionResult result = correct(octree, given);
+  const KeyframeInsertionResult result = correct(index, given);
   EXPECT_GT(result.gave_up, 0);
   EXPECT_EQ(result.keyframes.size(), given.size());
-  EXPECT_FALSE(collisions(octree, result.path).empty());
+  EXPECT_FALSE(collisions(index, result.path).empty());
 }
 
 TEST(KeyframeInsertion, AnEnclosedObjectIsFoundAndHonestlyGivenUp) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});
-  const Octree octree = Octree::build(mesh);
+  const SceneIndex index = SceneIndex::build(mesh);
   const std::vector<Keyframe> given{{0.0, {{0.03, 0, 1}, Quat::Identity()}},
                                     {1.0, {{0.03, 0, -1}, Quat::Identity()}}};
-  const KeyframeInsertionResult result = correct(octree, given);
+  const KeyframeInsertionResult result = correct(index, given);
   EXPECT_EQ(result.gave_up, 1);
 }
 

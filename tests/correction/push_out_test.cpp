@@ -14,22 +14,22 @@ using geometry::Vec3;
 using motion::Corners;
 using motion::Pose;
 using scene::Mesh;
-using scene::Octree;
+using scene::SceneIndex;
 
 constexpr double kMargin_m = 1e-3;
 
 // Corners at (±0.1, ±0.0577, -0.1).
 Corners corners_C() { return motion::near_corners_C(testing::small_camera()); }
 
-Octree wall_right_of(double x) {
+SceneIndex wall_right_of(double x) {
   Mesh mesh;
   testing::add_triangle(mesh, {x, -50, -50}, {x, 50, -50}, {x, 0, 80});
-  return Octree::build(mesh);
+  return SceneIndex::build(mesh);
 }
 
 TEST(PushOutRule, AWallAcrossTheRightSideMakesTheRightCornersBad) {
-  const Octree octree = wall_right_of(0.04);
-  const PushOutRule rule = push_out_rule(octree, corners_C(), {});
+  const SceneIndex index = wall_right_of(0.04);
+  const PushOutRule rule = push_out_rule(index, corners_C(), {});
   // Order: (+x,+y), (-x,+y), (-x,-y), (+x,-y).
   EXPECT_EQ(rule.bad, (std::array<bool, 4>{true, false, false, true}));
   EXPECT_LT(rule.direction_W.x(), 0.0);
@@ -53,7 +53,7 @@ TEST(PushOutRule, DepthIsTheLargerOfTheTwoEdges) {
   const Vec3 along = (on_right - on_top) * 100.0;
   testing::add_triangle(mesh, on_top - along + Vec3(0, 0, -10), on_right + along + Vec3(0, 0, -10),
                         0.5 * (on_top + on_right) + Vec3(0, 0, 30));
-  const PushOutRule rule = push_out_rule(Octree::build(mesh), corners_C(), {});
+  const PushOutRule rule = push_out_rule(SceneIndex::build(mesh), corners_C(), {});
   EXPECT_EQ(rule.bad, (std::array<bool, 4>{true, false, false, false}));
   EXPECT_NEAR(rule.depth_m[0], 0.08, 1e-9);
   // Away from the only bad corner.
@@ -65,7 +65,7 @@ TEST(PushOutRule, ABadCornerWithClearEdgesTakesItsDepthFromTheCentre) {
   Mesh mesh;
   const Vec3 between = 0.5 * corners_C()[0] + Vec3(0, 0, -0.05);
   testing::add_cuboid(mesh, between - Vec3::Constant(0.004), between + Vec3::Constant(0.004));
-  const PushOutRule rule = push_out_rule(Octree::build(mesh), corners_C(), {});
+  const PushOutRule rule = push_out_rule(SceneIndex::build(mesh), corners_C(), {});
   EXPECT_EQ(rule.bad, (std::array<bool, 4>{true, false, false, false}));
   EXPECT_GT(rule.depth_m[0], 0.04);
   EXPECT_LT(rule.depth_m[0], 0.06);
@@ -76,12 +76,12 @@ TEST(PushOut, EndsFreeWithTheMarginAndKeepsTheOrientation) {
   std::uniform_real_distribution<double> where(-0.04, 0.05);
   int pushed_out = 0;
   for (int run = 0; run < 200; ++run) {
-    const Octree octree = wall_right_of(where(random));
+    const SceneIndex index = wall_right_of(where(random));
     const Quat turn(Eigen::AngleAxisd(where(random) * 4.0, Vec3::UnitY()));
-    const PushOut result = push_out(octree, corners_C(), {Vec3::Zero(), turn}, kMargin_m);
+    const PushOut result = push_out(index, corners_C(), {Vec3::Zero(), turn}, kMargin_m);
     if (result.outcome != PushOutOutcome::kFree) continue;
     ++pushed_out;
-    EXPECT_FALSE(collision::clearance_m(octree, corners_C(), result.pose, kMargin_m));
+    EXPECT_FALSE(collision::clearance_m(index, corners_C(), result.pose, kMargin_m));
     EXPECT_EQ(result.pose.orientation.coeffs(), turn.coeffs());
     EXPECT_GT(result.steps, 0);
   }
@@ -98,12 +98,12 @@ TEST(PushOut, AFreePoseStaysAsItIs) {
 TEST(PushOut, HasNoDirectionWhereTheRuleGivesNone) {
   Mesh inside;  // touches the quadrilateral, but no segment from its centre to a corner
   testing::add_cuboid(inside, {0.05, -0.005, -0.105}, {0.06, 0.005, -0.095});
-  EXPECT_EQ(push_out(Octree::build(inside), corners_C(), {}, kMargin_m).outcome,
+  EXPECT_EQ(push_out(SceneIndex::build(inside), corners_C(), {}, kMargin_m).outcome,
             PushOutOutcome::kNoDirection);
 
   Mesh across;  // a pole through the centre: every corner is bad
   testing::add_cuboid(across, {-0.005, -0.005, -1}, {0.005, 0.005, 1});
-  EXPECT_EQ(push_out(Octree::build(across), corners_C(), {}, kMargin_m).outcome,
+  EXPECT_EQ(push_out(SceneIndex::build(across), corners_C(), {}, kMargin_m).outcome,
             PushOutOutcome::kNoDirection);
 
   Mesh opposite;  // two poles through opposite corners: the good ones cancel
@@ -112,7 +112,7 @@ TEST(PushOut, HasNoDirectionWhereTheRuleGivesNone) {
     testing::add_cuboid(opposite, {at.x() - 0.005, at.y() - 0.005, -1},
                         {at.x() + 0.005, at.y() + 0.005, 1});
   }
-  EXPECT_EQ(push_out(Octree::build(opposite), corners_C(), {}, kMargin_m).outcome,
+  EXPECT_EQ(push_out(SceneIndex::build(opposite), corners_C(), {}, kMargin_m).outcome,
             PushOutOutcome::kNoDirection);
 }
 
@@ -121,7 +121,7 @@ TEST(PushOut, IsCutOffBetweenTwoWallsCloserThanTheCamera) {
   for (const double x : {-0.05, 0.06})
     testing::add_triangle(mesh, {x, -50, -50}, {x, 50, -50}, {x, 0, 80});
   const PushOut result =
-      push_out(Octree::build(mesh), corners_C(), {{0.03, 0, 0}, Quat::Identity()}, kMargin_m);
+      push_out(SceneIndex::build(mesh), corners_C(), {{0.03, 0, 0}, Quat::Identity()}, kMargin_m);
   EXPECT_NE(result.outcome, PushOutOutcome::kFree);
 }
 

@@ -28,7 +28,7 @@ Path tour() {
 Corners corners_C() { return motion::near_corners_C(testing::small_camera()); }
 
 PathCheck check(const scene::Mesh& mesh, const Deadline& deadline = Deadline::never()) {
-  return check_path(scene::Octree::build(mesh), tour(), corners_C(), {}, deadline, deadline);
+  return check_path(scene::SceneIndex::build(mesh), tour(), corners_C(), {}, deadline, deadline);
 }
 
 TEST(CheckPath, CertifiesAFreePathWithItsClearance) {

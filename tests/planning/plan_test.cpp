@@ -82,7 +82,7 @@ TEST(Plan, AGrazingPathIsCorrectedAndTellsWhatCollided) {
   const motion::Corners corners_C = motion::near_corners_C(bulging_tour().camera);
   for (int i = 0; i <= 10'000; ++i) {
     ASSERT_FALSE(
-        collision::collides(snapshot->octree, corners_C, result.path.pose(4.0 * i / 10'000)));
+        collision::collides(snapshot->index, corners_C, result.path.pose(4.0 * i / 10'000)));
   }
   EXPECT_TRUE(result.certificate.certified);
   EXPECT_GT(result.certificate.clearance_lower_bound_m, 0.0);

@@ -21,7 +21,7 @@ class CameraTrianglesTest : public testing::Test {
   CameraTrianglesTest() : random_(601) {
     std::vector<Triangle> scene;
     for (int i = 0; i < 600; ++i) scene.push_back(triangle(1.0));
-    tree_ = Octree::build(mesh_of_triangles(scene), {.threshold = 6});
+    tree_ = SceneIndex::build(mesh_of_triangles(scene), {.threshold = 6});
   }
 
   Triangle triangle(double size) {
@@ -30,7 +30,7 @@ class CameraTrianglesTest : public testing::Test {
   }
 
   RandomTriangles random_;
-  Octree tree_;
+  SceneIndex tree_;
 };
 
 TEST_F(CameraTrianglesTest, HitsWhatTheWholeTreeHits) {
@@ -48,7 +48,7 @@ TEST_F(CameraTrianglesTest, HitsWhatTheWholeTreeHits) {
 }
 
 TEST_F(CameraTrianglesTest, NeverSplitsALeaf) {
-  const OctreeStatistics before = tree_.statistics();
+  const IndexStatistics before = tree_.statistics();
   CameraTriangles camera(tree_);
   // Far more than the threshold in the same place.
   const Triangle t = tree_.triangles()[0];

@@ -9,7 +9,7 @@
 
 #include "daemon/motion/camera.h"
 #include "daemon/motion/keyframe.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 /// Small scenes and cameras that tests build in memory.
 namespace camway::testing {

@@ -91,11 +91,11 @@ motion::Corners corners_of(const Request& request) {
 /// `free` requests are free, all others collide: each tests what its name says.
 TEST(MakeScenes, RequestsDoWhatTheirNamesSay) {
   for (const Entry& entry : make_catalogue()) {
-    const scene::Octree octree = scene::Octree::build(mesh_of(entry.scene));
+    const scene::SceneIndex index = scene::SceneIndex::build(mesh_of(entry.scene));
     for (const Request& request : entry.requests) {
       const motion::Path path = path_of(request);
       const auto found =
-          collision::detect_collisions(octree, path, corners_of(request), path.begin_s(),
+          collision::detect_collisions(index, path, corners_of(request), path.begin_s(),
                                        path.end_s(), {}, collision::Deadline::never());
       ASSERT_TRUE(found.has_value());
       double colliding_s = 0.0;

@@ -66,7 +66,7 @@ Witness witness_of(const Input& input, const collision::CollisionInterval& inter
   const motion::Pose pose = input.path.pose(0.5 * (interval.t_begin_s + interval.t_end_s));
   const auto quad = collision::near_quad_triangles(motion::corners_W(input.corners_C, pose));
   const double anywhere_m = planning::kMaxCoordinate_m;
-  const auto nearest = input.snapshot->octree.nearest(quad, anywhere_m);
+  const auto nearest = input.snapshot->index.nearest(quad, anywhere_m);
   Witness witness;
   if (!nearest) return witness;
   witness.triangle = nearest->triangle;
@@ -118,7 +118,7 @@ ExitCode run_check(const CheckFlags& flags) {
   options.gap_m = std::max(options.gap_m, options.tolerance_m);
   const auto deadline = collision::Deadline::after_s(input.request.options.deadline_s);
   const planning::PathCheck check = planning::check_path(
-      input.snapshot->octree, input.path, input.corners_C, options, deadline, deadline);
+      input.snapshot->index, input.path, input.corners_C, options, deadline, deadline);
   if (!check.complete) {
     print_error(fmt::format("{}: the deadline of {} s came first, nothing is known", flags.response,
                             input.request.options.deadline_s));

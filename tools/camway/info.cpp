@@ -14,7 +14,7 @@ namespace {
 
 struct InfoFlags {
   SceneFlags scene;
-  std::uint32_t octree_threshold = scene::OctreeOptions{}.threshold;
+  std::uint32_t octree_threshold = scene::IndexOptions{}.threshold;
   std::optional<double> occupancy_m;
   bool json = false;
 };
@@ -43,7 +43,7 @@ OrderedJson import_json(const scene::ImportReport& report) {
   return json;
 }
 
-OrderedJson octree_json(const scene::OctreeStatistics& statistics, std::uint32_t threshold) {
+OrderedJson octree_json(const scene::IndexStatistics& statistics, std::uint32_t threshold) {
   OrderedJson json;
   json["threshold"] = threshold;
   json["nodes"] = statistics.nodes;
@@ -69,7 +69,7 @@ void print_json(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
   json["scene"] = flags.scene.file;
   json["digest"] = snapshot.digest;
   json["import"] = import_json(snapshot.report);
-  json["octree"] = octree_json(snapshot.octree.statistics(), flags.octree_threshold);
+  json["octree"] = octree_json(snapshot.index.statistics(), flags.octree_threshold);
   if (snapshot.occupancy) json["occupancy"] = occupancy_json(snapshot.occupancy->statistics());
   json["load_ms"] = load_ms;
   fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
@@ -103,7 +103,7 @@ void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
   fmt::print("scene        {}\n", flags.scene.file);
   print_import(snapshot.report);
   fmt::print("digest       {}\n", snapshot.digest);
-  const scene::OctreeStatistics& octree = snapshot.octree.statistics();
+  const scene::IndexStatistics& octree = snapshot.index.statistics();
   fmt::print(
       "octree       threshold {}: {} nodes, {} leaves, depth {}, duplication {:.2f}, {:.1f} MB\n",
       flags.octree_threshold, octree.nodes, octree.leaves, octree.depth, octree.duplication,
@@ -120,7 +120,7 @@ void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
 ExitCode run_info(const InfoFlags& flags) {
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options();
-  options.octree.threshold = flags.octree_threshold;
+  options.index.threshold = flags.octree_threshold;
   options.occupancy_resolution_m = flags.occupancy_m;
   const LoadedScene loaded = load_timed(flags.scene.file, flags.scene.file, options);
   if (!loaded.result.snapshot) {

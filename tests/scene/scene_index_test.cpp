@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 #include <gtest/gtest.h>
 
@@ -27,14 +27,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What the queries must answer: every triangle asked in turn.
 
-std::optional<std::uint32_t> brute_first_intersection(const Octree& tree, const Triangle& t) {
+std::optional<std::uint32_t> brute_first_intersection(const SceneIndex& tree, const Triangle& t) {
   for (std::uint32_t i = 0; i < tree.triangles().size(); ++i) {
     if (geometry::triangles_touch(t, tree.triangles()[i])) return i;
   }
   return std::nullopt;
 }
 
-std::optional<SegmentHit> brute_closest_hit(const Octree& tree, const LineSegment& segment) {
+std::optional<SegmentHit> brute_closest_hit(const SceneIndex& tree, const LineSegment& segment) {
   std::optional<SegmentHit> best;
   for (std::uint32_t i = 0; i < tree.triangles().size(); ++i) {
     const auto fraction = geometry::hit_fraction(segment, tree.triangles()[i]);
@@ -43,7 +43,7 @@ std::optional<SegmentHit> brute_closest_hit(const Octree& tree, const LineSegmen
   return best;
 }
 
-std::optional<Nearest> brute_nearest(const Octree& tree, std::span<const Triangle> body,
+std::optional<Nearest> brute_nearest(const SceneIndex& tree, std::span<const Triangle> body,
                                      double cutoff_m) {
   std::optional<Nearest> best;
   for (std::uint32_t i = 0; i < tree.triangles().size(); ++i) {
@@ -104,8 +104,8 @@ class OctreeQueries : public testing::TestWithParam<Case> {
   OctreeQueries() : random_(GetParam().seed) {
     const std::vector<Triangle> triangles =
         GetParam().on_grid ? grid_soup(random_, 500) : soup(random_, 700);
-    tree_ = Octree::build(mesh_of_triangles(triangles),
-                          {.threshold = GetParam().threshold, .max_depth = 12});
+    tree_ = SceneIndex::build(mesh_of_triangles(triangles),
+                              {.threshold = GetParam().threshold, .max_depth = 12});
   }
 
   Vec3 point() { return GetParam().on_grid ? random_.on_grid(14) : random_.in_cube(6.0); }
@@ -118,7 +118,7 @@ class OctreeQueries : public testing::TestWithParam<Case> {
   }
 
   RandomTriangles random_;
-  Octree tree_;
+  SceneIndex tree_;
 };
 
 TEST_P(OctreeQueries, FirstIntersectionIsTheLowestIndexOfAll) {
@@ -195,8 +195,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OctreeQueries,
                                          Case{"GridDeep", 504, true, 2}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-void expect_bounded(const Octree& tree, const OctreeOptions& options) {
-  const OctreeStatistics& s = tree.statistics();
+void expect_bounded(const SceneIndex& tree, const IndexOptions& options) {
+  const IndexStatistics& s = tree.statistics();
   std::printf("%llu triangles: %llu nodes, %llu leaves, depth %u, duplication %.2f, %.1f MB\n",
               static_cast<unsigned long long>(s.triangles),
               static_cast<unsigned long long>(s.nodes), static_cast<unsigned long long>(s.leaves),
@@ -220,14 +220,14 @@ TEST(OctreeBounds, AFanOfManyTrianglesAtOneVertex) {
     return Vec3(std::cos(angle), std::sin(angle), 0.3 * std::sin(7.0 * angle));
   };
   for (int i = 0; i < kCount; ++i) fan.push_back({Vec3(0, 0, 1), rim(i), rim(i + 1)});
-  const OctreeOptions options;
-  expect_bounded(Octree::build(mesh_of_triangles(fan), options), options);
+  const IndexOptions options;
+  expect_bounded(SceneIndex::build(mesh_of_triangles(fan), options), options);
 }
 
 TEST(OctreeBounds, ManyCopiesOfOneTriangle) {
   const std::vector<Triangle> copies(100'000, {Vec3(0, 0, 0), Vec3(3, 1, 0), Vec3(1, 4, 2)});
-  const OctreeOptions options;
-  const Octree tree = Octree::build(mesh_of_triangles(copies), options);
+  const IndexOptions options;
+  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(copies), options);
   expect_bounded(tree, options);
   // Splitting cannot tell them apart, so it is not tried.
   EXPECT_EQ(tree.statistics().leaves, 1U);
@@ -243,8 +243,8 @@ TEST(OctreeBounds, OneHugeTriangleOverDust) {
     scene.push_back(
         {at + random.in_cube(1e-4), at + random.in_cube(1e-4), at + random.in_cube(1e-4)});
   }
-  const OctreeOptions options;
-  const Octree tree = Octree::build(mesh_of_triangles(scene), options);
+  const IndexOptions options;
+  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(scene), options);
   expect_bounded(tree, options);
   EXPECT_LT(tree.statistics().duplication, 1.5);
   for (int i = 0; i < 20; ++i) {
@@ -256,9 +256,9 @@ TEST(OctreeBounds, OneHugeTriangleOverDust) {
 
 TEST(OctreeBounds, ManyPointsAtOnePlace) {
   const Vec3 p(1e6, -1e6, 3.0);
-  const OctreeOptions options;
-  const Octree tree =
-      Octree::build(mesh_of_triangles(std::vector<Triangle>(5000, {p, p, p})), options);
+  const IndexOptions options;
+  const SceneIndex tree =
+      SceneIndex::build(mesh_of_triangles(std::vector<Triangle>(5000, {p, p, p})), options);
   expect_bounded(tree, options);
   EXPECT_EQ(tree.first_intersection({p, p, p}), std::optional<std::uint32_t>(0));
 }
@@ -270,37 +270,37 @@ TEST(OctreeBounds, AFlatSceneIsNotDuplicatedByItsPlane) {
     const Vec3 at(random.uniform(0, 40), random.uniform(0, 30), 0.0);
     floor.push_back({at, at + Vec3(0.1, 0, 0), at + Vec3(0, 0.1, 0)});
   }
-  const OctreeOptions options;
-  const Octree tree = Octree::build(mesh_of_triangles(floor), options);
+  const IndexOptions options;
+  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(floor), options);
   expect_bounded(tree, options);
   EXPECT_LT(tree.statistics().duplication, 1.5);
 }
 
-TEST(Octree, ThresholdAndDepthAreObeyed) {
+TEST(SceneIndex, ThresholdAndDepthAreObeyed) {
   RandomTriangles random(507);
   const Mesh mesh = mesh_of_triangles(soup(random, 2000));
-  const Octree shallow = Octree::build(mesh, {.threshold = 1, .max_depth = 2});
+  const SceneIndex shallow = SceneIndex::build(mesh, {.threshold = 1, .max_depth = 2});
   EXPECT_EQ(shallow.statistics().depth, 2U);
-  const Octree all_in_one = Octree::build(mesh, {.threshold = 2000});
+  const SceneIndex all_in_one = SceneIndex::build(mesh, {.threshold = 2000});
   EXPECT_EQ(all_in_one.statistics().leaves, 1U);
   EXPECT_EQ(all_in_one.statistics().duplication, 1.0);
-  EXPECT_GT(Octree::build(mesh, {.threshold = 4}).statistics().leaves,
-            Octree::build(mesh, {.threshold = 64}).statistics().leaves);
+  EXPECT_GT(SceneIndex::build(mesh, {.threshold = 4}).statistics().leaves,
+            SceneIndex::build(mesh, {.threshold = 64}).statistics().leaves);
 }
 
-TEST(Octree, IsTheSameEveryTime) {
+TEST(SceneIndex, IsTheSameEveryTime) {
   RandomTriangles random(508);
   const Mesh mesh = mesh_of_triangles(soup(random, 2000));
-  const Octree a = Octree::build(mesh);
-  const Octree b = Octree::build(mesh);
+  const SceneIndex a = SceneIndex::build(mesh);
+  const SceneIndex b = SceneIndex::build(mesh);
   EXPECT_EQ(a.statistics(), b.statistics());
   for (std::uint32_t leaf = 0; leaf < a.statistics().leaves; ++leaf) {
     ASSERT_TRUE(std::ranges::equal(a.leaf_triangles(leaf), b.leaf_triangles(leaf)));
   }
 }
 
-TEST(Octree, AnEmptySceneAnswersNothing) {
-  for (const Octree& tree : {Octree(), Octree::build(Mesh())}) {
+TEST(SceneIndex, AnEmptySceneAnswersNothing) {
+  for (const SceneIndex& tree : {SceneIndex(), SceneIndex::build(Mesh())}) {
     const Triangle t = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     EXPECT_FALSE(tree.first_intersection(t));
     EXPECT_FALSE(tree.intersects(t));
@@ -312,12 +312,12 @@ TEST(Octree, AnEmptySceneAnswersNothing) {
   }
 }
 
-TEST(Octree, AnswersFarFromTheOrigin) {
+TEST(SceneIndex, AnswersFarFromTheOrigin) {
   RandomTriangles random(509);
   const Vec3 far(1e6, -2e6, 5e5);
   std::vector<Triangle> triangles = soup(random, 500);
   for (Triangle& t : triangles) t = moved(t, far);
-  const Octree tree = Octree::build(mesh_of_triangles(triangles), {.threshold = 4});
+  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(triangles), {.threshold = 4});
   for (int i = 0; i < 300; ++i) {
     const Triangle t = moved({random.in_cube(5.0), random.in_cube(5.0), random.in_cube(5.0)}, far);
     ASSERT_EQ(tree.first_intersection(t), brute_first_intersection(tree, t));

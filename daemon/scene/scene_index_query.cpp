@@ -7,7 +7,7 @@
 #include "daemon/geometry/triangle_box.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
-#include "daemon/scene/octree.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::scene {
 
@@ -18,7 +18,7 @@ using geometry::Triangle;
 namespace {
 
 /// Depth first, each level leaves at most seven siblings waiting.
-constexpr std::size_t kStackSize = 7 * kMaxOctreeDepth + 8;
+constexpr std::size_t kStackSize = 7 * kMaxIndexDepth + 8;
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -117,13 +117,13 @@ struct Waiting {
 
 }  // namespace
 
-std::span<const std::uint32_t> Octree::leaf_triangles(std::uint32_t leaf) const {
+std::span<const std::uint32_t> SceneIndex::leaf_triangles(std::uint32_t leaf) const {
   return std::span(references_)
       .subspan(leaf_begin_[leaf], leaf_begin_[leaf + 1] - leaf_begin_[leaf]);
 }
 
 template <class Visit>
-void Octree::visit_leaves(const Triangle& triangle, const Visit& visit) const {
+void SceneIndex::visit_leaves(const Triangle& triangle, const Visit& visit) const {
   if (nodes_.empty()) return;
   const Box box = geometry::bounds(triangle);
   std::array<std::uint32_t, kStackSize> stack;
@@ -140,7 +140,7 @@ void Octree::visit_leaves(const Triangle& triangle, const Visit& visit) const {
   }
 }
 
-std::optional<std::uint32_t> Octree::first_intersection(const Triangle& triangle) const {
+std::optional<std::uint32_t> SceneIndex::first_intersection(const Triangle& triangle) const {
   std::uint32_t lowest = kNone;
   visit_leaves(triangle, [&](std::uint32_t leaf) {
     for (const std::uint32_t index : leaf_triangles(leaf)) {
@@ -153,7 +153,7 @@ std::optional<std::uint32_t> Octree::first_intersection(const Triangle& triangle
   return lowest;
 }
 
-bool Octree::intersects(const Triangle& triangle) const {
+bool SceneIndex::intersects(const Triangle& triangle) const {
   bool found = false;
   visit_leaves(triangle, [&](std::uint32_t leaf) {
     for (const std::uint32_t index : leaf_triangles(leaf)) {
@@ -167,7 +167,7 @@ bool Octree::intersects(const Triangle& triangle) const {
   return found;
 }
 
-std::optional<SegmentHit> Octree::closest_hit(const LineSegment& segment) const {
+std::optional<SegmentHit> SceneIndex::closest_hit(const LineSegment& segment) const {
   std::optional<SegmentHit> best;
   visit_leaves({segment.from, segment.to, segment.to}, [&](std::uint32_t leaf) {
     for (const std::uint32_t index : leaf_triangles(leaf)) {
@@ -183,7 +183,7 @@ std::optional<SegmentHit> Octree::closest_hit(const LineSegment& segment) const 
   return best;
 }
 
-void Octree::leaves_touching(const Triangle& triangle, std::vector<std::uint32_t>& out) const {
+void SceneIndex::leaves_touching(const Triangle& triangle, std::vector<std::uint32_t>& out) const {
   out.clear();
   visit_leaves(triangle, [&](std::uint32_t leaf) {
     out.push_back(leaf);
@@ -191,13 +191,13 @@ void Octree::leaves_touching(const Triangle& triangle, std::vector<std::uint32_t
   });
 }
 
-double Octree::nearest_error_m(std::span<const Triangle> body) const {
+double SceneIndex::nearest_error_m(std::span<const Triangle> body) const {
   if (body.empty() || triangles_.empty()) return 0.0;
   const Box all = bounds_of(body).merged(bounds_);
   return geometry::triangle_distance_error_m(all.sizes().maxCoeff());
 }
 
-std::optional<Nearest> Octree::nearest(std::span<const Triangle> body, double cutoff_m) const {
+std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
   if (nodes_.empty() || body.empty()) return std::nullopt;
   NearestSearch search(body, triangles_, cutoff_m, nearest_error_m(body));
   std::array<Waiting, kStackSize> stack;

@@ -14,18 +14,18 @@
 namespace camway::scene {
 
 /// When a node splits, and what bounds the tree whatever the input.
-struct OctreeOptions {
+struct IndexOptions {
   std::uint32_t threshold =
       32;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
-  std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= kMaxOctreeDepth]
+  std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= kMaxIndexDepth]
   /// Largest number of triangle entries in leaves per triangle of the mesh; a node whose split
   /// would pass its share of that stays a leaf. [Limit: value >= 1]
   double max_duplication = 8.0;
 };
 
-inline constexpr std::uint32_t kMaxOctreeDepth = 20;
+inline constexpr std::uint32_t kMaxIndexDepth = 20;
 
-struct OctreeStatistics {
+struct IndexStatistics {
   std::uint64_t nodes = 0;   ///< inner nodes and leaves; octants without a triangle are not stored
   std::uint64_t leaves = 0;  ///< each holds at least one triangle
   std::uint32_t depth = 0;
@@ -34,7 +34,7 @@ struct OctreeStatistics {
   double duplication = 0.0;      ///< references / triangles
   std::uint64_t memory_bytes = 0;
 
-  bool operator==(const OctreeStatistics&) const = default;
+  bool operator==(const IndexStatistics&) const = default;
 };
 
 /// Where a line segment meets the scene first.
@@ -59,16 +59,16 @@ struct Nearest {
 /// What a query answers does not depend on the tree: it is what asking every triangle in turn with
 /// the kernels of daemon/geometry would answer, bit for bit. Immutable; queries are safe from any
 /// thread and allocate nothing unless they say so.
-class Octree {
+class SceneIndex {
  public:
   /// No triangles; every query answers nothing.
-  Octree() = default;
+  SceneIndex() = default;
 
   /// Keeps its own copy of the triangles. The result depends only on the arguments.
   /// Precondition: coordinates are below geometry::kLargestCoordinate_m.
-  static Octree build(const Mesh& mesh, const OctreeOptions& options = {});
+  static SceneIndex build(const Mesh& mesh, const IndexOptions& options = {});
 
-  [[nodiscard]] const OctreeStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] const IndexStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const geometry::Box& bounds() const { return bounds_; }
   [[nodiscard]] std::span<const geometry::Triangle> triangles() const { return triangles_; }
 
@@ -120,7 +120,7 @@ class Octree {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
   std::vector<std::uint32_t> references_;
-  OctreeStatistics statistics_;
+  IndexStatistics statistics_;
 };
 
 }  // namespace camway::scene

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/scene/snapshot.h"
+
+namespace camway::collision {
+
+/// What a path is checked against. Refers to what it was made from, which must outlive it.
+struct Obstacles {
+  // Implicit on purpose: wherever a scene is asked for, an index or a snapshot will do.
+  Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
+  Obstacles(const scene::Snapshot& snapshot) : index(snapshot.index) {}    // NOLINT
+
+  const scene::SceneIndex& index;
+};
+
+}  // namespace camway::collision
