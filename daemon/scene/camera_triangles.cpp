@@ -31,7 +31,7 @@ std::optional<std::uint32_t> CameraTriangles::first_hit(std::uint32_t id) const 
   for (const std::uint32_t leaf : found->second.leaves) {
     for (const std::uint32_t index : index_->leaf_triangles(leaf)) {
       if (index >= lowest) break;
-      if (geometry::triangles_touch(found->second.triangle, index_->triangles()[index])) {
+      if (geometry::triangles_touch(found->second.triangle, index_->triangle(index))) {
         lowest = index;
       }
     }

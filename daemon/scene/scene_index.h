@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "daemon/geometry/types.h"
@@ -13,17 +15,29 @@
 
 namespace camway::scene {
 
-/// When a node splits, and what bounds the tree whatever the input.
+/// How the triangles are dealt to the nodes of the tree. Queries give the same answers with all.
+enum class Decomposition : std::uint8_t {
+  kOctree,  ///< space into octants; a triangle goes to every octant that it lies in
+  kKdTree,  ///< space by a plane, at the least surface area; a triangle goes to every side
+  kBvh,     ///< triangles into two groups, at the least surface area; boxes may overlap
+};
+
+/// When a node splits, what bounds the tree whatever the input, and who builds it.
 struct IndexOptions {
+  Decomposition decomposition = Decomposition::kOctree;
   std::uint32_t threshold =
       32;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
   std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= kMaxIndexDepth]
   /// Largest number of triangle entries in leaves per triangle of the mesh; a node whose split
   /// would pass its share of that stays a leaf. [Limit: value >= 1]
   double max_duplication = 8.0;
+  /// Threads that build; 0 for as many as the machine has. Never more than kMaxIndexThreads, and
+  /// without any influence on the result.
+  unsigned threads = 0;
 };
 
 inline constexpr std::uint32_t kMaxIndexDepth = 20;
+inline constexpr unsigned kMaxIndexThreads = 8;
 
 struct IndexStatistics {
   std::uint64_t nodes = 0;   ///< inner nodes and leaves; octants without a triangle are not stored
@@ -70,7 +84,9 @@ class SceneIndex {
 
   [[nodiscard]] const IndexStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const geometry::Box& bounds() const { return bounds_; }
-  [[nodiscard]] std::span<const geometry::Triangle> triangles() const { return triangles_; }
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }  ///< triangles
+  /// Triangle `index` of the mesh. [Limit: index < size()]
+  [[nodiscard]] geometry::Triangle triangle(std::size_t index) const { return triangles_[index]; }
 
   /// Index of a scene triangle that `triangle` touches, or nothing. Touching counts, without any
   /// tolerance (`geometry::triangles_touch`). The lowest index among all of them.
@@ -91,7 +107,28 @@ class SceneIndex {
   [[nodiscard]] std::optional<Nearest> nearest(std::span<const geometry::Triangle> body,
                                                double cutoff_m) const;
 
-  /// Bound of the rounding error of the distance that `nearest` gives for `body`, metres.
+  /// A scene triangle that is nearer to the body than `distance_m`, and its own distance, or
+  /// nothing if there is none; the search ends at the first that it meets. Which of several it is
+  /// depends on the index, and on nothing else. Nothing proves that all triangles are at least
+  /// `distance_m - nearest_error_m(body)` away.
+  [[nodiscard]] std::optional<Nearest> any_within(std::span<const geometry::Triangle> body,
+                                                  double distance_m) const;
+
+  /// Calls `visit(index)` for every triangle that has a point in the closed `box`, until it returns
+  /// false; then returns false. Conservative: visits others whose bounding boxes meet `box` as
+  /// well, and may visit a triangle more than once.
+  template <class Visit>
+  bool for_each_touching(const geometry::Box& box, Visit&& visit) const {
+    return visit_touching(
+        box,
+        [](void* context, std::uint32_t index) {
+          return static_cast<bool>((*static_cast<std::remove_reference_t<Visit>*>(context))(index));
+        },
+        const_cast<void*>(static_cast<const void*>(&visit)));
+  }
+
+  /// Bound of the rounding error of the distance that `nearest` and `any_within` give for `body`,
+  /// metres.
   [[nodiscard]] double nearest_error_m(std::span<const geometry::Triangle> body) const;
 
   /// Replaces `out` by the ids of all leaves whose cell `triangle` touches, in increasing order.
@@ -110,6 +147,13 @@ class SceneIndex {
     std::uint32_t first = 0;  ///< first child, or for a leaf its id
     std::uint32_t count = 0;  ///< children; 0 for a leaf
   };
+
+  bool visit_touching(const geometry::Box& box, bool (*visit)(void*, std::uint32_t),
+                      void* context) const;
+
+  template <class Stop>
+  std::optional<Nearest> search(std::span<const geometry::Triangle> body, double cutoff_m,
+                                const Stop& stop) const;
 
   /// Calls `visit(leaf)` for every leaf that `triangle` touches until it returns false.
   template <class Visit>

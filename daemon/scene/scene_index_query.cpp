@@ -197,7 +197,9 @@ double SceneIndex::nearest_error_m(std::span<const Triangle> body) const {
   return geometry::triangle_distance_error_m(all.sizes().maxCoeff());
 }
 
-std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
+template <class Stop>
+std::optional<Nearest> SceneIndex::search(std::span<const Triangle> body, double cutoff_m,
+                                          const Stop& stop) const {
   if (nodes_.empty() || body.empty()) return std::nullopt;
   NearestSearch search(body, triangles_, cutoff_m, nearest_error_m(body));
   std::array<Waiting, kStackSize> stack;
@@ -208,7 +210,10 @@ std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, doubl
     if (search.is_beyond(top.squared_m2)) continue;
     const Node& node = nodes_[top.node];
     if (node.count == 0) {
-      for (const std::uint32_t index : leaf_triangles(node.first)) search.ask(index);
+      for (const std::uint32_t index : leaf_triangles(node.first)) {
+        search.ask(index);
+        if (stop(search.best())) return search.best();
+      }
       continue;
     }
     const std::size_t begin = size;
@@ -223,6 +228,35 @@ std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, doubl
   }
   if (search.best().triangle == kNone) return std::nullopt;
   return search.best();
+}
+
+std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
+  return search(body, cutoff_m, [](const Nearest&) { return false; });
+}
+
+std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
+                                              double distance_m) const {
+  return search(body, distance_m, [](const Nearest& best) { return best.triangle != kNone; });
+}
+
+bool SceneIndex::visit_touching(const Box& box, bool (*visit)(void*, std::uint32_t),
+                                void* context) const {
+  if (nodes_.empty()) return true;
+  std::array<std::uint32_t, kStackSize> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (!node.box.intersects(box)) continue;
+    for (std::uint32_t i = node.count; i-- > 0;) stack[size++] = node.first + i;
+    if (node.count > 0) continue;
+    for (const std::uint32_t index : leaf_triangles(node.first)) {
+      if (geometry::bounds(triangles_[index]).intersects(box) && !visit(context, index)) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace camway::scene

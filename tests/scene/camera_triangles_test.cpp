@@ -51,7 +51,7 @@ TEST_F(CameraTrianglesTest, NeverSplitsALeaf) {
   const IndexStatistics before = tree_.statistics();
   CameraTriangles camera(tree_);
   // Far more than the threshold in the same place.
-  const Triangle t = tree_.triangles()[0];
+  const Triangle t = tree_.triangle(0);
   for (std::uint32_t id = 0; id < 1000; ++id) camera.insert(id, t);
   EXPECT_EQ(tree_.statistics(), before);
   const auto leaves = camera.leaves_of(0);
@@ -75,7 +75,7 @@ TEST_F(CameraTrianglesTest, ListsAndLeavesAgree) {
 
 TEST_F(CameraTrianglesTest, InsertingAgainReplaces) {
   CameraTriangles camera(tree_);
-  camera.insert(7, tree_.triangles()[3]);
+  camera.insert(7, tree_.triangle(3));
   EXPECT_TRUE(camera.first_hit(7));
   const std::vector<std::uint32_t> old_leaves(camera.leaves_of(7).begin(),
                                               camera.leaves_of(7).end());

@@ -28,16 +28,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // What the queries must answer: every triangle asked in turn.
 
 std::optional<std::uint32_t> brute_first_intersection(const SceneIndex& tree, const Triangle& t) {
-  for (std::uint32_t i = 0; i < tree.triangles().size(); ++i) {
-    if (geometry::triangles_touch(t, tree.triangles()[i])) return i;
+  for (std::uint32_t i = 0; i < tree.size(); ++i) {
+    if (geometry::triangles_touch(t, tree.triangle(i))) return i;
   }
   return std::nullopt;
 }
 
 std::optional<SegmentHit> brute_closest_hit(const SceneIndex& tree, const LineSegment& segment) {
   std::optional<SegmentHit> best;
-  for (std::uint32_t i = 0; i < tree.triangles().size(); ++i) {
-    const auto fraction = geometry::hit_fraction(segment, tree.triangles()[i]);
+  for (std::uint32_t i = 0; i < tree.size(); ++i) {
+    const auto fraction = geometry::hit_fraction(segment, tree.triangle(i));
     if (fraction && (!best || *fraction < best->fraction)) best = SegmentHit{*fraction, i};
   }
   return best;
@@ -46,9 +46,9 @@ std::optional<SegmentHit> brute_closest_hit(const SceneIndex& tree, const LineSe
 std::optional<Nearest> brute_nearest(const SceneIndex& tree, std::span<const Triangle> body,
                                      double cutoff_m) {
   std::optional<Nearest> best;
-  for (std::uint32_t i = 0; i < tree.triangles().size(); ++i) {
+  for (std::uint32_t i = 0; i < tree.size(); ++i) {
     for (const Triangle& part : body) {
-      const double distance_m = geometry::triangle_distance(part, tree.triangles()[i]);
+      const double distance_m = geometry::triangle_distance(part, tree.triangle(i));
       if (distance_m < (best ? best->distance_m : cutoff_m)) best = Nearest{distance_m, i};
     }
   }
@@ -182,8 +182,8 @@ TEST_P(OctreeQueries, LeavesTouchedHoldEveryTriangleTouched) {
       ASSERT_TRUE(std::is_sorted(in_leaf.begin(), in_leaf.end()));
       members.insert(in_leaf.begin(), in_leaf.end());
     }
-    for (std::uint32_t k = 0; k < tree_.triangles().size(); ++k) {
-      ASSERT_TRUE(members.contains(k) || !geometry::triangles_touch(t, tree_.triangles()[k]));
+    for (std::uint32_t k = 0; k < tree_.size(); ++k) {
+      ASSERT_TRUE(members.contains(k) || !geometry::triangles_touch(t, tree_.triangle(k)));
     }
   }
 }

@@ -58,7 +58,7 @@ TEST(MakeSnapshot, HoldsMeshTreeAndReport) {
   ASSERT_TRUE(result.snapshot) << result.error;
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.snapshot->name, "room");
-  EXPECT_EQ(result.snapshot->index.triangles().size(), 2U);
+  EXPECT_EQ(result.snapshot->index.size(), 2U);
   EXPECT_EQ(result.snapshot->mesh.triangles.size(), 2U);
   EXPECT_EQ(result.snapshot->digest, mesh_digest(result.snapshot->mesh));
   EXPECT_EQ(result.snapshot->report.triangles, 2U);
