@@ -15,6 +15,12 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
+/// The most by which the error grows from one attempt to the next. The strips that a path needs
+/// grow with the inverse root of the error, so growing it by the inverse of the fraction that was
+/// done does not overshoot; but an attempt that ran out of strips at the very beginning, on one
+/// wild segment, says little about the rest.
+constexpr double kMostCoarsening = 1e6;
+
 /// The near quadrilateral where one strip ends and the next begins.
 struct Station {
   double time_s;
@@ -174,7 +180,7 @@ std::vector<SweptTriangle> tessellate_swept_surface(const Path& path, const Corn
         add_strip(stations[i - 1], stations[i], triangles);
       return triangles;
     }
-    error_m *= std::max(2.0, 1.0 / std::max(sampler.fraction_done(), 1e-6));
+    error_m *= std::clamp(1.0 / sampler.fraction_done(), 2.0, kMostCoarsening);
   }
 }
 

@@ -34,15 +34,6 @@ namespace {
 
 namespace format = camway::scene::import_format;
 
-struct Contents {
-  format::Header header;
-  std::string text;
-  std::vector<format::Vertex> vertices;
-  std::vector<format::Triangle> triangles;
-  std::vector<format::Object> objects;
-  std::string names;
-};
-
 bool set_limit(int resource, rlim_t value) {
   const rlimit limit{value, value};
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &limit) == 0;
@@ -75,22 +66,22 @@ bool write_all(const std::vector<T>& values) {
   return write_all(values.data(), values.size() * sizeof(T));
 }
 
-bool write_contents(Contents& contents) {
-  contents.header.text_bytes = contents.text.size();
-  contents.header.vertices = contents.vertices.size();
-  contents.header.triangles = contents.triangles.size();
-  contents.header.objects = contents.objects.size();
-  contents.header.name_bytes = contents.names.size();
-  return write_all(&contents.header, sizeof contents.header) &&
-         write_all(contents.text.data(), contents.text.size()) && write_all(contents.vertices) &&
-         write_all(contents.triangles) && write_all(contents.objects) &&
-         write_all(contents.names.data(), contents.names.size());
+bool write_record(format::Record& record) {
+  record.header.text_bytes = record.text.size();
+  record.header.vertices = record.vertices.size();
+  record.header.triangles = record.triangles.size();
+  record.header.objects = record.objects.size();
+  record.header.name_bytes = record.names.size();
+  return write_all(&record.header, sizeof record.header) &&
+         write_all(record.text.data(), record.text.size()) && write_all(record.vertices) &&
+         write_all(record.triangles) && write_all(record.objects) &&
+         write_all(record.names.data(), record.names.size());
 }
 
 int refuse(std::string reason) {
-  Contents contents;
-  contents.text = std::move(reason);
-  return write_contents(contents) ? format::kExitRefused : format::kExitInternal;
+  format::Record record;
+  record.text = std::move(reason);
+  return write_record(record) ? format::kExitRefused : format::kExitInternal;
 }
 
 std::string object_name(const aiNode& node, const aiMesh& mesh) {
@@ -101,15 +92,15 @@ std::string object_name(const aiNode& node, const aiMesh& mesh) {
   return std::string(node_name) + "/" + std::string(mesh_name);
 }
 
-void append_mesh(const aiNode& node, const aiMesh& mesh, Contents& contents) {
-  const auto base = static_cast<std::uint32_t>(contents.vertices.size());
-  const std::size_t first_triangle = contents.triangles.size();
+void append_mesh(const aiNode& node, const aiMesh& mesh, format::Record& record) {
+  const auto base = static_cast<std::uint32_t>(record.vertices.size());
+  const std::size_t first_triangle = record.triangles.size();
   for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
-    contents.vertices.push_back({v.x, v.y, v.z});
+    record.vertices.push_back({v.x, v.y, v.z});
   }
   for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
     if (face.mNumIndices != 3) {
-      ++contents.header.dropped_points_and_lines;
+      ++record.header.dropped_points_and_lines;
       continue;
     }
     format::Triangle triangle{};
@@ -118,21 +109,20 @@ void append_mesh(const aiNode& node, const aiMesh& mesh, Contents& contents) {
       const std::uint32_t index = face.mIndices[k];
       triangle[k] = index < mesh.mNumVertices ? base + index : ~std::uint32_t{0};
     }
-    contents.triangles.push_back(triangle);
+    record.triangles.push_back(triangle);
   }
   const std::string name = object_name(node, mesh);
-  contents.objects.push_back(
-      {static_cast<std::uint32_t>(contents.triangles.size() - first_triangle),
-       static_cast<std::uint32_t>(name.size())});
-  contents.names += name;
+  record.objects.push_back({static_cast<std::uint32_t>(record.triangles.size() - first_triangle),
+                            static_cast<std::uint32_t>(name.size())});
+  record.names += name;
 }
 
-void append_nodes(const aiNode& node, const aiScene& scene, Contents& contents) {
+void append_nodes(const aiNode& node, const aiScene& scene, format::Record& record) {
   for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) {
-    if (mesh < scene.mNumMeshes) append_mesh(node, *scene.mMeshes[mesh], contents);
+    if (mesh < scene.mNumMeshes) append_mesh(node, *scene.mMeshes[mesh], record);
   }
   for (const aiNode* child : std::span(node.mChildren, node.mNumChildren)) {
-    append_nodes(*child, scene, contents);
+    append_nodes(*child, scene, record);
   }
 }
 
@@ -182,13 +172,13 @@ int import_file(const std::string& file) {
       file, aiProcess_RemoveComponent | aiProcess_PreTransformVertices | aiProcess_Triangulate);
   if (scene == nullptr) return refuse(importer.GetErrorString());
   if (scene->mRootNode == nullptr || !scene->HasMeshes()) return refuse("holds no mesh");
-  Contents contents;
+  format::Record record;
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* description =
       index >= 0 ? importer.GetImporterInfo(static_cast<std::size_t>(index)) : nullptr;
-  contents.text = description != nullptr ? description->mName : "unknown";
-  append_nodes(*scene->mRootNode, *scene, contents);
-  return write_contents(contents) ? format::kExitOk : format::kExitInternal;
+  record.text = description != nullptr ? description->mName : "unknown";
+  append_nodes(*scene->mRootNode, *scene, record);
+  return write_record(record) ? format::kExitOk : format::kExitInternal;
 }
 
 std::optional<rlim_t> parse_limit(std::string_view text) {

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 /// What the import process hands back to the process that started it: one flat record in the byte
 /// order of the machine, since both are the same build on the same machine.
 ///
-///     ImportHeader · text · vertices · triangles · objects · names
+///     Header · text · vertices · triangles · objects · names
 ///
 /// The reader of an untrusted file may have been taken over, so the receiver trusts no count.
 namespace camway::scene::import_format {
@@ -38,6 +40,17 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Object {
   std::uint32_t triangles = 0;  ///< follow those of the object before
   std::uint32_t name_bytes = 0;
+};
+
+/// The whole of it in memory, in the order in which it is written. The header's counts are those of
+/// the members only once it has been written or read.
+struct Record {
+  Header header;
+  std::string text;
+  std::vector<Vertex> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<Object> objects;
+  std::string names;
 };
 
 }  // namespace camway::scene::import_format

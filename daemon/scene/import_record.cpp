@@ -13,6 +13,7 @@ namespace camway::scene {
 namespace {
 
 namespace format = import_format;
+using format::Record;
 using geometry::Vec3;
 
 /// Takes a record apart. Every count is checked against the bytes that are there before anything is
@@ -43,15 +44,6 @@ class RecordReader {
 
  private:
   std::span<const std::byte> rest_;
-};
-
-struct Record {
-  format::Header header;
-  std::string text;
-  std::vector<format::Vertex> vertices;
-  std::vector<format::Triangle> triangles;
-  std::vector<format::Object> objects;
-  std::string names;
 };
 
 bool parse(std::span<const std::byte> bytes, Record& record) {
