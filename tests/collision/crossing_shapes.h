@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/scene/mesh.h"
+#include "tests/collision/crossing_random.h"
+#include "tests/collision/precise_pose.h"
+
+/// Obstacles for the crossing campaign. Points are given in extended precision and rounded to
+/// doubles once, when they become vertices.
+namespace camway::testing {
+
+/// Two unit vectors that are orthogonal to the unit vector `normal` and to each other.
+std::array<RealVec3, 2> across(CaseRandom& random, const RealVec3& normal);
+
+void add_face(scene::Mesh& mesh, const RealVec3& a, const RealVec3& b, const RealVec3& c);
+
+/// A parallelogram of two triangles, `center ± a ± b`.
+void add_plate(scene::Mesh& mesh, const RealVec3& center, const RealVec3& a, const RealVec3& b);
+
+/// A box of 12 triangles, `center ± a ± b ± c`.
+void add_slab(scene::Mesh& mesh, const RealVec3& center, const RealVec3& a, const RealVec3& b,
+              const RealVec3& c);
+
+/// A prism with three long edges, the first from `from` to `to`, the others beside it by `u`, `v`.
+void add_prism(scene::Mesh& mesh, const RealVec3& from, const RealVec3& to, const RealVec3& u,
+               const RealVec3& v);
+
+}  // namespace camway::testing
