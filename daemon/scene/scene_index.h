@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/geometry/types.h"
+#include "daemon/scene/index_node.h"
 #include "daemon/scene/mesh.h"
 
 namespace camway::scene {
@@ -44,9 +45,9 @@ struct IndexStatistics {
   std::uint64_t leaves = 0;  ///< each holds at least one triangle
   std::uint32_t depth = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t references = 0;  ///< triangle entries in leaves, duplicates included
-  double duplication = 0.0;      ///< references / triangles
-  std::uint64_t memory_bytes = 0;
+  std::uint64_t references = 0;    ///< triangle entries in leaves, duplicates included
+  double duplication = 0.0;        ///< references / triangles
+  std::uint64_t memory_bytes = 0;  ///< of the index, without a mesh that it shares
 
   bool operator==(const IndexStatistics&) const = default;
 };
@@ -63,30 +64,38 @@ struct Nearest {
   std::uint32_t triangle = 0;
 };
 
-/// The paper's spatial decomposition (Ptacek & Johnstone 2006, section 3): a leaf that passes the
-/// threshold splits into eight octants, and a triangle goes to every octant that it lies in.
-/// Deviations: built from the whole mesh at once into flat arrays; octants are cubes; each node
-/// keeps the box that its triangles really fill, so that empty space is skipped at once; bounded in
-/// depth and in duplication, and a node whose octants would hold nearly all of its triangles again
-/// stays a leaf (a fan of triangles at one vertex cannot be separated by splitting).
+/// A spatial decomposition of the scene (Ptacek & Johnstone 2006, section 3, for the octree). One
+/// structure for all decompositions: a tree of wide nodes in flat arrays, with boxes of a byte per
+/// side. Each node keeps the box that its triangles really fill, so that empty space is skipped at
+/// once. Bounded in depth and in duplication: what cannot be told apart by splitting (a fan of
+/// triangles at one vertex) stays in one leaf.
 ///
 /// What a query answers does not depend on the tree: it is what asking every triangle in turn with
-/// the kernels of daemon/geometry would answer, bit for bit. Immutable; queries are safe from any
-/// thread and allocate nothing unless they say so.
+/// the kernels of daemon/geometry would answer, bit for bit; `any_within` alone is free to choose.
+/// Who asks with a coordinate that is not finite, or beyond geometry::kLargestCoordinate_m, is told
+/// that triangle 0 is at distance 0: never that the space is free.
+///
+/// Immutable; queries are safe from any thread and allocate nothing unless they say so.
 class SceneIndex {
  public:
   /// No triangles; every query answers nothing.
   SceneIndex() = default;
 
-  /// Keeps its own copy of the triangles. The result depends only on the arguments.
-  /// Precondition: coordinates are below geometry::kLargestCoordinate_m.
+  /// Shares the mesh. The result depends on the mesh and the options only, not on the threads.
+  /// Preconditions: not null; coordinates are below geometry::kLargestCoordinate_m.
+  static SceneIndex build(std::shared_ptr<const Mesh> mesh, const IndexOptions& options = {});
+
+  /// The same with a copy of `mesh`, which then counts as memory of the index.
   static SceneIndex build(const Mesh& mesh, const IndexOptions& options = {});
 
   [[nodiscard]] const IndexStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const geometry::Box& bounds() const { return bounds_; }
-  [[nodiscard]] std::size_t size() const { return triangles_.size(); }  ///< triangles
+  /// Number of triangles.
+  [[nodiscard]] std::size_t size() const { return mesh_ ? mesh_->triangles.size() : 0; }
   /// Triangle `index` of the mesh. [Limit: index < size()]
-  [[nodiscard]] geometry::Triangle triangle(std::size_t index) const { return triangles_[index]; }
+  [[nodiscard]] geometry::Triangle triangle(std::size_t index) const {
+    return mesh_->triangle(index);
+  }
 
   /// Index of a scene triangle that `triangle` touches, or nothing. Touching counts, without any
   /// tolerance (`geometry::triangles_touch`). The lowest index among all of them.
@@ -139,31 +148,19 @@ class SceneIndex {
   [[nodiscard]] std::span<const std::uint32_t> leaf_triangles(std::uint32_t leaf) const;
 
  private:
-  friend class OctreeBuilder;
+  friend class IndexAssembler;
+  friend class IndexWalk;
 
-  /// Children of a node are neighbours in `nodes_`; the root is the first of them.
-  struct Node {
-    geometry::Box box;        ///< holds what of its triangles lies in its cell
-    std::uint32_t first = 0;  ///< first child, or for a leaf its id
-    std::uint32_t count = 0;  ///< children; 0 for a leaf
-  };
-
+  void count();  ///< fills statistics_ but for the depth
   bool visit_touching(const geometry::Box& box, bool (*visit)(void*, std::uint32_t),
                       void* context) const;
 
-  template <class Stop>
-  std::optional<Nearest> search(std::span<const geometry::Triangle> body, double cutoff_m,
-                                const Stop& stop) const;
-
-  /// Calls `visit(leaf)` for every leaf that `triangle` touches until it returns false.
-  template <class Visit>
-  void visit_leaves(const geometry::Triangle& triangle, const Visit& visit) const;
-
+  std::shared_ptr<const Mesh> mesh_;
   geometry::Box bounds_;
-  std::vector<geometry::Triangle> triangles_;
-  std::vector<Node> nodes_;
+  std::vector<IndexNode> nodes_;           ///< the root first
   std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
   std::vector<std::uint32_t> references_;
+  std::vector<ByteBoxes> boxes_;  ///< of references_, eight at a time, in the frame of the parent
   IndexStatistics statistics_;
 };
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 
+#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/segment_triangle.h"
 #include "daemon/geometry/triangle_box.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
+#include "daemon/scene/body_search.h"
+#include "daemon/scene/index_walk.h"
 #include "daemon/scene/scene_index.h"
 
 namespace camway::scene {
@@ -14,13 +17,24 @@ namespace camway::scene {
 using geometry::Box;
 using geometry::LineSegment;
 using geometry::Triangle;
+using geometry::Vec3;
 
 namespace {
 
-/// Depth first, each level leaves at most seven siblings waiting.
-constexpr std::size_t kStackSize = 7 * kMaxIndexDepth + 8;
-
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Whether the kernels of daemon/geometry accept the point; false for NaN.
+bool is_usable(const Vec3& point) {
+  return (point.array().abs() < geometry::kLargestCoordinate_m).all();
+}
+
+bool is_usable(const Triangle& triangle) {
+  return is_usable(triangle[0]) && is_usable(triangle[1]) && is_usable(triangle[2]);
+}
+
+bool is_usable(std::span<const Triangle> body) {
+  return std::all_of(body.begin(), body.end(), [](const Triangle& t) { return is_usable(t); });
+}
 
 Box bounds_of(std::span<const Triangle> body) {
   Box box;
@@ -28,92 +42,101 @@ Box bounds_of(std::span<const Triangle> body) {
   return box;
 }
 
-/// What can still be nearer than the best so far, given the rounding of distances.
-class Horizon {
+/// For the walk: what is nearest to a body, or near enough.
+class DistanceQuery : public BodySearch {
  public:
-  Horizon(double cutoff_m, double error_m) : error_m_(error_m) { shrink_to(cutoff_m); }
+  using BodySearch::BodySearch;
 
-  void shrink_to(double best_m) {
-    // 1e-14 covers the relative error of a squared box distance (8u) and of this square.
-    const double reach_m = best_m + 2.0 * error_m_;
-    squared_m2_ = reach_m * reach_m * (1.0 + 1e-14);
+  static bool enters(const IndexNode&, std::size_t) { return true; }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t triangle) {
+      consider(triangle);
+      return !is_done();
+    });
+    settle();
   }
-  [[nodiscard]] bool is_beyond(double squared_distance_m2) const {
-    return squared_distance_m2 > squared_m2_;
+};
+
+/// For the walk: leaves that a triangle touches.
+template <class Visit>
+class TouchQuery {
+ public:
+  TouchQuery(const Triangle& triangle, const Visit& visit)
+      : triangle_(triangle), sides_(geometry::bounds(triangle)), visit_(visit) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return sides_; }
+  static double squared_reach_m2() { return 0.0; }
+  static bool is_beyond(double) { return false; }
+  [[nodiscard]] bool is_done() const { return is_done_; }
+
+  /// The box of a long triangle meets far more than the triangle.
+  [[nodiscard]] bool enters(const IndexNode& node, std::size_t slot) const {
+    return geometry::triangle_touches_box(triangle_, node.frame.box_of(get_box(node.boxes, slot)));
+  }
+
+  void leaf(const IndexWalk::Leaf& leaf) { is_done_ = !visit_(*this, leaf); }
+
+ private:
+  const Triangle& triangle_;
+  BoxSides sides_;
+  const Visit& visit_;
+  bool is_done_ = false;
+};
+
+/// Calls `visit(query, leaf)` for every leaf that `triangle` touches until it returns false.
+template <class Visit>
+void visit_leaves(const SceneIndex& index, const Triangle& triangle, const Visit& visit) {
+  TouchQuery<Visit> query(triangle, visit);
+  IndexWalk(index).run(query);
+}
+
+/// For the walk: everything that meets a box.
+class BoxQuery {
+ public:
+  BoxQuery(const Box& box, const Mesh& mesh, bool (*visit)(void*, std::uint32_t), void* context)
+      : box_(box), sides_(box), mesh_(mesh), visit_(visit), context_(context) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return sides_; }
+  static double squared_reach_m2() { return 0.0; }
+  static bool is_beyond(double) { return false; }
+  static bool enters(const IndexNode&, std::size_t) { return true; }
+  [[nodiscard]] bool is_done() const { return is_done_; }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t triangle) {
+      is_done_ = !is_apart(triangle) && !visit_(context_, triangle);
+      return !is_done_;
+    });
   }
 
  private:
-  double error_m_;
-  double squared_m2_ = 0.0;
-};
-
-/// Remembers which triangles were asked already: a triangle is met once per leaf that it lies in,
-/// and its distance does not change. Forgetting one costs time only.
-class Asked {
- public:
-  Asked() { slots_.fill(kNone); }
-
-  /// Whether `index` was surely met before; remembers it in any case.
-  bool before(std::uint32_t index) {
-    std::uint32_t& slot = slots_[index % slots_.size()];
-    if (slot == index) return true;
-    slot = index;
-    return false;
+  /// False for NaN.
+  [[nodiscard]] bool is_apart(std::uint32_t triangle) const {
+    const Box other = geometry::bounds(mesh_.triangle(triangle));
+    return (other.min().array() > box_.max().array()).any() ||
+           (other.max().array() < box_.min().array()).any();
   }
 
- private:
-  std::array<std::uint32_t, 256> slots_;
+  const Box& box_;
+  BoxSides sides_;
+  const Mesh& mesh_;
+  bool (*visit_)(void*, std::uint32_t);
+  void* context_;
+  bool is_done_ = false;
 };
 
-/// The nearest triangle so far, and what can still be nearer.
-class NearestSearch {
- public:
-  NearestSearch(std::span<const Triangle> body, std::span<const Triangle> scene, double cutoff_m,
-                double error_m)
-      : body_(body), scene_(scene), body_box_(bounds_of(body)), horizon_(cutoff_m, error_m) {
-    best_.distance_m = cutoff_m;
-    best_.triangle = kNone;
-  }
-
-  [[nodiscard]] double squared_distance_m2(const Box& box) const {
-    return geometry::squared_box_distance_m2(body_box_, box);
-  }
-  [[nodiscard]] bool is_beyond(double squared_m2) const { return horizon_.is_beyond(squared_m2); }
-  [[nodiscard]] const Nearest& best() const { return best_; }
-
-  void ask(std::uint32_t index) {
-    // Nothing is nearer than a touch, so only a lower index could still win.
-    if (best_.distance_m == 0.0 && index >= best_.triangle) return;
-    const Triangle& triangle = scene_[index];
-    const Box box = geometry::bounds(triangle);
-    if (is_beyond(squared_distance_m2(box)) || asked_.before(index)) return;
-    for (const Triangle& part : body_) {
-      if (body_.size() > 1 &&
-          is_beyond(geometry::squared_box_distance_m2(geometry::bounds(part), box))) {
-        continue;
-      }
-      const double distance_m = geometry::triangle_distance(part, triangle);
-      const bool tie = distance_m == best_.distance_m && best_.triangle != kNone;
-      if (distance_m < best_.distance_m || (tie && index < best_.triangle)) {
-        best_ = {distance_m, index};
-        horizon_.shrink_to(distance_m);
-      }
-    }
-  }
-
- private:
-  std::span<const Triangle> body_;
-  std::span<const Triangle> scene_;
-  Box body_box_;
-  Horizon horizon_;
-  Asked asked_;
-  Nearest best_;
-};
-
-struct Waiting {
-  double squared_m2;
-  std::uint32_t node;
-};
+std::optional<Nearest> search(const SceneIndex& index, const Mesh& mesh,
+                              std::span<const Triangle> body, double cutoff_m,
+                              BodySearch::Goal goal) {
+  if (!is_usable(body) || std::isnan(cutoff_m)) return Nearest{0.0, 0};
+  const Box body_box = bounds_of(body);
+  const Box all = body_box.merged(index.bounds());
+  DistanceQuery query(body, body_box, mesh, cutoff_m,
+                      geometry::triangle_distance_error_m(all.sizes().maxCoeff()), goal);
+  IndexWalk(index).run(query);
+  return query.result();
+}
 
 }  // namespace
 
@@ -122,31 +145,17 @@ std::span<const std::uint32_t> SceneIndex::leaf_triangles(std::uint32_t leaf) co
       .subspan(leaf_begin_[leaf], leaf_begin_[leaf + 1] - leaf_begin_[leaf]);
 }
 
-template <class Visit>
-void SceneIndex::visit_leaves(const Triangle& triangle, const Visit& visit) const {
-  if (nodes_.empty()) return;
-  const Box box = geometry::bounds(triangle);
-  std::array<std::uint32_t, kStackSize> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (!node.box.intersects(box) || !geometry::triangle_touches_box(triangle, node.box)) continue;
-    if (node.count == 0) {
-      if (!visit(node.first)) return;
-      continue;
-    }
-    for (std::uint32_t i = node.count; i-- > 0;) stack[size++] = node.first + i;
-  }
-}
-
 std::optional<std::uint32_t> SceneIndex::first_intersection(const Triangle& triangle) const {
+  if (size() == 0) return std::nullopt;
+  if (!is_usable(triangle)) return 0;
   std::uint32_t lowest = kNone;
-  visit_leaves(triangle, [&](std::uint32_t leaf) {
-    for (const std::uint32_t index : leaf_triangles(leaf)) {
-      if (index >= lowest) break;
-      if (geometry::triangles_touch(triangle, triangles_[index])) lowest = index;
-    }
+  visit_leaves(*this, triangle, [&](const auto& query, const IndexWalk::Leaf& leaf) {
+    leaf.for_each(query, [&](std::uint32_t index) {
+      if (index < lowest && geometry::triangles_touch(triangle, mesh_->triangle(index))) {
+        lowest = index;
+      }
+      return index < lowest;
+    });
     return lowest != 0;
   });
   if (lowest == kNone) return std::nullopt;
@@ -154,30 +163,33 @@ std::optional<std::uint32_t> SceneIndex::first_intersection(const Triangle& tria
 }
 
 bool SceneIndex::intersects(const Triangle& triangle) const {
+  if (size() == 0) return false;
+  if (!is_usable(triangle)) return true;
   bool found = false;
-  visit_leaves(triangle, [&](std::uint32_t leaf) {
-    for (const std::uint32_t index : leaf_triangles(leaf)) {
-      if (geometry::triangles_touch(triangle, triangles_[index])) {
-        found = true;
-        return false;
-      }
-    }
-    return true;
+  visit_leaves(*this, triangle, [&](const auto& query, const IndexWalk::Leaf& leaf) {
+    leaf.for_each(query, [&](std::uint32_t index) {
+      found = geometry::triangles_touch(triangle, mesh_->triangle(index));
+      return !found;
+    });
+    return !found;
   });
   return found;
 }
 
 std::optional<SegmentHit> SceneIndex::closest_hit(const LineSegment& segment) const {
+  if (size() == 0) return std::nullopt;
+  if (!is_usable(segment.from) || !is_usable(segment.to)) return SegmentHit{0.0, 0};
   std::optional<SegmentHit> best;
-  visit_leaves({segment.from, segment.to, segment.to}, [&](std::uint32_t leaf) {
-    for (const std::uint32_t index : leaf_triangles(leaf)) {
-      const std::optional<double> fraction = geometry::hit_fraction(segment, triangles_[index]);
-      if (!fraction) continue;
-      if (!best || *fraction < best->fraction ||
-          (*fraction == best->fraction && index < best->triangle)) {
+  const Triangle thin = {segment.from, segment.to, segment.to};
+  visit_leaves(*this, thin, [&](const auto& query, const IndexWalk::Leaf& leaf) {
+    leaf.for_each(query, [&](std::uint32_t index) {
+      const auto fraction = geometry::hit_fraction(segment, mesh_->triangle(index));
+      if (fraction && (!best || *fraction < best->fraction ||
+                       (*fraction == best->fraction && index < best->triangle))) {
         best = SegmentHit{*fraction, index};
       }
-    }
+      return true;
+    });
     return true;
   });
   return best;
@@ -185,78 +197,36 @@ std::optional<SegmentHit> SceneIndex::closest_hit(const LineSegment& segment) co
 
 void SceneIndex::leaves_touching(const Triangle& triangle, std::vector<std::uint32_t>& out) const {
   out.clear();
-  visit_leaves(triangle, [&](std::uint32_t leaf) {
-    out.push_back(leaf);
+  visit_leaves(*this, triangle, [&](const auto&, const IndexWalk::Leaf& leaf) {
+    out.push_back(leaf.id());
     return true;
   });
+  std::sort(out.begin(), out.end());
 }
 
 double SceneIndex::nearest_error_m(std::span<const Triangle> body) const {
-  if (body.empty() || triangles_.empty()) return 0.0;
+  if (body.empty() || size() == 0) return 0.0;
   const Box all = bounds_of(body).merged(bounds_);
   return geometry::triangle_distance_error_m(all.sizes().maxCoeff());
 }
 
-template <class Stop>
-std::optional<Nearest> SceneIndex::search(std::span<const Triangle> body, double cutoff_m,
-                                          const Stop& stop) const {
-  if (nodes_.empty() || body.empty()) return std::nullopt;
-  NearestSearch search(body, triangles_, cutoff_m, nearest_error_m(body));
-  std::array<Waiting, kStackSize> stack;
-  std::size_t size = 0;
-  stack[size++] = {search.squared_distance_m2(nodes_[0].box), 0};
-  while (size > 0) {
-    const Waiting top = stack[--size];
-    if (search.is_beyond(top.squared_m2)) continue;
-    const Node& node = nodes_[top.node];
-    if (node.count == 0) {
-      for (const std::uint32_t index : leaf_triangles(node.first)) {
-        search.ask(index);
-        if (stop(search.best())) return search.best();
-      }
-      continue;
-    }
-    const std::size_t begin = size;
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const double squared_m2 = search.squared_distance_m2(nodes_[node.first + i].box);
-      if (!search.is_beyond(squared_m2)) stack[size++] = {squared_m2, node.first + i};
-    }
-    // The closest child on top, so that the horizon shrinks early.
-    std::sort(stack.data() + begin, stack.data() + size, [](const Waiting& a, const Waiting& b) {
-      return a.squared_m2 > b.squared_m2 || (a.squared_m2 == b.squared_m2 && a.node > b.node);
-    });
-  }
-  if (search.best().triangle == kNone) return std::nullopt;
-  return search.best();
-}
-
 std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
-  return search(body, cutoff_m, [](const Nearest&) { return false; });
+  if (size() == 0 || body.empty()) return std::nullopt;
+  return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNearest);
 }
 
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
                                               double distance_m) const {
-  return search(body, distance_m, [](const Nearest& best) { return best.triangle != kNone; });
+  if (size() == 0 || body.empty()) return std::nullopt;
+  return search(*this, *mesh_, body, distance_m, BodySearch::Goal::kAny);
 }
 
 bool SceneIndex::visit_touching(const Box& box, bool (*visit)(void*, std::uint32_t),
                                 void* context) const {
-  if (nodes_.empty()) return true;
-  std::array<std::uint32_t, kStackSize> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (!node.box.intersects(box)) continue;
-    for (std::uint32_t i = node.count; i-- > 0;) stack[size++] = node.first + i;
-    if (node.count > 0) continue;
-    for (const std::uint32_t index : leaf_triangles(node.first)) {
-      if (geometry::bounds(triangles_[index]).intersects(box) && !visit(context, index)) {
-        return false;
-      }
-    }
-  }
-  return true;
+  if (size() == 0) return true;
+  BoxQuery query(box, *mesh_, visit, context);
+  IndexWalk(*this).run(query);
+  return !query.is_done();
 }
 
 }  // namespace camway::scene
