@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "daemon/geometry/rounding.h"
 
@@ -26,32 +27,37 @@ Vec3 least_aligned(const Vec3& e) {
   return Vec3::Unit(axis);
 }
 
-/// Columns orthonormal up to 8u each, for a derivation below.
-Eigen::Matrix3d axes_of(const Triangle& triangle) {
+/// Rows orthonormal up to 8u each, for a derivation below.
+std::array<Vec3, 3> axes_of(const Triangle& triangle) {
   std::array<Vec3, 3> edges = {triangle[1] - triangle[0], triangle[2] - triangle[1],
                                triangle[0] - triangle[2]};
-  std::sort(edges.begin(), edges.end(),
-            [](const Vec3& a, const Vec3& b) { return a.squaredNorm() > b.squaredNorm(); });
-  if (!(edges[0].norm() > kShortest_m)) return Eigen::Matrix3d::Identity();
+  if (edges[1].squaredNorm() > edges[0].squaredNorm()) std::swap(edges[0], edges[1]);
+  if (edges[2].squaredNorm() > edges[0].squaredNorm()) std::swap(edges[0], edges[2]);
+  if (!(edges[0].norm() > kShortest_m)) return {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   const Vec3 e = edges[0].normalized();
   // A sliver has no normal worth the name.
   constexpr double kSliver = 0x1p-20;
-  const bool is_flat = edges[1].cross(e).norm() > kSliver * edges[1].norm();
+  const Vec3 rest = edges[1] - edges[1].dot(e) * e;
+  const bool is_flat = rest.squaredNorm() > kSliver * kSliver * edges[1].squaredNorm();
   const Vec3 f = orthonormal(is_flat ? edges[1] : least_aligned(e), e);
-  Eigen::Matrix3d axes;
-  axes << e, f, e.cross(f);
-  return axes;
+  return {e, f, e.cross(f)};
 }
 
 }  // namespace
 
-OrientedBox::OrientedBox(std::span<const Triangle> body)
-    : origin_(body.front().front()), axes_(axes_of(body.front())) {
+OrientedBox::OrientedBox(std::span<const Triangle> body) : origin_(body.front().front()) {
+  const std::array<Vec3, 3> axes = axes_of(body.front());
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& axis = axes[static_cast<std::size_t>(k)];
+    x_[k] = axis.x();
+    y_[k] = axis.y();
+    z_[k] = axis.z();
+  }
   for (const Triangle& triangle : body) {
     for (const Vec3& vertex : triangle) {
-      const Vec3 along = axes_.transpose() * (vertex - origin_);
-      low_ = low_.cwiseMin(along);
-      high_ = high_.cwiseMax(along);
+      const Lanes along = along_axes(vertex - origin_);
+      low_ = low_.min(along);
+      high_ = high_.max(along);
     }
   }
 }
@@ -64,12 +70,13 @@ OrientedBox::OrientedBox(std::span<const Triangle> body)
 //     share of sqrt(3)·scale: 21u·scale.
 // Together 47u·scale, far inside the 192u of `triangle_distance_error_m`.
 double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
-  const Vec3 a = axes_.transpose() * (triangle[0] - origin_);
-  const Vec3 b = axes_.transpose() * (triangle[1] - origin_);
-  const Vec3 c = axes_.transpose() * (triangle[2] - origin_);
-  const Vec3 above = a.cwiseMin(b).cwiseMin(c) - high_;
-  const Vec3 below = low_ - a.cwiseMax(b).cwiseMax(c);
-  return above.cwiseMax(below).cwiseMax(0.0).squaredNorm();
+  const Lanes a = along_axes(triangle[0] - origin_);
+  const Lanes b = along_axes(triangle[1] - origin_);
+  const Lanes c = along_axes(triangle[2] - origin_);
+  const Lanes above = a.min(b).min(c) - high_;
+  const Lanes below = low_ - a.max(b).max(c);
+  const Lanes gap = above.max(below).max(0.0);
+  return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
 }
 
 // Errors in units of u·scale, once the length of the normal n is divided out (|n|_1 <=
@@ -81,25 +88,27 @@ double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
 //     h <= sqrt(3)·scale: 36. The triangle's own extent along n, which is not 0 where n is rounded:
 //     7 for each end, 14.
 // Together 117, inside 192 again. That n is rounded does not matter: any direction is a proof.
-double OrientedBox::plane_bound_m(const Triangle& triangle) const {
+double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
   const Vec3 e = triangle[1] - triangle[0];
   const Vec3 f = triangle[2] - triangle[0];
   const Vec3 normal = e.cross(f);
   const double length = normal.norm();
   if (!(length > kShortest_m)) return 0.0;
-  const Vec3 along = axes_.transpose() * normal;
-  const double middle = normal.dot(origin_ - triangle[0]) + along.dot(0.5 * (low_ + high_));
-  const double radius = along.cwiseAbs().dot(0.5 * (high_ - low_));
+  const Lanes along = along_axes(normal);
+  const Lanes middles = along * (0.5 * (low_ + high_));
+  const Lanes radii = along.abs() * (0.5 * (high_ - low_));
+  const double middle = normal.dot(origin_ - triangle[0]) + (middles[0] + middles[1] + middles[2]);
+  const double radius = radii[0] + radii[1] + radii[2];
   const double ne = normal.dot(e);
   const double nf = normal.dot(f);
   const double gap = std::max(middle - radius - std::max({0.0, ne, nf}),
                               std::min({0.0, ne, nf}) - middle - radius);
-  return std::max(gap, 0.0) / length;
+  const double gap_m = std::max(gap, 0.0) / length;
+  return gap_m * gap_m;
 }
 
 double OrientedBox::squared_distance_bound_m2(const Triangle& triangle) const {
-  const double plane_m = plane_bound_m(triangle);
-  return std::max(axes_bound_m2(triangle), plane_m * plane_m);
+  return std::max(axes_bound_m2(triangle), plane_bound_m2(triangle));
 }
 
 }  // namespace camway::geometry

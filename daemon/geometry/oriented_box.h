@@ -26,14 +26,32 @@ class OrientedBox {
   /// Three squares and two sums.
   static constexpr double kRelativeError = 0x1p-50;
 
- private:
+  /// A point that the extents along the axes are measured from.
+  [[nodiscard]] const Vec3& origin() const { return origin_; }
+  /// Unit vector `k` of three.
+  [[nodiscard]] Vec3 axis(int k) const { return {x_[k], y_[k], z_[k]}; }
+  [[nodiscard]] double low_m(int k) const { return low_[k]; }
+  [[nodiscard]] double high_m(int k) const { return high_[k]; }
+
+  /// What the axes of the box alone show.
   [[nodiscard]] double axes_bound_m2(const Triangle& triangle) const;
-  [[nodiscard]] double plane_bound_m(const Triangle& triangle) const;
+  /// What the plane of the triangle alone shows.
+  [[nodiscard]] double plane_bound_m2(const Triangle& triangle) const;
+
+ private:
+  /// Four numbers where three would do, since processors take them two or four at a time.
+  using Lanes = Eigen::Array4d;
+
+  [[nodiscard]] Lanes along_axes(const Vec3& v) const {
+    return x_ * v.x() + y_ * v.y() + z_ * v.z();
+  }
 
   Vec3 origin_ = Vec3::Zero();
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  ///< columns
-  Vec3 low_ = Vec3::Zero();                             ///< along the axes, from the origin
-  Vec3 high_ = Vec3::Zero();
+  Lanes x_ = Lanes::Zero();  ///< of the three axes
+  Lanes y_ = Lanes::Zero();
+  Lanes z_ = Lanes::Zero();
+  Lanes low_ = Lanes::Zero();  ///< along the axes, from the origin
+  Lanes high_ = Lanes::Zero();
 };
 
 }  // namespace camway::geometry

@@ -12,7 +12,7 @@ using geometry::Box;
 using geometry::OrientedBox;
 using geometry::Triangle;
 
-BodySearch::Candidates::Candidates(std::span<const Triangle> body) : box(body) { met.fill(kNone); }
+BodySearch::Candidates::Candidates() { met.fill(kNone); }
 
 bool BodySearch::Candidates::was_met(std::uint32_t triangle) {
   std::uint32_t& slot = met[triangle % met.size()];
@@ -26,6 +26,8 @@ BodySearch::BodySearch(std::span<const Triangle> body, const Box& body_box, cons
     : body_(body),
       mesh_(mesh),
       sides_(body_box),
+      box_(body),
+      oblique_(box_),
       error_m_(error_m),
       goal_(goal),
       best_{cutoff_m, kNone} {
@@ -50,9 +52,12 @@ bool BodySearch::cannot_win(double squared_m2, std::uint32_t triangle) const {
 }
 
 void BodySearch::consider(std::uint32_t triangle) {
-  if (!candidates_) candidates_.emplace(body_);
+  if (!candidates_) candidates_.emplace();
   if (candidates_->was_met(triangle)) return;
-  const double squared_m2 = candidates_->box.squared_distance_bound_m2(mesh_.triangle(triangle));
+  const Triangle corners = mesh_.triangle(triangle);
+  double squared_m2 = box_.axes_bound_m2(corners);
+  if (cannot_win(squared_m2, triangle)) return;
+  squared_m2 = std::max(squared_m2, box_.plane_bound_m2(corners));
   if (cannot_win(squared_m2, triangle)) return;
   if (candidates_->waiting_count == candidates_->waiting.size()) settle();
   candidates_->waiting[candidates_->waiting_count++] = {squared_m2, triangle};

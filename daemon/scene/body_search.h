@@ -25,6 +25,7 @@ class BodySearch {
              const Mesh& mesh, double cutoff_m, double error_m, Goal goal);
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
+  [[nodiscard]] const ObliqueSides* oblique() const { return &oblique_; }
   /// Boxes further than this from `sides()` hold nothing of interest.
   [[nodiscard]] double squared_reach_m2() const { return squared_reach_m2_; }
   [[nodiscard]] bool is_beyond(double squared_box_m2) const {
@@ -52,13 +53,12 @@ class BodySearch {
 
   /// Made when the first triangle is considered: most queries of a free path meet none.
   struct Candidates {
-    explicit Candidates(std::span<const geometry::Triangle> body);
+    Candidates();
 
     /// Whether `triangle` was surely considered before; remembers it in any case. A triangle is met
     /// in every leaf that it lies in. Forgetting one costs time only.
     bool was_met(std::uint32_t triangle);
 
-    geometry::OrientedBox box;
     std::array<std::uint32_t, 64> met;
     std::size_t waiting_count = 0;
     std::array<Waiting, 64> waiting;
@@ -75,6 +75,8 @@ class BodySearch {
   std::span<const geometry::Triangle> body_;
   const Mesh& mesh_;
   BoxSides sides_;
+  geometry::OrientedBox box_;
+  ObliqueSides oblique_;
   double error_m_;
   Goal goal_;
   bool is_done_ = false;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "daemon/geometry/oriented_box.h"
 #include "daemon/scene/index_node.h"
 
 namespace camway::scene {
@@ -38,5 +39,23 @@ inline constexpr double kBoxGapRelativeError = 8.0 * 0x1p-24;
 /// four.
 void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
               double squared_reach_m2, BoxGaps& out);
+
+/// An oriented box, laid out for `oblique_gaps`. Numbers 3 of each array are 0.
+struct ObliqueSides {
+  ObliqueSides() = default;
+  explicit ObliqueSides(const geometry::OrientedBox& box);
+
+  std::array<double, 4> origin_m{};
+  std::array<std::array<double, 4>, 3> axis{};  ///< [coordinate][axis]
+  std::array<double, 4> low_m{};                ///< along the axes, from the origin
+  std::array<double, 4> high_m{};
+};
+
+/// Improves `gaps`, which `box_gaps` has made for the same boxes and a box around `body`: along the
+/// axes of the body they are often further away than along those of the world. Rounding in units of
+/// the steps is taken care of, as there; that of coordinates far from each other adds up to the
+/// error of `OrientedBox::squared_distance_bound_m2`, which the reach must allow for.
+void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueSides& body,
+                  double squared_reach_m2, BoxGaps& gaps);
 
 }  // namespace camway::scene

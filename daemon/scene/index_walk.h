@@ -14,6 +14,7 @@ namespace camway::scene {
 /// reach that the query may shrink as it goes. A query has
 ///
 ///     const BoxSides& sides() const           what is asked about
+///     const ObliqueSides* oblique() const     the same in axes of its own, or null
 ///     double squared_reach_m2() const         how far from it things are of interest
 ///     bool is_beyond(double squared) const    the same, of a squared box distance
 ///     bool enters(node, slot) const           a closer look at a child, or true
@@ -38,8 +39,7 @@ class IndexWalk {
       const std::uint32_t end = index_.leaf_begin_[leaf_ + 1];
       BoxGaps gaps;
       for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
-        box_gaps(index_.nodes_[parent_].frame, index_.boxes_[first / kNodeWidth], query.sides(),
-                 query.squared_reach_m2(), gaps);
+        look(query, index_.nodes_[parent_].frame, index_.boxes_[first / kNodeWidth], gaps);
         // Eight boxes may belong to two leaves.
         unsigned near = gaps.near;
         if (first < begin) near &= 0xFFU << (begin - first);
@@ -85,13 +85,22 @@ class IndexWalk {
     std::uint32_t leaf;  ///< kNode for a node
   };
 
+  template <class Query>
+  static void look(const Query& query, const ByteFrame& frame, const ByteBoxes& boxes,
+                   BoxGaps& gaps) {
+    box_gaps(frame, boxes, query.sides(), query.squared_reach_m2(), gaps);
+    if (query.oblique() != nullptr && gaps.near != 0) {
+      oblique_gaps(frame, boxes, *query.oblique(), query.squared_reach_m2(), gaps);
+    }
+  }
+
   void push(const Waiting& waiting) { stack_[size_++] = waiting; }
 
   template <class Query>
   void push_children(const Query& query, std::uint32_t at) {
     const IndexNode& node = index_.nodes_[at];
     BoxGaps gaps;
-    box_gaps(node.frame, node.boxes, query.sides(), query.squared_reach_m2(), gaps);
+    look(query, node.frame, node.boxes, gaps);
     const std::size_t begin = size_;
     for (unsigned near = gaps.near & ((1U << node.child_count) - 1U); near != 0;
          near &= near - 1U) {

@@ -66,6 +66,7 @@ class TouchQuery {
       : triangle_(triangle), sides_(geometry::bounds(triangle)), visit_(visit) {}
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
+  static const ObliqueSides* oblique() { return nullptr; }
   static double squared_reach_m2() { return 0.0; }
   static bool is_beyond(double) { return false; }
   [[nodiscard]] bool is_done() const { return is_done_; }
@@ -98,6 +99,7 @@ class BoxQuery {
       : box_(box), sides_(box), mesh_(mesh), visit_(visit), context_(context) {}
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
+  static const ObliqueSides* oblique() { return nullptr; }
   static double squared_reach_m2() { return 0.0; }
   static bool is_beyond(double) { return false; }
   static bool enters(const IndexNode&, std::size_t) { return true; }
