@@ -17,6 +17,13 @@ SnapshotResult build(std::string name, Mesh mesh, ImportReport report,
     if (!mirror.map) return {nullptr, name + ": " + mirror.error};
     snapshot->occupancy = std::move(mirror.map);
   }
+  if (options.field) {
+    DistanceFieldResult result = DistanceField::build(mesh, *options.field);
+    snapshot->field = std::move(result.field);
+    snapshot->why_no_field = std::move(result.why_off);
+  } else {
+    snapshot->why_no_field = "it was not asked for";
+  }
   snapshot->name = std::move(name);
   snapshot->digest = mesh_digest(mesh);
   snapshot->index = SceneIndex::build(mesh, options.index);

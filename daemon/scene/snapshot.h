@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "daemon/scene/distance_field.h"
 #include "daemon/scene/import.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/occupancy_map.h"
@@ -22,6 +23,8 @@ struct Snapshot {
   std::string digest;  ///< of the triangles, 32 hexadecimal digits; equal content, equal digest
   Mesh mesh;
   SceneIndex index;
+  std::shared_ptr<const DistanceField> field;     ///< null where it is off
+  std::string why_no_field;                       ///< empty exactly when `field` is set
   std::shared_ptr<const OccupancyMap> occupancy;  ///< null unless a resolution was given
   ImportReport report;
 };
@@ -29,7 +32,8 @@ struct Snapshot {
 struct SnapshotOptions {
   ImportOptions import;
   IndexOptions index;
-  std::optional<double> occupancy_resolution_m;  ///< no mirror without it
+  std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: not wanted
+  std::optional<double> occupancy_resolution_m;                        ///< no mirror without it
 };
 
 struct SnapshotResult {
@@ -40,7 +44,7 @@ struct SnapshotResult {
 /// Digest of the triangles' coordinates and order.
 std::string mesh_digest(const Mesh& mesh);
 
-/// Builds tree and mirror of a mesh that is already there.
+/// Builds index, distance field and mirror of a mesh that is already there.
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options = {});
 
 /// Imports `file` and builds the snapshot.

@@ -66,6 +66,29 @@ TEST(MakeSnapshot, HoldsMeshTreeAndReport) {
   EXPECT_FALSE(result.snapshot->occupancy);
 }
 
+TEST(MakeSnapshot, HoldsADistanceFieldOrTheReasonWhyNot) {
+  const Mesh mesh = mesh_of_triangles({kTriangle, kOther});
+  const SnapshotResult with = make_snapshot("room", mesh);
+  ASSERT_TRUE(with.snapshot->field) << with.snapshot->why_no_field;
+  EXPECT_EQ(with.snapshot->why_no_field, "");
+  EXPECT_GT(with.snapshot->field->clearance_at_least_m(Vec3(0.5, 0.5, 2.5)), 1.0);
+
+  const SnapshotResult empty = make_snapshot("nothing", Mesh());
+  EXPECT_FALSE(empty.snapshot->field);
+  EXPECT_THAT(empty.snapshot->why_no_field, HasSubstr("no triangles"));
+
+  SnapshotOptions options;
+  options.field.reset();
+  const SnapshotResult without = make_snapshot("room", mesh, options);
+  EXPECT_FALSE(without.snapshot->field);
+  EXPECT_THAT(without.snapshot->why_no_field, HasSubstr("not asked for"));
+
+  options.field = DistanceFieldOptions{.memory_limit_bytes = 4096, .threads = 1};
+  const SnapshotResult small = make_snapshot("room", mesh, options);
+  ASSERT_TRUE(small.snapshot->field);
+  EXPECT_LE(small.snapshot->field->statistics().memory_bytes, 4096U);
+}
+
 TEST(MakeSnapshot, MirrorsIntoOctoMapIfAResolutionIsGiven) {
   SnapshotOptions options;
   options.occupancy_resolution_m = 0.25;

@@ -46,9 +46,27 @@ TEST_F(CliScene, InfoReportsWhatWasReadAndAssumed) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* expected :
        {"triangles    4 in 2 objects", "size         1.100 x 1.000 x 0.200 m", "0.5 m per unit",
-        "axes as-in-file", "octree       threshold 32", "occupied voxels of 0.1 m"}) {
+        "axes as-in-file", "octree       threshold 32", "away from the scene",
+        "occupied voxels of 0.1 m"}) {
     EXPECT_THAT(run.out, HasSubstr(expected));
   }
+}
+
+TEST_F(CliScene, InfoSaysWhyThereIsNoDistanceField) {
+  std::string sheets;
+  for (int i = 0; i <= 40; ++i) {
+    const std::string z = std::to_string(0.1 * i);
+    for (const char* corner : {"v 0 0 ", "v 4 0 ", "v 4 4 ", "v 0 4 "}) sheets += corner + z + "\n";
+    sheets += "f -4 -3 -2\nf -4 -2 -1\n";
+  }
+  const std::string file = folder_.write("sheets.obj", sheets);
+  EXPECT_THAT(run_camway({"info", "--scene", file}).out,
+              HasSubstr("field        off: 0.0 % of the cells"));
+  const CliRun run = run_camway({"info", "--scene", file, "--json"});
+  const auto json = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << run.out;
+  EXPECT_EQ(json["distance_field"]["on"], false);
+  EXPECT_THAT(json["distance_field"]["why_off"].get<std::string>(), HasSubstr("does not pay"));
 }
 
 TEST_F(CliScene, InfoSpeaksJson) {
@@ -59,6 +77,11 @@ TEST_F(CliScene, InfoSpeaksJson) {
   EXPECT_EQ(json["import"]["triangles"], 4);
   EXPECT_EQ(json["import"]["bounds_max_m"][1], 1.0);
   EXPECT_EQ(json["octree"]["threshold"], 1);
+  EXPECT_EQ(json["distance_field"]["on"], true);
+  EXPECT_GT(json["distance_field"]["resolution_m"], 0.0);
+  EXPECT_EQ(json["distance_field"]["cells"].size(), 3U);
+  EXPECT_GT(json["distance_field"]["memory_bytes"], 0);
+  EXPECT_LE(json["distance_field"]["settled_share"], 1.0);
   EXPECT_EQ(json["digest"].get<std::string>().size(), 32U);
   EXPECT_FALSE(json.contains("occupancy"));
 }

@@ -55,6 +55,22 @@ OrderedJson octree_json(const scene::IndexStatistics& statistics, std::uint32_t 
   return json;
 }
 
+OrderedJson field_json(const scene::Snapshot& snapshot) {
+  OrderedJson json;
+  json["on"] = snapshot.field != nullptr;
+  if (!snapshot.field) {
+    json["why_off"] = snapshot.why_no_field;
+    return json;
+  }
+  const scene::DistanceFieldStatistics& statistics = snapshot.field->statistics();
+  json["resolution_m"] = statistics.resolution_m;
+  json["cells"] = statistics.cells;
+  json["memory_bytes"] = statistics.memory_bytes;
+  json["settled_share"] = statistics.settled_share;
+  json["settled_from_m"] = statistics.settled_from_m;
+  return json;
+}
+
 OrderedJson occupancy_json(const scene::OccupancyStatistics& statistics) {
   OrderedJson json;
   json["resolution_m"] = statistics.resolution_m;
@@ -70,6 +86,7 @@ void print_json(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
   json["digest"] = snapshot.digest;
   json["import"] = import_json(snapshot.report);
   json["octree"] = octree_json(snapshot.index.statistics(), flags.octree_threshold);
+  json["distance_field"] = field_json(snapshot);
   if (snapshot.occupancy) json["occupancy"] = occupancy_json(snapshot.occupancy->statistics());
   json["load_ms"] = load_ms;
   fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
@@ -99,6 +116,19 @@ void print_import(const scene::ImportReport& report) {
   }
 }
 
+void print_field(const scene::Snapshot& snapshot) {
+  if (!snapshot.field) {
+    fmt::print("field        off: {}\n", snapshot.why_no_field);
+    return;
+  }
+  const scene::DistanceFieldStatistics& field = snapshot.field->statistics();
+  fmt::print(
+      "field        {} x {} x {} cells of {:.4g} m, {:.1f} MB; {:.0f} % of them are {:.4g} m "
+      "or more away from the scene\n",
+      field.cells[0], field.cells[1], field.cells[2], field.resolution_m,
+      megabytes(field.memory_bytes), 100.0 * field.settled_share, field.settled_from_m);
+}
+
 void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double load_ms) {
   fmt::print("scene        {}\n", flags.scene.file);
   print_import(snapshot.report);
@@ -108,6 +138,7 @@ void print_text(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
       "octree       threshold {}: {} nodes, {} leaves, depth {}, duplication {:.2f}, {:.1f} MB\n",
       flags.octree_threshold, octree.nodes, octree.leaves, octree.depth, octree.duplication,
       megabytes(octree.memory_bytes));
+  print_field(snapshot);
   if (snapshot.occupancy) {
     const scene::OccupancyStatistics occupancy = snapshot.occupancy->statistics();
     fmt::print("occupancy    {} occupied voxels of {} m, {} nodes, {:.1f} MB\n",
