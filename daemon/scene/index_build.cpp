@@ -141,6 +141,8 @@ class ChunkBuilder {
     node.frame = ByteFrame(box);
     std::vector<Inner> inner;
     std::vector<IndexPart> leaves;
+    inner.reserve(parts.size());
+    leaves.reserve(parts.size());
     for (IndexPart& part : parts) {
       chunk.depth = std::max(chunk.depth, part.depth);
       const bool is_large = part.entries.size() > kChunkEntries && !part.is_final;
@@ -186,7 +188,7 @@ class ChunkBuilder {
   static void add_leaf(Chunk& chunk, const ByteFrame& frame, const IndexPart& leaf) {
     for (const IndexEntry& entry : leaf.entries) {
       chunk.references.push_back(entry.triangle);
-      chunk.boxes.push_back(frame.outside(entry.box));
+      chunk.boxes.push_back(frame.outside(entry.box()));
     }
     chunk.leaf_ends.push_back(static_cast<std::uint32_t>(chunk.references.size()));
   }
@@ -199,16 +201,17 @@ class ChunkBuilder {
   std::exception_ptr failure_;  ///< guarded by mutex_
 };
 
-std::unique_ptr<IndexDealer> make_dealer(const Mesh& mesh, const IndexOptions& options) {
+std::unique_ptr<IndexDealer> make_dealer(const Mesh& mesh, const Box& bounds,
+                                         const IndexOptions& options) {
   switch (options.decomposition) {
     case Decomposition::kKdTree:
-      return make_kd_tree_dealer(mesh, options);
+      return make_kd_tree_dealer(mesh, bounds, options);
     case Decomposition::kBvh:
       return make_bvh_dealer(options);
     case Decomposition::kOctree:
       break;
   }
-  return make_octree_dealer(mesh, options);
+  return make_octree_dealer(mesh, bounds, options);
 }
 
 std::uint64_t mesh_bytes(const Mesh& mesh) {
@@ -227,10 +230,11 @@ IndexPart everything(const Mesh& mesh, const IndexOptions& options, unsigned thr
   all.entries.resize(mesh.triangles.size());
   for_ranges(threads, all.entries.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      all.entries[i] = {geometry::bounds(mesh.triangle(i)), static_cast<std::uint32_t>(i)};
+      all.entries[i] =
+          IndexEntry(geometry::bounds(mesh.triangle(i)), static_cast<std::uint32_t>(i));
     }
   });
-  for (const IndexEntry& entry : all.entries) all.box.extend(entry.box);
+  all.box = bounds_of(all.entries);
   all.budget = std::max(1.0, options.max_duplication) * static_cast<double>(all.entries.size());
   return all;
 }
@@ -317,7 +321,7 @@ SceneIndex SceneIndex::build(std::shared_ptr<const Mesh> mesh, const IndexOption
   IndexPart all = everything(*index.mesh_, options, threads);
   index.bounds_ = all.box;
   {
-    const std::unique_ptr<IndexDealer> dealer = make_dealer(*index.mesh_, options);
+    const std::unique_ptr<IndexDealer> dealer = make_dealer(*index.mesh_, index.bounds_, options);
     const std::unique_ptr<Chunk> root = ChunkBuilder(*dealer).build(std::move(all), threads);
     IndexAssembler(index, *root).fill(threads);
   }
@@ -329,6 +333,11 @@ SceneIndex SceneIndex::build(const Mesh& mesh, const IndexOptions& options) {
   SceneIndex index = build(std::make_shared<const Mesh>(mesh), options);
   index.statistics_.memory_bytes += mesh_bytes(mesh);
   return index;
+}
+
+bool SceneIndex::has_same_tree_as(const SceneIndex& other) const {
+  return nodes_ == other.nodes_ && leaf_begin_ == other.leaf_begin_ &&
+         references_ == other.references_ && boxes_ == other.boxes_;
 }
 
 void SceneIndex::count() {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,14 +15,74 @@
 /// How the index is built: one builder for all decompositions, and a dealer for each.
 namespace camway::scene {
 
-/// A triangle in a part of the scene.
+/// A triangle in a part of the scene, and a box that holds what of it lies there. Plain numbers:
+/// the builders do little else than to move these. Numbers 3 of both arrays are 0.
 struct IndexEntry {
-  geometry::Box box;  ///< holds what of the triangle lies in the part
-  std::uint32_t triangle = 0;
+  IndexEntry() = default;
+  IndexEntry(const geometry::Box& box, std::uint32_t index)
+      : low_m{box.min()[0], box.min()[1], box.min()[2], 0.0},
+        high_m{box.max()[0], box.max()[1], box.max()[2], 0.0},
+        triangle(index) {}
+
+  [[nodiscard]] bool is_empty() const {
+    return low_m[0] > high_m[0] || low_m[1] > high_m[1] || low_m[2] > high_m[2];
+  }
+  [[nodiscard]] geometry::Box box() const {
+    return {geometry::Vec3(low_m[0], low_m[1], low_m[2]),
+            geometry::Vec3(high_m[0], high_m[1], high_m[2])};
+  }
+
+  std::array<double, 4> low_m;
+  std::array<double, 4> high_m;
+  std::uint32_t triangle;
 };
+
+/// The box of many entries, as it grows.
+class EntryBounds {
+ public:
+  EntryBounds() {
+    low_m_.fill(std::numeric_limits<double>::infinity());
+    high_m_.fill(-std::numeric_limits<double>::infinity());
+  }
+  void extend(const std::array<double, 4>& low_m, const std::array<double, 4>& high_m) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      low_m_[k] = low_m[k] < low_m_[k] ? low_m[k] : low_m_[k];
+      high_m_[k] = high_m[k] > high_m_[k] ? high_m[k] : high_m_[k];
+    }
+  }
+  void extend(const IndexEntry& entry) { extend(entry.low_m, entry.high_m); }
+  void extend(const EntryBounds& other) { extend(other.low_m_, other.high_m_); }
+  /// Takes off `entry` what is further than `error_m` outside of these bounds.
+  void clip(IndexEntry& entry, double error_m) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      entry.low_m[k] = std::max(entry.low_m[k], low_m_[k] - error_m);
+      entry.high_m[k] = std::min(entry.high_m[k], high_m_[k] + error_m);
+    }
+  }
+  /// Empty where nothing was added.
+  [[nodiscard]] geometry::Box box() const {
+    return {geometry::Vec3(low_m_[0], low_m_[1], low_m_[2]),
+            geometry::Vec3(high_m_[0], high_m_[1], high_m_[2])};
+  }
+
+ private:
+  std::array<double, 4> low_m_;
+  std::array<double, 4> high_m_;
+};
+
+inline geometry::Box bounds_of(const std::vector<IndexEntry>& entries) {
+  EntryBounds bounds;
+  for (const IndexEntry& entry : entries) bounds.extend(entry);
+  return bounds.box();
+}
 
 /// What a child of a node is made of.
 struct IndexPart {
+  IndexPart() = default;
+  // Eigen does not promise that boxes move without throwing, and vectors would copy parts.
+  IndexPart(IndexPart&&) noexcept = default;
+  IndexPart& operator=(IndexPart&&) noexcept = default;
+
   geometry::Box cell;               ///< its share of space; empty where space is not shared out
   geometry::Box box;                ///< holds the boxes of the entries
   std::vector<IndexEntry> entries;  ///< triangles increasing
@@ -39,9 +102,11 @@ class IndexDealer {
   [[nodiscard]] virtual std::vector<IndexPart> deal(IndexPart& part) const = 0;
 };
 
-/// Precondition: `mesh` outlives the dealer.
-std::unique_ptr<IndexDealer> make_octree_dealer(const Mesh& mesh, const IndexOptions& options);
-std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const IndexOptions& options);
+/// Preconditions: `mesh` outlives the dealer; `bounds` holds all its triangles.
+std::unique_ptr<IndexDealer> make_octree_dealer(const Mesh& mesh, const geometry::Box& bounds,
+                                                const IndexOptions& options);
+std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const geometry::Box& bounds,
+                                                 const IndexOptions& options);
 std::unique_ptr<IndexDealer> make_bvh_dealer(const IndexOptions& options);
 
 /// Cuts what lies in a part by a plane `x[axis] = at`.

@@ -28,10 +28,14 @@ ByteBox ByteFrame::outside(const Box& box) const {
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const double steps_per_m = power_of_two(-exponent[axis]);
-    const double low = std::floor((box.min()[k] - origin[axis]) * steps_per_m);
-    const double high = std::ceil((box.max()[k] - origin[axis]) * steps_per_m);
-    bytes.low[axis] = static_cast<std::uint8_t>(std::clamp(low, 0.0, double{kSteps}));
-    bytes.high[axis] = static_cast<std::uint8_t>(std::clamp(high, 0.0, double{kSteps}));
+    const double low = (box.min()[k] - origin[axis]) * steps_per_m;
+    const double high = (box.max()[k] - origin[axis]) * steps_per_m;
+    // Not negative, so that a conversion rounds down.
+    const int below = static_cast<int>(std::clamp(low, 0.0, double{kSteps}));
+    const int above = static_cast<int>(std::clamp(high, 0.0, double{kSteps}));
+    bytes.low[axis] = static_cast<std::uint8_t>(below);
+    bytes.high[axis] =
+        static_cast<std::uint8_t>(above < kSteps && above < high ? above + 1 : above);
   }
   return bytes;
 }

@@ -18,6 +18,8 @@ inline constexpr std::uint32_t kNodeWidth = 8;
 struct ByteBoxes {
   std::array<std::array<std::uint8_t, kNodeWidth>, 3> low{};   ///< [axis][box]
   std::array<std::array<std::uint8_t, kNodeWidth>, 3> high{};  ///< [axis][box]
+
+  bool operator==(const ByteBoxes&) const = default;
 };
 
 /// One of them.
@@ -51,6 +53,8 @@ struct ByteFrame {
 
   /// A box that surely holds what `outside` was given, metres.
   [[nodiscard]] geometry::Box box_of(const ByteBox& bytes) const;
+
+  bool operator==(const ByteFrame&) const = default;
 };
 
 /// A difference of doubles of at most 256 steps is wrong by at most 2^-53·2^8 steps before it is
@@ -66,6 +70,8 @@ struct IndexNode {
   std::uint32_t first_node = 0;
   std::uint32_t first_leaf = 0;
   ByteBoxes boxes;  ///< of the children; the entries of its leaves are in the same frame
+
+  bool operator==(const IndexNode&) const = default;
 };
 
 inline void set_box(ByteBoxes& boxes, std::size_t slot, const ByteBox& box) {

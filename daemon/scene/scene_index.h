@@ -27,7 +27,7 @@ enum class Decomposition : std::uint8_t {
 struct IndexOptions {
   Decomposition decomposition = Decomposition::kOctree;
   std::uint32_t threshold =
-      32;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
+      16;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
   std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= kMaxIndexDepth]
   /// Largest number of triangle entries in leaves per triangle of the mesh; a node whose split
   /// would pass its share of that stays a leaf. [Limit: value >= 1]
@@ -143,6 +143,9 @@ class SceneIndex {
   /// Replaces `out` by the ids of all leaves whose cell `triangle` touches, in increasing order.
   /// Conservative: a scene triangle that it touches is in one of them. Allocates in `out` only.
   void leaves_touching(const geometry::Triangle& triangle, std::vector<std::uint32_t>& out) const;
+
+  /// Whether the two have equal arrays, bit for bit: then they answer everything alike.
+  [[nodiscard]] bool has_same_tree_as(const SceneIndex& other) const;
 
   /// Indices of the scene triangles of a leaf, increasing. [Limit: leaf < statistics().leaves]
   [[nodiscard]] std::span<const std::uint32_t> leaf_triangles(std::uint32_t leaf) const;

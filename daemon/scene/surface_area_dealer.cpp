@@ -20,6 +20,7 @@ constexpr std::size_t kBins = 16;
 struct Split {
   int axis = 0;
   std::size_t bin = 0;
+  std::size_t below = 0;                                     ///< entries of the lower side
   double cost_m2 = std::numeric_limits<double>::infinity();  ///< area times entries, both sides
 };
 
@@ -79,6 +80,21 @@ class SurfaceAreaDealer : public IndexDealer {
   /// What one more split costs a query, in entries asked.
   static constexpr double kSplitCost = 1.0;
 
+  /// The best split along the longest side of `box`, or if none pays there along any.
+  template <class TryAxis>
+  static Split best_split(const IndexPart& part, const Box& box, const TryAxis& try_axis) {
+    Eigen::Index longest = 0;
+    box.sizes().maxCoeff(&longest);
+    Split best;
+    for (int i = 0; i < 3; ++i) {
+      const int axis = (static_cast<int>(longest) + i) % 3;
+      const Bins bins(box, axis);
+      if (bins.usable()) try_axis(part, bins, axis, best);
+      if (i == 0 && pays(best, part)) break;
+    }
+    return best;
+  }
+
   static bool pays(const Split& split, const IndexPart& part) {
     return split.cost_m2 <
            (static_cast<double>(part.entries.size()) - kSplitCost) * half_area_m2(part.box);
@@ -96,11 +112,6 @@ class SurfaceAreaDealer : public IndexDealer {
   IndexOptions options_;
 };
 
-void set_box(IndexPart& part) {
-  part.box = Box();
-  for (const IndexEntry& entry : part.entries) part.box.extend(entry.box);
-}
-
 /// A triangle belongs to the side that the middle of its box is on.
 class BvhDealer : public SurfaceAreaDealer {
  public:
@@ -108,67 +119,73 @@ class BvhDealer : public SurfaceAreaDealer {
 
  private:
   struct Bin {
-    Box box;
+    EntryBounds bounds;
     std::size_t count = 0;
+
+    [[nodiscard]] double cost_m2() const {
+      return half_area_m2(bounds.box()) * static_cast<double>(count);
+    }
   };
 
-  static double twice_middle(const IndexEntry& entry, int axis) {
-    return entry.box.min()[axis] + entry.box.max()[axis];
+  static double twice_middle(const IndexEntry& entry, std::size_t axis) {
+    return entry.low_m[axis] + entry.high_m[axis];
   }
 
   static Box middles(const IndexPart& part) {
-    Box box;
+    EntryBounds bounds;
     for (const IndexEntry& entry : part.entries) {
-      box.extend(Vec3(entry.box.min() + entry.box.max()));
+      std::array<double, 4> middle;
+      for (std::size_t k = 0; k < 4; ++k) middle[k] = entry.low_m[k] + entry.high_m[k];
+      bounds.extend(middle, middle);
     }
-    return box;
+    return bounds.box();
   }
 
   static void try_axis(const IndexPart& part, const Bins& bins, int axis, Split& best) {
     std::array<Bin, kBins> content;
     for (const IndexEntry& entry : part.entries) {
-      Bin& bin = content[bins.bin_of(twice_middle(entry, axis))];
-      bin.box.extend(entry.box);
+      Bin& bin = content[bins.bin_of(twice_middle(entry, static_cast<std::size_t>(axis)))];
+      bin.bounds.extend(entry);
       ++bin.count;
     }
     std::array<double, kBins> above_m2{};
     Bin above;
     for (std::size_t i = kBins; i-- > 1;) {
-      above.box.extend(content[i].box);
+      above.bounds.extend(content[i].bounds);
       above.count += content[i].count;
-      above_m2[i] = half_area_m2(above.box) * static_cast<double>(above.count);
+      above_m2[i] = above.cost_m2();
     }
     Bin below;
     for (std::size_t i = 0; i + 1 < kBins; ++i) {
-      below.box.extend(content[i].box);
+      below.bounds.extend(content[i].bounds);
       below.count += content[i].count;
-      const double cost_m2 =
-          half_area_m2(below.box) * static_cast<double>(below.count) + above_m2[i + 1];
+      const double cost_m2 = below.cost_m2() + above_m2[i + 1];
       if (below.count > 0 && below.count < part.entries.size() && cost_m2 < best.cost_m2) {
-        best = {axis, i, cost_m2};
+        best = {axis, i, below.count, cost_m2};
       }
     }
   }
 
   [[nodiscard]] std::optional<IndexPart> split(IndexPart& part) const override {
     const Box middle_box = middles(part);
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Bins bins(middle_box, axis);
-      if (bins.usable()) try_axis(part, bins, axis, best);
-    }
+    const Split best = best_split(part, middle_box, try_axis);
     if (!pays(best, part)) return std::nullopt;
     const Bins bins(middle_box, best.axis);
     IndexPart upper;
     upper.depth = part.depth;
-    std::vector<IndexEntry> lower;
+    upper.entries.reserve(part.entries.size() - best.below);
+    // In place: what stays moves down.
+    std::size_t kept = 0;
     for (const IndexEntry& entry : part.entries) {
-      const bool is_lower = bins.bin_of(twice_middle(entry, best.axis)) <= best.bin;
-      (is_lower ? lower : upper.entries).push_back(entry);
+      if (bins.bin_of(twice_middle(entry, static_cast<std::size_t>(best.axis))) <= best.bin) {
+        part.entries[kept++] = entry;
+      } else {
+        upper.entries.push_back(entry);
+      }
     }
-    part.entries = std::move(lower);
-    set_box(part);
-    set_box(upper);
+    part.entries.resize(kept);
+    part.box = bounds_of(part.entries);
+    upper.box = bounds_of(upper.entries);
     return upper;
   }
 };
@@ -176,17 +193,18 @@ class BvhDealer : public SurfaceAreaDealer {
 /// A triangle belongs to every side that it lies on.
 class KdTreeDealer : public SurfaceAreaDealer {
  public:
-  KdTreeDealer(const Mesh& mesh, const IndexOptions& options)
-      : SurfaceAreaDealer(options), cutter_(mesh, mesh.bounds()) {}
+  KdTreeDealer(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
+      : SurfaceAreaDealer(options), cutter_(mesh, bounds) {}
 
  private:
   /// Entries that begin, and that end, in each bin tell how many lie on each side of a plane.
   static void try_axis(const IndexPart& part, const Bins& bins, int axis, Split& best) {
     std::array<std::size_t, kBins> begins{};
     std::array<std::size_t, kBins> ends{};
+    const auto k = static_cast<std::size_t>(axis);
     for (const IndexEntry& entry : part.entries) {
-      ++begins[bins.bin_of(entry.box.min()[axis])];
-      ++ends[bins.bin_of(entry.box.max()[axis])];
+      ++begins[bins.bin_of(entry.low_m[k])];
+      ++ends[bins.bin_of(entry.high_m[k])];
     }
     std::size_t below = 0;
     std::size_t above = part.entries.size();
@@ -199,19 +217,17 @@ class KdTreeDealer : public SurfaceAreaDealer {
       const double cost_m2 = half_area_m2(low) * static_cast<double>(below) +
                              half_area_m2(high) * static_cast<double>(above);
       if (static_cast<double>(below + above) <= part.budget && cost_m2 < best.cost_m2) {
-        best = {axis, i, cost_m2};
+        best = {axis, i, below, cost_m2};
       }
     }
   }
 
   [[nodiscard]] std::optional<IndexPart> split(IndexPart& part) const override {
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Bins bins(part.box, axis);
-      if (bins.usable()) try_axis(part, bins, axis, best);
-    }
+    const Split best = best_split(part, part.box, try_axis);
     if (!pays(best, part)) return std::nullopt;
     std::array<IndexPart, 2> sides;
+    sides[0].entries.reserve(best.below);
+    sides[1].entries.reserve(part.entries.size() - best.below + best.below / 4);
     deal_to_sides(part, best.axis, Bins(part.box, best.axis).end_of(best.bin), sides);
     const auto lower = static_cast<double>(sides[0].entries.size());
     const auto upper = static_cast<double>(sides[1].entries.size());
@@ -219,7 +235,7 @@ class KdTreeDealer : public SurfaceAreaDealer {
     for (IndexPart& side : sides) {
       side.depth = part.depth;
       side.budget = part.budget * static_cast<double>(side.entries.size()) / (lower + upper);
-      set_box(side);
+      side.box = bounds_of(side.entries);
     }
     part = std::move(sides[0]);
     return std::move(sides[1]);
@@ -227,16 +243,17 @@ class KdTreeDealer : public SurfaceAreaDealer {
 
   void deal_to_sides(const IndexPart& part, int axis, double at,
                      std::array<IndexPart, 2>& sides) const {
+    const auto k = static_cast<std::size_t>(axis);
     for (const IndexEntry& entry : part.entries) {
-      if (entry.box.max()[axis] <= at) {
+      if (entry.high_m[k] <= at) {
         sides[0].entries.push_back(entry);
-      } else if (entry.box.min()[axis] >= at) {
+      } else if (entry.low_m[k] >= at) {
         sides[1].entries.push_back(entry);
       } else {
         std::array<IndexEntry, 2> halves;
         cutter_.cut(entry, axis, at, halves[0], halves[1]);
-        if (!halves[0].box.isEmpty()) sides[0].entries.push_back(halves[0]);
-        if (!halves[1].box.isEmpty()) sides[1].entries.push_back(halves[1]);
+        if (!halves[0].is_empty()) sides[0].entries.push_back(halves[0]);
+        if (!halves[1].is_empty()) sides[1].entries.push_back(halves[1]);
       }
     }
   }
@@ -246,8 +263,9 @@ class KdTreeDealer : public SurfaceAreaDealer {
 
 }  // namespace
 
-std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const IndexOptions& options) {
-  return std::make_unique<KdTreeDealer>(mesh, options);
+std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const Box& bounds,
+                                                 const IndexOptions& options) {
+  return std::make_unique<KdTreeDealer>(mesh, bounds, options);
 }
 
 std::unique_ptr<IndexDealer> make_bvh_dealer(const IndexOptions& options) {

@@ -18,26 +18,28 @@ TriangleCutter::TriangleCutter(const Mesh& mesh, const Box& bounds) : mesh_(mesh
 void TriangleCutter::cut(const IndexEntry& entry, int axis, double at, IndexEntry& low,
                          IndexEntry& high) const {
   const Triangle triangle = mesh_.triangle(entry.triangle);
-  Box below;
-  Box above;
+  EntryBounds below;
+  EntryBounds above;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& a = triangle[i];
     const Vec3& b = triangle[(i + 1) % 3];
-    if (a[axis] <= at) below.extend(a);
-    if (a[axis] >= at) above.extend(a);
+    const std::array<double, 4> from = {a[0], a[1], a[2], 0.0};
+    if (a[axis] <= at) below.extend(from, from);
+    if (a[axis] >= at) above.extend(from, from);
     if ((a[axis] < at && b[axis] > at) || (a[axis] > at && b[axis] < at)) {
       const double t = (at - a[axis]) / (b[axis] - a[axis]);
-      const Vec3 on_plane = a + t * (b - a);
-      below.extend(on_plane);
-      above.extend(on_plane);
+      const Vec3 p = a + t * (b - a);
+      const std::array<double, 4> on_plane = {p[0], p[1], p[2], 0.0};
+      below.extend(on_plane, on_plane);
+      above.extend(on_plane, on_plane);
     }
   }
-  const Vec3 error = Vec3::Constant(error_m_);
-  low.triangle = high.triangle = entry.triangle;
-  low.box = Box(below.min() - error, below.max() + error).intersection(entry.box);
-  high.box = Box(above.min() - error, above.max() + error).intersection(entry.box);
-  low.box.max()[axis] = std::min(low.box.max()[axis], at);
-  high.box.min()[axis] = std::max(high.box.min()[axis], at);
+  low = high = entry;
+  below.clip(low, error_m_);
+  above.clip(high, error_m_);
+  const auto k = static_cast<std::size_t>(axis);
+  low.high_m[k] = std::min(low.high_m[k], at);
+  high.low_m[k] = std::max(high.low_m[k], at);
 }
 
 double half_area_m2(const Box& box) {

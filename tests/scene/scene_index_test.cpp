@@ -5,13 +5,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 #include <set>
 
-#include "daemon/geometry/segment_triangle.h"
-#include "daemon/geometry/triangle_distance.h"
-#include "daemon/geometry/triangle_intersection.h"
-#include "tests/geometry/random_triangles.h"
+#include "tests/scene/index_oracle.h"
 #include "tests/scene/test_meshes.h"
 
 namespace camway::scene {
@@ -23,89 +19,33 @@ using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// What the queries must answer: every triangle asked in turn.
-
-std::optional<std::uint32_t> brute_first_intersection(const SceneIndex& tree, const Triangle& t) {
-  for (std::uint32_t i = 0; i < tree.size(); ++i) {
-    if (geometry::triangles_touch(t, tree.triangle(i))) return i;
-  }
-  return std::nullopt;
-}
-
-std::optional<SegmentHit> brute_closest_hit(const SceneIndex& tree, const LineSegment& segment) {
-  std::optional<SegmentHit> best;
-  for (std::uint32_t i = 0; i < tree.size(); ++i) {
-    const auto fraction = geometry::hit_fraction(segment, tree.triangle(i));
-    if (fraction && (!best || *fraction < best->fraction)) best = SegmentHit{*fraction, i};
-  }
-  return best;
-}
-
-std::optional<Nearest> brute_nearest(const SceneIndex& tree, std::span<const Triangle> body,
-                                     double cutoff_m) {
-  std::optional<Nearest> best;
-  for (std::uint32_t i = 0; i < tree.size(); ++i) {
-    for (const Triangle& part : body) {
-      const double distance_m = geometry::triangle_distance(part, tree.triangle(i));
-      if (distance_m < (best ? best->distance_m : cutoff_m)) best = Nearest{distance_m, i};
-    }
-  }
-  return best;
-}
-
-void expect_equal(const std::optional<SegmentHit>& a, const std::optional<SegmentHit>& b) {
-  ASSERT_EQ(a.has_value(), b.has_value());
-  if (!a) return;
-  EXPECT_EQ(a->fraction, b->fraction);
-  EXPECT_EQ(a->triangle, b->triangle);
-}
-
-void expect_equal(const std::optional<Nearest>& a, const std::optional<Nearest>& b) {
-  ASSERT_EQ(a.has_value(), b.has_value());
-  if (!a) return;
-  EXPECT_EQ(a->distance_m, b->distance_m);
-  EXPECT_EQ(a->triangle, b->triangle);
-}
-
-/// Triangles of all sizes in a cube of 10 m, many small ones in one corner.
-std::vector<Triangle> soup(RandomTriangles& random, int count) {
-  std::vector<Triangle> triangles;
-  for (int i = 0; i < count; ++i) {
-    const double size = random.log_uniform(1e-3, 3.0);
-    const Vec3 center = random.in_cube(i % 2 == 0 ? 5.0 : 0.3);
-    triangles.push_back({center + random.in_cube(size), center + random.in_cube(size),
-                         center + random.in_cube(size)});
-  }
-  return triangles;
-}
-
-/// Integer coordinates: touching, coplanar, equal and degenerate triangles, ties in distance.
-std::vector<Triangle> grid_soup(RandomTriangles& random, int count) {
-  std::vector<Triangle> triangles;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 at = random.on_grid(12);
-    triangles.push_back(moved(random.grid_triangle(2), at));
-    if (i % 5 == 0) triangles.push_back(triangles.back());
-  }
-  return triangles;
-}
-
 struct Case {
   const char* name;
   std::uint64_t seed;
   bool on_grid;
   std::uint32_t threshold;
+  Decomposition decomposition = Decomposition::kOctree;
 };
 
-class OctreeQueries : public testing::TestWithParam<Case> {
+/// Distance of one triangle to the whole body.
+double brute_nearest_of(const SceneIndex& tree, std::span<const Triangle> body,
+                        std::uint32_t index) {
+  double least_m = kInfinity;
+  for (const Triangle& part : body) {
+    least_m = std::min(least_m, geometry::triangle_distance(part, tree.triangle(index)));
+  }
+  return least_m;
+}
+
+class IndexQueries : public testing::TestWithParam<Case> {
  protected:
-  OctreeQueries() : random_(GetParam().seed) {
+  IndexQueries() : random_(GetParam().seed) {
     const std::vector<Triangle> triangles =
         GetParam().on_grid ? grid_soup(random_, 500) : soup(random_, 700);
-    tree_ = SceneIndex::build(mesh_of_triangles(triangles),
-                              {.threshold = GetParam().threshold, .max_depth = 12});
+    tree_ =
+        SceneIndex::build(mesh_of_triangles(triangles), {.decomposition = GetParam().decomposition,
+                                                         .threshold = GetParam().threshold,
+                                                         .max_depth = 12});
   }
 
   Vec3 point() { return GetParam().on_grid ? random_.on_grid(14) : random_.in_cube(6.0); }
@@ -121,7 +61,7 @@ class OctreeQueries : public testing::TestWithParam<Case> {
   SceneIndex tree_;
 };
 
-TEST_P(OctreeQueries, FirstIntersectionIsTheLowestIndexOfAll) {
+TEST_P(IndexQueries, FirstIntersectionIsTheLowestIndexOfAll) {
   int found = 0;
   for (int i = 0; i < 1500; ++i) {
     const Triangle t = triangle();
@@ -134,7 +74,7 @@ TEST_P(OctreeQueries, FirstIntersectionIsTheLowestIndexOfAll) {
   EXPECT_LT(found, 1400);
 }
 
-TEST_P(OctreeQueries, ClosestHitIsTheFirstOfAll) {
+TEST_P(IndexQueries, ClosestHitIsTheFirstOfAll) {
   int found = 0;
   for (int i = 0; i < 1500; ++i) {
     const LineSegment segment{point(), point()};
@@ -146,7 +86,7 @@ TEST_P(OctreeQueries, ClosestHitIsTheFirstOfAll) {
   EXPECT_GT(found, 100);
 }
 
-TEST_P(OctreeQueries, NearestIsTheNearestOfAll) {
+TEST_P(IndexQueries, NearestIsTheNearestOfAll) {
   int zero = 0;
   for (int i = 0; i < 1000; ++i) {
     const std::vector<Triangle> body = {triangle(), triangle()};
@@ -160,7 +100,7 @@ TEST_P(OctreeQueries, NearestIsTheNearestOfAll) {
   EXPECT_GT(zero, 10);
 }
 
-TEST_P(OctreeQueries, NearestIsExclusiveAtItsCutoff) {
+TEST_P(IndexQueries, NearestIsExclusiveAtItsCutoff) {
   for (int i = 0; i < 200; ++i) {
     const std::array<Triangle, 1> body = {triangle()};
     const auto nearest = tree_.nearest(body, kInfinity);
@@ -170,7 +110,7 @@ TEST_P(OctreeQueries, NearestIsExclusiveAtItsCutoff) {
   }
 }
 
-TEST_P(OctreeQueries, LeavesTouchedHoldEveryTriangleTouched) {
+TEST_P(IndexQueries, LeavesTouchedHoldEveryTriangleTouched) {
   std::vector<std::uint32_t> leaves;
   for (int i = 0; i < 500; ++i) {
     const Triangle t = triangle();
@@ -188,93 +128,74 @@ TEST_P(OctreeQueries, LeavesTouchedHoldEveryTriangleTouched) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, OctreeQueries,
+TEST_P(IndexQueries, AnyWithinFindsWhatThereIs) {
+  int found = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::vector<Triangle> body = {triangle(), triangle()};
+    const double distance_m = random_.log_uniform(1e-3, 3.0);
+    const auto any = tree_.any_within(body, distance_m);
+    ASSERT_EQ(any.has_value(), brute_nearest(tree_, body, distance_m).has_value());
+    if (!any) continue;
+    ++found;
+    ASSERT_LT(any->distance_m, distance_m);
+    const auto own = brute_nearest_of(tree_, body, any->triangle);
+    // The distance is that triangle's, to one part of the body at least.
+    ASSERT_GE(any->distance_m, own);
+    ASSERT_TRUE(
+        geometry::triangle_distance(body[0], tree_.triangle(any->triangle)) == any->distance_m ||
+        geometry::triangle_distance(body[1], tree_.triangle(any->triangle)) == any->distance_m);
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_LT(found, 1000);
+}
+
+TEST_P(IndexQueries, LargeBodiesAreAskedWhole) {
+  for (int i = 0; i < 42; ++i) {
+    std::vector<Triangle> body;
+    const int count = i < 40 ? random_.integer(3, 40) : random_.integer(1000, 1100);
+    for (int k = 0; k < count; ++k) body.push_back(triangle());
+    const double cutoff_m = i % 2 == 0 ? kInfinity : random_.log_uniform(1e-3, 1.0);
+    const auto expected = brute_nearest(tree_, body, cutoff_m);
+    expect_equal(tree_.nearest(body, cutoff_m), expected);
+    ASSERT_EQ(tree_.any_within(body, cutoff_m).has_value(), expected.has_value());
+    if (HasFailure()) return;
+  }
+}
+
+TEST_P(IndexQueries, VisitsWhatTouchesABox) {
+  for (int i = 0; i < 300; ++i) {
+    geometry::Box box(point());
+    box.extend(Vec3(box.min() + (i % 4 == 0 ? Vec3(0, 0, 0) : random_.in_cube(2.0))));
+    std::set<std::uint32_t> visited;
+    EXPECT_TRUE(tree_.for_each_touching(box, [&](std::uint32_t t) {
+      visited.insert(t);
+      return true;
+    }));
+    const Triangle low = {box.min(), box.max(), Vec3(box.min().x(), box.max().y(), box.min().z())};
+    for (std::uint32_t k = 0; k < tree_.size(); ++k) {
+      const Triangle t = tree_.triangle(k);
+      // A vertex inside, or a triangle inside the box that is touched, is a point in the box.
+      const bool surely = box.contains(t[0]) || box.contains(t[1]) || box.contains(t[2]) ||
+                          geometry::triangles_touch(low, t);
+      ASSERT_TRUE(!surely || visited.contains(k));
+      ASSERT_TRUE(!visited.contains(k) || geometry::bounds(t).intersects(box));
+    }
+    if (visited.empty()) continue;
+    int calls = 0;
+    EXPECT_FALSE(tree_.for_each_touching(box, [&](std::uint32_t) { return ++calls < 1; }));
+    EXPECT_EQ(calls, 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, IndexQueries,
                          testing::Values(Case{"Soup", 501, false, 8},
                                          Case{"SoupDeep", 502, false, 1},
-                                         Case{"Grid", 503, true, 8},
-                                         Case{"GridDeep", 504, true, 2}),
+                                         Case{"Grid", 503, true, 8}, Case{"GridDeep", 504, true, 2},
+                                         Case{"KdTreeSoup", 511, false, 8, Decomposition::kKdTree},
+                                         Case{"KdTreeGrid", 512, true, 2, Decomposition::kKdTree},
+                                         Case{"BvhSoup", 513, false, 8, Decomposition::kBvh},
+                                         Case{"BvhGrid", 514, true, 2, Decomposition::kBvh}),
                          [](const auto& instance) { return std::string(instance.param.name); });
-
-void expect_bounded(const SceneIndex& tree, const IndexOptions& options) {
-  const IndexStatistics& s = tree.statistics();
-  std::printf("%llu triangles: %llu nodes, %llu leaves, depth %u, duplication %.2f, %.1f MB\n",
-              static_cast<unsigned long long>(s.triangles),
-              static_cast<unsigned long long>(s.nodes), static_cast<unsigned long long>(s.leaves),
-              s.depth, s.duplication, static_cast<double>(s.memory_bytes) * 1e-6);
-  const auto triangles = static_cast<double>(s.triangles);
-  EXPECT_LE(s.depth, options.max_depth);
-  EXPECT_LE(static_cast<double>(s.references), options.max_duplication * triangles);
-  EXPECT_GE(s.references, s.triangles);
-  // A node that splits has more than `threshold` entries, and the entries of one level are within
-  // the bound of duplication.
-  const double splits = options.max_duplication * triangles / options.threshold * options.max_depth;
-  EXPECT_LE(static_cast<double>(s.nodes), 1.0 + 8.0 * splits);
-  EXPECT_LT(static_cast<double>(s.memory_bytes), 500.0 * triangles + 1e4);
-}
-
-TEST(OctreeBounds, AFanOfManyTrianglesAtOneVertex) {
-  constexpr int kCount = 100'000;
-  std::vector<Triangle> fan;
-  const auto rim = [](int i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCount;
-    return Vec3(std::cos(angle), std::sin(angle), 0.3 * std::sin(7.0 * angle));
-  };
-  for (int i = 0; i < kCount; ++i) fan.push_back({Vec3(0, 0, 1), rim(i), rim(i + 1)});
-  const IndexOptions options;
-  expect_bounded(SceneIndex::build(mesh_of_triangles(fan), options), options);
-}
-
-TEST(OctreeBounds, ManyCopiesOfOneTriangle) {
-  const std::vector<Triangle> copies(100'000, {Vec3(0, 0, 0), Vec3(3, 1, 0), Vec3(1, 4, 2)});
-  const IndexOptions options;
-  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(copies), options);
-  expect_bounded(tree, options);
-  // Splitting cannot tell them apart, so it is not tried.
-  EXPECT_EQ(tree.statistics().leaves, 1U);
-  const std::array<Triangle, 1> body = {copies[0]};
-  expect_equal(tree.nearest(body, kInfinity), Nearest{0.0, 0});
-}
-
-TEST(OctreeBounds, OneHugeTriangleOverDust) {
-  RandomTriangles random(505);
-  std::vector<Triangle> scene = {{Vec3(-100, -90, -1), Vec3(120, -80, 1), Vec3(0, 150, 0)}};
-  for (int i = 0; i < 50'000; ++i) {
-    const Vec3 at = random.in_cube(1.0);
-    scene.push_back(
-        {at + random.in_cube(1e-4), at + random.in_cube(1e-4), at + random.in_cube(1e-4)});
-  }
-  const IndexOptions options;
-  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(scene), options);
-  expect_bounded(tree, options);
-  EXPECT_LT(tree.statistics().duplication, 1.5);
-  for (int i = 0; i < 20; ++i) {
-    const Vec3 at = random.in_cube(1.5);
-    const std::array<Triangle, 1> body = {Triangle{at, at + random.in_cube(0.1), at}};
-    expect_equal(tree.nearest(body, kInfinity), brute_nearest(tree, body, kInfinity));
-  }
-}
-
-TEST(OctreeBounds, ManyPointsAtOnePlace) {
-  const Vec3 p(1e6, -1e6, 3.0);
-  const IndexOptions options;
-  const SceneIndex tree =
-      SceneIndex::build(mesh_of_triangles(std::vector<Triangle>(5000, {p, p, p})), options);
-  expect_bounded(tree, options);
-  EXPECT_EQ(tree.first_intersection({p, p, p}), std::optional<std::uint32_t>(0));
-}
-
-TEST(OctreeBounds, AFlatSceneIsNotDuplicatedByItsPlane) {
-  RandomTriangles random(506);
-  std::vector<Triangle> floor;
-  for (int i = 0; i < 20'000; ++i) {
-    const Vec3 at(random.uniform(0, 40), random.uniform(0, 30), 0.0);
-    floor.push_back({at, at + Vec3(0.1, 0, 0), at + Vec3(0, 0.1, 0)});
-  }
-  const IndexOptions options;
-  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(floor), options);
-  expect_bounded(tree, options);
-  EXPECT_LT(tree.statistics().duplication, 1.5);
-}
 
 TEST(SceneIndex, ThresholdAndDepthAreObeyed) {
   RandomTriangles random(507);
@@ -288,15 +209,88 @@ TEST(SceneIndex, ThresholdAndDepthAreObeyed) {
             SceneIndex::build(mesh, {.threshold = 64}).statistics().leaves);
 }
 
-TEST(SceneIndex, IsTheSameEveryTime) {
+TEST(SceneIndex, IsTheSameForAnyNumberOfThreads) {
   RandomTriangles random(508);
-  const Mesh mesh = mesh_of_triangles(soup(random, 2000));
-  const SceneIndex a = SceneIndex::build(mesh);
-  const SceneIndex b = SceneIndex::build(mesh);
-  EXPECT_EQ(a.statistics(), b.statistics());
-  for (std::uint32_t leaf = 0; leaf < a.statistics().leaves; ++leaf) {
-    ASSERT_TRUE(std::ranges::equal(a.leaf_triangles(leaf), b.leaf_triangles(leaf)));
+  // More than one chunk of work.
+  const auto mesh = std::make_shared<const Mesh>(mesh_of_triangles(soup(random, 30'000)));
+  for (const Decomposition decomposition : kDecompositions) {
+    const SceneIndex one = SceneIndex::build(mesh, {.decomposition = decomposition, .threads = 1});
+    for (const unsigned threads : {0U, 1U, 2U, 7U}) {
+      const SceneIndex other =
+          SceneIndex::build(mesh, {.decomposition = decomposition, .threads = threads});
+      EXPECT_EQ(one.statistics(), other.statistics());
+      ASSERT_TRUE(one.has_same_tree_as(other)) << threads;
+    }
   }
+  EXPECT_FALSE(SceneIndex::build(mesh, {.threshold = 4})
+                   .has_same_tree_as(SceneIndex::build(mesh, {.threshold = 5})));
+}
+
+TEST(SceneIndex, NearestIsTheSameForAllDecompositions) {
+  RandomTriangles random(515);
+  for (const double size_m : {1e-3, 1.0, 1e5}) {
+    std::vector<Triangle> triangles = soup(random, 3000);
+    for (Triangle& t : triangles) {
+      for (Vec3& v : t) v *= size_m;
+    }
+    const auto mesh = std::make_shared<const Mesh>(mesh_of_triangles(triangles));
+    const SceneIndex octree = SceneIndex::build(mesh);
+    const SceneIndex kd = SceneIndex::build(mesh, {.decomposition = Decomposition::kKdTree});
+    const SceneIndex bvh = SceneIndex::build(mesh, {.decomposition = Decomposition::kBvh});
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 at = size_m * random.in_cube(6.0);
+      const Vec3 e = size_m * random.in_cube(0.2);
+      const Vec3 f = size_m * random.in_cube(0.2);
+      // A parallelogram, as a near quadrilateral is.
+      const std::array<Triangle, 2> body = {Triangle{at, at + e, at + e + f},
+                                            Triangle{at, at + e + f, at + f}};
+      const auto nearest = octree.nearest(body, kInfinity);
+      if (i < 50) expect_equal(nearest, brute_nearest(octree, body, kInfinity));
+      expect_equal(kd.nearest(body, kInfinity), nearest);
+      expect_equal(bvh.nearest(body, kInfinity), nearest);
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+TEST(SceneIndex, NeverCallsSpaceFreeForAPoseThatIsNoPose) {
+  RandomTriangles random(516);
+  const SceneIndex tree = SceneIndex::build(mesh_of_triangles(soup(random, 100)));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, kInfinity, -kInfinity, 0x1p201, -0x1p300}) {
+    for (int k = 0; k < 9; ++k) {
+      Triangle t = {Vec3(1e3, 0, 0), Vec3(1e3, 1, 0), Vec3(1e3, 0, 1)};
+      ASSERT_FALSE(tree.nearest(std::array<Triangle, 1>{t}, 1.0));
+      t[static_cast<std::size_t>(k / 3)][k % 3] = bad;
+      for (const double cutoff_m : {1.0, 0.0, kInfinity}) {
+        expect_equal(tree.nearest(std::array<Triangle, 1>{t}, cutoff_m), Nearest{0.0, 0});
+        expect_equal(tree.any_within(std::array<Triangle, 1>{t}, cutoff_m), Nearest{0.0, 0});
+      }
+      EXPECT_TRUE(tree.intersects(t));
+      EXPECT_EQ(tree.first_intersection(t), std::optional<std::uint32_t>(0));
+      if (k < 3) expect_equal(tree.closest_hit({t[0], t[1]}), SegmentHit{0.0, 0});
+      EXPECT_FALSE(SceneIndex().nearest(std::array<Triangle, 1>{t}, 1.0));
+    }
+  }
+  const Triangle good = {Vec3(1e3, 0, 0), Vec3(1e3, 1, 0), Vec3(1e3, 0, 1)};
+  expect_equal(tree.nearest(std::array<Triangle, 1>{good}, nan), Nearest{0.0, 0});
+  std::set<std::uint32_t> visited;
+  const geometry::Box box(Vec3(nan, nan, nan), Vec3(nan, nan, nan));
+  EXPECT_TRUE(tree.for_each_touching(box, [&](std::uint32_t t) {
+    visited.insert(t);
+    return true;
+  }));
+  EXPECT_EQ(visited.size(), tree.size());
+}
+
+TEST(SceneIndex, SharesItsMeshAndCountsACopy) {
+  RandomTriangles random(517);
+  const auto mesh = std::make_shared<const Mesh>(mesh_of_triangles(soup(random, 1000)));
+  const SceneIndex shared = SceneIndex::build(mesh);
+  const SceneIndex copied = SceneIndex::build(*mesh);
+  EXPECT_EQ(mesh.use_count(), 2);
+  EXPECT_EQ(copied.statistics().memory_bytes - shared.statistics().memory_bytes,
+            1000 * (3 * sizeof(Vec3) + 3 * sizeof(std::uint32_t)));
 }
 
 TEST(SceneIndex, AnEmptySceneAnswersNothing) {
