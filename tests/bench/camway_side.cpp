@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/camway_side.h"
+
+#include "daemon/collision/near_quad.h"
+#include "daemon/motion/body.h"
+
+namespace camway::bench {
+
+collision::DetectOptions default_options() { return {}; }
+
+planning::PathCheck check_whole(const collision::Obstacles& obstacles, const motion::Path& path,
+                                const motion::Camera& camera) {
+  return planning::check_path(obstacles, path, motion::Body(camera), default_options(),
+                              collision::Deadline::never(), collision::Deadline::never());
+}
+
+bool touches_at(const scene::SceneIndex& index, const motion::Camera& camera,
+                const motion::Pose& pose) {
+  for (const geometry::Triangle& half :
+       collision::near_quad_triangles(motion::corners_W(motion::near_corners_C(camera), pose))) {
+    if (index.intersects(half)) return true;
+  }
+  return false;
+}
+
+}  // namespace camway::bench

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "daemon/planning/check.h"
+#include "daemon/scene/scene_index.h"
+#include "tests/collision/crossing_campaign.h"
+
+/// Our own side of the comparisons, so that a change of an interface is mended in one place. For
+/// detection alone see `testing::certified_intervals`.
+namespace camway::bench {
+
+/// How `check_whole` and `testing::certified_intervals` resolve: the defaults of a request.
+collision::DetectOptions default_options();
+
+/// All that `camway check` asks of a path: intervals, or else the certificate with its clearance.
+planning::PathCheck check_whole(const collision::Obstacles& obstacles, const motion::Path& path,
+                                const motion::Camera& camera);
+
+/// Whether the filled quadrilateral touches the scene at the pose, exactly.
+bool touches_at(const scene::SceneIndex& index, const motion::Camera& camera,
+                const motion::Pose& pose);
+
+}  // namespace camway::bench

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "daemon/motion/camera.h"
+#include "daemon/scene/mesh.h"
+
+namespace camway::bench {
+
+/// Flexible Collision Library: a hierarchy of oriented boxes over the scene, the near quadrilateral
+/// as a mesh of two triangles.
+class FclPeer {
+ public:
+  /// Copies the triangles; `build` then builds.
+  explicit FclPeer(const scene::Mesh& mesh);
+  ~FclPeer();
+  FclPeer(const FclPeer&) = delete;
+  FclPeer& operator=(const FclPeer&) = delete;
+
+  /// Builds the hierarchy. Call once.
+  void build();
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  void set_camera(const motion::Camera& camera);
+  /// Whether the filled quadrilateral touches the scene there; stops at the first contact.
+  [[nodiscard]] bool collides(const motion::Pose& pose) const;
+
+  /// Continuous collision between two poses, by the library's own solvers.
+  enum class Continuous { kNaive, kConservativeAdvancement };
+  [[nodiscard]] bool collides_between(const motion::Pose& from, const motion::Pose& to,
+                                      Continuous solver) const;
+
+ private:
+  struct Models;
+  std::unique_ptr<Models> models_;
+};
+
+}  // namespace camway::bench
