@@ -56,8 +56,8 @@ class DistanceField {
   static constexpr double kFlatness = 0.1;
 
   /// How many cells there may be: so many for each triangle, but this many in any case, and no more
-  /// than the memory allows. A cell takes about 10 ns to build, so the field does not take longer
-  /// than the index.
+  /// than the memory allows. A cell takes about 9 ns of processor time, so this is 2.3 µs a
+  /// triangle, and some 75 ms at the most; twice as many would make the cells a fifth smaller.
   static constexpr std::size_t kCellsPerTriangle = 256;
   static constexpr std::size_t kSmallestCells = std::size_t{1} << 14;
 
