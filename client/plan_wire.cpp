@@ -9,6 +9,7 @@
 
 #include <camway/plan_request_t.hpp>
 
+#include "client/body_wire.h"
 #include "client/text.h"
 #include "lcmtypes/wire_check.h"
 #include "lcmtypes/wire_layout.h"
@@ -50,7 +51,21 @@ Segment from_wire(const segment_t& wire) {
   return segment;
 }
 
-/// The request without its keyframes.
+CollisionInterval from_wire(const collision_interval_t& wire) {
+  CollisionInterval interval{wire.t_begin_s, wire.t_end_s, std::nullopt};
+  if (wire.has_witness == 0) return interval;
+  Witness& witness = interval.witness.emplace();
+  witness.time_s = wire.witness_time_s;
+  witness.object = wire.witness_object;
+  witness.triangle = wire.witness_triangle;
+  witness.feature = wire.witness_feature;
+  witness.depth_m = wire.witness_depth_m;
+  std::copy(std::begin(wire.witness_point_m), std::end(wire.witness_point_m),
+            witness.point_m.begin());
+  return interval;
+}
+
+/// The request without keyframes and body.
 plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
                        std::int64_t request_id) {
   plan_request_t wire{};
@@ -65,6 +80,7 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.deadline_s = request.deadline_s;
   wire.chord_error_m = request.chord_error_m;
   wire.interval_tolerance_m = request.interval_tolerance_m;
+  wire.clearance_m = request.clearance_m;
   wire.max_inserted_keyframes = request.max_inserted_keyframes;
   wire.has_times = request.has_times ? 1 : 0;
   return wire;
@@ -108,10 +124,10 @@ void append_lists(const plan_response_t& page, std::vector<Segment>& segments,
     response.keyframes.push_back(from_wire(keyframe));
   }
   for (const collision_interval_t& interval : page.collisions) {
-    response.collisions.push_back({interval.t_begin_s, interval.t_end_s});
+    response.collisions.push_back(from_wire(interval));
   }
   for (const collision_interval_t& interval : page.remaining) {
-    response.remaining.push_back({interval.t_begin_s, interval.t_end_s});
+    response.remaining.push_back(from_wire(interval));
   }
 }
 
@@ -147,6 +163,7 @@ PlanResponse bad_answer(const PlanResponse& head, const std::string& what) {
 std::optional<std::string> fault_in_form(const PlanRequest& request) {
   if (auto fault = fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes)) return fault;
   if (auto fault = fault_in_text("method", request.method, wire::kMaxMethodBytes)) return fault;
+  if (auto fault = fault_in_form(request.body)) return fault;
   if (request.keyframes.size() > kMaxKeyframes) {
     return "keyframes: there are " + std::to_string(request.keyframes.size()) + ", at most " +
            std::to_string(kMaxKeyframes) + " are allowed";
@@ -156,26 +173,31 @@ std::optional<std::string> fault_in_form(const PlanRequest& request) {
 
 std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
                             std::int64_t request_id) {
-  plan_request_t page = head_of(request, client_id, request_id);
-  const auto head_bytes = static_cast<std::size_t>(page.getEncodedSize());
-  const std::size_t keyframe_bytes =
-      static_cast<std::size_t>(keyframe_t{}.getEncodedSize()) - sizeof(std::int64_t);
-  const std::size_t per_page = (wire::kMaxMessageBytes - head_bytes) / keyframe_bytes;
-  const std::size_t count = request.keyframes.size();
-  const std::size_t num_pages = std::max<std::size_t>(1, (count + per_page - 1) / per_page);
-
-  page.num_pages = static_cast<std::int32_t>(num_pages);
-  std::vector<Bytes> pages;
-  for (std::size_t first = 0; pages.size() < num_pages; first += per_page) {
-    page.page = static_cast<std::int32_t>(pages.size());
-    page.keyframes.clear();
-    for (std::size_t i = first; i < std::min(first + per_page, count); ++i) {
-      page.keyframes.push_back(to_wire(request.keyframes[i]));
+  const plan_request_t head = head_of(request, client_id, request_id);
+  const auto keyframe_bytes = static_cast<std::size_t>(keyframe_t{}._getEncodedSizeNoHash());
+  const auto fit = [&](const plan_request_t& page) {
+    return (wire::kMaxMessageBytes - static_cast<std::size_t>(page.getEncodedSize())) /
+           keyframe_bytes;
+  };
+  std::vector<plan_request_t> pages{head};
+  pages.back().body = to_wire(request.body);
+  std::size_t left = fit(pages.back());
+  for (const Keyframe& keyframe : request.keyframes) {
+    if (left == 0) {
+      pages.push_back(head);
+      left = fit(head);
     }
-    page.num_keyframes = static_cast<std::int32_t>(page.keyframes.size());
-    pages.push_back(wire::encode(page));
+    pages.back().keyframes.push_back(to_wire(keyframe));
+    --left;
   }
-  return pages;
+  std::vector<Bytes> encoded;
+  for (plan_request_t& page : pages) {
+    page.page = static_cast<std::int32_t>(encoded.size());
+    page.num_pages = static_cast<std::int32_t>(pages.size());
+    page.num_keyframes = static_cast<std::int32_t>(page.keyframes.size());
+    encoded.push_back(wire::encode(page));
+  }
+  return encoded;
 }
 
 PlanCollector::PlanCollector(std::string client_id, std::int64_t request_id)

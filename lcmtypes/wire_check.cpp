@@ -10,6 +10,8 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
+constexpr std::string_view kFingerprint = "fingerprint";
+
 /// Reads big-endian numbers and skips; never past the end.
 class Reader {
  public:
@@ -123,9 +125,10 @@ std::optional<Fault> walk(std::span<const Field> fields, Reader& reader) {
 
 std::optional<Fault> check_fingerprint(const Layout& layout, Reader& reader) {
   const std::optional<std::int64_t> fingerprint = reader.integer<std::int64_t>();
-  if (!fingerprint) return short_of("fingerprint", sizeof(std::int64_t), reader.left());
+  if (!fingerprint) return short_of("message", sizeof(std::int64_t), reader.left());
   if (*fingerprint != layout.fingerprint) {
-    return Fault{"fingerprint", "is not that of this type: other type or other version"};
+    return Fault{std::string(kFingerprint),
+                 "is not that of this type: other type or other version"};
   }
   return std::nullopt;
 }
@@ -137,6 +140,8 @@ std::string Fault::text(std::string_view type) const {
   if (!field.empty()) text += "." + field;
   return text + ": " + reason;
 }
+
+bool is_other_version(const Fault& fault) { return fault.field == kFingerprint; }
 
 std::optional<Fault> check(const Layout& layout, std::span<const std::uint8_t> bytes) {
   if (bytes.size() > kMaxMessageBytes) {

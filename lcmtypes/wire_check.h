@@ -22,6 +22,10 @@ struct Fault {
   [[nodiscard]] std::string text(std::string_view type) const;
 };
 
+/// Whether a message was refused for its fingerprint: it is of another type, or of this one in
+/// another version of Camway.
+[[nodiscard]] bool is_other_version(const Fault& fault);
+
 /// Checks everything that the decoder of lcm-gen takes on trust: fingerprint, length of every
 /// string (at least the final NUL, which must be there, and no other), count of every list against
 /// the bytes that are left, and the exact size of the whole. The decoder throws or takes gigabytes

@@ -23,7 +23,6 @@ constexpr std::size_t kDouble = 8;
 constexpr std::size_t kCamera = 3 * kDouble;
 constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + kByte;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
-constexpr std::size_t kInterval = 2 * kDouble;
 
 constexpr Field fixed(std::string_view name, std::size_t bytes) {
   return {.kind = Field::Kind::kFixed, .name = name, .bytes = bytes};
@@ -34,6 +33,9 @@ constexpr Field text(std::string_view name, std::size_t max_length) {
 constexpr Field list(std::string_view name, std::size_t element_bytes) {
   return {.kind = Field::Kind::kList, .name = name, .bytes = element_bytes};
 }
+constexpr Field list_of(std::string_view name, std::span<const Field> element) {
+  return {.kind = Field::Kind::kList, .name = name, .element = element};
+}
 
 constexpr std::array kPlanRequest{
     text("client_id", kMaxClientIdLength),
@@ -43,13 +45,28 @@ constexpr std::array kPlanRequest{
     fixed("num_pages", kInt32),
     text("scene", kMaxSceneNameBytes),
     fixed("camera", kCamera),
+    fixed("body.type", kByte),
+    fixed("body.center_m", 3 * kDouble),
+    fixed("body.size_m", 3 * kDouble),
+    fixed("body.radius_m", kDouble),
+    list("body.piece_sizes", kInt32),
+    list("body.points_m", 3 * kDouble),
+    list("body.triangles", 3 * kInt32),
     text("method", kMaxMethodBytes),
     fixed("deadline_s", kDouble),
     fixed("chord_error_m", kDouble),
     fixed("interval_tolerance_m", kDouble),
+    fixed("clearance_m", kDouble),
     fixed("max_inserted_keyframes", kInt32),
     fixed("has_times", kByte),
     list("keyframes", kKeyframe),
+};
+
+constexpr std::array kInterval{
+    fixed("t_s", 2 * kDouble),         fixed("has_witness", kByte),
+    fixed("witness_time_s", kDouble),  text("witness_object", kMaxObjectNameBytes),
+    fixed("witness_triangle", kInt32), text("witness_feature", kMaxFeatureBytes),
+    fixed("witness_depth_m", kDouble), fixed("witness_point_m", 3 * kDouble),
 };
 
 constexpr std::array kPlanResponse{
@@ -69,8 +86,8 @@ constexpr std::array kPlanResponse{
     fixed("timing", 5 * kDouble),
     list("segments", kSegment),
     list("keyframes", kKeyframe),
-    list("collisions", kInterval),
-    list("remaining", kInterval),
+    list_of("collisions", kInterval),
+    list_of("remaining", kInterval),
 };
 
 constexpr std::array kOccupancyRequest{
@@ -108,15 +125,11 @@ constexpr std::array kSceneInfo{
 };
 
 constexpr std::array kStatus{
-    fixed("utime", kInt64),
-    text("version", kMaxVersionBytes),
-    fixed("uptime_s", kDouble),
-    fixed("num_workers", kInt32),
-    fixed("queued_requests", kInt32),
-    fixed("running_requests", kInt32),
-    fixed("counters", 4 * kInt64),
-    fixed("total_scenes", kInt32),
-    Field{.kind = Field::Kind::kList, .name = "scenes", .element = kSceneInfo},
+    fixed("utime", kInt64),           text("version", kMaxVersionBytes),
+    fixed("uptime_s", kDouble),       fixed("num_workers", kInt32),
+    fixed("queued_requests", kInt32), fixed("running_requests", kInt32),
+    fixed("counters", 4 * kInt64),    fixed("total_scenes", kInt32),
+    list_of("scenes", kSceneInfo),
 };
 
 constexpr std::array kError{

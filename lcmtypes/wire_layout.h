@@ -24,9 +24,15 @@ inline constexpr std::size_t kMaxMessageBytes = 60'000;
 /// Limits of strings, in bytes without the final NUL.
 inline constexpr std::size_t kMaxSceneNameBytes = 128;
 inline constexpr std::size_t kMaxMethodBytes = 64;
+inline constexpr std::size_t kMaxObjectNameBytes = 128;
+inline constexpr std::size_t kMaxFeatureBytes = 32;
 inline constexpr std::size_t kMaxTextBytes = 1024;
 inline constexpr std::size_t kMaxDigestBytes = 128;
 inline constexpr std::size_t kMaxVersionBytes = 256;
+
+/// Limits of a body, so that it fits page 0 of a request.
+inline constexpr std::size_t kMaxBodyPoints = 512;
+inline constexpr std::size_t kMaxBodyTriangles = 1024;
 
 /// Limits of what arrives in pages.
 inline constexpr std::int32_t kMaxRequestPages = 128;

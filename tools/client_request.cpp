@@ -1,12 +1,53 @@
 // SPDX-License-Identifier: MIT
 #include "tools/client_request.h"
 
+#include <variant>
+
 namespace camway::tools {
+namespace {
+
+Body::Point point(const geometry::Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+std::vector<Body::Point> points(const std::vector<geometry::Vec3>& list) {
+  std::vector<Body::Point> sent;
+  for (const geometry::Vec3& p : list) sent.push_back(point(p));
+  return sent;
+}
+
+Body sent_body(const motion::Camera&) { return {}; }
+Body sent_body(const motion::BoxShape& box) {
+  return Body::box(point(box.size_m), point(box.center_C));
+}
+Body sent_body(const motion::SphereShape& sphere) {
+  return Body::sphere(sphere.radius_m, point(sphere.center_C));
+}
+Body sent_body(const motion::ConvexShape& convex) {
+  std::vector<std::vector<Body::Point>> pieces;
+  for (const auto& piece : convex.pieces_C) pieces.push_back(points(piece));
+  return Body::convex(std::move(pieces));
+}
+Body sent_body(const motion::MeshShape& mesh) {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const auto& t : mesh.triangles) {
+    triangles.push_back({static_cast<std::int32_t>(t[0]), static_cast<std::int32_t>(t[1]),
+                         static_cast<std::int32_t>(t[2])});
+  }
+  return Body::mesh(points(mesh.vertices_C), std::move(triangles));
+}
+
+}  // namespace
 
 PlanRequest to_client_request(const planning::PlanRequest& request, const std::string& scene) {
   PlanRequest sent;
   sent.scene = scene;
   sent.camera = {request.camera.fov_x_rad, request.camera.fov_y_rad, request.camera.near_m};
+  if (request.body) {
+    sent.body = std::visit([](const auto& shape) { return sent_body(shape); }, *request.body);
+    // A near quadrilateral of its own goes as the camera.
+    if (const auto* own = std::get_if<motion::Camera>(&*request.body)) {
+      sent.camera = {own->fov_x_rad, own->fov_y_rad, own->near_m};
+    }
+  }
   sent.has_times = request.has_times;
   for (const motion::Keyframe& keyframe : request.keyframes) {
     const geometry::Vec3& p = keyframe.pose.position;
@@ -18,6 +59,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
   sent.deadline_s = request.options.deadline_s;
   sent.chord_error_m = request.options.chord_error_m;
   sent.interval_tolerance_m = request.options.interval_tolerance_m;
+  sent.clearance_m = request.options.clearance_m;
   sent.max_inserted_keyframes = request.options.max_inserted_keyframes;
   return sent;
 }

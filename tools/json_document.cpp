@@ -264,6 +264,17 @@ std::vector<std::string> Field::keys() const {
   return keys;
 }
 
+void Field::allow_only(std::initializer_list<std::string_view> known) const {
+  for (const std::string& key : keys()) {
+    if (key == "comment" || key.starts_with('_') || std::ranges::count(known, key) > 0) continue;
+    std::string list;
+    for (const std::string_view word : known) list.append(list.empty() ? "" : ", ").append(word);
+    member(key).fail("is unknown; " + (path().empty() ? "a request" : path()) + " has " + list +
+                     ", and for remarks comment or _...");
+    return;
+  }
+}
+
 void Field::fail(std::string_view message) const {
   if (failed()) return;
   const std::string place = path();

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "tools/json_body.h"
+
 namespace camway::tools {
 namespace {
 
@@ -19,6 +21,7 @@ using planning::PlanResult;
 double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 
 motion::Camera read_camera(const Field& field) {
+  field.allow_only({"fov_x_deg", "fov_y_deg", "near"});
   motion::Camera camera;
   camera.fov_x_rad = radians(field.member("fov_x_deg").number());
   camera.fov_y_rad = radians(field.member("fov_y_deg").number());
@@ -56,6 +59,8 @@ void read_keyframes(const Field& list, PlanRequest& request) {
   request.keyframes.reserve(count);
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
+    // Keyframes copied from a response have an origin, which is then "given".
+    item.allow_only({"time", "position", "orientation", "origin"});
     Keyframe keyframe;
     const std::optional<Field> time = item.optional_member("time");
     if (time) keyframe.time_s = time->number();
@@ -74,39 +79,53 @@ void read_keyframes(const Field& list, PlanRequest& request) {
 }
 
 PlanOptions read_options(const Field& field) {
+  field.allow_only({"method", "deadline_s", "clearance", "chord_error_m", "interval_tolerance_m",
+                    "max_inserted_keyframes"});
   PlanOptions options;
-  for (const std::string& key : field.keys()) {
-    const Field option = field.member(key);
-    if (key == "method") {
-      const std::string name = option.text();
-      const std::optional<planning::Method> method = planning::method_from_string(name);
-      if (!method) option.fail("'" + name + "' is unknown; this version knows keyframe_insertion");
-      options.method = method.value_or(options.method);
-    } else if (key == "deadline_s") {
-      options.deadline_s = option.number();
-    } else if (key == "chord_error_m") {
-      options.chord_error_m = option.number();
-    } else if (key == "interval_tolerance_m") {
-      options.interval_tolerance_m = option.number();
-    } else if (key == "max_inserted_keyframes") {
-      options.max_inserted_keyframes =
-          static_cast<std::int32_t>(option.integer(0, std::numeric_limits<std::int32_t>::max()));
-    } else {
-      option.fail(
-          "is an option that this version does not know; it knows method, deadline_s, "
-          "chord_error_m, interval_tolerance_m, max_inserted_keyframes");
-    }
+  if (const auto option = field.optional_member("method")) {
+    const std::string name = option->text();
+    const std::optional<planning::Method> method = planning::method_from_string(name);
+    if (!method) option->fail("'" + name + "' is unknown; this version knows keyframe_insertion");
+    options.method = method.value_or(options.method);
+  }
+  const std::pair<const char*, double*> numbers[] = {
+      {"deadline_s", &options.deadline_s},
+      {"clearance", &options.clearance_m},
+      {"chord_error_m", &options.chord_error_m},
+      {"interval_tolerance_m", &options.interval_tolerance_m}};
+  for (const auto& [name, value] : numbers) {
+    if (const auto option = field.optional_member(name)) *value = option->number();
+  }
+  if (const auto option = field.optional_member("max_inserted_keyframes")) {
+    options.max_inserted_keyframes =
+        static_cast<std::int32_t>(option->integer(0, std::numeric_limits<std::int32_t>::max()));
   }
   return options;
 }
 
-std::vector<CollisionInterval> read_intervals(const Field& list) {
-  std::vector<CollisionInterval> intervals;
-  for (std::size_t i = 0; i < list.size(); ++i) {
+collision::Witness read_witness(const Field& field, planning::WitnessNames& names) {
+  collision::Witness witness;
+  witness.time_s = field.member("time").number();
+  names.object = field.member("object").text();
+  witness.triangle = static_cast<std::uint32_t>(
+      field.member("triangle").integer(0, std::numeric_limits<std::uint32_t>::max()));
+  names.feature = field.member("feature").text();
+  witness.depth_m = field.member("depth").number();
+  witness.point_W = read_vector<geometry::Vec3>(field.member("point"));
+  return witness;
+}
+
+void read_intervals(const Field& list, std::vector<CollisionInterval>& intervals,
+                    std::vector<planning::WitnessNames>& names) {
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
     intervals.push_back({item.member("t_begin").number(), item.member("t_end").number()});
+    names.emplace_back();
+    if (const auto witness = item.optional_member("witness")) {
+      intervals.back().witness = read_witness(*witness, names.back());
+    }
   }
-  return intervals;
 }
 
 template <std::size_t kCount, typename Vector>
@@ -191,10 +210,10 @@ PlanResult read_result(const Field& root) {
     result.keyframes = read_response_keyframes(*list);
   }
   if (const auto list = root.optional_member("collisions")) {
-    result.collisions = read_intervals(*list);
+    read_intervals(*list, result.collisions, result.collision_names);
   }
   if (const auto list = root.optional_member("remaining_collisions")) {
-    result.remaining_collisions = read_intervals(*list);
+    read_intervals(*list, result.remaining_collisions, result.remaining_names);
   }
   if (const auto certificate = root.optional_member("certificate")) {
     result.certificate.certified = certificate->member("certified").boolean();
@@ -207,9 +226,13 @@ PlanResult read_result(const Field& root) {
 }
 
 PlanRequest read_request(const Field& root) {
+  root.allow_only({"scene", "camera", "body", "keyframes", "options"});
   PlanRequest request;
   if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
-  request.camera = read_camera(root.member("camera"));
+  if (const auto body = root.optional_member("body")) request.body = read_body(*body);
+  if (!request.body || root.optional_member("camera")) {
+    request.camera = read_camera(root.member("camera"));
+  }
   read_keyframes(root.member("keyframes"), request);
   if (const auto options = root.optional_member("options")) {
     request.options = read_options(*options);

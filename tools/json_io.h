@@ -19,10 +19,11 @@ namespace camway::tools {
 inline constexpr double kUnitQuaternionError = 5 * 2.220446049250313e-16;
 
 /// Reads a request. Checked here: the form (types, lengths, missing fields), a quaternion that is
-/// not zero, time in all keyframes or in none, and that no option is unknown: to ignore one that a
-/// later version knows, such as a required clearance, would be dangerous. Unknown fields elsewhere
-/// are ignored. Ranges and order of times are `planning::validate`'s. `source` heads the error,
-/// e.g. `R.json: keyframes[3].orientation: has length zero`. Keyframes count from 0.
+/// not zero, time in all keyframes or in none, and that no field is unknown, remarks apart
+/// (`Field::allow_only`): to ignore one that a later version knows, or that is spelled wrongly,
+/// could drop a required clearance. The camera may be left out where another body is given. Ranges
+/// and order of times are `planning::validate`'s. `source` heads the error, e.g. `R.json:
+/// keyframes[3].orientation: has length zero`. Keyframes count from 0.
 Parsed<planning::PlanRequest> parse_plan_request(std::string_view text, std::string_view source);
 
 /// The same from a file; "-" is standard input.
@@ -50,8 +51,9 @@ struct ResponseFormat {
 Parsed<std::string> write_plan_response(const planning::PlanResult& result,
                                         const ResponseFormat& format = {});
 
-/// Reads a response back, bit for bit. The segments are checked to be a path: each at least as long
-/// as nothing, each beginning where the one before ends.
+/// Reads a response back, bit for bit, but for the number of a witness's feature, whose name alone
+/// is written. The segments are checked to be a path: each at least as long as nothing, each
+/// beginning where the one before ends. Unknown fields are ignored: later versions may say more.
 Parsed<planning::PlanResult> parse_plan_response(std::string_view text, std::string_view source);
 
 /// The same from a file; "-" is standard input.

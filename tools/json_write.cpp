@@ -98,14 +98,36 @@ void write_keyframe(Writer& w, const Keyframe& keyframe) {
   w.raw(inserted ? ", \"origin\": \"inserted\"}" : ", \"origin\": \"given\"}");
 }
 
+void write_witness(Writer& w, const collision::Witness& witness,
+                   const planning::WitnessNames& names, std::string_view what) {
+  w.raw(",\n     \"witness\": {\"time\": ");
+  w.number(witness.time_s, what);
+  w.raw(", \"object\": ");
+  w.text(names.object);
+  w.raw(", \"triangle\": " + std::to_string(witness.triangle) + ", \"feature\": ");
+  w.text(names.feature);
+  w.raw(", \"depth\": ");
+  w.number(witness.depth_m, what);
+  w.raw(", \"point\": ");
+  w.vector(witness.point_W, what);
+  w.raw("}");
+}
+
+/// `names` may be fewer than the intervals: nobody named the witnesses then.
 void write_intervals(Writer& w, const std::vector<collision::CollisionInterval>& intervals,
-                     std::string_view what) {
+                     const std::vector<planning::WitnessNames>& names, std::string_view what) {
+  std::size_t i = 0;
   w.list(intervals, [&](const collision::CollisionInterval& interval) {
     w.raw("{\"t_begin\": ");
     w.number(interval.t_begin_s, what);
     w.raw(", \"t_end\": ");
     w.number(interval.t_end_s, what);
+    if (interval.witness) {
+      write_witness(w, *interval.witness, i < names.size() ? names[i] : planning::WitnessNames{},
+                    what);
+    }
     w.raw("}");
+    ++i;
   });
 }
 
@@ -155,9 +177,9 @@ Parsed<std::string> write_plan_response(const planning::PlanResult& result,
   w.raw(",\n  \"keyframes\": ");
   w.list(result.keyframes, [&](const Keyframe& k) { write_keyframe(w, k); });
   w.raw(",\n  \"collisions\": ");
-  write_intervals(w, result.collisions, "collisions");
+  write_intervals(w, result.collisions, result.collision_names, "collisions");
   w.raw(",\n  \"remaining_collisions\": ");
-  write_intervals(w, result.remaining_collisions, "remaining_collisions");
+  write_intervals(w, result.remaining_collisions, result.remaining_names, "remaining_collisions");
   w.raw(",\n  \"certificate\": {\"certified\": ");
   w.raw(result.certificate.certified ? "true" : "false");
   w.raw(", \"clearance_lower_bound\": ");

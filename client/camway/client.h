@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "camway/body.h"
 #include "camway/occupancy.h"
 #include "camway/path.h"
 #include "camway/plan.h"

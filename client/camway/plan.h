@@ -3,16 +3,19 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "camway/body.h"
 #include "camway/path.h"
 #include "camway/status.h"
 
 namespace camway {
 
 /// The part of a perspective camera that can run into things: the near quadrilateral. The camera
-/// looks down its -Z axis, +Y is up. [Limit: fields of view in (0, π), 0 < near_m]
+/// looks down its -Z axis, +Y is up. [Limit: fields of view in (0, π), 0 < near_m; or all 0 where
+/// another body moves]
 struct Camera {
   double fov_x_rad = 1.5707963267948966;  ///< full horizontal field of view
   double fov_y_rad = 1.0471975511965976;  ///< full vertical field of view
@@ -31,6 +34,7 @@ struct Keyframe {
 struct PlanRequest {
   std::string scene;  ///< name of a scene that the daemon holds [Limit: 128 bytes]
   Camera camera;
+  Body body;  ///< what must not collide; the camera's near quadrilateral unless set
   std::vector<Keyframe> keyframes;  ///< [Limit: 2 to 100,000, free of collision]
   bool has_times = false;           ///< whether `keyframes[i].time_s` count; else they are derived
 
@@ -38,6 +42,7 @@ struct PlanRequest {
   double deadline_s = 0.0;            ///< for planning alone
   double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
   double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
+  double clearance_m = 0.0;  ///< how far the body has to stay from the scene [Limit: 0 <= value]
   std::int32_t max_inserted_keyframes = -1;  ///< negative: the daemon's default
 
   /// 0: the client picks a new one. Otherwise a number that this client id never used for another
@@ -45,10 +50,24 @@ struct PlanRequest {
   std::int64_t request_id = 0;
 };
 
-/// A stretch of a path in which the near quadrilateral collides with the scene.
+/// Where a collision was seen to be deepest.
+struct Witness {
+  double time_s = 0.0;
+  std::string object;         ///< of the scene; empty if it has no name
+  std::int32_t triangle = 0;  ///< of the scene, counted from 0
+  /// Part of the body: "edge 2", "corner 0", "inside" of a near quadrilateral, "surface" of a
+  /// sphere, "face 7" of other bodies.
+  std::string feature;
+  double depth_m = 0.0;             ///< about how far the body had to move to be free
+  std::array<double, 3> point_m{};  ///< of the scene, in the world frame
+};
+
+/// A stretch of a path in which the body collides with the scene, or comes nearer than the required
+/// clearance.
 struct CollisionInterval {
   double t_begin_s = 0.0;
   double t_end_s = 0.0;
+  std::optional<Witness> witness;
 };
 
 /// Wall-clock milliseconds that the daemon took.

@@ -42,6 +42,14 @@ struct Timing {
   double total_ms = 0.0;  ///< planning alone, scene loading apart
 };
 
+/// What the witness of a collision is called, for people.
+struct WitnessNames {
+  std::string object;   ///< of the scene; empty if it has no name
+  std::string feature;  ///< of the body, as `motion::Body::feature_name`
+
+  bool operator==(const WitnessNames&) const = default;
+};
+
 struct PlanResult {
   Status status = Status::kInternalError;
   std::string message;                  ///< one sentence for a person
@@ -50,6 +58,11 @@ struct PlanResult {
   std::vector<motion::Keyframe> keyframes;  ///< given and inserted ones, with their times
   std::vector<collision::CollisionInterval> collisions;            ///< before correction
   std::vector<collision::CollisionInterval> remaining_collisions;  ///< of `path`
+  /// Names for the witnesses of the two lists above, one for each interval, empty strings where it
+  /// has no witness; see `name_witnesses`. In a result that was read back from a file or the wire,
+  /// the name of a feature stands here alone, and its number is 0.
+  std::vector<WitnessNames> collision_names;
+  std::vector<WitnessNames> remaining_names;
   Certificate certificate;
   Timing timing;
 };

@@ -14,6 +14,8 @@ namespace {
 
 using motion::Keyframe;
 
+static_assert(motion::kMaxBodyCoordinate_m == kMaxCoordinate_m);
+
 InvalidRequest invalid(std::string field, std::string_view reason,
                        std::optional<std::size_t> keyframe = std::nullopt) {
   std::string message = fmt::format("{}: {}", field, reason);
@@ -39,6 +41,21 @@ std::optional<InvalidRequest> check_camera(const motion::Camera& camera) {
     return invalid("camera", "its near quadrilateral is larger than any scene");
   }
   return std::nullopt;
+}
+
+/// What moves: the camera's near quadrilateral, or the body in its place. Then the camera may be
+/// left out (all zero); if it is there, it has to be right.
+std::optional<InvalidRequest> check_body(const PlanRequest& request) {
+  const motion::Camera& camera = request.camera;
+  const bool has_camera =
+      camera.fov_x_rad != 0.0 || camera.fov_y_rad != 0.0 || camera.near_m != 0.0;
+  if (has_camera || !request.body) {
+    if (auto fault = check_camera(camera)) return fault;
+  }
+  if (!request.body) return std::nullopt;
+  const std::optional<motion::ShapeFault> fault = motion::fault_in(*request.body);
+  if (!fault) return std::nullopt;
+  return invalid(fault->field.empty() ? "body" : "body." + fault->field, fault->reason);
 }
 
 std::optional<InvalidRequest> check_pose(const Keyframe& keyframe, std::size_t index) {
@@ -103,6 +120,11 @@ std::optional<InvalidRequest> check_options(const PlanOptions& options) {
                             kLeastIntervalTolerance_m)) {
     return fault;
   }
+  if (auto fault = at_least("options.clearance", options.clearance_m, 0.0)) return fault;
+  if (options.clearance_m > kMaxCoordinate_m) {
+    return invalid("options.clearance", fmt::format("is {}; it must be at most {:g}",
+                                                    options.clearance_m, kMaxCoordinate_m));
+  }
   if (options.max_inserted_keyframes < 0) {
     return invalid("options.max_inserted_keyframes",
                    fmt::format("is {}; it must be at least 0", options.max_inserted_keyframes));
@@ -113,7 +135,7 @@ std::optional<InvalidRequest> check_options(const PlanOptions& options) {
 }  // namespace
 
 std::optional<InvalidRequest> validate(const PlanRequest& request) {
-  if (auto fault = check_camera(request.camera)) return fault;
+  if (auto fault = check_body(request)) return fault;
   const std::size_t count = request.keyframes.size();
   if (count < 2 || count > kMaxKeyframes) {
     return invalid("keyframes",

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/service/wire_body.h"
 #include "lcmtypes/wire_layout.h"
 
 namespace camway::service {
@@ -66,24 +67,56 @@ motion::Segment segment_of(const segment_t& wire) {
   return segment;
 }
 
+collision_interval_t wire_interval(const collision::CollisionInterval& interval,
+                                   const planning::WitnessNames& names) {
+  collision_interval_t wire{};
+  wire.t_begin_s = interval.t_begin_s;
+  wire.t_end_s = interval.t_end_s;
+  if (!interval.witness) return wire;
+  wire.has_witness = 1;
+  wire.witness_time_s = interval.witness->time_s;
+  wire.witness_object = clipped(names.object, wire::kMaxObjectNameBytes);
+  wire.witness_triangle = static_cast<std::int32_t>(interval.witness->triangle);
+  wire.witness_feature = clipped(names.feature, wire::kMaxFeatureBytes);
+  wire.witness_depth_m = interval.witness->depth_m;
+  put(interval.witness->point_W, wire.witness_point_m);
+  return wire;
+}
+
+/// `names` may be fewer: nobody named the witnesses then.
 std::vector<collision_interval_t> wire_intervals(
-    const std::vector<collision::CollisionInterval>& intervals) {
+    const std::vector<collision::CollisionInterval>& intervals,
+    const std::vector<planning::WitnessNames>& names) {
   std::vector<collision_interval_t> wire;
   wire.reserve(intervals.size());
-  for (const collision::CollisionInterval& interval : intervals) {
-    wire.push_back({interval.t_begin_s, interval.t_end_s});
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    wire.push_back(
+        wire_interval(intervals[i], i < names.size() ? names[i] : planning::WitnessNames{}));
   }
   return wire;
 }
 
-std::vector<collision::CollisionInterval> intervals_of(
-    const std::vector<collision_interval_t>& wire) {
-  std::vector<collision::CollisionInterval> intervals;
-  intervals.reserve(wire.size());
+collision::CollisionInterval interval_of(const collision_interval_t& wire) {
+  collision::CollisionInterval interval{wire.t_begin_s, wire.t_end_s};
+  if (wire.has_witness == 0) return interval;
+  collision::Witness& witness = interval.witness.emplace();
+  witness.time_s = wire.witness_time_s;
+  witness.triangle = static_cast<std::uint32_t>(wire.witness_triangle);
+  witness.depth_m = wire.witness_depth_m;
+  witness.point_W = vec3(wire.witness_point_m);
+  return interval;
+}
+
+void read_intervals(const std::vector<collision_interval_t>& wire,
+                    std::vector<collision::CollisionInterval>& intervals,
+                    std::vector<planning::WitnessNames>& names) {
   for (const collision_interval_t& interval : wire) {
-    intervals.push_back({interval.t_begin_s, interval.t_end_s});
+    intervals.push_back(interval_of(interval));
+    const bool has_names = interval.has_witness != 0;
+    names.push_back(has_names
+                        ? planning::WitnessNames{interval.witness_object, interval.witness_feature}
+                        : planning::WitnessNames{});
   }
-  return intervals;
 }
 
 std::int32_t wire_status(Status status) {
@@ -163,6 +196,9 @@ ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& lim
   planning::PlanRequest request;
   request.scene = wire.scene;
   request.camera = {wire.camera.fov_x_rad, wire.camera.fov_y_rad, wire.camera.near_m};
+  ConvertedBody body = body_of(wire.body);
+  if (!body.error.empty()) return {std::nullopt, std::move(body.error)};
+  request.body = std::move(body.shape);
   if (!wire.method.empty()) {
     const std::optional<planning::Method> method = planning::method_from_string(wire.method);
     if (!method) return {std::nullopt, "method: '" + wire.method + "' is unknown"};
@@ -173,6 +209,7 @@ ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& lim
   options.chord_error_m = or_default(wire.chord_error_m, options.chord_error_m);
   options.interval_tolerance_m =
       or_default(wire.interval_tolerance_m, options.interval_tolerance_m);
+  options.clearance_m = wire.clearance_m;
   if (wire.max_inserted_keyframes >= 0) {
     options.max_inserted_keyframes = wire.max_inserted_keyframes;
   }
@@ -192,13 +229,19 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   wire.utime = ids.utime;
   wire.num_pages = 1;
   wire.scene = request.scene;
-  wire.camera.fov_x_rad = request.camera.fov_x_rad;
-  wire.camera.fov_y_rad = request.camera.fov_y_rad;
-  wire.camera.near_m = request.camera.near_m;
+  // A body that is a near quadrilateral of its own goes as the camera: there is no other on the
+  // wire.
+  const auto* camera = request.body ? std::get_if<motion::Camera>(&*request.body) : nullptr;
+  if (camera == nullptr) camera = &request.camera;
+  wire.camera.fov_x_rad = camera->fov_x_rad;
+  wire.camera.fov_y_rad = camera->fov_y_rad;
+  wire.camera.near_m = camera->near_m;
+  if (request.body) wire.body = wire_body(*request.body);
   wire.method = planning::to_string(request.options.method);
   wire.deadline_s = request.options.deadline_s;
   wire.chord_error_m = request.options.chord_error_m;
   wire.interval_tolerance_m = request.options.interval_tolerance_m;
+  wire.clearance_m = request.options.clearance_m;
   wire.max_inserted_keyframes = request.options.max_inserted_keyframes;
   wire.has_times = request.has_times ? 1 : 0;
   wire.keyframes.reserve(request.keyframes.size());
@@ -227,8 +270,8 @@ ConvertedResult from_wire(const plan_response_t& wire) {
   for (const keyframe_t& keyframe : wire.keyframes) {
     result.keyframes.push_back(keyframe_of(keyframe));
   }
-  result.collisions = intervals_of(wire.collisions);
-  result.remaining_collisions = intervals_of(wire.remaining);
+  read_intervals(wire.collisions, result.collisions, result.collision_names);
+  read_intervals(wire.remaining, result.remaining_collisions, result.remaining_names);
   result.certificate = {wire.certified != 0, wire.clearance_lower_bound_m};
   result.timing.motion_ms = wire.motion_ms;
   result.timing.detect_ms = wire.detect_ms;
@@ -254,8 +297,8 @@ plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& 
   for (const motion::Keyframe& keyframe : result.keyframes) {
     wire.keyframes.push_back(wire_keyframe(keyframe));
   }
-  wire.collisions = wire_intervals(result.collisions);
-  wire.remaining = wire_intervals(result.remaining_collisions);
+  wire.collisions = wire_intervals(result.collisions, result.collision_names);
+  wire.remaining = wire_intervals(result.remaining_collisions, result.remaining_names);
   wire.num_segments = count(wire.segments);
   wire.num_keyframes = count(wire.keyframes);
   wire.num_collisions = count(wire.collisions);

@@ -49,7 +49,8 @@ struct ConvertedResult {
   std::string error;
 };
 
-/// `wire` holds the lists of all pages. What it does not carry (`Timing::load_scene_ms`) stays 0.
+/// `wire` holds the lists of all pages. What it does not carry (`Timing::load_scene_ms`, the number
+/// of a witness's feature beside its name) stays 0.
 ConvertedResult from_wire(const plan_response_t& wire);
 
 /// What an answer says beside the result.

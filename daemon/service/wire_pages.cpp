@@ -37,11 +37,8 @@ void for_each_list(const Visit& visit) {
              Lists<Message>::kMembers);
 }
 
-/// Bytes of a list's element on the wire; all of ours are of constant size.
-template <class Element>
-std::size_t element_bytes(const std::vector<Element>&) {
-  return static_cast<std::size_t>(Element{}._getEncodedSizeNoHash());
-}
+void clear_body(plan_request_t& request) { request.body = body_t{}; }
+void clear_body(plan_response_t&) {}
 
 template <class Message>
 Message without_lists(Message message) {
@@ -50,6 +47,20 @@ Message without_lists(Message message) {
     message.*count = 0;
   });
   return message;
+}
+
+/// What all pages of a message have in common.
+template <class Message>
+Message blank_page(const Message& message) {
+  Message blank = without_lists(message);
+  clear_body(blank);
+  return blank;
+}
+
+template <class Message>
+std::size_t room_on(const Message& page) {
+  const auto size = static_cast<std::size_t>(page.getEncodedSize());
+  return size < wire::kMaxMessageBytes ? wire::kMaxMessageBytes - size : 0;
 }
 
 template <class Message>
@@ -63,26 +74,19 @@ void append_lists(Message& whole, const Message& page) {
 /// Fills page after page, each list from where it stopped on the page before.
 template <class Message>
 std::vector<Message> split(const Message& whole) {
-  const Message blank = without_lists(whole);
-  const std::size_t room =
-      wire::kMaxMessageBytes - static_cast<std::size_t>(blank.getEncodedSize());
-  std::vector<Message> pages{blank};
-  std::size_t left = room;
+  const Message blank = blank_page(whole);
+  std::vector<Message> pages{without_lists(whole)};
+  std::size_t left = room_on(pages.back());
   for_each_list<Message>([&](auto list, auto count) {
-    const auto& source = whole.*list;
-    const std::size_t size = element_bytes(source);
-    for (auto next = source.begin(); next != source.end();) {
+    for (const auto& element : whole.*list) {
+      const auto size = static_cast<std::size_t>(element._getEncodedSizeNoHash());
       if (left < size) {
         pages.push_back(blank);
-        left = room;
+        left = room_on(blank);
       }
-      const auto rest = static_cast<std::size_t>(std::distance(next, source.end()));
-      const std::size_t fit = std::min(left / size, rest);
-      const auto end = std::next(next, static_cast<std::ptrdiff_t>(fit));
-      (pages.back().*list).assign(next, end);
-      pages.back().*count = static_cast<std::int32_t>(fit);
-      left -= fit * size;
-      next = end;
+      (pages.back().*list).push_back(element);
+      ++(pages.back().*count);
+      left -= size;
     }
   });
   return pages;
@@ -103,7 +107,7 @@ std::vector<Bytes> encode_pages_of(const Message& whole) {
 
 template <class Message>
 Bytes header_of(const Message& page) {
-  Message header = without_lists(page);
+  Message header = blank_page(page);
   header.page = 0;
   header.utime = 0;
   return wire::encode(header);

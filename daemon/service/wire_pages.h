@@ -17,8 +17,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Encodes `whole` as messages of at most `wire::kMaxMessageBytes`: as many list elements on each
 /// page as fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The
-/// same message gives the same bytes.
-/// Precondition: its counts agree with its lists.
+/// same message gives the same bytes. A request's body goes on page 0.
+/// Precondition: its counts agree with its lists; a body is within the limits of `wire_layout.h`.
 std::vector<Bytes> encode_pages(const plan_request_t& whole);
 std::vector<Bytes> encode_pages(const plan_response_t& whole);
 
@@ -44,8 +44,8 @@ class PageAssembly {
     std::string error;
   };
 
-  /// A page that disagrees with those before in anything but page, utime and lists begins the
-  /// message anew: its sender did.
+  /// A page that disagrees with those before in anything but page, utime, body and lists begins the
+  /// message anew: its sender did. The body is that of page 0.
   Outcome add(Message page);
 
   [[nodiscard]] std::size_t half_received() const { return partial_.size(); }

@@ -78,6 +78,55 @@ TEST(PlanPages, LongestTextsStillFit) {
   }
 }
 
+TEST(PlanPages, TheLargestBodyGoesOnPageZero) {
+  PlanRequest request = request_with(100'000);
+  std::vector<std::vector<Body::Point>> pieces;
+  for (std::size_t i = 0; i < wire::kMaxBodyPoints; ++i) pieces.push_back({{double(i), 1, 2}});
+  request.body = Body::convex(pieces);
+  request.clearance_m = 0.125;
+  ASSERT_EQ(fault_in_form(request), std::nullopt);
+  const std::vector<Bytes> pages = to_pages(request, "me", 7);
+  EXPECT_LE(pages.size(), std::size_t(wire::kMaxRequestPages));
+  std::size_t keyframes = 0;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    ASSERT_LE(pages[i].size(), wire::kMaxMessageBytes);
+    const auto page = wire::decode<plan_request_t>(pages[i]).message;
+    ASSERT_TRUE(page);
+    EXPECT_EQ(page->clearance_m, 0.125);
+    EXPECT_EQ(page->body.points_m.size(), i == 0 ? pieces.size() : 0);
+    if (i == 0) {
+      EXPECT_EQ(page->body.points_m[300][0], 300.0);
+    }
+    keyframes += page->keyframes.size();
+  }
+  EXPECT_EQ(keyframes, 100'000u);
+}
+
+TEST(PlanPages, EveryBodyHasItsForm) {
+  const auto sent = [](const Body& body) {
+    PlanRequest request = request_with(2);
+    request.body = body;
+    const auto page = wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+    return page ? page->body : body_t{};
+  };
+  EXPECT_EQ(sent({}).type, body_t::CAMERA);
+  const body_t box = sent(Body::box({1, 2, 3}, {4, 5, 6}));
+  EXPECT_EQ(box.type, body_t::BOX);
+  EXPECT_EQ(box.size_m[1], 2.0);
+  EXPECT_EQ(box.center_m[2], 6.0);
+  const body_t ball = sent(Body::sphere(0.5));
+  EXPECT_EQ(ball.type, body_t::SPHERE);
+  EXPECT_EQ(ball.radius_m, 0.5);
+  const body_t hulls = sent(Body::convex({{{1, 2, 3}}, {{4, 5, 6}, {7, 8, 9}}}));
+  EXPECT_EQ(hulls.type, body_t::CONVEX);
+  EXPECT_EQ(hulls.piece_sizes, (std::vector<std::int32_t>{1, 2}));
+  EXPECT_EQ(hulls.points_m[1], (std::vector<double>{4, 5, 6}));
+  const body_t mesh = sent(Body::mesh({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, {{2, 1, 0}}));
+  EXPECT_EQ(mesh.type, body_t::MESH);
+  EXPECT_EQ(mesh.num_points, 3);
+  EXPECT_EQ(mesh.triangles[0], (std::vector<std::int32_t>{2, 1, 0}));
+}
+
 TEST(PlanPages, WhatHasNoFormIsNamed) {
   PlanRequest request = request_with(2);
   request.scene = std::string(200, 's');
@@ -88,6 +137,15 @@ TEST(PlanPages, WhatHasNoFormIsNamed) {
   request.method = std::string(65, 'm');
   EXPECT_THAT(*fault_in_form(request), HasSubstr("method: 65 bytes"));
   EXPECT_THAT(*fault_in_form(request_with(100'001)), HasSubstr("keyframes: there are 100001"));
+  request = request_with(2);
+  request.body = Body::mesh(std::vector<Body::Point>(513), {});
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("body.vertices_m: there are 513, at most 512"));
+  request.body = Body::mesh({}, std::vector<std::array<std::int32_t, 3>>(1025));
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("body.triangles: there are 1025, at most 1024"));
+  request.body = Body::convex({std::vector<Body::Point>(300), std::vector<Body::Point>(300)});
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("body.pieces_m: there are 600"));
+  request.body = Body::convex(std::vector<std::vector<Body::Point>>(513));
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("body.pieces_m: there are 513"));
 }
 
 TEST(PlanCollector, PutsPagesTogetherInAnyOrderWithRepetitions) {
@@ -108,6 +166,34 @@ TEST(PlanCollector, PutsPagesTogetherInAnyOrderWithRepetitions) {
     EXPECT_EQ(response.message, "all is well");
     EXPECT_EQ(response.scene_revision, 3);
   }
+}
+
+TEST(PlanCollector, ReadsWitnesses) {
+  plan_response_t page = answer_pages(wire_request(), 1, 1)[0];
+  page.collisions.resize(2);
+  page.num_collisions = 2;
+  page.collisions[0].t_end_s = 0.25;
+  page.collisions[1].has_witness = 1;
+  page.collisions[1].witness_time_s = 0.5;
+  page.collisions[1].witness_object = "table";
+  page.collisions[1].witness_triangle = 12;
+  page.collisions[1].witness_feature = "edge 2";
+  page.collisions[1].witness_depth_m = 0.125;
+  page.collisions[1].witness_point_m[2] = 3.0;
+  PlanCollector collector("me", 7);
+  ASSERT_EQ(collector.take(wire::encode(page)), PlanCollector::Taken::kNew);
+  const PlanResponse response = collector.response();
+  ASSERT_EQ(response.collisions.size(), 2u);
+  EXPECT_EQ(response.collisions[0].t_end_s, 0.25);
+  EXPECT_FALSE(response.collisions[0].witness);
+  ASSERT_TRUE(response.collisions[1].witness);
+  const Witness& witness = *response.collisions[1].witness;
+  EXPECT_EQ(witness.time_s, 0.5);
+  EXPECT_EQ(witness.object, "table");
+  EXPECT_EQ(witness.triangle, 12);
+  EXPECT_EQ(witness.feature, "edge 2");
+  EXPECT_EQ(witness.depth_m, 0.125);
+  EXPECT_EQ(witness.point_m, (std::array<double, 3>{0, 0, 3}));
 }
 
 TEST(PlanCollector, IsNotCompleteWhileAPageIsMissing) {

@@ -63,6 +63,41 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
        {},
        [](PlanRequest& r) { r.options.interval_tolerance_m = -1.0; }},
       {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = 1e-9; }},
+      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = -0.01; }},
+      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = kNaN; }},
+      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = 2e9; }},
+      {"body.size[1]",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::BoxShape{{}, {1.0, 0.0, 1.0}};
+       }},
+      {"body.center",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{{0, kNaN, 0}, 1.0};
+       }},
+      {"body.radius",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{{}, kInfinity};
+       }},
+      {"body.points[0]",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::ConvexShape{{{{0, 2e9, 0}}}};
+       }},
+      {"body.triangles[0][1]",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::MeshShape{{{0, 0, 0}}, {{0, 1, 0}}};
+       }},
+      {"body", {}, [](PlanRequest& r) { r.body = motion::Camera{}; }},
+      {"camera.near",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{{}, 1.0};
+         r.camera.near_m = -1.0;
+       }},
       {"options.max_inserted_keyframes",
        {},
        [](PlanRequest& r) { r.options.max_inserted_keyframes = -1; }},
@@ -83,6 +118,25 @@ TEST(Validate, TimesDoNotMatterWhereNoneWereGiven) {
   for (motion::Keyframe& keyframe : request.keyframes) keyframe.time_s = kNaN;
   request.has_times = false;
   EXPECT_FALSE(validate(request));
+}
+
+TEST(Validate, ABodyNeedsNoCamera) {
+  PlanRequest request = good_request();
+  request.camera = {};
+  const std::optional<InvalidRequest> found = validate(request);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->field, "camera.fov_x");
+  request.body = motion::SphereShape{{}, 1.0};
+  EXPECT_FALSE(validate(request));
+  request.camera = testing::small_camera();
+  EXPECT_FALSE(validate(request));
+}
+
+TEST(Validate, SaysWhatABodyMustBe) {
+  PlanRequest request = good_request();
+  request.body = motion::BoxShape{{}, {1.0, -1.0, 1.0}};
+  EXPECT_EQ(validate(request)->message,
+            "body.size[1]: is -1 m; it must be above 0 and at most 1e+09");
 }
 
 TEST(Validate, AQuaternionNeedNotBeOfUnitLength) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/service/wire_body.h"
 #include "daemon/service/wire_convert.h"
 #include "tests/service/plan_samples.h"
 
@@ -97,6 +98,15 @@ TEST(RequestDigest, IsOfContentAlone) {
   changed = request;
   changed.deadline_s += 1.0;
   EXPECT_NE(digest_of(request), digest_of(changed));
+  changed = request;
+  changed.clearance_m += 0.25;
+  EXPECT_NE(digest_of(request), digest_of(changed));
+  changed = request;
+  changed.body = wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
+  const RequestDigest with_ball = digest_of(changed);
+  EXPECT_NE(digest_of(request), with_ball);
+  changed.body.radius_m = 0.25;
+  EXPECT_NE(with_ball, digest_of(changed));
 }
 
 }  // namespace

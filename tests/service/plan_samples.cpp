@@ -30,6 +30,15 @@ motion::Segment segment(double t0_s, double t1_s, Random& random) {
   return segment;
 }
 
+geometry::Vec3 point(Random& random) { return {number(random), number(random), number(random)}; }
+
+collision::Witness witness(double time_s, Random& random) {
+  return {.time_s = time_s,
+          .triangle = static_cast<std::uint32_t>(below(random, 100'000)),
+          .depth_m = number(random),
+          .point_W = point(random)};
+}
+
 }  // namespace
 
 planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
@@ -40,11 +49,32 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   request.options.deadline_s = 3.25;
   request.options.chord_error_m = 0.0078125;
   request.options.interval_tolerance_m = 1e-5;
+  request.options.clearance_m = 0.0625;
   request.options.max_inserted_keyframes = 17;
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
   }
   return request;
+}
+
+std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random) {
+  const auto points = [&](std::size_t count) {
+    std::vector<geometry::Vec3> list(count);
+    for (geometry::Vec3& p : list) p = point(random);
+    return list;
+  };
+  return {std::nullopt, motion::BoxShape{point(random), point(random).cwiseAbs()},
+          motion::SphereShape{point(random), 0.25},
+          motion::ConvexShape{{points(4), points(1), points(7)}},
+          motion::MeshShape{points(4), {{0, 1, 2}, {0, 2, 3}}}};
+}
+
+motion::BodyShape largest_body(Random& random) {
+  motion::ConvexShape convex;
+  for (std::size_t i = 0; i < motion::kMaxBodyPoints; ++i) {
+    convex.pieces_C.push_back({point(random)});
+  }
+  return convex;
 }
 
 planning::PlanResult sample_result(std::size_t segments, Random& random) {
@@ -61,9 +91,14 @@ planning::PlanResult sample_result(std::size_t segments, Random& random) {
       result.keyframes.back().origin = origin;
     }
     result.collisions.push_back({t0_s, t0_s + 0.01});
+    result.collision_names.emplace_back();
+    if (below(random, 3) == 0) continue;
+    result.collisions.back().witness = witness(t0_s, random);
+    result.collision_names.back() = {"object " + std::string(below(random, 20), 'x'), "edge 2"};
   }
   if (!path.empty()) result.path = motion::Path(std::move(path));
-  result.remaining_collisions = {{0.125, 0.25}, {0.5, 0.5}};
+  result.remaining_collisions = {{0.125, 0.25}, {0.5, 0.5, witness(0.5, random)}};
+  result.remaining_names = {{"", ""}, {"chair", "corner 0"}};
   result.certificate = {true, 0.0123};
   result.timing = {0.0, 1.5, 2.5, 3.5, 4.5, 12.0};
   return result;

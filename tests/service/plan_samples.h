@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
@@ -16,6 +18,12 @@ namespace camway::testing {
 
 /// Finite numbers, `keyframes` of them, times increasing.
 planning::PlanRequest sample_request(std::size_t keyframes, Random& random);
+
+/// One of each kind of body, the camera's own quadrilateral (nothing) included.
+std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random);
+
+/// The largest body that a request may hold: `kMaxBodyPoints` points in as many pieces.
+motion::BodyShape largest_body(Random& random);
 
 /// A result as planning might return it, with a path of `segments` segments and twice as many
 /// keyframes, half of them inserted.

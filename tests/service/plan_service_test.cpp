@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "daemon/service/wire_body.h"
 #include "daemon/service/wire_convert.h"
 #include "tests/service/plan_samples.h"
 #include "tests/service/running_service.h"
@@ -249,6 +250,56 @@ TEST(PlanService, AnswersDoNotDependOnTheNumberOfWorkers) {
     return all;
   };
   EXPECT_EQ(answers(1), answers(4));
+}
+
+TEST(PlanService, BodyAndClearanceReachThePlannerAndWitnessesTheClient) {
+  const auto result_of = [](const planning::PlanRequest& request) {
+    planning::PlanResult result = echo_result(request);
+    result.status = planning::Status::kPartial;
+    const auto* box = request.body ? std::get_if<motion::BoxShape>(&*request.body) : nullptr;
+    const double depth_m = (box ? box->size_m.x() : 0.0) + request.options.clearance_m;
+    result.collisions = {{0.5, 1.5, collision::Witness{1.0, 12, 3, depth_m, {1, 2, 3}}}};
+    result.collision_names = {{"table", "face 3"}};
+    return result;
+  };
+  RunningService daemon({}, result_of);
+  plan_request_t request = request_with(1, 2000);
+  request.body = wire_body(motion::BoxShape{{0, 0, 0}, {4, 1, 1}});
+  request.clearance_m = 0.25;
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->collisions.size(), 1U);
+  const collision_interval_t& interval = answer->collisions[0];
+  EXPECT_EQ(interval.has_witness, 1);
+  EXPECT_EQ(interval.witness_depth_m, 4.25);
+  EXPECT_EQ(interval.witness_object, "table");
+  EXPECT_EQ(interval.witness_triangle, 12);
+  EXPECT_EQ(interval.witness_feature, "face 3");
+  EXPECT_EQ(interval.witness_point_m[2], 3.0);
+}
+
+TEST(PlanService, AnotherBodyUnderTheSameIdIsAnotherRequest) {
+  RunningService daemon;
+  plan_request_t request = request_with(1);
+  daemon.send(request);
+  ASSERT_TRUE(daemon.answer_to(request));
+  request.body = wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request, 1);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
+}
+
+TEST(PlanService, ABodyThatCannotBeIsInvalidByName) {
+  RunningService daemon;
+  plan_request_t request = request_with(1);
+  request.body.type = 77;
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
+  EXPECT_EQ(answer->message, "body.type: 77 is unknown");
 }
 
 }  // namespace

@@ -68,6 +68,13 @@ collision_interval_t interval(Random& random) {
   collision_interval_t interval{};
   interval.t_begin_s = number(random);
   interval.t_end_s = number(random);
+  interval.has_witness = static_cast<std::int8_t>(random());
+  interval.witness_time_s = number(random);
+  interval.witness_object = text(random, wire::kMaxObjectNameBytes);
+  interval.witness_triangle = small(random);
+  interval.witness_feature = text(random, wire::kMaxFeatureBytes);
+  interval.witness_depth_m = number(random);
+  fill(interval.witness_point_m, random);
   return interval;
 }
 
@@ -83,6 +90,24 @@ std::int32_t fill_rows(std::vector<std::vector<double>>& rows, std::size_t width
     std::generate(row.begin(), row.end(), [&] { return number(random); });
     return row;
   });
+}
+
+body_t body(Random& random) {
+  body_t body{};
+  body.type = static_cast<std::int8_t>(below(random, 7));
+  fill(body.center_m, random);
+  fill(body.size_m, random);
+  body.radius_m = number(random);
+  body.num_points = fill_rows(body.points_m, 3, random);
+  // Half of them such that the pieces are those of the points.
+  const bool fits = below(random, 2) == 0;
+  body.num_pieces = fill_list(body.piece_sizes, fits ? 1 : length(random, 20),
+                              [&] { return fits ? body.num_points : small(random); });
+  body.num_triangles = fill_list(body.triangles, length(random, 50), [&] {
+    const auto index = [&] { return static_cast<std::int32_t>(below(random, 300)) - 1; };
+    return std::vector<std::int32_t>{index(), index(), index()};
+  });
+  return body;
 }
 
 }  // namespace
@@ -101,14 +126,16 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.camera.fov_x_rad = number(random);
   message.camera.fov_y_rad = number(random);
   message.camera.near_m = number(random);
+  message.body = body(random);
   message.method = text(random, wire::kMaxMethodBytes);
   message.deadline_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);
+  message.clearance_m = number(random);
   message.max_inserted_keyframes = small(random);
   message.has_times = static_cast<std::int8_t>(random());
   message.num_keyframes =
-      fill_list(message.keyframes, length(random, 900), [&] { return keyframe(random); });
+      fill_list(message.keyframes, length(random, 700), [&] { return keyframe(random); });
   return message;
 }
 
@@ -136,9 +163,9 @@ plan_response_t random_message<plan_response_t>(Random& random) {
   message.num_keyframes =
       fill_list(message.keyframes, length(random, 100), [&] { return keyframe(random); });
   message.num_collisions =
-      fill_list(message.collisions, length(random, 400), [&] { return interval(random); });
+      fill_list(message.collisions, length(random, 100), [&] { return interval(random); });
   message.num_remaining =
-      fill_list(message.remaining, length(random, 400), [&] { return interval(random); });
+      fill_list(message.remaining, length(random, 100), [&] { return interval(random); });
   return message;
 }
 

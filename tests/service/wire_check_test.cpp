@@ -22,8 +22,8 @@ using wire::layout_of;
 using Bytes = std::vector<std::uint8_t>;
 
 /// What a decoded message may take for each byte of its encoding. The dearest is a row of three
-/// doubles, 24 bytes on the wire: the row's vector (24), the doubles (24).
-constexpr std::size_t kDecodedPerByte = 2;
+/// indices, 12 bytes on the wire: the row's vector (24), the indices (12).
+constexpr std::size_t kDecodedPerByte = 3;
 constexpr std::size_t kDecodedConstant = 256;
 
 template <class Message>
@@ -165,7 +165,7 @@ TEST(WireCheckFaults, NamesTheFieldAtFault) {
       {"inner NUL", inner_nul, "client_id", "holds a NUL before its end"},
       {"other type", other_type, "fingerprint", "other type or other version"},
       {"trailing byte", trailing, "", "1 bytes follow"},
-      {"nothing", {}, "fingerprint", "needs 8 bytes, only 0 are left"},
+      {"nothing", {}, "message", "needs 8 bytes, only 0 are left"},
       {"too long", Bytes(wire::kMaxMessageBytes + 1), "", "60001 bytes are more"},
   };
   ASSERT_FALSE(check(layout_of<occupancy_request_t>(), good));

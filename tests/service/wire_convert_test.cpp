@@ -40,6 +40,93 @@ TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
   }
 }
 
+TEST(WireConvert, EveryBodySurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  std::vector<std::optional<motion::BodyShape>> bodies = testing::sample_bodies(random);
+  bodies.emplace_back(testing::largest_body(random));
+  for (const auto& body : bodies) {
+    SCOPED_TRACE(body ? body->index() : 99);
+    planning::PlanRequest request = sample_request(2, random);
+    request.body = body;
+    const plan_request_t wire = to_wire(request, kIds);
+    ASSERT_FALSE(wire::check(wire::layout_of<plan_request_t>(), wire::encode(wire)));
+    const ConvertedRequest back = from_wire(wire);
+    ASSERT_TRUE(back.request) << back.error;
+    ASSERT_EQ(back.request->body.has_value(), body.has_value());
+    if (body) {
+      EXPECT_EQ(back.request->body->index(), body->index());
+    }
+    EXPECT_EQ(back.request->options.clearance_m, 0.0625);
+    EXPECT_EQ(wire::encode(to_wire(*back.request, kIds)), wire::encode(wire));
+  }
+}
+
+TEST(WireConvert, ABodyHasItsNumbersWhereTheTypeSaysTheyAre) {
+  planning::PlanRequest request;
+  request.body = motion::BoxShape{{1, 2, 3}, {4, 5, 6}};
+  plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.body.type, body_t::BOX);
+  EXPECT_EQ(wire.body.center_m[1], 2.0);
+  EXPECT_EQ(wire.body.size_m[2], 6.0);
+  request.body = motion::ConvexShape{{{{1, 2, 3}}, {{4, 5, 6}, {7, 8, 9}}}};
+  wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.body.piece_sizes, (std::vector<std::int32_t>{1, 2}));
+  EXPECT_EQ(wire.body.points_m[2], (std::vector<double>{7, 8, 9}));
+  const ConvertedRequest convex = from_wire(wire);
+  EXPECT_EQ(std::get<motion::ConvexShape>(*convex.request->body).pieces_C[1][0],
+            geometry::Vec3(4, 5, 6));
+  request.body = motion::MeshShape{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, {{2, 0, 1}}};
+  wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.body.triangles[0], (std::vector<std::int32_t>{2, 0, 1}));
+  request.body = motion::Camera{1.0, 0.5, 0.25};
+  wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.camera.near_m, 0.25) << "goes as the camera";
+  EXPECT_FALSE(from_wire(wire).request->body);
+}
+
+TEST(WireConvert, BodiesThatCannotBeAreErrorsThatNameTheField) {
+  const auto error_of = [](const auto& edit) {
+    plan_request_t wire = minimal_request();
+    wire.body.type = body_t::CONVEX;
+    wire.body.points_m = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    wire.body.piece_sizes = {1, 2};
+    edit(wire.body);
+    return from_wire(wire).error;
+  };
+  EXPECT_EQ(error_of([](body_t&) {}), "");
+  EXPECT_EQ(error_of([](body_t& b) { b.type = 9; }), "body.type: 9 is unknown");
+  EXPECT_EQ(error_of([](body_t& b) { b.type = -1; }), "body.type: -1 is unknown");
+  EXPECT_EQ(error_of([](body_t& b) { b.piece_sizes = {1}; }),
+            "body.piece_sizes: 2 points belong to no piece");
+  EXPECT_EQ(error_of([](body_t& b) {
+              b.piece_sizes = {1, 3};
+            }),
+            "body.piece_sizes[1]: is 3, and 2 points are left");
+  EXPECT_EQ(error_of([](body_t& b) {
+              b.piece_sizes = {4, -1};
+            }),
+            "body.piece_sizes[0]: is 4, and 3 points are left");
+  EXPECT_EQ(error_of([](body_t& b) {
+              b.piece_sizes = {3, -1};
+            }),
+            "body.piece_sizes[1]: is -1, and 0 points are left");
+  const auto mesh = [](body_t& b) {
+    b.type = body_t::MESH;
+    b.triangles = {{0, 1, 2}, {0, -2, 1}};
+  };
+  EXPECT_EQ(error_of(mesh), "body.triangles[1][1]: is -2, which is below 0");
+}
+
+TEST(WireConvert, NamesOfWitnessesAreCutToTheirLimits) {
+  planning::PlanResult result;
+  result.collisions = {{0.0, 1.0, collision::Witness{}}};
+  EXPECT_EQ(to_wire(result, {kIds, "", 0, ""}).collisions[0].witness_object, "") << "not named";
+  result.collision_names = {{std::string(5000, 'o'), std::string(5000, 'f')}};
+  const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+  EXPECT_EQ(wire.collisions[0].witness_object.size(), wire::kMaxObjectNameBytes);
+  EXPECT_FALSE(wire::check(wire::layout_of<plan_response_t>(), wire::encode(wire)));
+}
+
 TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
   Random random(kSeed);
   const AnswerHeader header{kIds, "room", 7, "abc"};
@@ -52,7 +139,10 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     EXPECT_EQ(back.result->status, result.status);
     EXPECT_EQ(back.result->message, result.message);
     EXPECT_EQ(back.result->path.segments().size(), segments);
+    EXPECT_EQ(back.result->collisions, result.collisions);
+    EXPECT_EQ(back.result->collision_names, result.collision_names);
     EXPECT_EQ(back.result->remaining_collisions, result.remaining_collisions);
+    EXPECT_EQ(back.result->remaining_names, result.remaining_names);
     EXPECT_FALSE(back.result->keyframe);
   }
 }

@@ -77,11 +77,51 @@ TEST(WirePages, RequestsComeInPagesToo) {
   }
 }
 
+TEST(WirePages, TheBodyGoesOnPageZero) {
+  Random random(kSeed);
+  planning::PlanRequest request = sample_request(5000, random);
+  request.body = testing::largest_body(random);
+  const plan_request_t whole = to_wire(request, {"tester", 5, 0});
+  std::vector<Bytes> pages = encode_pages(whole);
+  ASSERT_GT(pages.size(), 5U);
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    ASSERT_LE(pages[i].size(), wire::kMaxMessageBytes);
+    const auto page = decoded<plan_request_t>(pages[i]);
+    EXPECT_EQ(page.body.points_m.size(), i == 0 ? motion::kMaxBodyPoints : 0);
+    EXPECT_EQ(page.body.type, i == 0 ? body_t::CONVEX : body_t::CAMERA);
+  }
+  std::shuffle(pages.begin(), pages.end(), random);
+  const std::optional<plan_request_t> back = joined<plan_request_t>(pages);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(wire::encode(*back), wire::encode(whole));
+}
+
+TEST(WirePages, ABodyOnALaterPageDoesNotCount) {
+  Random random(kSeed);
+  planning::PlanRequest request = sample_request(1800, random);
+  request.body = motion::SphereShape{{1, 2, 3}, 0.5};
+  const plan_request_t whole = to_wire(request, {"tester", 5, 0});
+  std::vector<Bytes> pages = encode_pages(whole);
+  ASSERT_EQ(pages.size(), 2U);
+  auto later = decoded<plan_request_t>(pages[1]);
+  later.body = whole.body;
+  later.body.radius_m = 7.0;
+  pages[1] = wire::encode(later);
+  std::swap(pages[0], pages[1]);
+  const std::optional<plan_request_t> back = joined<plan_request_t>(pages);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(wire::encode(*back), wire::encode(whole));
+}
+
 TEST(WirePages, TheLargestRequestFitsThePagesAllowed) {
   plan_request_t whole{};
   whole.client_id = std::string(32, 'c');
   whole.scene = std::string(wire::kMaxSceneNameBytes, 's');
   whole.method = std::string(wire::kMaxMethodBytes, 'm');
+  Random random(kSeed);
+  planning::PlanRequest request;
+  request.body = testing::largest_body(random);
+  whole.body = to_wire(request, {}).body;
   whole.keyframes.resize(planning::kMaxKeyframes);
   whole.num_keyframes = static_cast<std::int32_t>(whole.keyframes.size());
   EXPECT_LE(encode_pages(whole).size(), static_cast<std::size_t>(wire::kMaxRequestPages));

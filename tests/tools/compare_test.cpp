@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "daemon/motion/interpolate.h"
 
@@ -12,6 +13,8 @@ namespace camway::tools {
 namespace {
 
 constexpr motion::Camera kCamera{1.2, 0.9, 0.1};
+
+motion::Body body() { return motion::Body(kCamera); }
 
 planning::PlanResult result_through(const std::vector<motion::Keyframe>& keyframes) {
   planning::PlanResult result;
@@ -35,7 +38,7 @@ TEST(Compare, FindsNothingBetweenEqualBits) {
   planning::PlanResult other = result;
   other.message = "in other words";
   other.timing.total_ms = 5;
-  const Difference difference = compare(result, other, kCamera);
+  const Difference difference = compare(result, other, body());
   EXPECT_EQ(difference.path_m, 0.0);
   EXPECT_EQ(difference.what, "");
 }
@@ -44,7 +47,7 @@ TEST(Compare, MeasuresAShiftedPath) {
   const planning::PlanResult a = result_through(three_keyframes());
   std::vector<motion::Keyframe> shifted = three_keyframes();
   for (motion::Keyframe& keyframe : shifted) keyframe.pose.position.z() += 0.25;
-  const Difference difference = compare(a, result_through(shifted), kCamera);
+  const Difference difference = compare(a, result_through(shifted), body());
   // Interpolation is affine: the whole path moves by as much, up to rounding at metre scale.
   EXPECT_NEAR(difference.path_m, 0.25, 1e-14);
   EXPECT_EQ(difference.what, "keyframes");
@@ -61,7 +64,7 @@ TEST(Compare, MeasuresATurnByTheCorners) {
   // quadrilateral.
   const motion::Corners corners = motion::near_corners_C(kCamera);
   const double expected_m = 2 * corners[0].head<2>().norm() * std::sin(angle_rad / 2);
-  EXPECT_NEAR(compare(a, result_through(turned), kCamera).path_m, expected_m, 1e-13);
+  EXPECT_NEAR(compare(a, result_through(turned), body()).path_m, expected_m, 1e-13);
 }
 
 TEST(Compare, SeesTheLastBitOfOneControlPoint) {
@@ -71,7 +74,7 @@ TEST(Compare, SeesTheLastBitOfOneControlPoint) {
   double& coordinate = segments[1].position[2].x();
   coordinate = std::nextafter(coordinate, 10.0);
   b.path = motion::Path(segments);
-  const Difference difference = compare(a, b, kCamera);
+  const Difference difference = compare(a, b, body());
   EXPECT_GT(difference.path_m, 0.0);
   EXPECT_LT(difference.path_m, 1e-14);
   EXPECT_EQ(difference.what, "segments");
@@ -81,31 +84,59 @@ TEST(Compare, IsInfiniteWhereThereIsNoCommonTime) {
   const planning::PlanResult a = result_through(three_keyframes());
   planning::PlanResult none = a;
   none.path = {};
-  EXPECT_TRUE(std::isinf(compare(a, none, kCamera).path_m));
+  EXPECT_TRUE(std::isinf(compare(a, none, body()).path_m));
   std::vector<motion::Keyframe> longer = three_keyframes();
   longer.back().time_s += 1.0;
-  EXPECT_TRUE(std::isinf(compare(a, result_through(longer), kCamera).path_m));
-  EXPECT_EQ(compare(none, none, kCamera).path_m, 0.0);
+  EXPECT_TRUE(std::isinf(compare(a, result_through(longer), body()).path_m));
+  EXPECT_EQ(compare(none, none, body()).path_m, 0.0);
 }
 
 TEST(Compare, NamesWhatDiffersFirst) {
   const planning::PlanResult a = result_through(three_keyframes());
   planning::PlanResult b = a;
   b.remaining_collisions = {{0.25, 0.5}};
-  EXPECT_EQ(compare(a, b, kCamera).what, "remaining collisions 0 -> 1");
+  EXPECT_EQ(compare(a, b, body()).what, "remaining collisions 0 -> 1");
   b.status = planning::Status::kPartial;
-  EXPECT_EQ(compare(a, b, kCamera).what, "status ok -> partial");
+  EXPECT_EQ(compare(a, b, body()).what, "status ok -> partial");
   b = a;
   b.certificate.clearance_lower_bound_m = 0.5;
-  EXPECT_EQ(compare(a, b, kCamera).what, "certificate");
+  EXPECT_EQ(compare(a, b, body()).what, "certificate");
   b = a;
   b.keyframes[1].origin = motion::KeyframeOrigin::kInserted;
-  EXPECT_EQ(compare(a, b, kCamera).what, "keyframes");
+  EXPECT_EQ(compare(a, b, body()).what, "keyframes");
   b = a;
   b.collisions = {{0.5, 0.5}};
   planning::PlanResult c = b;
   c.collisions = {{0.5, std::nextafter(0.5, 1.0)}};
-  EXPECT_EQ(compare(b, c, kCamera).what, "collisions");
+  EXPECT_EQ(compare(b, c, body()).what, "collisions");
+}
+
+TEST(Compare, SeesAnotherWitness) {
+  planning::PlanResult a = result_through(three_keyframes());
+  a.collisions = {{0.25, 0.5, collision::Witness{0.375, 7, 2, 0.01, {1, 2, 3}}}};
+  a.collision_names = {{"table", "edge 1"}};
+  planning::PlanResult b = a;
+  b.collisions[0].witness->feature = 0;
+  EXPECT_EQ(compare(a, b, body()).what, "") << "answers hold the name alone";
+  b.collision_names[0].feature = "edge 2";
+  EXPECT_EQ(compare(a, b, body()).what, "names of what collides");
+  b = a;
+  b.collisions[0].witness->point_W.z() = 3.5;
+  EXPECT_EQ(compare(a, b, body()).what, "collisions");
+  b.collisions[0].witness.reset();
+  EXPECT_EQ(compare(a, b, body()).what, "collisions");
+}
+
+TEST(Compare, MeasuresATurnByTheCornersOfAnyBody) {
+  const planning::PlanResult a = result_through(three_keyframes());
+  std::vector<motion::Keyframe> turned = three_keyframes();
+  for (motion::Keyframe& keyframe : turned) {
+    keyframe.pose.orientation = Eigen::AngleAxisd(std::numbers::pi, geometry::Vec3::UnitZ());
+  }
+  std::string error;
+  const auto rod = motion::Body::make(motion::ConvexShape{{{{2, 0, 0}, {0, 0, 5}}}}, error);
+  ASSERT_TRUE(rod) << error;
+  EXPECT_NEAR(compare(a, result_through(turned), *rod).path_m, 4.0, 1e-13);
 }
 
 }  // namespace

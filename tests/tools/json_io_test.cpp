@@ -21,12 +21,12 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr const char* kGoodRequest = R"({
-  "scene": "office.obj", "note": "unknown fields outside options do not matter",
+  "scene": "office.obj", "comment": "remarks may stand anywhere",
   "camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},
   "keyframes": [
     {"time": 1.5, "position": [1, 2, 3], "orientation": [1, 0, 0, 0]},
-    {"time": 2.5, "position": [4, 5, 6.25], "orientation": [0, 3, 0, 4], "name": "door"}],
-  "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "chord_error_m": 0.01,
+    {"time": 2.5, "position": [4, 5, 6.25], "orientation": [0, 3, 0, 4], "_name": "door"}],
+  "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "clearance": 0.25, "chord_error_m": 0.01,
               "interval_tolerance_m": 0.001, "max_inserted_keyframes": 7}})";
 
 /// The good request with `from` replaced by `to`.
@@ -54,6 +54,8 @@ TEST(JsonRequest, ReadsEveryField) {
           .norm(),
       0.0, kUnitQuaternionError);
   EXPECT_EQ(request.options.deadline_s, 2.5);
+  EXPECT_EQ(request.options.clearance_m, 0.25);
+  EXPECT_FALSE(request.body);
   EXPECT_EQ(request.options.chord_error_m, 0.01);
   EXPECT_EQ(request.options.interval_tolerance_m, 0.001);
   EXPECT_EQ(request.options.max_inserted_keyframes, 7);
@@ -78,11 +80,18 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
     const char* to;
     const char* expected;
   } cases[] = {
-      {R"("camera": {)", R"("kamera": {)", "camera: is missing"},
-      {R"("near": 0.1)", R"("far": 0.1)", "camera.near: is missing"},
+      {R"("camera": {)", R"("_camera": {)", "camera: is missing"},
+      {R"("near": 0.1)", R"("_near": 0.1)", "camera.near: is missing"},
+      {R"("camera": {)", R"("kamera": {)",
+       "kamera: is unknown; a request has scene, camera, body, keyframes, options, and for remarks "
+       "comment or _..."},
+      {R"("near": 0.1)", R"("near": 0.1, "far": 9)",
+       "camera.far: is unknown; camera has fov_x_deg, fov_y_deg, near"},
+      {R"("_name": "door")", R"("name": "door")",
+       "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, origin"},
       {R"("fov_x_deg": 90)", R"("fov_x_deg": "90")",
        "camera.fov_x_deg: must be a number, not a string"},
-      {R"("keyframes": [)", R"("keyframes": 5, "old": [)",
+      {R"("keyframes": [)", R"("keyframes": 5, "_old": [)",
        "keyframes: must be an array, not a number"},
       {"[4, 5, 6.25]", "[4, 5]",
        "keyframes[1].position: must be an array of 3 numbers, not an array of 2"},
@@ -96,14 +105,16 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("time": 2.5)", R"("time": null)", "keyframes[1].time: must be a number, not null"},
       {R"("method": "keyframe_insertion")", R"("method": "magic")",
        "options.method: 'magic' is unknown"},
-      {R"("deadline_s": 2.5)", R"("clearance": 0.1)",
-       "options.clearance: is an option that this version does not know"},
+      {R"("deadline_s": 2.5)", R"("dead_line_s": 2.5)",
+       "options.dead_line_s: is unknown; options has method, deadline_s, clearance, chord_error_m"},
+      {R"("clearance": 0.25)", R"("clearance": "wide")",
+       "options.clearance: must be a number, not a string"},
       {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": 7.5)",
        "options.max_inserted_keyframes: must be a whole number"},
       {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": -1)",
        "options.max_inserted_keyframes: must be a whole number from 0"},
       {R"("scene": "office.obj")", R"("scene": 3)", "scene: must be a string, not a number"},
-      {R"("options": {)", R"("options": [{}], "more": {)", "options: must be an object"},
+      {R"("options": {)", R"("options": [{}], "_more": {)", "options: must be an object"},
   };
   for (const auto& c : cases) {
     const auto parsed = parse_plan_request(edited(c.from, c.to), "dir/R.json");
@@ -189,7 +200,22 @@ planning::PlanResult any_result(std::mt19937_64& random) {
   }
   for (auto* list : {&result.collisions, &result.remaining_collisions}) {
     list->resize(random() % 4);
-    for (collision::CollisionInterval& interval : *list) interval = {number(), number()};
+    for (collision::CollisionInterval& interval : *list) {
+      interval = {number(), number()};
+      if (random() % 2 == 0) continue;
+      interval.witness = {.time_s = number(),
+                          .triangle = static_cast<std::uint32_t>(random()),
+                          .depth_m = number(),
+                          .point_W = {number(), number(), number()}};
+    }
+  }
+  for (const auto& interval : result.collisions) {
+    result.collision_names.emplace_back();
+    if (interval.witness) result.collision_names.back() = {"a \"table\"", "edge 3"};
+  }
+  for (const auto& interval : result.remaining_collisions) {
+    result.remaining_names.emplace_back();
+    if (interval.witness) result.remaining_names.back() = {"", "face 11"};
   }
   result.certificate = {random() % 2 == 0, number()};
   result.timing = {number(), number(), number(), number(), number(), number()};
@@ -206,7 +232,7 @@ TEST(JsonResponse, IsReadBackBitForBit) {
     const auto read = parse_plan_response(*text.value, "P.json");
     ASSERT_TRUE(read.value) << read.error;
     EXPECT_EQ(read.value->message, result.message);
-    EXPECT_EQ(compare(result, *read.value, {}).what, "");
+    EXPECT_EQ(compare(result, *read.value, motion::Body(motion::Camera{})).what, "");
     EXPECT_EQ(std::bit_cast<std::uint64_t>(read.value->timing.certify_ms),
               std::bit_cast<std::uint64_t>(result.timing.certify_ms));
     EXPECT_EQ(write_plan_response(*read.value).value, text.value);
@@ -221,7 +247,7 @@ TEST(JsonResponse, KeepsTheSignOfZeroAndTheEndsOfTheRange) {
       {-std::numeric_limits<double>::max(), 9007199254740993.0}};
   const auto read = parse_plan_response(*write_plan_response(result).value, "P.json");
   ASSERT_TRUE(read.value) << read.error;
-  EXPECT_EQ(compare(result, *read.value, {}).what, "");
+  EXPECT_EQ(compare(result, *read.value, motion::Body(motion::Camera{})).what, "");
   EXPECT_TRUE(std::signbit(read.value->collisions[0].t_begin_s));
 }
 
@@ -287,6 +313,30 @@ TEST(JsonResponse, RefusesSegmentsThatDoNotFollowEachOther) {
   text.replace(text.find("\"t0\": 1.0"), 9, "\"t0\": 1.1");
   EXPECT_THAT(parse_plan_response(text, "P.json").error,
               HasSubstr("segments[1].t0: must equal t1 of the segment before"));
+}
+
+TEST(JsonResponse, WitnessesStandInTheirIntervals) {
+  planning::PlanResult result;
+  result.collisions = {{0.5, 1.5, collision::Witness{1.25, 12, 3, 0.0625, {1, -2, 0.5}}},
+                       {2.5, 3.0}};
+  result.collision_names = {{"table", "edge 2"}, {"", ""}};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"("collisions": [
+    {"t_begin": 0.5, "t_end": 1.5,
+     "witness": {"time": 1.25, "object": "table", "triangle": 12, "feature": "edge 2", "depth": 0.0625, "point": [1.0, -2.0, 0.5]}},
+    {"t_begin": 2.5, "t_end": 3.0}
+  ],)"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->collision_names, result.collision_names);
+  EXPECT_EQ(read.value->collisions[0].witness->triangle, 12U);
+  EXPECT_FALSE(read.value->collisions[1].witness);
+}
+
+TEST(JsonResponse, OfLaterVersionsMaySayMore) {
+  std::string text = *write_plan_response({}).value;
+  text.replace(text.find("\"status\""), 0, "\"mood\": \"sunny\", ");
+  EXPECT_TRUE(parse_plan_response(text, "P.json").value);
 }
 
 }  // namespace

@@ -168,7 +168,8 @@ TEST_F(ReplayTest, PutsPagesTogether) {
   ASSERT_EQ(recorded.requests.size(), 1U);
   EXPECT_EQ(recorded.requests[0].request->keyframes.size(), 2500U);
   ASSERT_TRUE(recorded.requests[0].answer && recorded.requests[0].answer->result);
-  EXPECT_EQ(compare(result, *recorded.requests[0].answer->result, request.camera).what, "");
+  EXPECT_EQ(
+      compare(result, *recorded.requests[0].answer->result, motion::Body(request.camera)).what, "");
   EXPECT_EQ(recorded.incomplete, 0U);
 }
 
@@ -263,6 +264,37 @@ TEST_F(ReplayTest, ListensToItsPrefixOnly) {
   log_.add_request(simple_request({{1, 0, 1}, {1, 0, -1}}), {"client", 1, 0}, "OTHER");
   EXPECT_TRUE(session().requests.empty());
   EXPECT_EQ(read_session(folder_.file("log"), "OTHER").requests.size(), 1U);
+}
+
+TEST_F(ReplayTest, CarriesBodiesAndClearance) {
+  PlanRequest request = simple_request({{1.5, 0, 1}, {1.5, 0, -1}});
+  request.camera = {};
+  request.body = motion::BoxShape{{0, 0, 0}, {0.5, 0.25, 0.125}};
+  request.options.clearance_m = 0.0625;
+  record(request, 1);
+  const Session recorded = session();
+  ASSERT_EQ(recorded.requests.size(), 1U);
+  ASSERT_TRUE(recorded.requests[0].request);
+  const PlanRequest& read = *recorded.requests[0].request;
+  ASSERT_TRUE(read.body);
+  EXPECT_EQ(std::get<motion::BoxShape>(*read.body).size_m, geometry::Vec3(0.5, 0.25, 0.125));
+  EXPECT_EQ(read.options.clearance_m, 0.0625);
+  EXPECT_EQ(run(recorded)[0].verdict, Verdict::kAgrees);
+}
+
+TEST_F(ReplayTest, TellsALogOfAnotherVersionFromADamagedOne) {
+  std::vector<std::uint8_t> older =
+      wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0}));
+  older[3] ^= 1;  // within the fingerprint
+  log_.add_event("CAMWAY_PLAN_REQUEST", older);
+  log_.add_event("CAMWAY_PLAN_REQUEST", {1, 2, 3});
+  record(simple_request({{1, 0, 1}, {1, 0, -1}}), 2);
+  const Session recorded = session();
+  EXPECT_EQ(recorded.malformed, 2U);
+  EXPECT_EQ(recorded.other_version, 1U);
+  const std::string table = report(recorded, run(recorded), Times::kHidden);
+  EXPECT_THAT(table, HasSubstr("note: 1 messages left out: malformed\n"));
+  EXPECT_THAT(table, HasSubstr("note: 1 messages left out: of another version of the wire types"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace camway::tools {
@@ -44,8 +45,25 @@ bool same_keyframe(const motion::Keyframe& a, const motion::Keyframe& b) {
          same_vector(geometry::wxyz(a.pose.orientation), geometry::wxyz(b.pose.orientation));
 }
 
+/// But for the number of the feature: answers hold its name.
+bool same_witness(const std::optional<collision::Witness>& a,
+                  const std::optional<collision::Witness>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return same(a->time_s, b->time_s) && a->triangle == b->triangle && same(a->depth_m, b->depth_m) &&
+         same_vector(a->point_W, b->point_W);
+}
+
 bool same_interval(const collision::CollisionInterval& a, const collision::CollisionInterval& b) {
-  return same(a.t_begin_s, b.t_begin_s) && same(a.t_end_s, b.t_end_s);
+  return same(a.t_begin_s, b.t_begin_s) && same(a.t_end_s, b.t_end_s) &&
+         same_witness(a.witness, b.witness);
+}
+
+/// Witnesses that nobody named have empty names.
+bool same_names(std::vector<planning::WitnessNames> a, std::vector<planning::WitnessNames> b) {
+  const std::size_t count = std::max(a.size(), b.size());
+  a.resize(count);
+  b.resize(count);
+  return a == b;
 }
 
 template <typename List, typename Same>
@@ -55,18 +73,21 @@ std::string differing(const char* name, const List& a, const List& b, Same same_
   return equal ? std::string() : std::string(name);
 }
 
-double pose_distance_m(const motion::Corners& corners_C, const motion::Pose& a,
-                       const motion::Pose& b) {
-  double largest = (a.position - b.position).norm();
-  const motion::Corners corners_a = motion::corners_W(corners_C, a);
-  const motion::Corners corners_b = motion::corners_W(corners_C, b);
-  for (std::size_t i = 0; i < corners_a.size(); ++i) {
-    largest = std::max(largest, (corners_a[i] - corners_b[i]).norm());
+double pose_distance_m(const motion::Body& body, const motion::Pose& a, const motion::Pose& b) {
+  const geometry::Vec3 moved = b.position - a.position;
+  const Eigen::Matrix3d turned =
+      b.orientation.toRotationMatrix() - a.orientation.toRotationMatrix();
+  double largest = moved.norm();
+  for (const geometry::Triangle& triangle : body.triangles_C()) {
+    for (const geometry::Vec3& corner_C : triangle) {
+      const geometry::Vec3 apart = moved + turned * corner_C;
+      largest = std::max(largest, apart.norm());
+    }
   }
   return largest;
 }
 
-double path_distance_m(const Path& a, const Path& b, const motion::Corners& corners_C) {
+double path_distance_m(const Path& a, const Path& b, const motion::Body& body) {
   if (same_bits(a, b)) return 0.0;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (a.empty() || b.empty()) return kInfinity;
@@ -80,7 +101,7 @@ double path_distance_m(const Path& a, const Path& b, const motion::Corners& corn
   for (std::size_t i = 1; i < joins.size(); ++i) {
     for (int k = 0; k <= kSamplesPerPiece; ++k) {
       const double time_s = joins[i - 1] + (joins[i] - joins[i - 1]) * k / kSamplesPerPiece;
-      const double distance_m = pose_distance_m(corners_C, a.pose(time_s), b.pose(time_s));
+      const double distance_m = pose_distance_m(body, a.pose(time_s), b.pose(time_s));
       // A pose that is no number must not pass for no difference.
       largest = distance_m >= 0.0 ? std::max(largest, distance_m) : kInfinity;
     }
@@ -104,6 +125,9 @@ std::string first_difference(const planning::PlanResult& a, const planning::Plan
     text = differing("remaining collisions", a.remaining_collisions, b.remaining_collisions,
                      same_interval);
   }
+  const bool same_words = same_names(a.collision_names, b.collision_names) &&
+                          same_names(a.remaining_names, b.remaining_names);
+  if (text.empty() && !same_words) text = "names of what collides";
   const bool same_certificate =
       a.certificate.certified == b.certificate.certified &&
       same(a.certificate.clearance_lower_bound_m, b.certificate.clearance_lower_bound_m);
@@ -118,9 +142,8 @@ bool same_bits(const Path& a, const Path& b) {
 }
 
 Difference compare(const planning::PlanResult& recorded, const planning::PlanResult& now,
-                   const motion::Camera& camera) {
-  return {path_distance_m(recorded.path, now.path, motion::near_corners_C(camera)),
-          first_difference(recorded, now)};
+                   const motion::Body& body) {
+  return {path_distance_m(recorded.path, now.path, body), first_difference(recorded, now)};
 }
 
 }  // namespace camway::tools

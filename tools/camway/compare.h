@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "daemon/motion/camera.h"
+#include "daemon/motion/body.h"
 #include "daemon/planning/result.h"
 
 namespace camway::tools {
@@ -11,7 +11,7 @@ namespace camway::tools {
 /// How two answers to one request differ.
 struct Difference {
   /// Largest distance, over dense times, between where the two paths have the eye or a corner of
-  /// the near quadrilateral; so it measures position and orientation at once. Sampled, hence a
+  /// the body's triangles; so it measures position and orientation at once. Sampled, hence a
   /// lower bound, but 0 exactly when the paths are the same bits. Infinite if one path is empty and
   /// the other is not, and if their time spans differ. [Units: metres]
   double path_m = 0.0;
@@ -23,7 +23,7 @@ struct Difference {
 /// Compares all that the two answers say but timing and message: wording may change between
 /// versions.
 Difference compare(const planning::PlanResult& recorded, const planning::PlanResult& now,
-                   const motion::Camera& camera);
+                   const motion::Body& body);
 
 /// Whether two paths have the same bits in every number.
 bool same_bits(const motion::Path& a, const motion::Path& b);

@@ -259,7 +259,12 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                     "Leave timing_ms out, so that two responses compare byte by byte");
   command->footer(
       exit_code_help("no path free of collision was found (partial, infeasible, timeout)") +
-      "\nA response is written for invalid input too when --response or --response-dir is given.\n"
+      "\nWhat must not collide is the request's body: the camera's near quadrilateral, or a box, "
+      "sphere, convex or mesh (\"body\": {\"type\": \"box\", \"size\": [x, y, z]}, metres, in the "
+      "camera's frame). options.clearance asks for a distance to keep, in metres. Fields that are "
+      "unknown are refused, but for comment and those that begin with '_'. Each collision of the "
+      "response has a witness: time, object, triangle, feature of the body, depth, point.\n"
+      "A response is written for invalid input too when --response or --response-dir is given.\n"
       "Example: camway plan --scene office.obj --request office-graze-1.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
 }

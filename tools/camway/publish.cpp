@@ -41,7 +41,11 @@ class Publisher {
   bool send(const LogEvent& event) {
     if (event.channel == channels_.plan_request()) {
       const auto decoded = wire::decode<plan_request_t>(event.data);
-      if (decoded.message) asked_.emplace(decoded.message->client_id, decoded.message->request_id);
+      if (decoded.message) {
+        asked_.emplace(decoded.message->client_id, decoded.message->request_id);
+      } else if (wire::is_other_version(decoded.fault)) {
+        ++other_version_;
+      }
     }
     return lcm_.publish(event.channel, event.data.data(),
                         static_cast<unsigned int>(event.data.size())) == 0;
@@ -57,6 +61,8 @@ class Publisher {
 
   [[nodiscard]] std::size_t asked_count() const { return asked_.size(); }
   [[nodiscard]] std::size_t answered_count() const { return answered_.size(); }
+  /// Planning requests that were sent although no daemon of this version can read them.
+  [[nodiscard]] std::size_t other_version_count() const { return other_version_; }
 
  private:
   static constexpr int kQueueCapacity = 4096;
@@ -74,6 +80,7 @@ class Publisher {
   const wire::Channels& channels_;
   std::set<Key> asked_;
   std::set<Key> answered_;
+  std::size_t other_version_ = 0;
 };
 
 Clock::duration seconds(double value) {
@@ -123,6 +130,13 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
   fmt::print("sent {} messages; {} of {} planning requests answered\n", requests.size(),
              publisher.answered_count(), publisher.asked_count());
   if (publisher.answered_count() < publisher.asked_count()) return ExitCode::kNegative;
+  if (publisher.other_version_count() > 0) {
+    print_error(
+        fmt::format("{}: {} of its messages are of another version of the wire types, which "
+                    "only a daemon of that version reads",
+                    log.string(), publisher.other_version_count()));
+    return ExitCode::kInvalidInput;
+  }
   return summary.damage.empty() ? ExitCode::kSuccess : ExitCode::kInvalidInput;
 }
 

@@ -94,6 +94,12 @@ ExitCode replay_offline(const ReplayFlags& flags) {
   const std::string& prefix = flags.publishing.prefix;
   const Session session = read_session(flags.log, prefix);
   if (!session.log.damage.empty()) print_error(session.log.damage);
+  if (session.requests.empty() && session.other_version > 0) {
+    return invalid_input(fmt::format(
+        "{}: its {} messages on {}_* are of another version of the wire types: replay it with the "
+        "camway of the version that recorded it",
+        flags.log, session.other_version, prefix));
+  }
   if (session.requests.empty()) {
     return invalid_input(fmt::format("{}: holds no planning requests on {}", flags.log,
                                      wire::Channels{prefix}.plan_request()));

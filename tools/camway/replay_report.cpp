@@ -77,7 +77,9 @@ std::string report(const Session& session, const std::vector<ReplayedRequest>& r
   add_note(out, repeated, "repetitions of requests, planned once each");
   add_note(out, session.conflicts, "requests left out: their id was used before for another one");
   add_note(out, session.incomplete, "messages left out: a page is missing");
-  add_note(out, session.malformed, "messages left out: malformed");
+  add_note(out, session.malformed - session.other_version, "messages left out: malformed");
+  add_note(out, session.other_version,
+           "messages left out: of another version of the wire types than this camway's");
   add_note(out, session.unasked, "answers to requests that are not in the log");
   add_note(out, changed, "answers were computed on other triangles than the scene has now");
   if (!session.log.damage.empty()) {

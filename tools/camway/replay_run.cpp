@@ -48,14 +48,24 @@ std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& 
   return {};
 }
 
+/// What moved; for a request that names nothing that can move, a point.
+motion::Body body_of(const RecordedRequest& recorded) {
+  if (recorded.request) {
+    std::string fault;
+    const planning::PlanRequest& request = *recorded.request;
+    auto body = motion::Body::make(request.body.value_or(request.camera), fault);
+    if (body) return *body;
+  }
+  return motion::Body(motion::Camera{});
+}
+
 std::size_t keyframe_count(const PlanResult& result) { return result.keyframes.size(); }
 
 void judge(const RecordedRequest& recorded, const ReplayOptions& options, ReplayedRequest& item) {
   item.note = why_not_compared(recorded, item.result);
   if (!item.note.empty()) return;
   const PlanResult& then = *recorded.answer->result;
-  const motion::Camera camera = recorded.request ? recorded.request->camera : motion::Camera{};
-  item.difference = compare(then, item.result, camera);
+  item.difference = compare(then, item.result, body_of(recorded));
   const bool close = then.status == item.result.status &&
                      keyframe_count(then) == keyframe_count(item.result) &&
                      item.difference.path_m <= options.tolerance_m && options.tolerance_m > 0.0;

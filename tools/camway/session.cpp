@@ -48,6 +48,7 @@ class SessionBuilder {
     wire::Decoded<Message> decoded = wire::decode<Message>(event.data);
     if (!decoded.message) {
       ++session_.malformed;
+      if (wire::is_other_version(decoded.fault)) ++session_.other_version;
       return;
     }
     auto outcome = pages.add(std::move(*decoded.message));

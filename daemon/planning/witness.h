@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/collision/interval.h"
+#include "daemon/motion/body.h"
+#include "daemon/planning/result.h"
+#include "daemon/scene/mesh.h"
+
+namespace camway::planning {
+
+/// Names of object and body feature of `witness`, which was found with `mesh` and `body`.
+WitnessNames describe_witness(const scene::Mesh& mesh, const motion::Body& body,
+                              const collision::Witness& witness);
+
+/// Fills `collision_names` and `remaining_names` of `result` from its intervals.
+void name_witnesses(const scene::Mesh& mesh, const motion::Body& body, PlanResult& result);
+
+}  // namespace camway::planning
