@@ -10,16 +10,31 @@ namespace camway::scene {
 
 using geometry::Box;
 
+namespace {
+
+/// The finest steps of which 254 cover `extent`: one is left for rounding a side outwards.
+int exponent_for(double extent) {
+  constexpr double kUsed = ByteFrame::kSteps - 1;
+  if (!(extent / kUsed > power_of_two(ByteFrame::kMinExponent))) return ByteFrame::kMinExponent;
+  const int power = std::ilogb(extent / kUsed);
+  return kUsed * power_of_two(power) < extent ? power + 1 : power;
+}
+
+}  // namespace
+
 ByteFrame::ByteFrame(const Box& box) {
+  // Beyond 2^60 steps distances are not told apart (see box_gaps), so where the box is flat or
+  // small the steps are no finer than they need be.
+  constexpr double kFinestOfExtent = 0x1p-32;
+  constexpr double kFinestOfCoordinate = 0x1p-48;
+  const double extent_m = box.sizes().maxCoeff();
+  const double largest_m = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double least_m = std::max(kFinestOfExtent * extent_m, kFinestOfCoordinate * largest_m);
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     origin[axis] = box.min()[k];
-    const double extent = box.max()[k] - box.min()[k];
-    // One step more than the quotient, for the rounding of the difference and of a side outwards.
-    int power =
-        extent > 0.0 ? std::max(std::ilogb(extent / (kSteps - 1)), kMinExponent) : kMinExponent;
-    if ((kSteps - 1) * power_of_two(power) < extent) ++power;
-    exponent[axis] = static_cast<std::int16_t>(power);
+    const double side_m = box.max()[k] - box.min()[k];
+    exponent[axis] = static_cast<std::int16_t>(exponent_for(std::max(side_m, least_m)));
   }
 }
 
