@@ -6,13 +6,13 @@
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/interval.h"
-#include "daemon/motion/camera.h"
+#include "daemon/collision/obstacles.h"
+#include "daemon/motion/body.h"
 #include "daemon/motion/path.h"
-#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 
-/// How finely collisions are resolved, as motion of a corner.
+/// What counts as a collision, and how finely collisions are resolved, as motion of the body.
 struct DetectOptions {
   /// Ends of intervals are bracketed to this; a stretch that cannot be shown free at this
   /// resolution counts as colliding. [Limit: 0 < value] [Units: metres]
@@ -22,15 +22,18 @@ struct DetectOptions {
   /// than the body takes for this on average over the path are joined, as nobody could use the gap.
   /// [Limit: tolerance_m <= value] [Units: metres]
   double gap_m = 5e-3;
+  /// Being nearer to the scene than this is a collision. [Limit: 0 <= value] [Units: metres]
+  double clearance_m = 0.0;
 };
 
-/// All maximal stretches of [t_begin_s, t_end_s] in which the filled near quadrilateral collides,
-/// in order. Everything outside them was shown free by distance, between samples too: a stretch
-/// about a middle pose is free if the scene is further away there than any point of the body moves
-/// within the stretch (He & van den Berg 2014, with the motion bound of `motion/motion_bound.h`).
-/// Nothing if the deadline struck before the end.
+/// All maximal stretches of [t_begin_s, t_end_s] in which the body collides, in order, each with a
+/// witness. Everything outside them is *proved* free, between samples too (`probe.h`); what is
+/// inside was seen colliding, or was proved to, or could not be told at the tolerance, or is a gap
+/// that nobody could use. The body collides with a surface that it crosses or touches.
+///
+/// Nothing if the deadline struck before the end. Precondition: segments with increasing times.
 std::optional<std::vector<CollisionInterval>> detect_collisions(
-    const scene::SceneIndex& index, const motion::Path& path, const motion::Corners& corners_C,
+    const Obstacles& obstacles, const motion::Path& path, const motion::Body& body,
     double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline);
 
 /// Only the first of them, with its end.
@@ -38,8 +41,8 @@ struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first
   std::optional<CollisionInterval> interval;
 };
-FirstCollision first_collision(const scene::SceneIndex& index, const motion::Path& path,
-                               const motion::Corners& corners_C, double t_begin_s, double t_end_s,
+FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,
+                               const motion::Body& body, double t_begin_s, double t_end_s,
                                const DetectOptions& options, const Deadline& deadline);
 
 }  // namespace camway::collision

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "daemon/scene/distance_field.h"
 #include "daemon/scene/snapshot.h"
 
 namespace camway::collision {
@@ -9,9 +10,11 @@ namespace camway::collision {
 struct Obstacles {
   // Implicit on purpose: wherever a scene is asked for, an index or a snapshot will do.
   Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
-  Obstacles(const scene::Snapshot& snapshot) : index(snapshot.index) {}    // NOLINT
+  Obstacles(const scene::Snapshot& snapshot)  // NOLINT
+      : index(snapshot.index), field(snapshot.field.get()) {}
 
   const scene::SceneIndex& index;
+  const scene::DistanceField* field = nullptr;  ///< may be absent: it spares time, no more
 };
 
 }  // namespace camway::collision

@@ -160,8 +160,8 @@ FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motio
     const std::optional<double> t_i = bisection.boundary(run->t_a, run->t_b);
     const std::optional<double> t_f = bisection.boundary(run->t_d, run->t_c);
     if (t_i && t_f && *t_i <= *t_f) return {true, CollisionInterval{*t_i, *t_f}};
-    const FirstCollision settled =
-        first_collision(index, path, corners_C, run->t_a, run->t_d, options.detect, deadline);
+    const FirstCollision settled = first_collision(index, path, motion::Body(corners_C), run->t_a,
+                                                   run->t_d, options.detect, deadline);
     if (!settled.decided || settled.interval) return settled;
   }
   return {!deadline.passed(), std::nullopt};

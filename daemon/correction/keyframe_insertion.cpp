@@ -84,8 +84,9 @@ class Corrector {
     const FirstCollision side = collision::first_sweep_collision(
         index_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
     const double before_s = side.interval ? side.interval->t_begin_s : t_end_s;
-    const FirstCollision enclosed = collision::first_collision(
-        index_, path_, corners_C_, t_begin_s, before_s, options_.sweep.detect, deadline_);
+    const FirstCollision enclosed =
+        collision::first_collision(index_, path_, motion::Body(corners_C_), t_begin_s, before_s,
+                                   options_.sweep.detect, deadline_);
     timed_out_ = timed_out_ || !side.decided || !enclosed.decided;
     if (!enclosed.interval) return side.interval;
     // Cut short by `before_s`, it is the beginning of the same collision.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "daemon/collision/detect.h"
-#include "daemon/collision/near_quad.h"
+#include "daemon/collision/probe.h"
 #include "daemon/correction/keyframe_insertion.h"
 #include "daemon/motion/interpolate.h"
 #include "daemon/planning/check.h"
@@ -26,6 +26,7 @@ collision::DetectOptions detect_options(const PlanOptions& options) {
   collision::DetectOptions detect;
   detect.tolerance_m = options.interval_tolerance_m;
   detect.gap_m = std::max(detect.gap_m, detect.tolerance_m);
+  detect.clearance_m = options.clearance_m;
   return detect;
 }
 
@@ -60,7 +61,7 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 class Planner {
  public:
   Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
-      : index_(snapshot.index),
+      : obstacles_(snapshot),
         request_(request),
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
@@ -83,16 +84,33 @@ class Planner {
       refuse(std::move(fault->message), fault->keyframe);
       return false;
     }
-    corners_C_ = motion::near_corners_C(request_.camera);
+    std::string fault;
+    body_ = motion::Body::make(request_.body.value_or(request_.camera), fault);
+    if (!body_) {
+      refuse("body: " + fault, std::nullopt);
+      return false;
+    }
     result_.keyframes = prepared_keyframes(request_);
+    if (!keyframes_are_free()) return false;
+    result_.path = motion::interpolate(result_.keyframes);
+    result_.timing.motion_ms = lap_ms();
+    return true;
+  }
+
+  bool keyframes_are_free() {
+    collision::Probe probe(obstacles_, *body_, detect_.clearance_m);
     for (std::size_t i = 0; i < result_.keyframes.size(); ++i) {
-      if (!collision::collides(index_, corners_C_, result_.keyframes[i].pose)) continue;
-      refuse(fmt::format("keyframes[{}]: the near quadrilateral collides with the scene there", i),
+      const collision::Look seen = probe.look(motion::standing_at(result_.keyframes[i].pose));
+      if (!seen.collides()) continue;
+      const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
+      const bool touches = seen.gap_m <= -detect_.clearance_m;
+      refuse(touches ? fmt::format("keyframes[{}]: the {} collides with the scene there", i, body)
+                     : fmt::format("keyframes[{}]: the {} is {:.3g} m from the scene there, nearer "
+                                   "than the clearance of {:.3g} m that was asked for",
+                                   i, body, seen.gap_m + detect_.clearance_m, detect_.clearance_m),
              i);
       return false;
     }
-    result_.path = motion::interpolate(result_.keyframes);
-    result_.timing.motion_ms = lap_ms();
     return true;
   }
 
@@ -110,12 +128,15 @@ class Planner {
       mark_all_as_remaining();
       return;
     }
-    if (found->empty()) return;
+    // The seed's method knows near quadrilaterals, and no clearance.
+    if (found->empty() || !body_->is_camera()) return;
     correction::KeyframeInsertionOptions options;
     options.sweep = {request_.options.chord_error_m, detect_};
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     correction::KeyframeInsertionResult corrected =
-        correction::insert_keyframes(index_, result_.keyframes, corners_C_, options, deadline_);
+        correction::insert_keyframes(obstacles_.index, result_.keyframes,
+                                     motion::near_corners_C(request_.camera), options, deadline_);
+    is_as_interpolated_ = false;
     result_.keyframes = std::move(corrected.keyframes);
     result_.path = std::move(corrected.path);
     timed_out_ = corrected.timed_out;
@@ -127,7 +148,7 @@ class Planner {
   void certify() {
     if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
     const Deadline budget = Deadline::after_s(kFinalCheckBudget_s);
-    PathCheck check = check_path(index_, result_.path, corners_C_, detect_, budget, budget);
+    PathCheck check = final_check(budget);
     if (check.complete) {
       result_.remaining_collisions = std::move(check.collisions);
       result_.certificate = check.certificate;
@@ -136,6 +157,18 @@ class Planner {
       mark_all_as_remaining();
     }
     result_.timing.certify_ms = lap_ms();
+  }
+
+  PathCheck final_check(const Deadline& budget) const {
+    if (!is_as_interpolated_) {
+      return check_path(obstacles_, result_.path, *body_, detect_, budget, budget);
+    }
+    // These very segments were searched already.
+    PathCheck check{true, result_.collisions, {}};
+    if (check.collisions.empty()) {
+      check.certificate = certificate_of_free(obstacles_, result_.path, *body_, detect_, budget);
+    }
+    return check;
   }
 
   // Corrections of some intervals can bend the spline into others. Who gets a path that collides
@@ -154,9 +187,9 @@ class Planner {
   // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
     const bool inside = std::ranges::any_of(result_.keyframes, [&](const Keyframe& keyframe) {
-      return index_.bounds().contains(keyframe.pose.position);
+      return obstacles_.index.bounds().contains(keyframe.pose.position);
     });
-    if (inside || index_.bounds().isEmpty()) return {};
+    if (inside || obstacles_.index.bounds().isEmpty()) return {};
     return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
   }
 
@@ -184,7 +217,7 @@ class Planner {
   }
 
   std::optional<std::vector<CollisionInterval>> detect() const {
-    return collision::detect_collisions(index_, result_.path, corners_C_, result_.path.begin_s(),
+    return collision::detect_collisions(obstacles_, result_.path, *body_, result_.path.begin_s(),
                                         result_.path.end_s(), detect_, deadline_);
   }
 
@@ -208,14 +241,15 @@ class Planner {
   // Beyond the deadline.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
-  const scene::SceneIndex& index_;
+  const collision::Obstacles obstacles_;
   const PlanRequest& request_;
   const Deadline& deadline_;
   const collision::DetectOptions detect_;
 
   const double started_ms_ = deadline_.elapsed_ms();
   double lap_begin_ms_ = started_ms_;
-  motion::Corners corners_C_{};
+  std::optional<motion::Body> body_;
+  bool is_as_interpolated_ = true;
   bool timed_out_ = false;
   PlanResult result_;
 };

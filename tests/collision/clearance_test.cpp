@@ -20,13 +20,13 @@ using scene::Mesh;
 using scene::SceneIndex;
 
 PathClearance clearance(const SceneIndex& index, const Path& path, const Corners& corners_C) {
-  return path_clearance(index, path, corners_C, Deadline::never())
+  return path_clearance(index, path, motion::Body(corners_C), Deadline::never())
       .value_or(PathClearance{-1.0, -1.0});
 }
 
 bool detect_free(const SceneIndex& index, const Path& path, const Corners& corners_C) {
-  const auto found = detect_collisions(index, path, corners_C, path.begin_s(), path.end_s(), {},
-                                       Deadline::never());
+  const auto found = detect_collisions(index, path, motion::Body(corners_C), path.begin_s(),
+                                       path.end_s(), {}, Deadline::never());
   return found && found->empty();
 }
 
@@ -105,14 +105,15 @@ TEST(PathClearance, HoldsFarFromTheOriginAndForTinyCameras) {
   const PathClearance found = clearance(SceneIndex::build(mesh), path, corners_C);
   // A coordinate of 1e6 m is stored to 1e-10 m.
   EXPECT_LE(found.lower_bound_m, distance_m + 1e-9);
-  EXPECT_GE(found.lower_bound_m, 0.89 * distance_m);
+  EXPECT_GE(found.lower_bound_m, 0.99 * (1.0 - kClearanceGap) * distance_m);
 }
 
 TEST(PathClearance, IsUndecidedWhenTheDeadlineStrikes) {
   const Path path = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  EXPECT_FALSE(path_clearance(SceneIndex::build(Mesh{}), path, corners_C, Deadline::after_s(0.0)));
+  EXPECT_FALSE(path_clearance(SceneIndex::build(Mesh{}), path, motion::Body(corners_C),
+                              Deadline::after_s(0.0)));
 }
 
 }  // namespace

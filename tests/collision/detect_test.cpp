@@ -28,8 +28,9 @@ Path straight(const Vec3& from, const Vec3& to, const Quat& orientation) {
 
 std::vector<CollisionInterval> detect(const SceneIndex& index, const Path& path,
                                       const Corners& corners_C, const DetectOptions& options = {}) {
-  const std::optional<std::vector<CollisionInterval>> found = detect_collisions(
-      index, path, corners_C, path.begin_s(), path.end_s(), options, Deadline::never());
+  const std::optional<std::vector<CollisionInterval>> found =
+      detect_collisions(index, path, motion::Body(corners_C), path.begin_s(), path.end_s(), options,
+                        Deadline::never());
   return found.value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
 }
 
@@ -121,12 +122,13 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   ASSERT_EQ(found.size(), 3u);
   EXPECT_LT(found[0].t_end_s, found[1].t_begin_s);
   EXPECT_LT(found[1].t_end_s, found[2].t_begin_s);
-  const FirstCollision first =
-      first_collision(index, path, corners_C, path.begin_s(), path.end_s(), {}, Deadline::never());
+  const FirstCollision first = first_collision(index, path, motion::Body(corners_C), path.begin_s(),
+                                               path.end_s(), {}, Deadline::never());
   ASSERT_TRUE(first.decided && first.interval);
   EXPECT_EQ(*first.interval, found[0]);
-  const FirstCollision later = first_collision(index, path, corners_C, found[0].t_end_s + 0.01,
-                                               path.end_s(), {}, Deadline::never());
+  const FirstCollision later =
+      first_collision(index, path, motion::Body(corners_C), found[0].t_end_s + 0.01, path.end_s(),
+                      {}, Deadline::never());
   ASSERT_TRUE(later.decided && later.interval);
   EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
 }
@@ -188,9 +190,11 @@ TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
-  EXPECT_FALSE(detect_collisions(index, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)));
+  EXPECT_FALSE(detect_collisions(index, path, motion::Body(corners_C), 0.0, 1.0, {},
+                                 Deadline::after_s(0.0)));
   EXPECT_FALSE(
-      first_collision(index, path, corners_C, 0.0, 1.0, {}, Deadline::after_s(0.0)).decided);
+      first_collision(index, path, motion::Body(corners_C), 0.0, 1.0, {}, Deadline::after_s(0.0))
+          .decided);
 }
 
 TEST(DetectCollisions, AnEmptySceneIsFree) {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "daemon/collision/obstacles.h"
+#include "daemon/motion/body.h"
+#include "daemon/motion/stretch.h"
+
+namespace camway::collision {
+
+/// What one look at a stretch tells about all of it.
+struct Look {
+  /// Proved: nowhere on the stretch is the body nearer to the scene than the required clearance.
+  bool free = false;
+  /// Bound of the motion of the body's points from where they were looked at, rounding included.
+  double reach_m = 0.0;
+  /// The part of it that splitting does not take away.
+  double rounding_m = 0.0;
+  /// How far the body was in the middle from colliding, as computed: distance less the required
+  /// clearance. If `free`, only known to be at least this.
+  double gap_m = 0.0;
+  std::uint32_t triangle = 0;  ///< the scene's nearest, unless `free`
+
+  /// In the middle it collides, or is too close.
+  [[nodiscard]] bool collides() const { return !free && gap_m <= 0.0; }
+};
+
+/// Looks at stretches of a motion. Const calls are safe from any thread, but each thread needs a
+/// probe of its own for `look` and `surely_collides`: they share a buffer.
+///
+/// The proof that a stretch is free: let d be the computed distance from the scene to the body's
+/// triangles where they were computed to be in the middle, off by at most e. Every point of a
+/// triangle is, anywhere on the stretch and in exact arithmetic, within `reach` of there
+/// (`motion::Stretch::reach_m`). So its distance is everywhere at least d - e - reach; if that is
+/// more than the radius of the body's ball and the required clearance together, all of the surface
+/// is further away than required. What is inside a solid without touching its surface is asked for
+/// apart: if the surface is free all the time, nothing can have come in or gone out.
+/// Source: He & van den Berg 2014, "Efficient exact collision-checking of 3-D rigid body motions
+/// using linear transformations and distance computations in workspace", with our motion bound.
+class Probe {
+ public:
+  /// Refers to both, which must outlive it. [Limit: 0 <= clearance_m] [Units: metres]
+  Probe(const Obstacles& obstacles, const motion::Body& body, double clearance_m);
+
+  /// Looks at a stretch. `margin_m` is asked for on top of the required clearance.
+  Look look(const motion::Stretch& stretch, double margin_m = 0.0);
+
+  /// Proved: everywhere on the stretch the body collides, or is nearer than the required clearance.
+  /// To be asked where it collides in the middle.
+  bool surely_collides(const motion::Stretch& stretch, const Look& seen);
+
+  [[nodiscard]] double reach_m(const motion::Stretch& stretch) const {
+    return stretch.reach_m(radius_m_);
+  }
+  /// Bound of the gap in the middle of `stretch` at the cost of a look-up; below 0 where the
+  /// distance field does not tell.
+  [[nodiscard]] double at_least_m(const motion::Stretch& stretch) const {
+    return field_distance_m(stretch) - keep_m_;
+  }
+  /// The body's triangles where the middle of `stretch` has them; valid until the next call.
+  std::span<const geometry::Triangle> place(const motion::Stretch& stretch);
+  [[nodiscard]] const Obstacles& obstacles() const { return obstacles_; }
+  [[nodiscard]] const motion::Body& body() const { return body_; }
+  /// Distance of the body's triangles from the scene at which it collides: ball and clearance.
+  [[nodiscard]] double keep_m() const { return keep_m_; }
+
+ private:
+  [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
+  [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
+
+  Obstacles obstacles_;
+  const motion::Body& body_;
+  double keep_m_;
+  double radius_m_;
+  geometry::Vec3 center_C_;       ///< of a ball about the body's triangles
+  double center_radius_m_ = 0.0;  ///< of that ball
+  std::vector<geometry::Triangle> placed_;
+};
+
+}  // namespace camway::collision

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/witness.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "daemon/geometry/triangle_distance.h"
+#include "daemon/geometry/triangle_intersection.h"
+
+namespace camway::collision {
+
+namespace {
+
+using geometry::Box;
+using geometry::Triangle;
+using geometry::Vec3;
+
+// How far `moving` reaches through the plane of `fixed`, on the side where it does so less.
+double depth_through_plane_m(const Triangle& moving, const Triangle& fixed) {
+  const Vec3 normal = (fixed[1] - fixed[0]).cross(fixed[2] - fixed[0]);
+  const double length = normal.norm();
+  if (!(length > 0.0)) return std::numeric_limits<double>::infinity();
+  double above_m = 0.0;
+  double below_m = 0.0;
+  for (const Vec3& vertex : moving) {
+    const double height_m = normal.dot(vertex - fixed[0]) / length;
+    above_m = std::max(above_m, height_m);
+    below_m = std::max(below_m, -height_m);
+  }
+  return std::min(above_m, below_m);
+}
+
+double depth_of_crossing_m(const Triangle& part, const Triangle& obstacle) {
+  const double depth_m =
+      std::min(depth_through_plane_m(part, obstacle), depth_through_plane_m(obstacle, part));
+  return std::isfinite(depth_m) ? depth_m : 0.0;
+}
+
+Vec3 closest_on_segment(const Vec3& a, const Vec3& b, const Vec3& point) {
+  const Vec3 along = b - a;
+  const double squared = along.squaredNorm();
+  if (!(squared > 0.0)) return a;
+  return a + std::clamp(along.dot(point - a) / squared, 0.0, 1.0) * along;
+}
+
+Vec3 closest_on_triangle(const Triangle& triangle, const Vec3& point) {
+  const Vec3 e = triangle[1] - triangle[0];
+  const Vec3 f = triangle[2] - triangle[0];
+  const Vec3 normal = e.cross(f);
+  const double squared = normal.squaredNorm();
+  if (squared > 0.0) {
+    const Vec3 offset = point - triangle[0];
+    const double v = offset.cross(f).dot(normal) / squared;
+    const double w = e.cross(offset).dot(normal) / squared;
+    if (v >= 0.0 && w >= 0.0 && v + w <= 1.0) return triangle[0] + v * e + w * f;
+  }
+  Vec3 closest = closest_on_segment(triangle[0], triangle[1], point);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Vec3 other = closest_on_segment(triangle[i], triangle[(i + 1) % 3], point);
+    if ((other - point).squaredNorm() < (closest - point).squaredNorm()) closest = other;
+  }
+  return closest;
+}
+
+// Which part of a near quadrilateral a triangle cuts: a corner if it cuts both edges there, one
+// edge, or the inside alone. Numbered as `motion::Body::feature_name` does.
+std::uint32_t camera_feature(std::span<const Triangle> quad, const Triangle& obstacle) {
+  const std::array<Vec3, 4> corners{quad[0][0], quad[0][1], quad[0][2], quad[1][2]};
+  std::array<bool, 4> cut{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3& next = corners[(i + 1) % 4];
+    cut[i] = geometry::triangles_touch({corners[i], next, next}, obstacle);
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    if (cut[(i + 3) % 4] && cut[i]) return 5 + i;
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    if (cut[i]) return 1 + i;
+  }
+  return 0;
+}
+
+Box grown_bounds(std::span<const Triangle> placed, double by_m) {
+  Box box;
+  for (const Triangle& triangle : placed) box.extend(geometry::bounds(triangle));
+  return {box.min() - Vec3::Constant(by_m), box.max() + Vec3::Constant(by_m)};
+}
+
+}  // namespace
+
+std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
+                                       double beyond_m) {
+  const double keep_m = probe.keep_m();
+  const std::span<const Triangle> placed = probe.place(stretch);
+  const scene::SceneIndex& index = probe.obstacles().index;
+  std::optional<Witness> deepest;
+  std::uint32_t part_of_deepest = 0;
+  index.for_each_touching(grown_bounds(placed, keep_m + beyond_m), [&](std::uint32_t number) {
+    const Triangle obstacle = index.triangle(number);
+    for (std::uint32_t part = 0; part < placed.size(); ++part) {
+      const double distance_m = geometry::triangle_distance(placed[part], obstacle);
+      if (distance_m > keep_m + beyond_m) continue;
+      const double crossing_m =
+          distance_m > 0.0 ? 0.0 : depth_of_crossing_m(placed[part], obstacle);
+      const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
+      const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
+      if (deepest && !(depth_m > deepest->depth_m) && !tie) continue;
+      deepest = Witness{0.0, number, part, depth_m, Vec3::Zero()};
+      part_of_deepest = part;
+    }
+    return true;
+  });
+  if (!deepest) return std::nullopt;
+  const Triangle obstacle = index.triangle(deepest->triangle);
+  const Vec3 middle = grown_bounds(placed, 0.0).center();
+  deepest->point_W = closest_on_triangle(obstacle, middle);
+  deepest->feature = probe.body().is_camera() ? camera_feature(placed, obstacle) : part_of_deepest;
+  return deepest;
+}
+
+}  // namespace camway::collision
