@@ -13,6 +13,13 @@ namespace {
 /// Shorter than this, squares lose digits to underflow.
 constexpr double kShortest_m = 0x1p-400;
 
+/// The squared length of a normal that is made use of. Above: a gap along it is at most its length
+/// times 2^202, and is squared. Below: that square underflows by at most 2^-1074, which is 2^-674
+/// m² in the result, while edges of such a normal are longer than 2^-102 m, so that the square of
+/// the error allowed is above 2^-300 m².
+constexpr double kLeastSquare = 0x1p-400;
+constexpr double kGreatestSquare = 0x1p400;
+
 /// Unit vector along `v` with its part along the unit vector `e` taken off. Twice, since the first
 /// time leaves a rounding that is large beside a short rest (Kahan's "twice is enough").
 Vec3 orthonormal(const Vec3& v, const Vec3& e) {
@@ -92,8 +99,9 @@ double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
   const Vec3 e = triangle[1] - triangle[0];
   const Vec3 f = triangle[2] - triangle[0];
   const Vec3 normal = e.cross(f);
-  const double length = normal.norm();
-  if (!(length > kShortest_m)) return 0.0;
+  const double squared_length = normal.squaredNorm();
+  // Else a square below could leave the range of doubles.
+  if (!(squared_length > kLeastSquare && squared_length < kGreatestSquare)) return 0.0;
   const Lanes along = along_axes(normal);
   const Lanes middles = along * (0.5 * (low_ + high_));
   const Lanes radii = along.abs() * (0.5 * (high_ - low_));
@@ -103,8 +111,7 @@ double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
   const double nf = normal.dot(f);
   const double gap = std::max(middle - radius - std::max({0.0, ne, nf}),
                               std::min({0.0, ne, nf}) - middle - radius);
-  const double gap_m = std::max(gap, 0.0) / length;
-  return gap_m * gap_m;
+  return gap > 0.0 ? gap * gap / squared_length : 0.0;
 }
 
 double OrientedBox::squared_distance_bound_m2(const Triangle& triangle) const {

@@ -23,8 +23,8 @@ class OrientedBox {
   /// (d + triangle_distance_error_m(scale_m))²·(1 + kRelativeError).
   [[nodiscard]] double squared_distance_bound_m2(const Triangle& triangle) const;
 
-  /// Three squares and two sums.
-  static constexpr double kRelativeError = 0x1p-50;
+  /// A squared length (6 roundings of 2^-53), a square and a quotient.
+  static constexpr double kRelativeError = 0x1p-49;
 
   /// A point that the extents along the axes are measured from.
   [[nodiscard]] const Vec3& origin() const { return origin_; }

@@ -14,7 +14,8 @@ namespace {
 double clamp_to_unit(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }  // NaN gives 0
 
 /// Parameter in [0, 1] of the point of `from + s·edge` closest to `point`. For a zero edge: 0.
-double closest_parameter(const Vec3& from, const Vec3& edge, const Vec3& point) {
+[[gnu::always_inline]] inline double closest_parameter(const Vec3& from, const Vec3& edge,
+                                                       const Vec3& point) {
   const double length2 = edge.squaredNorm();
   return length2 > 0.0 ? clamp_to_unit(edge.dot(point - from) / length2) : 0.0;
 }
@@ -26,7 +27,8 @@ Vec3 offset_from_segment(const Vec3& from, const Vec3& edge, const Vec3& point) 
 
 /// Vector between the closest points of two segments, from the first to the second. Where the lines
 /// are parallel any parameter will do: the end points decide, which the caller tries as well.
-Vec3 segment_offset(const Vec3& p, const Vec3& e, const Vec3& q, const Vec3& f) {
+[[gnu::always_inline]] inline Vec3 segment_offset(const Vec3& p, const Vec3& e, const Vec3& q,
+                                                  const Vec3& f) {
   const Vec3 normal = e.cross(f);
   const double normal2 = normal.squaredNorm();
   double s = normal2 > 0.0 ? clamp_to_unit((q - p).cross(f).dot(normal) / normal2) : 0.0;
@@ -57,7 +59,7 @@ class Search {
       : a_(a), b_(b), margin_(16.0 * kUnitRoundoff * scale), smallest_(4.0 * margin_) {}
 
   /// `offset` points from a point of `a` to a point of `b`.
-  bool is_final(const Vec3& offset) {
+  [[gnu::always_inline]] bool is_final(const Vec3& offset) {
     const double squared = offset.squaredNorm();
     if (!(squared < best2_)) return false;
     best2_ = squared;

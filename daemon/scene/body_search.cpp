@@ -54,10 +54,7 @@ bool BodySearch::cannot_win(double squared_m2, std::uint32_t triangle) const {
 void BodySearch::consider(std::uint32_t triangle) {
   if (!candidates_) candidates_.emplace();
   if (candidates_->was_met(triangle)) return;
-  const Triangle corners = mesh_.triangle(triangle);
-  double squared_m2 = box_.axes_bound_m2(corners);
-  if (cannot_win(squared_m2, triangle)) return;
-  squared_m2 = std::max(squared_m2, box_.plane_bound_m2(corners));
+  const double squared_m2 = box_.axes_bound_m2(mesh_.triangle(triangle));
   if (cannot_win(squared_m2, triangle)) return;
   if (candidates_->waiting_count == candidates_->waiting.size()) settle();
   candidates_->waiting[candidates_->waiting_count++] = {squared_m2, triangle};
@@ -78,6 +75,7 @@ void BodySearch::settle() {
 
 void BodySearch::ask(std::uint32_t index) {
   const Triangle triangle = mesh_.triangle(index);
+  if (cannot_win(box_.plane_bound_m2(triangle), index)) return;
   if (body_.size() == 1) {
     ask_part(0, triangle, index);
   } else if (body_.size() <= kMaxOriented) {
