@@ -62,7 +62,7 @@ struct Options {
 class Arena {
  public:
   explicit Arena(const BenchScene& scene)
-      : index_(scene::SceneIndex::build(scene.mesh)), fcl_(*scene.mesh), embree_(*scene.mesh, 1) {
+      : camway_(scene.mesh), fcl_(*scene.mesh), embree_(*scene.mesh, 1) {
     fcl_.build();
     embree_.build();
   }
@@ -85,14 +85,14 @@ class Arena {
     std::array<std::vector<double>, kContenders> times_s;
     for (int round = 0; round < options.rounds; ++round) {
       times_s[kDetect].push_back(warm_s([&] {
-        outcome.intervals =
-            testing::certified_intervals(index_, request.path, request.camera, default_options());
+        outcome.intervals = testing::certified_intervals(camway_.obstacles(), request.path,
+                                                         request.camera, default_options());
       }));
       times_s[kFclCoarse].push_back(
           warm_s([&] { sampled[kFclCoarse] = check_samples(request.path, coarse, fcl); }));
       times_s[kCheck].push_back(warm_s([&] {
-        outcome.clearance_m =
-            check_whole(index_, request.path, request.camera).certificate.clearance_lower_bound_m;
+        outcome.clearance_m = check_whole(camway_.obstacles(), request.path, request.camera)
+                                  .certificate.clearance_lower_bound_m;
       }));
       times_s[kEmbreeRays].push_back(
           warm_s([&] { sampled[kEmbreeRays] = check_samples(request.path, coarse, rays); }));
@@ -134,12 +134,12 @@ class Arena {
     for (int i = 0; i <= kLooks; ++i) {
       const double share = static_cast<double>(i) / kLooks;
       const double time_s = interval.t_begin_s + share * (interval.t_end_s - interval.t_begin_s);
-      if (touches_at(index_, request.camera, request.path.pose(time_s))) return true;
+      if (touches_at(camway_.index(), request.camera, request.path.pose(time_s))) return true;
     }
     return false;
   }
 
-  scene::SceneIndex index_;
+  CamwayScene camway_;
   FclPeer fcl_;
   EmbreePeer embree_;
 };

@@ -34,7 +34,9 @@ struct Point {
   std::string series;
   std::size_t size = 0;  // triangles or keyframes
   double build_s = -1.0;
-  double bytes_per_triangle = 0.0;
+  double field_build_s = -1.0;
+  double bytes_per_triangle = 0.0;  // of the index
+  double field_bytes = 0.0;
   double detect_s = 0.0;  // median over requests of medians over rounds
   double check_s = 0.0;
   std::size_t intervals = 0;
@@ -48,8 +50,8 @@ std::vector<BenchRequest> free_requests(const BenchScene& scene) {
   return list;
 }
 
-void measure_paths(const scene::SceneIndex& index, const std::vector<BenchRequest>& requests,
-                   int rounds, Point& point) {
+void measure_paths(const CamwayScene& scene, const std::vector<BenchRequest>& requests, int rounds,
+                   Point& point) {
   std::vector<double> detect_s;
   std::vector<double> check_s;
   for (const BenchRequest& request : requests) {
@@ -58,11 +60,12 @@ void measure_paths(const scene::SceneIndex& index, const std::vector<BenchReques
     std::size_t intervals = 0;
     for (int round = 0; round < rounds; ++round) {
       detect_rounds_s.push_back(warm_s([&] {
-        intervals =
-            testing::certified_intervals(index, request.path, request.camera, default_options())
-                .size();
+        intervals = testing::certified_intervals(scene.obstacles(), request.path, request.camera,
+                                                 default_options())
+                        .size();
       }));
-      check_rounds_s.push_back(warm_s([&] { check_whole(index, request.path, request.camera); }));
+      check_rounds_s.push_back(
+          warm_s([&] { check_whole(scene.obstacles(), request.path, request.camera); }));
     }
     point.intervals += intervals;
     detect_s.push_back(median(detect_rounds_s));
@@ -75,17 +78,21 @@ void measure_paths(const scene::SceneIndex& index, const std::vector<BenchReques
 Point measure_scene(const std::string& series, const std::shared_ptr<const scene::Mesh>& mesh,
                     const std::vector<BenchRequest>& requests, int rounds) {
   Point point{.series = series, .size = mesh->triangles.size()};
-  std::optional<scene::SceneIndex> index;
-  std::vector<double> build_s;
+  std::optional<CamwayScene> camway;
+  std::vector<double> index_s;
+  std::vector<double> field_s;
   const int builds = mesh->triangles.size() > 2'000'000 ? 1 : 3;
   for (int i = 0; i < builds; ++i) {
-    index.reset();
-    build_s.push_back(timed_s([&] { index.emplace(scene::SceneIndex::build(mesh)); }));
+    camway.emplace(mesh);
+    index_s.push_back(camway->index_build_s());
+    field_s.push_back(camway->field_build_s());
   }
-  point.build_s = median(build_s);
-  point.bytes_per_triangle = static_cast<double>(index->statistics().memory_bytes) /
+  point.build_s = median(index_s);
+  point.field_build_s = median(field_s);
+  point.bytes_per_triangle = static_cast<double>(camway->index().statistics().memory_bytes) /
                              static_cast<double>(mesh->triangles.size());
-  measure_paths(*index, requests, rounds, point);
+  point.field_bytes = static_cast<double>(camway->field_bytes());
+  measure_paths(*camway, requests, rounds, point);
   return point;
 }
 
@@ -136,11 +143,11 @@ std::vector<Point> keyframe_points(const BenchScene& base, const Options& option
   const BenchRequest& longest =
       *std::max_element(requests.begin(), requests.end(),
                         [](const auto& a, const auto& b) { return a.keyframes < b.keyframes; });
-  const scene::SceneIndex index = scene::SceneIndex::build(base.mesh);
+  const CamwayScene camway(base.mesh);
   std::vector<Point> points;
   for (const std::size_t count : decades(10, options.most_keyframes)) {
     Point point{.series = "keyframes", .size = count};
-    measure_paths(index, {lengthened(longest, count)}, options.rounds, point);
+    measure_paths(camway, {lengthened(longest, count)}, options.rounds, point);
     points.push_back(point);
   }
   return points;
@@ -159,11 +166,14 @@ double growth(const std::vector<Point>& points, const std::string& series) {
 }
 
 void print(const std::vector<Point>& points) {
-  Table table({"series", "size", "build", "index B/tri", "detect", "check", "intervals"});
+  Table table({"series", "size", "index build", "field build", "index B/tri", "field MiB", "detect",
+               "check", "intervals"});
   for (const Point& p : points) {
     table.add({p.series, std::to_string(p.size), duration_text(p.build_s),
+               duration_text(p.field_build_s),
                p.build_s < 0.0 ? "-" : fmt::format("{:.1f}", p.bytes_per_triangle),
-               duration_text(p.detect_s), duration_text(p.check_s), std::to_string(p.intervals)});
+               fmt::format("{:.1f}", p.field_bytes / 0x1p20), duration_text(p.detect_s),
+               duration_text(p.check_s), std::to_string(p.intervals)});
   }
   table.print();
 }
@@ -208,6 +218,8 @@ int run(const Options& options) {
                {"intervals", p.intervals}};
     if (p.build_s >= 0.0) {
       entry["build_seconds"] = p.build_s;
+      entry["field_build_seconds"] = p.field_build_s;
+      entry["field_bytes"] = p.field_bytes;
       entry["bytes_per_triangle"] = p.bytes_per_triangle;
     }
     document["points"].push_back(entry);

@@ -3,8 +3,24 @@
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/body.h"
+#include "tests/bench/measure.h"
 
 namespace camway::bench {
+
+CamwayScene::CamwayScene(std::shared_ptr<const scene::Mesh> mesh) {
+  index_build_s_ = timed_s([&] { index_ = scene::SceneIndex::build(mesh); });
+  field_build_s_ = timed_s([&] { field_ = scene::DistanceField::build(*mesh).field; });
+}
+
+collision::Obstacles CamwayScene::obstacles() const {
+  collision::Obstacles obstacles(index_);
+  obstacles.field = field_.get();
+  return obstacles;
+}
+
+std::uint64_t CamwayScene::field_bytes() const {
+  return field_ ? field_->statistics().memory_bytes : 0;
+}
 
 collision::DetectOptions default_options() { return {}; }
 

@@ -4,12 +4,33 @@
 #include <memory>
 
 #include "daemon/planning/check.h"
+#include "daemon/scene/distance_field.h"
 #include "daemon/scene/scene_index.h"
 #include "tests/collision/crossing_campaign.h"
 
 /// Our own side of the comparisons, so that a change of an interface is mended in one place. For
 /// detection alone see `testing::certified_intervals`.
 namespace camway::bench {
+
+/// A scene as planning has it: the index, and the distance field where there is one.
+class CamwayScene {
+ public:
+  explicit CamwayScene(std::shared_ptr<const scene::Mesh> mesh);
+
+  [[nodiscard]] const scene::SceneIndex& index() const { return index_; }
+  /// Refers to this.
+  [[nodiscard]] collision::Obstacles obstacles() const;
+
+  [[nodiscard]] double index_build_s() const { return index_build_s_; }
+  [[nodiscard]] double field_build_s() const { return field_build_s_; }
+  [[nodiscard]] std::uint64_t field_bytes() const;
+
+ private:
+  scene::SceneIndex index_;
+  std::shared_ptr<const scene::DistanceField> field_;
+  double index_build_s_ = 0.0;  ///< with all threads, by the wall
+  double field_build_s_ = 0.0;
+};
 
 /// How `check_whole` and `testing::certified_intervals` resolve: the defaults of a request.
 collision::DetectOptions default_options();

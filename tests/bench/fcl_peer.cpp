@@ -42,8 +42,13 @@ void FclPeer::build() {
   models_->scene.computeLocalAABB();
 }
 
+// The library only prints what it takes (`memUsage`): the nodes, and its copies of vertices,
+// triangles and their order.
 std::size_t FclPeer::memory_bytes() const {
-  return static_cast<std::size_t>(models_->scene.memUsage(/*msg=*/0));
+  const Model& scene = models_->scene;
+  return static_cast<std::size_t>(scene.getNumBVs()) * sizeof(fcl::BVNode<fcl::OBBRSSd>) +
+         static_cast<std::size_t>(scene.num_vertices) * sizeof(fcl::Vector3d) +
+         static_cast<std::size_t>(scene.num_tris) * (sizeof(fcl::Triangle) + sizeof(unsigned));
 }
 
 void FclPeer::set_camera(const motion::Camera& camera) {

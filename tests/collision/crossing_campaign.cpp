@@ -47,14 +47,14 @@ bool covers(const Intervals& intervals, double time_s) {
 void ask_clearance(const CrossingCase& c, const collision::Obstacles& obstacles,
                    CrossingTally& tally) {
   const double clearance_m = certified_clearance_m(obstacles, c.path, c.camera);
-  tally.clearance_above_truth = clearance_m > c.clearance_below_m ? 1 : 0;
-  tally.clearance_too_low = clearance_m < kLeastClearanceShare * c.clearance_above_m ? 1 : 0;
+  tally.clearance_above_truth = clearance_m > c.clearance_below_m ? 1U : 0U;
+  tally.clearance_too_low = clearance_m < kLeastClearanceShare * c.clearance_above_m ? 1U : 0U;
   collision::DetectOptions options = options_for(c);
   options.clearance_m = c.clearance_below_m * (1.0 + 1e-9);
   tally.misses +=
-      covers(certified_intervals(obstacles, c.path, c.camera, options), c.known_s) ? 0 : 1;
+      covers(certified_intervals(obstacles, c.path, c.camera, options), c.known_s) ? 0U : 1U;
   options.clearance_m = 0.5 * (c.clearance_above_m - c.tolerance_m);
-  tally.false_alarms += certified_intervals(obstacles, c.path, c.camera, options).empty() ? 0 : 1;
+  tally.false_alarms += certified_intervals(obstacles, c.path, c.camera, options).empty() ? 0U : 1U;
 }
 
 void merge(CampaignResult& into, const CampaignResult& part) {

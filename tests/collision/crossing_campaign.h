@@ -13,18 +13,19 @@ namespace camway::testing {
 
 /// The one place where the campaign, the analytic family and the benchmarks call detection.
 std::vector<collision::CollisionInterval> certified_intervals(
-    const scene::SceneIndex& index, const motion::Path& path, const motion::Camera& camera,
+    const collision::Obstacles& obstacles, const motion::Path& path, const motion::Camera& camera,
     const collision::DetectOptions& options);
 
 /// Likewise for the clearance of a whole path.
-double certified_clearance_m(const scene::SceneIndex& index, const motion::Path& path,
+double certified_clearance_m(const collision::Obstacles& obstacles, const motion::Path& path,
                              const motion::Camera& camera);
 
 /// What came of the cases of one family.
 struct CrossingTally {
   std::uint64_t cases = 0;
   std::uint64_t redrawn = 0;
-  /// A known instant of collision that is in no interval: an instant that was certified free.
+  /// A known instant of collision that is in no interval: an instant that was certified free. Of
+  /// free cases: one at which the camera is nearer than a required clearance.
   std::uint64_t misses = 0;
   /// A path reported as colliding that stays away by more than the tolerance.
   std::uint64_t false_alarms = 0;

@@ -35,6 +35,7 @@ class CaseMaker {
     half_height_m_ = corners_C_[0].y();
     size_m_ = std::min(kMostPathSize_m, radius_m_ * random.log_uniform(0.1, 1000.0));
     place_W_ = random_place(random);
+    case_.with_field = random.chance(0.1);
     floor_m_ = rounding_floor_m(place_W_.norm() + 4.0 * size_m_);
   }
 
@@ -384,6 +385,7 @@ class CaseMaker {
     const Real error_m =
         pose_.error_m + 64 * kRealRoundoff * Real(place_W_.norm() + 20.0 * (size_m_ + radius_m_));
     case_.collides = false;
+    case_.known_s = static_cast<double>(segment_) + u_;
     case_.clearance_above_m = double(above_m - error_m) * (1.0 - 0x1p-50);
     case_.clearance_below_m = double(below_m + error_m) * (1.0 + 0x1p-50);
     case_.tolerance_m = case_.clearance_above_m * random_.uniform(0.3, 0.9);

@@ -41,8 +41,12 @@ struct CrossingCase {
   /// Resolution to detect with; always well above what rounding leaves at these coordinates.
   double tolerance_m = 0.0;
 
+  /// Whether to look things up in a distance field as well: a share of the cases does.
+  bool with_field = false;
+
   bool collides = false;
-  /// Colliding cases: an instant at which obstacle and filled quadrilateral certainly meet; exact.
+  /// Colliding cases: an instant at which obstacle and filled quadrilateral certainly meet; free
+  /// cases: one at which they are no further apart than `clearance_below_m`. Exact.
   double known_s = 0.0;
   /// Free cases: the true least distance over the whole path lies between these, and the lower one
   /// is above the tolerance by more than rounding.
