@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include <nlohmann/json.hpp>
+
 #include "tests/tools/cli_runner.h"
 #include "tools/json_io.h"
 
@@ -10,6 +14,18 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+
+/// A segment along z that looks along -Z, as JSON.
+nlohmann::json segment_json(double t0_s, double t1_s, double z0_m, double z1_m,
+                            const std::array<double, 7>& w = {1, 1, 1, 1, 1, 1, 1}) {
+  nlohmann::json segment{{"t0", t0_s}, {"t1", t1_s}};
+  for (int i = 0; i < 4; ++i) {
+    segment["position"].push_back(nlohmann::json::array({0, 0, z0_m + (z1_m - z0_m) * i / 3}));
+  }
+  for (const double weight : w)
+    segment["orientation"].push_back(nlohmann::json::array({weight, 0, 0, 0}));
+  return segment;
+}
 
 class CliCheck : public ::testing::Test {
  protected:
@@ -62,6 +78,112 @@ TEST_F(CliCheck, RefusesAPathThatJumps) {
   const CliRun run = check(folder_.write("jump.json", *text.value));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("segments[1]"));
+}
+
+// Each of these would be called free by a search that skips or cannot evaluate a segment.
+class CliCheckForeign : public CliCheck {
+ protected:
+  CliRun check_segments(const std::vector<nlohmann::json>& segments) {
+    scene_ = folder_.write("across.obj", "o barrier\nv -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n");
+    request_ = folder_.write("request.json",
+                             request_json({keyframe_json(0, 0, 2), keyframe_json(0, 0, -1)}));
+    return check(folder_.write("response.json",
+                               nlohmann::json{{"status", "ok"}, {"segments", segments}}.dump()));
+  }
+
+  void expect_refused(const std::vector<nlohmann::json>& segments, const std::string& field) {
+    const CliRun run = check_segments(segments);
+    EXPECT_EQ(run.exit_code, 2) << field << "\n" << run.out;
+    EXPECT_THAT(run.err, HasSubstr("response.json: " + field));
+    EXPECT_EQ(run.out, "");
+  }
+};
+
+TEST_F(CliCheckForeign, FindsTheWallThatTheOthersHide) {
+  const CliRun run = check_segments({segment_json(0, 1, 2, -1)});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("barrier"));
+}
+
+TEST_F(CliCheckForeign, RefusesTimesThatSkipASegment) {
+  expect_refused({segment_json(0, 0, 2, -1)}, "segments[0].t1: ");
+  expect_refused({segment_json(0, 0, 2, -1), segment_json(0, 1, -1, -2)}, "segments[0].t1: ");
+  expect_refused({segment_json(1, 0, 2, -1)}, "segments[0].t1: ");
+  expect_refused({segment_json(0, 1, 2, 1), segment_json(0.5, 1.5, 1, -1)}, "segments[1].t0: ");
+  expect_refused({segment_json(0, 1, 2, 1), segment_json(1.5, 2.5, 1, -1)}, "segments[1].t0: ");
+  expect_refused({segment_json(-1.5e308, 1.5e308, 2, -1)}, "segments[0].t0: ");
+  expect_refused({}, "segments: ");
+}
+
+TEST_F(CliCheckForeign, RefusesNumbersThatDoublesCannotSquare) {
+  for (const double w : {0.0, 1e-200, 1e200}) {
+    expect_refused({segment_json(0, 1, 2, -1, {w, w, w, w, w, w, w})},
+                   "segments[0].orientation[0]: ");
+  }
+  expect_refused({segment_json(0, 1, 2, -1, {1, 1, 1, 1, 1, 1, 0})},
+                 "segments[0].orientation[6]: ");
+  nlohmann::json segment = segment_json(0, 1, 2, -1);
+  segment["position"][1][0] = 1e200;
+  segment["position"][2][0] = -1e200;
+  expect_refused({segment}, "segments[0].position[1]: ");
+}
+
+TEST_F(CliCheckForeign, CountsAsCollidingWhereAnOrientationThatVanishesMatters) {
+  // The numerator is zero at u = 1/2. On the way through the wall, and where it could touch it.
+  const std::array<double, 7> through_zero{1, 1, 1, 0, -1, -1, -1};
+  for (const double end_m : {-1.0, 0.12}) {
+    const CliRun run =
+        check_segments({segment_json(0, 1, end_m > 0 ? 0.12 : 2, end_m, through_zero)});
+    EXPECT_EQ(run.exit_code, 3) << run.err << run.out;
+    EXPECT_THAT(run.out, StartsWith("collides from "));
+  }
+  // Far from it the answer does not rest on the orientation, and does not take until the deadline.
+  EXPECT_EQ(check_segments({segment_json(0, 1, 7, 4, through_zero)}).err, "");
+}
+
+TEST_F(CliCheckForeign, FindsAWallInTheGapOfAJoin) {
+  // Both ends stand still at either side of it, nearer than a join has to agree.
+  const double far_m = 0.1 + 1e-11;  // the quadrilateral is 0.1 m before the eye
+  const double near_m = 0.1 - 1e-11;
+  const CliRun run =
+      check_segments({segment_json(0, 1, far_m, far_m), segment_json(1, 2, near_m, near_m)});
+  EXPECT_EQ(run.exit_code, 3) << run.err << run.out;
+  EXPECT_THAT(run.out, StartsWith("collides from 1.000000 to 1.000000 s"));
+}
+
+TEST_F(CliCheck, SaysWhichKeyframesThePathMeets) {
+  const std::string response = planned("free", 1);
+  EXPECT_THAT(check(response).out, HasSubstr("\nkeyframes met: 2 of 2, largest miss "));
+  // The path of one request for another: free all the same, but not where it was wanted.
+  request_ = folder_.write("other.json",
+                           request_json({keyframe_json(1, 0, 1), keyframe_json(1.5, 0, -1)}));
+  const CliRun run = check(response);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\nkeyframes met: 1 of 2, largest miss 0.5 m\n"));
+  EXPECT_THAT(run.out, HasSubstr("keyframe 1 (at "));
+  EXPECT_THAT(run.out, HasSubstr(") is missed by 0.5 m\n"));
+  const CliRun json = run_camway(
+      {"check", "--scene", scene_, "--request", request_, "--response", response, "--json"});
+  const nlohmann::json keyframes = nlohmann::json::parse(json.out)["keyframes"];
+  EXPECT_EQ(keyframes["count"], 2);
+  EXPECT_EQ(keyframes["met"], 1);
+  EXPECT_NEAR(keyframes["largest_miss"].get<double>(), 0.5, 1e-12);
+  EXPECT_EQ(keyframes["missed"][0]["keyframe"], 1);
+}
+
+TEST_F(CliCheck, DoesNotGuessWhenKeyframesAreToBeMet) {
+  auto response = nlohmann::json::parse(read_all(planned("free", 1)));
+  for (const bool reversed : {false, true}) {
+    if (reversed) {
+      std::swap(response["keyframes"][0]["time"], response["keyframes"][1]["time"]);
+    } else {
+      response.erase("keyframes");
+    }
+    const CliRun run = check(folder_.write("untimed.json", response.dump()));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("keyframes met: not known"));
+    response = nlohmann::json::parse(read_all(planned("free", 1)));
+  }
 }
 
 TEST_F(CliCheck, NamesTheFileAtFault) {
