@@ -136,15 +136,38 @@ class ChunkBuilder {
   /// Fills `result`, which is no node of `chunk` yet, and builds what is below it.
   void build_node(Chunk& chunk, IndexNode& result, std::vector<IndexPart> parts) {
     Box box;
-    for (const IndexPart& part : parts) box.extend(part.box);
-    IndexNode node;
-    node.frame = ByteFrame(box);
+    for (const IndexPart& part : parts) {
+      box.extend(part.box);
+      chunk.depth = std::max(chunk.depth, part.depth);
+    }
     std::vector<Inner> inner;
     std::vector<IndexPart> leaves;
+    sort_out(parts, inner, leaves);
+    IndexNode node;
+    node.frame = ByteFrame(box);
+    node.node_count = static_cast<std::uint8_t>(inner.size());
+    node.child_count = static_cast<std::uint8_t>(parts.size());
+    node.first_node = static_cast<std::uint32_t>(chunk.nodes.size());
+    node.first_leaf = static_cast<std::uint32_t>(chunk.leaf_ends.size());
+    std::size_t slot = 0;
+    for (const Inner& child : inner) {
+      set_box(node.boxes, slot++, node.frame.outside(child.part.box));
+    }
+    for (const IndexPart& leaf : leaves) {
+      set_box(node.boxes, slot++, node.frame.outside(leaf.box));
+      add_leaf(chunk, node.frame, leaf);
+    }
+    result = node;
+    chunk.nodes.resize(chunk.nodes.size() + inner.size());
+    build_inner(chunk, node.first_node, inner);
+  }
+
+  /// Which parts become nodes, and which become leaves.
+  void sort_out(std::vector<IndexPart>& parts, std::vector<Inner>& inner,
+                std::vector<IndexPart>& leaves) const {
     inner.reserve(parts.size());
     leaves.reserve(parts.size());
     for (IndexPart& part : parts) {
-      chunk.depth = std::max(chunk.depth, part.depth);
       const bool is_large = part.entries.size() > kChunkEntries && !part.is_final;
       std::vector<IndexPart> children;
       if (!is_large) children = dealer_.deal(part);
@@ -154,21 +177,6 @@ class ChunkBuilder {
         leaves.push_back(std::move(part));
       }
     }
-    node.node_count = static_cast<std::uint8_t>(inner.size());
-    node.child_count = static_cast<std::uint8_t>(parts.size());
-    node.first_node = static_cast<std::uint32_t>(chunk.nodes.size());
-    node.first_leaf = static_cast<std::uint32_t>(chunk.leaf_ends.size());
-    std::size_t slot = 0;
-    for (const Inner& child : inner)
-      set_box(node.boxes, slot++, node.frame.outside(child.part.box));
-    for (const IndexPart& leaf : leaves) {
-      set_box(node.boxes, slot++, node.frame.outside(leaf.box));
-      add_leaf(chunk, node.frame, leaf);
-    }
-    const std::uint32_t first = node.first_node;
-    result = node;
-    chunk.nodes.resize(chunk.nodes.size() + inner.size());
-    build_inner(chunk, first, inner);
   }
 
   void build_inner(Chunk& chunk, std::uint32_t first, std::vector<Inner>& inner) {
