@@ -106,7 +106,7 @@ class ClearanceSearch {
   // Looks for whether the distance is `enough` all over the stretch.
   Look look(const Stretch& stretch) {
     asked_m_ = enough();
-    const Look seen = probe_.look(stretch, asked_m_);
+    const Look seen = probe_.look(stretch, asked_m_, Probe::Precision::kExact);
     if (!seen.free) upper_m_ = std::min(upper_m_, std::max(0.0, seen.gap_m) + seen.rounding_m);
     return seen;
   }

@@ -2,9 +2,9 @@
 #include "daemon/collision/crossing.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "daemon/geometry/triangle_distance.h"
-#include "daemon/geometry/triangle_intersection.h"
+#include "daemon/geometry/rounding.h"
 
 namespace camway::collision {
 
@@ -13,44 +13,76 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-Triangle point(const Vec3& p) { return {p, p, p}; }
-Triangle edge(const Vec3& p, const Vec3& q) { return {p, q, q}; }
+// c·(a×b)/|a×b| for differences a, b, c of coordinates no further apart than S in any axis, u =
+// 2^-53:
+//  1. Differences round by u, the products and sums of a×b by 3u: |a||b| times 10u in length.
+//  2. The product with c: |c|·(10u·|a||b| + 4u·|a×b|) <= 14u·|c||a||b|.
+//  3. Division by a length with the relative error 10u·k + 4u, k = |a||b| / |a×b|, of a quotient
+//  that
+//     is at most |c|: as much again.
+// 28u·|c|·k with |c| <= √3·S: 49u·S·k; 64 covers the second order.
+constexpr double kHeightRounding = 64.0 * geometry::kUnitRoundoff;
 
-double surely_apart_m(const Triangle& a, const Triangle& b) {
-  return geometry::triangle_distance(a, b) - geometry::triangle_distance_error_m(a, b);
+// Distance, with a sign, of a point from the plane through the directions a and b, or between lines
+// of these directions, and what rounding may have added to it.
+struct Height {
+  double value_m;
+  double error_m;
+
+  [[nodiscard]] double surely_m() const { return std::abs(value_m) - error_m; }
+};
+
+Height height_m(const Vec3& c, const Vec3& a, const Vec3& b, double scale_m) {
+  const Vec3 normal = a.cross(b);
+  const double length = normal.norm();
+  // Where they are parallel this is infinite or not a number, and then nothing is sure.
+  const double error_m = kHeightRounding * scale_m * (a.norm() * b.norm() / length);
+  return {c.dot(normal) / length, error_m};
 }
 
-// Whether the ends lie on two sides of the plane of `disc`, each further away than that: an
-// estimate, only to be quick about the many that do not.
-bool seems_to_pass(const Vec3& p, const Vec3& q, const Triangle& disc, double enough_m) {
-  const Vec3 normal = (disc[1] - disc[0]).cross(disc[2] - disc[0]);
-  const double height_p = normal.dot(p - disc[0]);
-  const double height_q = normal.dot(q - disc[0]);
-  const double enough = enough_m * normal.norm();
-  return height_p * height_q < 0.0 && std::min(std::abs(height_p), std::abs(height_q)) > enough;
-}
-
-// The margin with which the segment from p to q passes through `disc`.
-double passing_margin_m(const Vec3& p, const Vec3& q, const Triangle& disc, double enough_m) {
-  if (!seems_to_pass(p, q, disc, enough_m)) return 0.0;
-  const Triangle segment = edge(p, q);
-  double margin_m = std::min(surely_apart_m(point(p), disc), surely_apart_m(point(q), disc));
-  for (std::size_t i = 0; i < 3 && margin_m > enough_m; ++i) {
-    margin_m = std::min(margin_m, surely_apart_m(segment, edge(disc[i], disc[(i + 1) % 3])));
+double scale_of(const Triangle& a, const Triangle& b) {
+  double scale_m = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    scale_m = std::max({scale_m, (a[i] - a[0]).lpNorm<Eigen::Infinity>(),
+                        (b[i] - a[0]).lpNorm<Eigen::Infinity>()});
   }
-  // Away from the border and with its ends elsewhere, it meets the disc once or not at all.
-  if (!(margin_m > enough_m) || !geometry::triangles_touch(segment, disc)) return 0.0;
-  return margin_m;
+  return 2.0 * scale_m;  // between any two of the six points
+}
+
+// The margin with which the segment from p to q passes through `disc`. Its ends are no nearer to
+// the disc than to the plane of it, and it is no nearer to a side than its line is to the line of
+// the side. It passes through the inside if its ends lie on two sides of the plane, and if its line
+// passes all three sides in the same sense.
+double passing_margin_m(const Vec3& p, const Vec3& q, const Triangle& disc, double scale_m,
+                        double enough_m) {
+  const Vec3 e = disc[1] - disc[0];
+  const Vec3 f = disc[2] - disc[0];
+  const Height from = height_m(p - disc[0], e, f, scale_m);
+  const Height to = height_m(q - disc[0], e, f, scale_m);
+  if (!(from.value_m * to.value_m < 0.0)) return 0.0;
+  double margin_m = std::min(from.surely_m(), to.surely_m());
+  double sense = 0.0;
+  for (std::size_t i = 0; i < 3 && margin_m > enough_m; ++i) {
+    const Height side = height_m(p - disc[i], q - p, disc[(i + 1) % 3] - disc[i], scale_m);
+    if (side.value_m * sense < 0.0) return 0.0;
+    sense = side.value_m;
+    // In this order "not a number" counts as nothing.
+    margin_m = side.surely_m() < margin_m ? side.surely_m() : margin_m;
+    if (!(side.surely_m() > enough_m)) return 0.0;
+  }
+  return margin_m > enough_m ? margin_m : 0.0;
 }
 
 }  // namespace
 
 double crossing_margin_m(const Triangle& a, const Triangle& b, double enough_m) {
+  const double scale_m = scale_of(a, b);
   double margin_m = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    margin_m = std::max(margin_m, passing_margin_m(a[i], a[j], b, std::max(enough_m, margin_m)));
-    margin_m = std::max(margin_m, passing_margin_m(b[i], b[j], a, std::max(enough_m, margin_m)));
+    const double better_m = std::max(enough_m, margin_m);
+    margin_m = std::max({margin_m, passing_margin_m(a[i], a[j], b, scale_m, better_m),
+                         passing_margin_m(b[i], b[j], a, scale_m, better_m)});
   }
   return margin_m;
 }

@@ -103,29 +103,70 @@ class Detector {
     }
   }
 
+  enum class Verdict { kSettled, kTooLong, kUnknown };
+
   // Looks at a piece and chooses the reach of the next; false if the piece was too long.
   bool settle(const Piece& piece, const Stretch& stretch) {
+    const Verdict inside = last_ ? settle_inside(piece, stretch) : Verdict::kUnknown;
+    if (inside != Verdict::kUnknown) return inside == Verdict::kSettled;
     const Look seen = probe_.look(stretch);
     if (seen.free) {
       close();
       aim_m_ = std::max(kLargestGrowth * seen.reach_m, kApproach * seen.gap_m);
+      ahead_m_ -= 2.0 * seen.reach_m;
+      if (ahead_m_ > 0.0) aim_m_ = std::min(aim_m_, most_before_obstacle_m());
       return true;
     }
-    const bool resolved = !(seen.reach_m - seen.rounding_m > options_.tolerance_m);
-    const bool surely = last_ && seen.collides() && !resolved && seen.reach_m > options_.gap_m &&
-                        probe_.surely_collides(stretch, seen);
-    const bool tolerable = last_ && seen.collides() && seen.reach_m <= options_.gap_m;
-    if (resolved || surely || tolerable || !piece.splittable()) {
-      extend(piece, seen, surely);
-      aim_m_ = std::max(options_.tolerance_m, kLargestGrowth * seen.reach_m);
-      if (!surely && seen.reach_m < options_.gap_m) aim_m_ = std::min(aim_m_, options_.gap_m);
+    if (is_resolved(seen) || !piece.splittable()) {
+      extend(piece, seen.gap_m, /*surely=*/false);
+      aim_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
       return true;
     }
-    const double hoped_m = seen.collides() ? kInto * seen.reach_m : kApproach * seen.gap_m;
+    ahead_m_ = seen.reach_m;
+    ahead_gap_m_ = std::max(seen.gap_m, 0.0);
+    const double hoped_m =
+        seen.collides() ? most_before_obstacle_m()
+                        : std::max(kApproach * seen.gap_m, kHeadOn * (ahead_m_ + ahead_gap_m_));
     const double least_m = last_ && seen.collides() ? options_.gap_m : options_.tolerance_m;
-    aim_m_ = std::max(std::clamp(hoped_m, kLargestShrink * seen.reach_m, 0.5 * seen.reach_m),
-                      kBelow * (least_m + seen.rounding_m));
+    aim_m_ = std::max(std::min(hoped_m, 0.5 * seen.reach_m), kBelow * (least_m + seen.rounding_m));
     return false;
+  }
+
+  // The body was seen `ahead_gap_m_` from colliding where it will be after moving by `ahead_m_`, so
+  // after moving by r < ahead it is at the most ahead - r further away. A step of reach r looks
+  // from there, and fails if that is not more than r.
+  [[nodiscard]] double most_before_obstacle_m() const {
+    return std::max(0.5 * kBelow * (ahead_m_ + ahead_gap_m_), options_.tolerance_m);
+  }
+
+  // Inside a collision: a stretch of which a collision all over can be proved, or one that is short
+  // enough to count if its middle collides.
+  Verdict settle_inside(const Piece& piece, const Stretch& stretch) {
+    const double reach_m = probe_.reach_m(stretch);
+    const bool is_short = reach_m <= options_.gap_m;
+    if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
+      extend(piece, 0.0, /*surely=*/true);
+      aim_m_ = kLargestGrowth * reach_m;
+      return Verdict::kSettled;
+    }
+    if (!is_short) {
+      aim_m_ = std::max(0.5 * reach_m, kBelow * options_.gap_m);
+      return Verdict::kTooLong;
+    }
+    hit_.reset();
+    if (!probe_.touched_in_the_middle(stretch)) return Verdict::kUnknown;
+    if (patience_-- <= 0) {
+      hit_ = probe_.surely_hit(stretch);
+      impatience_ = hit_ ? 0 : std::min(2 * impatience_ + 1, kMostImpatience);
+      patience_ = impatience_;
+    }
+    extend(piece, 0.0, hit_.has_value());
+    aim_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
+    return Verdict::kSettled;
+  }
+
+  [[nodiscard]] bool is_resolved(const Look& seen) const {
+    return !(seen.reach_m - seen.rounding_m > options_.tolerance_m);
   }
 
   bool out_of_time() {
@@ -143,17 +184,19 @@ class Detector {
     return end > u ? end : std::nextafter(u, u1);
   }
 
-  void extend(const Piece& piece, const Look& seen, bool surely) {
+  void extend(const Piece& piece, double gap_m, bool surely) {
     if (!last_) {
       begin_s_ = piece.begin_s();
       closest_gap_m_ = std::numeric_limits<double>::infinity();
       contacts_.clear();
+      hit_.reset();
+      patience_ = impatience_ = 0;
     }
     last_ = piece;
     last_is_sure_ = surely;
-    if (seen.gap_m <= 0.0 || seen.gap_m < closest_gap_m_) {
+    if (gap_m <= 0.0 || gap_m < closest_gap_m_) {
       if (closest_gap_m_ > 0.0) contacts_.clear();
-      closest_gap_m_ = std::min(closest_gap_m_, seen.gap_m);
+      closest_gap_m_ = std::min(closest_gap_m_, gap_m);
       contacts_.push_back(piece);
     }
   }
@@ -172,8 +215,7 @@ class Detector {
   std::optional<double> last_not_free(const SegmentMotion& motion, const Piece& piece) {
     const Look seen = probe_.look(motion.around(piece.u0, piece.u1));
     if (seen.free) return std::nullopt;
-    const bool resolved = !(seen.reach_m - seen.rounding_m > options_.tolerance_m);
-    if (resolved || !piece.splittable()) return piece.end_s();
+    if (is_resolved(seen) || !piece.splittable()) return piece.end_s();
     const std::optional<double> right =
         last_not_free(motion, {piece.segment, piece.middle(), piece.u1});
     return right ? right : last_not_free(motion, {piece.segment, piece.u0, piece.middle()});
@@ -198,12 +240,13 @@ class Detector {
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
   static constexpr double kWorthALook = 1.5;  // of the reach that was aimed at
   static constexpr double kApproach = 0.7;    // reach aimed at, of the gap that was seen
-  static constexpr double kInto = 0.25;       // the same where the middle collides, of the reach
+  static constexpr double kHeadOn = 0.25;     // at least, of the way to the obstacle
   static constexpr double kBelow = 0.9;       // so that rounding does not lift it above a limit
   static constexpr double kLargestGrowth = 2.0;
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
-  static constexpr std::size_t kContactsWeighed = 4;
+  static constexpr std::size_t kContactsWeighed = 2;
+  static constexpr int kMostImpatience = 15;  // looks between attempts to prove a collision
 
   Probe probe_;
   const DetectOptions& options_;
@@ -211,6 +254,8 @@ class Detector {
   const bool only_first_;
 
   double aim_m_ = std::numeric_limits<double>::infinity();  ///< reach of the next step
+  double ahead_m_ = 0.0;  ///< motion left to where the body was seen close; not above 0: nowhere
+  double ahead_gap_m_ = 0.0;  ///< how close that was
   unsigned looks_ = 0;
   bool finished_ = false;
   bool timed_out_ = false;
@@ -220,6 +265,9 @@ class Detector {
   bool last_is_sure_ = false;
   double begin_s_ = 0.0;
   double closest_gap_m_ = 0.0;
+  std::optional<std::uint32_t> hit_;  ///< with which the last stretch was proved to collide
+  int patience_ = 0;                  ///< looks until a proof is attempted again
+  int impatience_ = 0;                ///< and after the next failure
   std::vector<Piece> contacts_;
 
   std::vector<CollisionInterval> intervals_;

@@ -10,7 +10,7 @@ namespace camway::collision {
 struct Obstacles {
   // Implicit on purpose: wherever a scene is asked for, an index or a snapshot will do.
   Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
-  Obstacles(const scene::Snapshot& snapshot)  // NOLINT
+  Obstacles(const scene::Snapshot& snapshot)                               // NOLINT
       : index(snapshot.index), field(snapshot.field.get()) {}
 
   const scene::SceneIndex& index;

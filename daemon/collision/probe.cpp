@@ -2,10 +2,12 @@
 #include "daemon/collision/probe.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "daemon/collision/crossing.h"
 #include "daemon/geometry/rounding.h"
+#include "daemon/geometry/triangle_distance.h"
 
 namespace camway::collision {
 
@@ -67,14 +69,14 @@ double Probe::field_distance_m(const motion::Stretch& stretch) const {
          center_radius_m_ * kRoundUp;
 }
 
-Look Probe::look(const motion::Stretch& stretch, double margin_m) {
+Look Probe::look(const motion::Stretch& stretch, double margin_m, Precision precision) {
   Look look;
-  look.reach_m = (stretch.reach_m(radius_m_) + body_.slack_m()) * kRoundUp;
+  look.reach_m = reach_m(stretch);
   look.rounding_m = (stretch.rounding_m(radius_m_) + body_.slack_m()) * kRoundUp;
-  const double moving_m = look.reach_m + margin_m;
+  const double asked_m = look.reach_m + margin_m;
   // Of the ball about the triangles: what it holds cannot be inside a solid either.
   const double field_m = field_distance_m(stretch);
-  if (field_m > (moving_m + keep_m_) * kRoundUp) {
+  if (field_m > (asked_m + keep_m_) * kRoundUp) {
     look.free = true;
     look.gap_m = field_m - keep_m_;
     return look;
@@ -82,10 +84,12 @@ Look Probe::look(const motion::Stretch& stretch, double margin_m) {
   const std::span<const Triangle> placed = place(stretch);
   const double error_m = obstacles_.index.nearest_error_m(placed);
   look.rounding_m += error_m;
-  const double needed_m = (moving_m + error_m + keep_m_) * kRoundUp;
+  const double needed_m = (asked_m + error_m + keep_m_) * kRoundUp;
   // Too large or not a number: then nothing is known, and the motion is at fault.
   if (!(needed_m < geometry::kLargestCoordinate_m)) return look;
-  const std::optional<scene::Nearest> nearest = obstacles_.index.nearest(placed, needed_m);
+  const std::optional<scene::Nearest> nearest = precision == Precision::kExact
+                                                    ? obstacles_.index.nearest(placed, needed_m)
+                                                    : obstacles_.index.near(placed, needed_m);
   if (nearest) {
     look.gap_m = nearest->distance_m - keep_m_;
     look.triangle = nearest->triangle;
@@ -108,19 +112,42 @@ bool Probe::holds_scene(const motion::Stretch& stretch) {
   });
 }
 
-bool Probe::surely_collides(const motion::Stretch& stretch, const Look& seen) {
-  const double moving_m = (seen.reach_m + seen.rounding_m) * kRoundUp;
-  if (seen.gap_m + moving_m < 0.0) return true;
-  if (seen.gap_m > -keep_m_) return false;  // no triangle is touched
-  const std::span<const Triangle> placed = place(stretch);
+std::optional<scene::Nearest> Probe::touched_in_the_middle(const motion::Stretch& stretch) {
+  // "Nearer than": the next number makes it "not further than".
+  const double further_m = std::nextafter(keep_m_, std::numeric_limits<double>::infinity());
+  return obstacles_.index.any_within(place(stretch), further_m);
+}
+
+bool Probe::surely_collides_with(std::uint32_t triangle, const motion::Stretch& stretch) {
+  place(stretch);
+  return surely_meets(obstacles_.index.triangle(triangle), reach_m(stretch));
+}
+
+std::optional<std::uint32_t> Probe::surely_hit(const motion::Stretch& stretch) {
+  place(stretch);
+  const double least_m = reach_m(stretch);
+  std::optional<std::uint32_t> hit;
   int tried = 0;
-  return !obstacles_.index.for_each_touching(bounds_of(placed), [&](std::uint32_t index) {
-    const Triangle obstacle = obstacles_.index.triangle(index);
-    const bool surely = std::ranges::any_of(placed, [&](const Triangle& part) {
-      return crossing_margin_m(part, obstacle, moving_m) > moving_m;
-    });
-    return !surely && ++tried < kMaxCrossingsTried;
-  }) && tried < kMaxCrossingsTried;
+  obstacles_.index.for_each_touching(bounds_of(placed_), [&](std::uint32_t index) {
+    if (surely_meets(obstacles_.index.triangle(index), least_m)) hit = index;
+    return !hit && ++tried < kMaxCrossingsTried;
+  });
+  return hit;
+}
+
+double Probe::reach_m(const motion::Stretch& stretch) const {
+  return (stretch.reach_m(radius_m_) + body_.slack_m()) * kRoundUp;
+}
+
+bool Probe::surely_meets(const Triangle& obstacle, double moved_m) const {
+  return std::ranges::any_of(placed_, [&](const Triangle& part) {
+    if (keep_m_ > moved_m) {
+      const double far_m = geometry::triangle_distance(part, obstacle) +
+                           geometry::triangle_distance_error_m(part, obstacle);
+      if ((far_m + moved_m) * kRoundUp < keep_m_) return true;
+    }
+    return crossing_margin_m(part, obstacle, moved_m) > moved_m;
+  });
 }
 
 }  // namespace camway::collision

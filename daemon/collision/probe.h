@@ -20,7 +20,8 @@ struct Look {
   /// The part of it that splitting does not take away.
   double rounding_m = 0.0;
   /// How far the body was in the middle from colliding, as computed: distance less the required
-  /// clearance. If `free`, only known to be at least this.
+  /// clearance. If `free`, only known to be at least this; else at most this, and with
+  /// `Precision::kRough` the distance may be a quarter less.
   double gap_m = 0.0;
   std::uint32_t triangle = 0;  ///< the scene's nearest, unless `free`
 
@@ -29,7 +30,7 @@ struct Look {
 };
 
 /// Looks at stretches of a motion. Const calls are safe from any thread, but each thread needs a
-/// probe of its own for `look` and `surely_collides`: they share a buffer.
+/// probe of its own: what places the body uses a buffer of the probe.
 ///
 /// The proof that a stretch is free: let d be the computed distance from the scene to the body's
 /// triangles where they were computed to be in the middle, off by at most e. Every point of a
@@ -45,16 +46,26 @@ class Probe {
   /// Refers to both, which must outlive it. [Limit: 0 <= clearance_m] [Units: metres]
   Probe(const Obstacles& obstacles, const motion::Body& body, double clearance_m);
 
+  enum class Precision { kRough, kExact };
+
   /// Looks at a stretch. `margin_m` is asked for on top of the required clearance.
-  Look look(const motion::Stretch& stretch, double margin_m = 0.0);
+  Look look(const motion::Stretch& stretch, double margin_m = 0.0,
+            Precision precision = Precision::kRough);
 
-  /// Proved: everywhere on the stretch the body collides, or is nearer than the required clearance.
-  /// To be asked where it collides in the middle.
-  bool surely_collides(const motion::Stretch& stretch, const Look& seen);
+  /// Whether the body collides in the middle of the stretch, or is too close there; the triangle is
+  /// any with which it does. Cheaper than a look where the answer is yes.
+  std::optional<scene::Nearest> touched_in_the_middle(const motion::Stretch& stretch);
 
-  [[nodiscard]] double reach_m(const motion::Stretch& stretch) const {
-    return stretch.reach_m(radius_m_);
-  }
+  /// Proved: everywhere on the stretch the body collides with `triangle`, or is nearer to it than
+  /// the required clearance.
+  bool surely_collides_with(std::uint32_t triangle, const motion::Stretch& stretch);
+
+  /// A triangle of which that is proved, sought among the first few that the body touches in the
+  /// middle; nothing proves that there is none.
+  std::optional<std::uint32_t> surely_hit(const motion::Stretch& stretch);
+
+  /// `Look::reach_m` of that stretch.
+  [[nodiscard]] double reach_m(const motion::Stretch& stretch) const;
   /// Bound of the gap in the middle of `stretch` at the cost of a look-up; below 0 where the
   /// distance field does not tell.
   [[nodiscard]] double at_least_m(const motion::Stretch& stretch) const {
@@ -70,6 +81,8 @@ class Probe {
  private:
   [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
   [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
+  /// Of the body as it was placed last.
+  [[nodiscard]] bool surely_meets(const geometry::Triangle& obstacle, double moved_m) const;
 
   Obstacles obstacles_;
   const motion::Body& body_;

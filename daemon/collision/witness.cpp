@@ -99,10 +99,11 @@ std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stre
   index.for_each_touching(grown_bounds(placed, keep_m + beyond_m), [&](std::uint32_t number) {
     const Triangle obstacle = index.triangle(number);
     for (std::uint32_t part = 0; part < placed.size(); ++part) {
-      const double distance_m = geometry::triangle_distance(placed[part], obstacle);
+      const bool touches = geometry::triangles_touch(placed[part], obstacle);
+      if (!touches && !(keep_m + beyond_m > 0.0)) continue;
+      const double distance_m = touches ? 0.0 : geometry::triangle_distance(placed[part], obstacle);
       if (distance_m > keep_m + beyond_m) continue;
-      const double crossing_m =
-          distance_m > 0.0 ? 0.0 : depth_of_crossing_m(placed[part], obstacle);
+      const double crossing_m = touches ? depth_of_crossing_m(placed[part], obstacle) : 0.0;
       const double depth_m = std::max(0.0, keep_m - distance_m + crossing_m);
       const bool tie = deepest && depth_m == deepest->depth_m && number < deepest->triangle;
       if (deepest && !(depth_m > deepest->depth_m) && !tie) continue;

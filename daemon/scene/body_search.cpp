@@ -133,8 +133,8 @@ void BodySearch::ask_part(std::size_t part, const Triangle& triangle, std::uint3
   const bool is_tie = distance_m == best_.distance_m && best_.triangle != kNone;
   if (!(distance_m < best_.distance_m || (is_tie && index < best_.triangle))) return;
   best_ = {distance_m, index};
-  shrink_to(distance_m);
-  is_done_ = goal_ == Goal::kAny || (distance_m == 0.0 && index == 0);
+  shrink_to(goal_ == Goal::kNear ? kNearShare * distance_m : distance_m);
+  is_done_ = goal_ == Goal::kAny || (distance_m == 0.0 && (goal_ == Goal::kNear || index == 0));
 }
 
 }  // namespace camway::scene

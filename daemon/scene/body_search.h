@@ -17,7 +17,11 @@ namespace camway::scene {
 /// What is proved to be beyond the nearest so far is not asked.
 class BodySearch {
  public:
-  enum class Goal { kNearest, kAny };
+  enum class Goal {
+    kNearest,
+    kNear,  ///< once one is found, only what is nearer than `kNearShare` of it
+    kAny,
+  };
 
   /// `error_m`: bound of the rounding of any distance asked. Preconditions: the body is not empty
   /// and finite, and outlives this, as `mesh` does.

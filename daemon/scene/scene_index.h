@@ -64,6 +64,9 @@ struct Nearest {
   std::uint32_t triangle = 0;
 };
 
+/// What `SceneIndex::near` promises: the least distance is at least this share of its answer.
+inline constexpr double kNearShare = 0.75;
+
 /// A spatial decomposition of the scene (Ptacek & Johnstone 2006, section 3, for the octree). One
 /// structure for all decompositions: a tree of wide nodes in flat arrays, with boxes of a byte per
 /// side. Each node keeps the box that its triangles really fill, so that empty space is skipped at
@@ -71,7 +74,7 @@ struct Nearest {
 /// triangles at one vertex) stays in one leaf.
 ///
 /// What a query answers does not depend on the tree: it is what asking every triangle in turn with
-/// the kernels of daemon/geometry would answer, bit for bit; `any_within` alone is free to choose.
+/// the kernels of daemon/geometry would answer, bit for bit; only `near` and `any_within` are free to choose.
 /// Who asks with a coordinate that is not finite, or beyond geometry::kLargestCoordinate_m, is told
 /// that triangle 0 is at distance 0: never that the space is free.
 ///
@@ -115,6 +118,12 @@ class SceneIndex {
   /// index. The error of the distance is at most `nearest_error_m(body)`.
   [[nodiscard]] std::optional<Nearest> nearest(std::span<const geometry::Triangle> body,
                                                double cutoff_m) const;
+
+  /// As `nearest`, but any triangle whose distance, times `kNearShare`, is not more than the least:
+  /// much faster near finely divided surfaces. Nothing exactly if `nearest` gives nothing, and
+  /// distance 0 exactly if it does. Which of several it is depends on the index alone.
+  [[nodiscard]] std::optional<Nearest> near(std::span<const geometry::Triangle> body,
+                                            double cutoff_m) const;
 
   /// A scene triangle that is nearer to the body than `distance_m`, and its own distance, or
   /// nothing if there is none; the search ends at the first that it meets. Which of several it is

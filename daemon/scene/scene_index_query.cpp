@@ -217,6 +217,11 @@ std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, doubl
   return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNearest);
 }
 
+std::optional<Nearest> SceneIndex::near(std::span<const Triangle> body, double cutoff_m) const {
+  if (size() == 0 || body.empty()) return std::nullopt;
+  return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNear);
+}
+
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
                                               double distance_m) const {
   if (size() == 0 || body.empty()) return std::nullopt;

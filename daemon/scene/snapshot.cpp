@@ -26,8 +26,8 @@ SnapshotResult build(std::string name, Mesh mesh, ImportReport report,
   }
   snapshot->name = std::move(name);
   snapshot->digest = mesh_digest(mesh);
-  snapshot->index = SceneIndex::build(mesh, options.index);
-  snapshot->mesh = std::move(mesh);
+  snapshot->mesh = std::make_shared<const Mesh>(std::move(mesh));
+  snapshot->index = SceneIndex::build(snapshot->mesh, options.index);
   snapshot->report = std::move(report);
   return {std::move(snapshot), ""};
 }

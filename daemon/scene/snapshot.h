@@ -21,7 +21,7 @@ struct Snapshot {
   std::string name;
   std::uint64_t revision = 1;
   std::string digest;  ///< of the triangles, 32 hexadecimal digits; equal content, equal digest
-  Mesh mesh;
+  std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();  ///< never null
   SceneIndex index;
   std::shared_ptr<const DistanceField> field;     ///< null where it is off
   std::string why_no_field;                       ///< empty exactly when `field` is set

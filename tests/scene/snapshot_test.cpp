@@ -59,8 +59,8 @@ TEST(MakeSnapshot, HoldsMeshTreeAndReport) {
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.snapshot->name, "room");
   EXPECT_EQ(result.snapshot->index.size(), 2U);
-  EXPECT_EQ(result.snapshot->mesh.triangles.size(), 2U);
-  EXPECT_EQ(result.snapshot->digest, mesh_digest(result.snapshot->mesh));
+  EXPECT_EQ(result.snapshot->mesh->triangles.size(), 2U);
+  EXPECT_EQ(result.snapshot->digest, mesh_digest(*result.snapshot->mesh));
   EXPECT_EQ(result.snapshot->report.triangles, 2U);
   EXPECT_EQ(result.snapshot->report.bounds_m.max(), Vec3(1, 1, 5));
   EXPECT_FALSE(result.snapshot->occupancy);

@@ -25,12 +25,14 @@ std::shared_ptr<const scene::Snapshot> wall_scene() {
   auto snapshot = std::make_shared<scene::Snapshot>();
   snapshot->name = "wall";
   snapshot->revision = 3;
-  snapshot->mesh.vertices = {{0.25, -2, -2}, {0.25, 2, -2}, {0.25, 2, 2}, {0.25, -2, 2}};
-  snapshot->mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  snapshot->mesh.objects = {{"wall", 0, 2}};
-  scene::OccupancyMap::BuildResult built = scene::OccupancyMap::build(snapshot->mesh, 0.5);
+  scene::Mesh mesh;
+  mesh.vertices = {{0.25, -2, -2}, {0.25, 2, -2}, {0.25, 2, 2}, {0.25, -2, 2}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.objects = {{"wall", 0, 2}};
+  scene::OccupancyMap::BuildResult built = scene::OccupancyMap::build(mesh, 0.5);
   EXPECT_TRUE(built.map) << built.error;
   snapshot->occupancy = built.map;
+  snapshot->mesh = std::make_shared<const scene::Mesh>(std::move(mesh));
   return snapshot;
 }
 

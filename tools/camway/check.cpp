@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "daemon/collision/near_quad.h"
 #include "daemon/planning/path_faults.h"
+#include "daemon/planning/witness.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/json_io.h"
@@ -26,18 +26,11 @@ struct CheckFlags {
   bool json = false;
 };
 
-/// What a collision is with, in the middle of its interval.
-struct Witness {
-  std::string object;
-  std::uint32_t triangle = 0;
-};
-
 /// All that a check needs, read and judged.
 struct Input {
   planning::PlanRequest request;
   motion::Path path;
   std::vector<motion::Keyframe> keyframes;  ///< of the request, with times; empty if they have none
-  motion::Corners corners_C{};
   std::optional<motion::Body> body;
   std::shared_ptr<const scene::Snapshot> snapshot;
 };
@@ -83,10 +76,9 @@ Parsed<Input> read_files(const CheckFlags& flags) {
   if (!body) return failed(flags.request + ": body: " + fault);
   const Parsed<planning::PlanResult> response = read_plan_response(flags.response);
   if (!response.value) return failed(response.error);
-  return {
-      Input{*request.value, response.value->path, timed_keyframes(*request.value, *response.value),
-            motion::near_corners_C(request.value->camera), std::move(body), nullptr},
-      {}};
+  return {Input{*request.value, response.value->path,
+                timed_keyframes(*request.value, *response.value), std::move(body), nullptr},
+          {}};
 }
 
 Parsed<Input> read_input(const CheckFlags& flags) {
@@ -104,19 +96,31 @@ Parsed<Input> read_input(const CheckFlags& flags) {
   return input;
 }
 
-Witness witness_of(const Input& input, const collision::CollisionInterval& interval) {
-  const motion::Pose pose = input.path.pose(0.5 * (interval.t_begin_s + interval.t_end_s));
-  const auto quad = collision::near_quad_triangles(motion::corners_W(input.corners_C, pose));
-  const double anywhere_m = planning::kMaxCoordinate_m;
-  const auto nearest = input.snapshot->index.nearest(quad, anywhere_m);
-  Witness witness;
-  if (!nearest) return witness;
-  witness.triangle = nearest->triangle;
-  for (const scene::MeshObject& object : input.snapshot->mesh.objects) {
-    if (witness.triangle - object.first_triangle < object.triangle_count)
-      witness.object = object.name;
-  }
-  return witness;
+/// What an interval collides with, in words.
+std::string culprit(const Input& input, const collision::CollisionInterval& interval) {
+  if (!interval.witness) return "what could not be told apart";
+  const collision::Witness& witness = *interval.witness;
+  const planning::WitnessNames names =
+      planning::describe_witness(*input.snapshot->mesh, *input.body, witness);
+  return fmt::format("{} (triangle {}) in {}, {:.3g} m deep at {:.6f} s",
+                     names.object.empty() ? "an unnamed object" : names.object, witness.triangle,
+                     names.feature, witness.depth_m, witness.time_s);
+}
+
+nlohmann::ordered_json interval_json(const Input& input,
+                                     const collision::CollisionInterval& interval) {
+  nlohmann::ordered_json json{{"t_begin", interval.t_begin_s}, {"t_end", interval.t_end_s}};
+  if (!interval.witness) return json;
+  const collision::Witness& witness = *interval.witness;
+  const planning::WitnessNames names =
+      planning::describe_witness(*input.snapshot->mesh, *input.body, witness);
+  json["witness"] = {{"time", witness.time_s},
+                     {"object", names.object},
+                     {"triangle", witness.triangle},
+                     {"feature", names.feature},
+                     {"depth", witness.depth_m},
+                     {"point", {witness.point_W.x(), witness.point_W.y(), witness.point_W.z()}}};
+  return json;
 }
 
 /// Which keyframes the path meets.
@@ -160,10 +164,8 @@ void print_text(const Input& input, const planning::PathCheck& check) {
                check.certificate.clearance_lower_bound_m);
   }
   for (const collision::CollisionInterval& interval : check.collisions) {
-    const Witness witness = witness_of(input, interval);
-    fmt::print("collides from {:.6f} to {:.6f} s with {} (triangle {})\n", interval.t_begin_s,
-               interval.t_end_s, witness.object.empty() ? "an unnamed object" : witness.object,
-               witness.triangle);
+    fmt::print("collides from {:.6f} to {:.6f} s with {}\n", interval.t_begin_s, interval.t_end_s,
+               culprit(input, interval));
   }
   print_keyframes(input);
 }
@@ -187,11 +189,7 @@ void print_json(const Input& input, const planning::PathCheck& check) {
   json["clearance_lower_bound"] = check.certificate.clearance_lower_bound_m;
   json["collisions"] = nlohmann::ordered_json::array();
   for (const collision::CollisionInterval& interval : check.collisions) {
-    const Witness witness = witness_of(input, interval);
-    json["collisions"].push_back({{"t_begin", interval.t_begin_s},
-                                  {"t_end", interval.t_end_s},
-                                  {"object", witness.object},
-                                  {"triangle", witness.triangle}});
+    json["collisions"].push_back(interval_json(input, interval));
   }
   json["keyframes"] = keyframes_json(input);
   fmt::print("{}\n", json.dump(2));
@@ -217,7 +215,8 @@ planning::PathCheck check_with_bridges(const Input& input) {
       bound_m = std::min(bound_m, gap.certificate.clearance_lower_bound_m);
     } else {
       check.certificate = {};
-      check.collisions.push_back({bridge.time_s, bridge.time_s});
+      const auto& witness = gap.collisions.empty() ? std::nullopt : gap.collisions[0].witness;
+      check.collisions.push_back({bridge.time_s, bridge.time_s, witness});
     }
   }
   return check;
