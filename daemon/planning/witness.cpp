@@ -38,9 +38,14 @@ WitnessNames describe_witness(const scene::Mesh& mesh, const motion::Body& body,
   return {object != nullptr ? object->name : std::string(), body.feature_name(witness.feature)};
 }
 
-void name_witnesses(const scene::Mesh& mesh, const motion::Body& body, PlanResult& result) {
-  result.collision_names = names_of(mesh, body, result.collisions);
-  result.remaining_names = names_of(mesh, body, result.remaining_collisions);
+void name_witnesses(const scene::Mesh& mesh, const PlanRequest& request, PlanResult& result) {
+  if (result.collisions.empty() && result.remaining_collisions.empty()) return;
+  if (!result.collision_names.empty() || !result.remaining_names.empty()) return;
+  std::string fault;
+  const auto body = motion::Body::make(request.body.value_or(request.camera), fault);
+  if (!body) return;
+  result.collision_names = names_of(mesh, *body, result.collisions);
+  result.remaining_names = names_of(mesh, *body, result.remaining_collisions);
 }
 
 }  // namespace camway::planning

@@ -3,6 +3,7 @@
 
 #include "daemon/collision/interval.h"
 #include "daemon/motion/body.h"
+#include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 #include "daemon/scene/mesh.h"
 
@@ -12,7 +13,9 @@ namespace camway::planning {
 WitnessNames describe_witness(const scene::Mesh& mesh, const motion::Body& body,
                               const collision::Witness& witness);
 
-/// Fills `collision_names` and `remaining_names` of `result` from its intervals.
-void name_witnesses(const scene::Mesh& mesh, const motion::Body& body, PlanResult& result);
+/// Fills `collision_names` and `remaining_names` of a result of planning `request` in the scene
+/// `mesh`, unless they are there already. For whoever hands the result on; planning itself works
+/// with numbers.
+void name_witnesses(const scene::Mesh& mesh, const PlanRequest& request, PlanResult& result);
 
 }  // namespace camway::planning

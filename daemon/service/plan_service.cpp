@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "daemon/planning/witness.h"
+
 namespace camway::service {
 namespace {
 
@@ -30,7 +32,8 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
       return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
                           header_of(wire, &snapshot));
     }
-    const planning::PlanResult result = planner(snapshot, *converted.request);
+    planning::PlanResult result = planner(snapshot, *converted.request);
+    planning::name_witnesses(*snapshot.mesh, *converted.request, result);
     return to_wire(result, header_of(wire, &snapshot));
   } catch (const std::exception& exception) {
     error = exception.what();

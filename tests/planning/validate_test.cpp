@@ -69,7 +69,7 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"body.size[1]",
        {},
        [](PlanRequest& r) {
-         r.body = motion::BoxShape{{}, {1.0, 0.0, 1.0}};
+         r.body = motion::BoxShape{geometry::Vec3::Zero(), {1.0, 0.0, 1.0}};
        }},
       {"body.center",
        {},
@@ -79,7 +79,7 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"body.radius",
        {},
        [](PlanRequest& r) {
-         r.body = motion::SphereShape{{}, kInfinity};
+         r.body = motion::SphereShape{geometry::Vec3::Zero(), kInfinity};
        }},
       {"body.points[0]",
        {},
@@ -95,7 +95,7 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"camera.near",
        {},
        [](PlanRequest& r) {
-         r.body = motion::SphereShape{{}, 1.0};
+         r.body = motion::SphereShape{geometry::Vec3::Zero(), 1.0};
          r.camera.near_m = -1.0;
        }},
       {"options.max_inserted_keyframes",
@@ -126,7 +126,7 @@ TEST(Validate, ABodyNeedsNoCamera) {
   const std::optional<InvalidRequest> found = validate(request);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->field, "camera.fov_x");
-  request.body = motion::SphereShape{{}, 1.0};
+  request.body = motion::SphereShape{geometry::Vec3::Zero(), 1.0};
   EXPECT_FALSE(validate(request));
   request.camera = testing::small_camera();
   EXPECT_FALSE(validate(request));
@@ -134,7 +134,7 @@ TEST(Validate, ABodyNeedsNoCamera) {
 
 TEST(Validate, SaysWhatABodyMustBe) {
   PlanRequest request = good_request();
-  request.body = motion::BoxShape{{}, {1.0, -1.0, 1.0}};
+  request.body = motion::BoxShape{geometry::Vec3::Zero(), {1.0, -1.0, 1.0}};
   EXPECT_EQ(validate(request)->message,
             "body.size[1]: is -1 m; it must be above 0 and at most 1e+09");
 }

@@ -35,13 +35,28 @@ TEST(DescribeWitness, NamesTheObjectOfATriangleAndTheFeature) {
 
 TEST(DescribeWitness, LeavesNamesEmptyWhereThereIsNoWitness) {
   const scene::Mesh mesh = three_objects();
-  const motion::Body body(testing::small_camera());
+  PlanRequest request;
+  request.camera = testing::small_camera();
   PlanResult result;
   result.collisions = {{0.0, 1.0}, {2.0, 3.0, collision::Witness{.triangle = 13, .feature = 2}}};
   result.remaining_collisions = {{4.0, 5.0, collision::Witness{}}};
-  name_witnesses(mesh, body, result);
+  name_witnesses(mesh, request, result);
   EXPECT_EQ(result.collision_names, (std::vector<WitnessNames>{{"", ""}, {"lamp", "edge 1"}}));
   EXPECT_EQ(result.remaining_names, (std::vector<WitnessNames>{{"table", "inside"}}));
+}
+
+TEST(DescribeWitness, NamesFeaturesOfTheBodyThatMoved) {
+  PlanRequest request;
+  request.body = motion::BoxShape{geometry::Vec3::Zero(), {1, 1, 1}};
+  PlanResult result;
+  result.remaining_collisions = {{0.0, 1.0, collision::Witness{.triangle = 12, .feature = 7}}};
+  name_witnesses(three_objects(), request, result);
+  const std::vector<WitnessNames> expected{{"lamp", "face 7"}};
+  EXPECT_EQ(result.remaining_names, expected);
+  request.body.reset();
+  request.camera = testing::small_camera();
+  name_witnesses(three_objects(), request, result);
+  EXPECT_EQ(result.remaining_names, expected) << "named already";
 }
 
 }  // namespace

@@ -128,6 +128,56 @@ TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
   EXPECT_EQ(response.value->keyframe, std::optional<std::size_t>(1));
 }
 
+TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
+  // The wall ends at x = 0.2 and the fin begins at x = 2: in between there is room for 1.8 m.
+  const auto planned = [&](const std::string& body, double clearance) {
+    std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
+    const std::string camera = R"("camera": {"fov_x_deg": 70, "fov_y_deg": 50, "near": 0.1},)";
+    text.replace(
+        text.find(camera), camera.size(),
+        "\"body\": " + body + ", \"options\": {\"clearance\": " + std::to_string(clearance) + "},");
+    const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
+    EXPECT_EQ(run.exit_code == 0, parse_plan_response(run.out, "stdout").value.has_value() &&
+                                      run.err.find(": ok: ") != std::string::npos)
+        << run.err;
+    return run.exit_code;
+  };
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.8})", 0.0), 0);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.8})", 0.05), 0);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.8})", 0.15), 3);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.95})", 0.0), 3);
+  EXPECT_EQ(planned(R"({"type": "box", "size": [1.7, 0.5, 0.5]})", 0.0), 0);
+  EXPECT_EQ(planned(R"({"type": "box", "size": [1.9, 0.5, 0.5]})", 0.0), 3);
+}
+
+TEST_F(CliPlan, NamesTheFieldOfABodyAtFault) {
+  std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
+  text.replace(text.find("\"camera\""), 0, R"("body": {"type": "box", "size": [1, -1, 1]}, )");
+  const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("R.json: body.size[1]: is -1 m; it must be above 0"));
+}
+
+TEST_F(CliPlan, WitnessesSayWhatCollides) {
+  const std::string request = folder_.write(
+      "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
+  const CliRun run = run_camway({"plan", "--request", request});
+  const auto response = parse_plan_response(run.out, "stdout");
+  ASSERT_TRUE(response.value) << response.error;
+  ASSERT_EQ(response.value->collisions.size(), 1U);
+  ASSERT_TRUE(response.value->collisions[0].witness);
+  EXPECT_EQ(response.value->collision_names.at(0).object, "fin");
+  EXPECT_NE(response.value->collision_names.at(0).feature, "");
+  EXPECT_GT(response.value->collisions[0].witness->depth_m, 0.0);
+}
+
+TEST_F(CliPlan, HelpNamesBodyAndClearance) {
+  const CliRun run = run_camway({"plan", "--help"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("options.clearance"));
+  EXPECT_THAT(run.out, HasSubstr("\"body\""));
+}
+
 TEST_F(CliPlan, ReadsStandardInput) {
   const CliRun run = run_camway({"plan", "--scene", scene_, "--request", "-"}, free_);
   EXPECT_EQ(run.exit_code, 0) << run.err;

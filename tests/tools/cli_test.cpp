@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/planning/plan.h"
+#include "daemon/planning/witness.h"
 #include "daemon/scene/snapshot.h"
 #include "tests/tools/cli_runner.h"
 
@@ -46,7 +47,7 @@ TEST_F(CliScene, InfoReportsWhatWasReadAndAssumed) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* expected :
        {"triangles    4 in 2 objects", "size         1.100 x 1.000 x 0.200 m", "0.5 m per unit",
-        "axes as-in-file", "octree       threshold 32", "away from the scene",
+        "axes as-in-file", "octree       threshold 16", "away from the scene",
         "occupied voxels of 0.1 m"}) {
     EXPECT_THAT(run.out, HasSubstr(expected));
   }
@@ -150,6 +151,7 @@ class CliReplay : public CliScene {
       const double x = 0.1 + 0.05 * i;
       const auto request = simple_request({{x, 0, 1}, {x / 2, 0.3, -1}});
       planning::PlanResult result = planning::plan(*loaded.snapshot, request);
+      planning::name_witnesses(loaded.snapshot->mesh, request, result);
       if (changed && i == 3) result.remaining_collisions.push_back({0.0, 0.0});
       log.add_request(request, {"client", i, 0});
       log.add_answer(result, {{"client", i, 0}, "wall", 1, loaded.snapshot->digest});

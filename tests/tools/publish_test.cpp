@@ -131,5 +131,18 @@ TEST_F(Publish, EndsWithTwoWhereThereIsNothingToSend) {
   EXPECT_THAT(run.err, HasSubstr("holds no requests on OTHER_"));
 }
 
+TEST_F(Publish, SaysThatNoDaemonReadsTheRequestsOfAnotherVersion) {
+  Listener listener(Listener::Manner::kAnswers);
+  std::vector<std::uint8_t> older =
+      wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"client", 9, 0}));
+  older[3] ^= 1;  // within the fingerprint
+  log_.add_event("CAMWAY_PLAN_REQUEST", older);
+  const CliRun run =
+      run_camway({"replay", folder_.write("log", log_.bytes()), "--publish", "--speed", "0"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("of another version of the wire types"));
+  EXPECT_EQ(listener.received(9).size(), 9U) << "sent as recorded all the same";
+}
+
 }  // namespace
 }  // namespace camway::tools

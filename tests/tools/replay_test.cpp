@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "daemon/planning/plan.h"
+#include "daemon/planning/witness.h"
 #include "lcmtypes/wire_check.h"
 #include "tests/tools/log_builder.h"
 #include "tools/camway/replay_run.h"
@@ -32,6 +33,7 @@ class ReplayTest : public ::testing::Test {
 
   PlanResult planned(const PlanRequest& request) const {
     PlanResult result = planning::plan(*scenes_.at("wall"), request);
+    planning::name_witnesses(scenes_.at("wall")->mesh, request, result);
     result.timing.total_ms = kRecordedMs;
     return result;
   }

@@ -11,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "daemon/planning/witness.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/json_io.h"
@@ -96,6 +97,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
   }
   answer.scene_digest = scene.result.snapshot->digest;
   answer.result = planning::plan(*scene.result.snapshot, *request.value);
+  planning::name_witnesses(*scene.result.snapshot->mesh, *request.value, answer.result);
   answer.result.timing.load_scene_ms = scene.load_ms;
   if (answer.result.status == Status::kInvalid) {
     answer.result.message = file + ": " + answer.result.message;

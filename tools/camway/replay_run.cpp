@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/planning/plan.h"
+#include "daemon/planning/witness.h"
 
 namespace camway::tools {
 namespace {
@@ -33,7 +34,9 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
     result.message = "no scene '" + recorded.scene + "'";
     return result;
   }
-  return planning::plan(*scene->second, *recorded.request);
+  result = planning::plan(*scene->second, *recorded.request);
+  planning::name_witnesses(*scene->second->mesh, *recorded.request, result);
+  return result;
 }
 
 /// Why the recorded answer cannot be held against the new one; empty if it can.
