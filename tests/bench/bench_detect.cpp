@@ -103,14 +103,19 @@ class Arena {
             warm_s([&] { sampled[kFclFine] = check_samples(request.path, fine, fcl); }));
       }
     }
-    for (std::size_t k = 0; k < kContenders; ++k) {
-      outcome.median_s[k] = times_s[k].empty() ? kNotRun : median(times_s[k]);
-    }
+    summarise_rounds(times_s, outcome);
     compare(sampled, outcome);
     return outcome;
   }
 
  private:
+  static void summarise_rounds(const std::array<std::vector<double>, kContenders>& times_s,
+                               Outcome& outcome) {
+    for (std::size_t k = 0; k < kContenders; ++k) {
+      outcome.median_s[k] = times_s[k].empty() ? kNotRun : median(times_s[k]);
+    }
+  }
+
   void compare(const std::array<SampledIntervals, kContenders>& sampled, Outcome& outcome) const {
     for (const std::size_t k : {kFclCoarse, kFclFine, kEmbreeRays, kEmbreePacket}) {
       outcome.seen[k] = sampled[k].begin_s.size();
