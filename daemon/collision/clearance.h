@@ -19,7 +19,7 @@ struct PathClearance {
 };
 
 /// How far the lower bound may stay below the upper one, as a share of it, rounding apart.
-inline constexpr double kClearanceGap = 0.15;
+inline constexpr double kClearanceGap = 0.18;
 
 /// A clearance of more than this is reported as this. Who keeps a hundred metres away from
 /// everything does not ask how far exactly, and a scene may be empty. [Units: metres]

@@ -57,9 +57,11 @@ double passing_margin_m(const Vec3& p, const Vec3& q, const Triangle& disc, doub
                         double enough_m) {
   const Vec3 e = disc[1] - disc[0];
   const Vec3 f = disc[2] - disc[0];
+  const Vec3 normal = e.cross(f);
+  // Most do not reach from one side to the other: signs alone tell, without a square root.
+  if (!(normal.dot(p - disc[0]) * normal.dot(q - disc[0]) < 0.0)) return 0.0;
   const Height from = height_m(p - disc[0], e, f, scale_m);
   const Height to = height_m(q - disc[0], e, f, scale_m);
-  if (!(from.value_m * to.value_m < 0.0)) return 0.0;
   double margin_m = std::min(from.surely_m(), to.surely_m());
   double sense = 0.0;
   for (std::size_t i = 0; i < 3 && margin_m > enough_m; ++i) {

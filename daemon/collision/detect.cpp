@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/collision/pace.h"
 #include "daemon/collision/probe.h"
 #include "daemon/collision/witness.h"
 #include "daemon/motion/stretch.h"
@@ -99,7 +100,7 @@ class Detector {
         continue;
       }
       if (settle(piece, stretch)) u = piece.u1;
-      width *= std::clamp(aim_m_ / reach_m, kLargestShrink, kLargestGrowth);
+      width *= std::clamp(aim_m_ / reach_m, kLargestShrink, kLargestStep);
     }
   }
 
@@ -112,31 +113,29 @@ class Detector {
     const Look seen = probe_.look(stretch);
     if (seen.free) {
       close();
-      aim_m_ = std::max(kLargestGrowth * seen.reach_m, kApproach * seen.gap_m);
-      ahead_m_ -= 2.0 * seen.reach_m;
-      if (ahead_m_ > 0.0) aim_m_ = std::min(aim_m_, most_before_obstacle_m());
+      aim_m_ = std::max(pace_.next_reach_m(seen), kBelow * options_.tolerance_m + seen.rounding_m);
       return true;
     }
-    if (is_resolved(seen) || !piece.splittable()) {
+    if (seen.swallows) {
+      extend(piece, seen.gap_m, /*surely=*/true);
+      pace_.pass(seen.reach_m);
+      aim_m_ = kLargestGrowth * seen.reach_m;
+      return true;
+    }
+    const bool counts = last_ && seen.collides() && seen.reach_m <= options_.gap_m;
+    if (counts || is_resolved(seen) || !piece.splittable()) {
       extend(piece, seen.gap_m, /*surely=*/false);
+      pace_.pass(seen.reach_m);
       aim_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
       return true;
     }
-    ahead_m_ = seen.reach_m;
-    ahead_gap_m_ = std::max(seen.gap_m, 0.0);
-    const double hoped_m =
-        seen.collides() ? most_before_obstacle_m()
-                        : std::max(kApproach * seen.gap_m, kHeadOn * (ahead_m_ + ahead_gap_m_));
-    const double least_m = last_ && seen.collides() ? options_.gap_m : options_.tolerance_m;
-    aim_m_ = std::max(std::min(hoped_m, 0.5 * seen.reach_m), kBelow * (least_m + seen.rounding_m));
+    aim_m_ = std::max(pace_.next_reach_m(seen), kBelow * least_reach_m(seen));
     return false;
   }
 
-  // The body was seen `ahead_gap_m_` from colliding where it will be after moving by `ahead_m_`, so
-  // after moving by r < ahead it is at the most ahead - r further away. A step of reach r looks
-  // from there, and fails if that is not more than r.
-  [[nodiscard]] double most_before_obstacle_m() const {
-    return std::max(0.5 * kBelow * (ahead_m_ + ahead_gap_m_), options_.tolerance_m);
+  // Finer is of no use.
+  [[nodiscard]] double least_reach_m(const Look& seen) const {
+    return (last_ && seen.collides() ? options_.gap_m : finest_m(seen)) + seen.rounding_m;
   }
 
   // Inside a collision: a stretch of which a collision all over can be proved, or one that is short
@@ -146,6 +145,7 @@ class Detector {
     const bool is_short = reach_m <= options_.gap_m;
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
+      pace_.pass(reach_m);
       aim_m_ = kLargestGrowth * reach_m;
       return Verdict::kSettled;
     }
@@ -154,19 +154,27 @@ class Detector {
       return Verdict::kTooLong;
     }
     hit_.reset();
-    if (!probe_.touched_in_the_middle(stretch)) return Verdict::kUnknown;
+    const std::optional<std::uint32_t> touched = probe_.touched_in_the_middle(stretch, touched_);
+    if (!touched) return Verdict::kUnknown;
+    touched_ = *touched;
     if (patience_-- <= 0) {
       hit_ = probe_.surely_hit(stretch);
       impatience_ = hit_ ? 0 : std::min(2 * impatience_ + 1, kMostImpatience);
       patience_ = impatience_;
     }
     extend(piece, 0.0, hit_.has_value());
+    pace_.pass(reach_m);
     aim_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
     return Verdict::kSettled;
   }
 
+  // The reach at which a stretch that is not free counts as colliding.
+  [[nodiscard]] double finest_m(const Look& seen) const {
+    return seen.collides() ? options_.tolerance_m : kFinestShare * options_.tolerance_m;
+  }
+
   [[nodiscard]] bool is_resolved(const Look& seen) const {
-    return !(seen.reach_m - seen.rounding_m > options_.tolerance_m);
+    return !(seen.reach_m - seen.rounding_m > finest_m(seen));
   }
 
   bool out_of_time() {
@@ -238,24 +246,23 @@ class Detector {
   }
 
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
-  static constexpr double kWorthALook = 1.5;  // of the reach that was aimed at
-  static constexpr double kApproach = 0.7;    // reach aimed at, of the gap that was seen
-  static constexpr double kHeadOn = 0.25;     // at least, of the way to the obstacle
-  static constexpr double kBelow = 0.9;       // so that rounding does not lift it above a limit
-  static constexpr double kLargestGrowth = 2.0;
+  static constexpr double kWorthALook = 1.5;     // of the reach that was aimed at
+  static constexpr double kFinestShare = 0.1;    // of the tolerance
+  static constexpr double kBelow = 0.9;          // so that rounding does not lift it above a limit
+  static constexpr double kLargestGrowth = 2.0;  // of a stretch proved to collide
+  static constexpr double kLargestStep = 8.0;    // of a width; more is not foreseeable
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
-  static constexpr std::size_t kContactsWeighed = 2;
+  static constexpr std::size_t kContactsWeighed = 1;
   static constexpr int kMostImpatience = 15;  // looks between attempts to prove a collision
 
   Probe probe_;
+  Pace pace_;
   const DetectOptions& options_;
   const Deadline& deadline_;
   const bool only_first_;
 
   double aim_m_ = std::numeric_limits<double>::infinity();  ///< reach of the next step
-  double ahead_m_ = 0.0;  ///< motion left to where the body was seen close; not above 0: nowhere
-  double ahead_gap_m_ = 0.0;  ///< how close that was
   unsigned looks_ = 0;
   bool finished_ = false;
   bool timed_out_ = false;
@@ -266,6 +273,7 @@ class Detector {
   double begin_s_ = 0.0;
   double closest_gap_m_ = 0.0;
   std::optional<std::uint32_t> hit_;  ///< with which the last stretch was proved to collide
+  std::uint32_t touched_ = 0;         ///< was touched last, so probably again
   int patience_ = 0;                  ///< looks until a proof is attempted again
   int impatience_ = 0;                ///< and after the next failure
   std::vector<Piece> contacts_;

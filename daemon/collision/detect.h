@@ -14,9 +14,9 @@ namespace camway::collision {
 
 /// What counts as a collision, and how finely collisions are resolved, as motion of the body.
 struct DetectOptions {
-  /// Ends of intervals are bracketed to this; a stretch that cannot be shown free at this
-  /// resolution counts as colliding. [Limit: 0 < value] [Units: metres]
-  double tolerance_m = 1e-4;
+  /// Ends of intervals are bracketed to this. A stretch that is not seen colliding, but cannot be
+  /// shown free at a tenth of this either, counts as colliding. [Limit: 0 < value] [Units: metres]
+  double tolerance_m = 1e-3;
   /// Inside a colliding stretch, a free gap shorter than this may be counted as colliding, so that
   /// a long collision does not cost the finest resolution everywhere; and intervals closer in time
   /// than the body takes for this on average over the path are joined, as nobody could use the gap.

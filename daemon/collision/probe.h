@@ -15,22 +15,26 @@ namespace camway::collision {
 struct Look {
   /// Proved: nowhere on the stretch is the body nearer to the scene than the required clearance.
   bool free = false;
+  /// Proved: everywhere on the stretch a part of the scene is inside a solid of the body, away from
+  /// its surface. Where this is false the body may collide everywhere as well.
+  bool swallows = false;
   /// Bound of the motion of the body's points from where they were looked at, rounding included.
   double reach_m = 0.0;
   /// The part of it that splitting does not take away.
   double rounding_m = 0.0;
+  /// Whether `gap_m` was measured; else it is a lower bound, and the stretch is free.
+  bool is_measured = true;
   /// How far the body was in the middle from colliding, as computed: distance less the required
-  /// clearance. If `free`, only known to be at least this; else at most this, and with
-  /// `Precision::kRough` the distance may be a quarter less.
+  /// clearance. The true distance may be less, down to the share of it that was asked for, but not
+  /// so that it would matter to `free`.
   double gap_m = 0.0;
-  std::uint32_t triangle = 0;  ///< the scene's nearest, unless `free`
 
   /// In the middle it collides, or is too close.
   [[nodiscard]] bool collides() const { return !free && gap_m <= 0.0; }
 };
 
-/// Looks at stretches of a motion. Const calls are safe from any thread, but each thread needs a
-/// probe of its own: what places the body uses a buffer of the probe.
+/// Looks at stretches of a motion. Each thread needs a probe of its own: what places the body uses
+/// a buffer of the probe.
 ///
 /// The proof that a stretch is free: let d be the computed distance from the scene to the body's
 /// triangles where they were computed to be in the middle, off by at most e. Every point of a
@@ -46,15 +50,17 @@ class Probe {
   /// Refers to both, which must outlive it. [Limit: 0 <= clearance_m] [Units: metres]
   Probe(const Obstacles& obstacles, const motion::Body& body, double clearance_m);
 
-  enum class Precision { kRough, kExact };
+  /// The distance that a look gives need not be nearer to the truth to be of use for the next step.
+  static constexpr double kRough = 0.5;
 
-  /// Looks at a stretch. `margin_m` is asked for on top of the required clearance.
-  Look look(const motion::Stretch& stretch, double margin_m = 0.0,
-            Precision precision = Precision::kRough);
+  /// Looks at a stretch. `margin_m` is asked for on top of the required clearance. The true
+  /// distance is at least `share` of the one given.
+  Look look(const motion::Stretch& stretch, double margin_m = 0.0, double share = kRough);
 
-  /// Whether the body collides in the middle of the stretch, or is too close there; the triangle is
-  /// any with which it does. Cheaper than a look where the answer is yes.
-  std::optional<scene::Nearest> touched_in_the_middle(const motion::Stretch& stretch);
+  /// A triangle that the body touches in the middle of the stretch, or is too close to; `guess` is
+  /// tried first. Cheaper than a look where there is one. Precondition: the scene is not empty.
+  std::optional<std::uint32_t> touched_in_the_middle(const motion::Stretch& stretch,
+                                                     std::uint32_t guess);
 
   /// Proved: everywhere on the stretch the body collides with `triangle`, or is nearer to it than
   /// the required clearance.

@@ -52,11 +52,19 @@ Vec3 offset_from_face(const Triangle& face, const Vec3& point) {
   return offset_from_segment(on_edge, (1.0 - v) * f, point);
 }
 
+/// A square, a product and their comparison: fewer than 16 roundings.
+constexpr double kBeyondRoundUp = 1.0 + 16.0 * kUnitRoundoff;
+
 /// Keeps the shortest offset seen, and tells when it is proved to be the shortest of all.
 class Search {
  public:
-  Search(const Triangle& a, const Triangle& b, double scale)
-      : a_(a), b_(b), margin_(16.0 * kUnitRoundoff * scale), smallest_(4.0 * margin_) {}
+  Search(const Triangle& a, const Triangle& b, double scale, double beyond)
+      : a_(a), b_(b), margin_(16.0 * kUnitRoundoff * scale), smallest_(4.0 * margin_) {
+    // A slab wider than this is proved to be so after its rounding (`margin_`) and that of width
+    // and square; what would have been computed is off by the error of the distance once more.
+    const double surely = (beyond + 2.0 * triangle_distance_error_m(scale)) * kBeyondRoundUp;
+    beyond2_ = surely * surely;
+  }
 
   /// `offset` points from a point of `a` to a point of `b`.
   [[gnu::always_inline]] bool is_final(const Vec3& offset) {
@@ -67,8 +75,13 @@ class Search {
     if (!(squared > smallest_ * smallest_)) return false;
     const double end_a = std::max({offset.dot(a_[0]), offset.dot(a_[1]), offset.dot(a_[2])});
     const double begin_b = std::min({offset.dot(b_[0]), offset.dot(b_[1]), offset.dot(b_[2])});
-    return begin_b - end_a >= squared - margin_ * offset.lpNorm<1>();
+    const double rounding = margin_ * offset.lpNorm<1>();
+    const double width = begin_b - end_a - rounding;
+    is_beyond_ = width > 0.0 && width * width > beyond2_ * squared;
+    return is_beyond_ || begin_b - end_a >= squared - rounding;
   }
+
+  [[nodiscard]] bool is_beyond() const { return is_beyond_; }
 
   [[nodiscard]] double distance() const { return std::sqrt(best2_); }
 
@@ -77,6 +90,8 @@ class Search {
   const Triangle& b_;
   double margin_;
   double smallest_;
+  double beyond2_ = 0.0;
+  bool is_beyond_ = false;
   double best2_ = std::numeric_limits<double>::infinity();
 };
 
@@ -168,12 +183,17 @@ double triangle_distance_error_m(const Triangle& a, const Triangle& b) {
 }
 
 double triangle_distance(const Triangle& a, const Triangle& b) {
+  return triangle_distance(a, b, std::numeric_limits<double>::infinity());
+}
+
+double triangle_distance(const Triangle& a, const Triangle& b, double beyond_m) {
   const double scale = scale_of(a, b);
   const double unit_m = unit_for_scale(scale);
   const Triangle la = to_local(a, a[0], unit_m);
   const Triangle lb = to_local(b, a[0], unit_m);
-  Search search(la, lb, scale / unit_m);
+  Search search(la, lb, scale / unit_m, beyond_m / unit_m);
   if (edges_settle(search, la, lb) || faces_settle(search, la, lb)) {
+    if (search.is_beyond()) return std::numeric_limits<double>::infinity();
     return search.distance() * unit_m;
   }
   if (triangles_touch(a, b)) return 0.0;

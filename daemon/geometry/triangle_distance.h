@@ -19,6 +19,10 @@ namespace camway::geometry {
 /// the digits for edges nearly parallel, and every comparison has a derived margin.
 double triangle_distance(const Triangle& a, const Triangle& b);
 
+/// The same where it is `beyond_m` or less; else it may be infinity instead, which is found out
+/// sooner.
+double triangle_distance(const Triangle& a, const Triangle& b, double beyond_m);
+
 /// Bound of the error of `triangle_distance`, metres.
 double triangle_distance_error_m(const Triangle& a, const Triangle& b);
 

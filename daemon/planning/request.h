@@ -31,7 +31,7 @@ struct PlanOptions {
   double chord_error_m = 0.005;
   /// To how much motion of a corner the ends of collision intervals are bracketed.
   /// [Limit: kLeastIntervalTolerance_m <= value] [Units: metres]
-  double interval_tolerance_m = 1e-4;
+  double interval_tolerance_m = 1e-3;
   /// How far the body has to stay from the scene; nearer is a collision.
   /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
   double clearance_m = 0.0;

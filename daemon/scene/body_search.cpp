@@ -22,7 +22,7 @@ bool BodySearch::Candidates::was_met(std::uint32_t triangle) {
 }
 
 BodySearch::BodySearch(std::span<const Triangle> body, const Box& body_box, const Mesh& mesh,
-                       double cutoff_m, double error_m, Goal goal)
+                       double cutoff_m, double error_m, Goal goal, double certain_m, double share)
     : body_(body),
       mesh_(mesh),
       sides_(body_box),
@@ -30,6 +30,8 @@ BodySearch::BodySearch(std::span<const Triangle> body, const Box& body_box, cons
       oblique_(box_),
       error_m_(error_m),
       goal_(goal),
+      certain_m_(certain_m),
+      share_(share),
       best_{cutoff_m, kNone} {
   shrink_to(cutoff_m);
 }
@@ -41,6 +43,7 @@ std::optional<Nearest> BodySearch::result() const {
 
 // A distance asked may be `error_m_` below the true one, and a bound `error_m_` above it.
 void BodySearch::shrink_to(double best_m) {
+  limit_m_ = best_m;
   const double reach_m = best_m + 2.0 * error_m_;
   squared_reach_m2_ = reach_m * reach_m * (1.0 + 2.0 * OrientedBox::kRelativeError);
 }
@@ -129,11 +132,13 @@ void BodySearch::ask_groups(const Triangle& triangle, std::uint32_t index) {
 }
 
 void BodySearch::ask_part(std::size_t part, const Triangle& triangle, std::uint32_t index) {
-  const double distance_m = geometry::triangle_distance(body_[part], triangle);
+  const double distance_m = geometry::triangle_distance(body_[part], triangle, limit_m_);
   const bool is_tie = distance_m == best_.distance_m && best_.triangle != kNone;
   if (!(distance_m < best_.distance_m || (is_tie && index < best_.triangle))) return;
   best_ = {distance_m, index};
-  shrink_to(goal_ == Goal::kNear ? kNearShare * distance_m : distance_m);
+  shrink_to(goal_ != Goal::kNear      ? distance_m
+            : distance_m < certain_m_ ? share_ * distance_m
+                                      : std::max(share_ * distance_m, certain_m_));
   is_done_ = goal_ == Goal::kAny || (distance_m == 0.0 && (goal_ == Goal::kNear || index == 0));
 }
 

@@ -19,14 +19,15 @@ class BodySearch {
  public:
   enum class Goal {
     kNearest,
-    kNear,  ///< once one is found, only what is nearer than `kNearShare` of it
+    kNear,  ///< once one is found, only what is nearer than `share` of it or `certain_m`
     kAny,
   };
 
   /// `error_m`: bound of the rounding of any distance asked. Preconditions: the body is not empty
   /// and finite, and outlives this, as `mesh` does.
   BodySearch(std::span<const geometry::Triangle> body, const geometry::Box& body_box,
-             const Mesh& mesh, double cutoff_m, double error_m, Goal goal);
+             const Mesh& mesh, double cutoff_m, double error_m, Goal goal, double certain_m,
+             double share);
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
   [[nodiscard]] const ObliqueSides* oblique() const { return &oblique_; }
@@ -83,7 +84,10 @@ class BodySearch {
   ObliqueSides oblique_;
   double error_m_;
   Goal goal_;
+  double certain_m_;
+  double share_;
   bool is_done_ = false;
+  double limit_m_ = 0.0;  ///< what is further is of no interest
   double squared_reach_m2_ = 0.0;
   Nearest best_;
   std::optional<Candidates> candidates_;

@@ -64,9 +64,6 @@ struct Nearest {
   std::uint32_t triangle = 0;
 };
 
-/// What `SceneIndex::near` promises: the least distance is at least this share of its answer.
-inline constexpr double kNearShare = 0.75;
-
 /// A spatial decomposition of the scene (Ptacek & Johnstone 2006, section 3, for the octree). One
 /// structure for all decompositions: a tree of wide nodes in flat arrays, with boxes of a byte per
 /// side. Each node keeps the box that its triangles really fill, so that empty space is skipped at
@@ -119,11 +116,12 @@ class SceneIndex {
   [[nodiscard]] std::optional<Nearest> nearest(std::span<const geometry::Triangle> body,
                                                double cutoff_m) const;
 
-  /// As `nearest`, but any triangle whose distance, times `kNearShare`, is not more than the least:
-  /// much faster near finely divided surfaces. Nothing exactly if `nearest` gives nothing, and
-  /// distance 0 exactly if it does. Which of several it is depends on the index alone.
+  /// As `nearest`, but any triangle whose distance, times `share`, is not more than the least: much
+  /// faster near finely divided surfaces. Nothing exactly if `nearest` gives nothing, distance 0
+  /// exactly if it does, and less than `certain_m` exactly if it does. Which of several it is
+  /// depends on the index alone. [Limit: 0 < share <= 1]
   [[nodiscard]] std::optional<Nearest> near(std::span<const geometry::Triangle> body,
-                                            double cutoff_m) const;
+                                            double cutoff_m, double certain_m, double share) const;
 
   /// A scene triangle that is nearer to the body than `distance_m`, and its own distance, or
   /// nothing if there is none; the search ends at the first that it meets. Which of several it is

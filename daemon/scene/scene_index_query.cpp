@@ -130,12 +130,13 @@ class BoxQuery {
 
 std::optional<Nearest> search(const SceneIndex& index, const Mesh& mesh,
                               std::span<const Triangle> body, double cutoff_m,
-                              BodySearch::Goal goal) {
+                              BodySearch::Goal goal, double certain_m = 0.0, double share = 1.0) {
   if (!is_usable(body) || std::isnan(cutoff_m)) return Nearest{0.0, 0};
   const Box body_box = bounds_of(body);
   const Box all = body_box.merged(index.bounds());
   DistanceQuery query(body, body_box, mesh, cutoff_m,
-                      geometry::triangle_distance_error_m(all.sizes().maxCoeff()), goal);
+                      geometry::triangle_distance_error_m(all.sizes().maxCoeff()), goal, certain_m,
+                      share);
   IndexWalk(index).run(query);
   return query.result();
 }
@@ -217,9 +218,10 @@ std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, doubl
   return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNearest);
 }
 
-std::optional<Nearest> SceneIndex::near(std::span<const Triangle> body, double cutoff_m) const {
+std::optional<Nearest> SceneIndex::near(std::span<const Triangle> body, double cutoff_m,
+                                        double certain_m, double share) const {
   if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNear);
+  return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNear, certain_m, share);
 }
 
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,

@@ -104,6 +104,25 @@ TEST(TriangleDistance, DependsOnTheOrderOfArgumentsAndVerticesByRoundingOnly) {
   }
 }
 
+TEST(TriangleDistance, IsTheSameUpToALimitAndNoLessBeyondIt) {
+  RandomTriangles random(309);
+  int given_up = 0;
+  for (int run = 0; run < 100'000; ++run) {
+    const auto [a, b] = random.close_pair();
+    const double distance_m = triangle_distance(a, b);
+    // Now and then exactly at the limit.
+    const double limit_m = run % 5 == 0 ? distance_m : random.uniform(0.0, 2.0) * distance_m;
+    const double limited_m = triangle_distance(a, b, limit_m);
+    if (std::isinf(limited_m)) {
+      ++given_up;
+      ASSERT_GT(distance_m, limit_m) << "run " << run;
+    } else {
+      ASSERT_EQ(limited_m, distance_m) << "run " << run;
+    }
+  }
+  EXPECT_GT(given_up, 10'000);
+}
+
 TEST(TriangleDistance, ScalesByPowersOfTwo) {
   RandomTriangles random(307);
   for (const double unit : {0x1p-900, 0x1p-300, 0x1p150, 0x1p199}) {

@@ -258,7 +258,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "path\n"
       "meets the request's keyframes is only measured: a line says how many of them it passes "
       "within\n"
-      "options.interval_tolerance_m (0.0001 m), at the times of the request or, if it gives none, "
+      "options.interval_tolerance_m (0.001 m), at the times of the request or, if it gives none, "
       "of\n"
       "the response. Missed keyframes do not change the exit code. Times, numbers or joins that "
       "make\n"
