@@ -29,6 +29,14 @@ function(camway_library name)
                         PRIVATE camway_warnings ${arg_PRIVATE_DEPENDS})
 endfunction()
 
+# camway_hot_sources(FILE ...): where detection spends its time. Measured: -O3 makes it a tenth faster
+# than -O2, and of all the rest nothing. The same IEEE operations, so the same bits.
+function(camway_hot_sources)
+  if(NOT CAMWAY_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^Rel")
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -O3)
+  endif()
+endfunction()
+
 # camway_executable(NAME SOURCES ... DEPENDS ...)
 function(camway_executable name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
