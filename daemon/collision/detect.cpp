@@ -129,7 +129,9 @@ class Detector {
       aim_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
       return true;
     }
-    aim_m_ = std::max(pace_.next_reach_m(seen), kBelow * least_reach_m(seen));
+    // Shorter in any case, or it would be looked at for ever.
+    aim_m_ = std::min(kBelow * seen.reach_m,
+                      std::max(pace_.next_reach_m(seen), kBelow * least_reach_m(seen)));
     return false;
   }
 
