@@ -149,6 +149,29 @@ TEST_P(IndexQueries, AnyWithinFindsWhatThereIs) {
   EXPECT_LT(found, 1000);
 }
 
+TEST_P(IndexQueries, NearIsWithinTheShareOfTheNearestAndSureUpToALimit) {
+  int rough = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::vector<Triangle> body = {triangle(), triangle()};
+    const double cutoff_m = i % 3 == 0 ? kInfinity : random_.log_uniform(1e-3, 3.0);
+    const double certain_m = i % 2 == 0 ? 0.0 : random_.log_uniform(1e-3, 1.0);
+    const double share = random_.uniform(0.05, 1.0);
+    const auto near = tree_.near(body, cutoff_m, certain_m, share);
+    const auto nearest = brute_nearest(tree_, body, cutoff_m);
+    ASSERT_EQ(near.has_value(), nearest.has_value());
+    if (!near) continue;
+    ASSERT_GE(near->distance_m, nearest->distance_m);
+    // Below the share of it only by the rounding of either.
+    const double error_m = 4.0 * tree_.nearest_error_m(body);
+    ASSERT_GE(nearest->distance_m, share * near->distance_m - error_m);
+    ASSERT_EQ(near->distance_m == 0.0, nearest->distance_m == 0.0);
+    ASSERT_EQ(near->distance_m < certain_m, nearest->distance_m < certain_m);
+    ASSERT_LT(near->distance_m, cutoff_m);
+    if (near->distance_m > nearest->distance_m) ++rough;
+  }
+  EXPECT_GT(rough, 0);
+}
+
 TEST_P(IndexQueries, LargeBodiesAreAskedWhole) {
   for (int i = 0; i < 42; ++i) {
     std::vector<Triangle> body;
@@ -265,6 +288,7 @@ TEST(SceneIndex, NeverCallsSpaceFreeForAPoseThatIsNoPose) {
       for (const double cutoff_m : {1.0, 0.0, kInfinity}) {
         expect_equal(tree.nearest(std::array<Triangle, 1>{t}, cutoff_m), Nearest{0.0, 0});
         expect_equal(tree.any_within(std::array<Triangle, 1>{t}, cutoff_m), Nearest{0.0, 0});
+        expect_equal(tree.near(std::array<Triangle, 1>{t}, cutoff_m, 0.0, 0.5), Nearest{0.0, 0});
       }
       EXPECT_TRUE(tree.intersects(t));
       EXPECT_EQ(tree.first_intersection(t), std::optional<std::uint32_t>(0));
