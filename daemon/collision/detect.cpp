@@ -93,14 +93,15 @@ class Detector {
       const Piece piece{all.segment, u, end_of_step(u, width, all.u1)};
       width = piece.u1 - u;
       const Stretch stretch = motion.around(piece.u0, piece.u1);
-      const double reach_m = probe_.reach_m(stretch);
-      const bool too_long = std::isfinite(reach_m) && reach_m > kWorthALook * aim_m_;
+      // What rounding adds to the reach does not go away by splitting.
+      const double motion_m = probe_.reach_m(stretch) - probe_.rounding_m(stretch);
+      const bool too_long = std::isfinite(motion_m) && motion_m > kWorthALook * aim_m_;
       if (too_long && piece.splittable()) {
-        width *= std::max(aim_m_ / reach_m, kLargestShrink);
+        width *= std::max(aim_m_ / motion_m, kLargestShrink);
         continue;
       }
       if (settle(piece, stretch)) u = piece.u1;
-      width *= std::clamp(aim_m_ / reach_m, kLargestShrink, kLargestStep);
+      width *= std::clamp(aim_m_ / motion_m, kLargestShrink, kLargestStep);
     }
   }
 
@@ -113,7 +114,7 @@ class Detector {
     const Look seen = probe_.look(stretch);
     if (seen.free) {
       close();
-      aim_m_ = std::max(pace_.next_reach_m(seen), kBelow * options_.tolerance_m + seen.rounding_m);
+      aim_m_ = std::max(pace_.next_reach_m(seen), kBelow * options_.tolerance_m);
       return true;
     }
     if (seen.swallows) {
@@ -122,7 +123,8 @@ class Detector {
       aim_m_ = kLargestGrowth * seen.reach_m;
       return true;
     }
-    const bool counts = last_ && seen.collides() && seen.reach_m <= options_.gap_m;
+    const bool counts =
+        last_ && seen.collides() && seen.reach_m - seen.rounding_m <= options_.gap_m;
     if (counts || is_resolved(seen) || !piece.splittable()) {
       extend(piece, seen.gap_m, /*surely=*/false);
       pace_.pass(seen.reach_m);
@@ -130,21 +132,23 @@ class Detector {
       return true;
     }
     // Shorter in any case, or it would be looked at for ever.
-    aim_m_ = std::min(kBelow * seen.reach_m,
+    aim_m_ = std::min(kBelow * (seen.reach_m - seen.rounding_m),
                       std::max(pace_.next_reach_m(seen), kBelow * least_reach_m(seen)));
     return false;
   }
 
   // Finer is of no use.
   [[nodiscard]] double least_reach_m(const Look& seen) const {
-    return (last_ && seen.collides() ? options_.gap_m : finest_m(seen)) + seen.rounding_m;
+    return last_ && seen.collides() ? options_.gap_m : finest_m(seen);
   }
 
   // Inside a collision: a stretch of which a collision all over can be proved, or one that is short
   // enough to count if its middle collides.
   Verdict settle_inside(const Piece& piece, const Stretch& stretch) {
     const double reach_m = probe_.reach_m(stretch);
-    const bool is_short = reach_m <= options_.gap_m;
+    if (!std::isfinite(reach_m)) return Verdict::kUnknown;
+    const double motion_m = reach_m - probe_.rounding_m(stretch);
+    const bool is_short = motion_m <= options_.gap_m || !piece.splittable();
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
       pace_.pass(reach_m);
@@ -152,7 +156,7 @@ class Detector {
       return Verdict::kSettled;
     }
     if (!is_short) {
-      aim_m_ = std::max(0.5 * reach_m, kBelow * options_.gap_m);
+      aim_m_ = std::max(0.5 * motion_m, kBelow * options_.gap_m);
       return Verdict::kTooLong;
     }
     hit_.reset();
@@ -264,7 +268,8 @@ class Detector {
   const Deadline& deadline_;
   const bool only_first_;
 
-  double aim_m_ = std::numeric_limits<double>::infinity();  ///< reach of the next step
+  /// Reach of the next step, rounding apart.
+  double aim_m_ = std::numeric_limits<double>::infinity();
   unsigned looks_ = 0;
   bool finished_ = false;
   bool timed_out_ = false;

@@ -78,7 +78,7 @@ double Probe::field_distance_m(const motion::Stretch& stretch) const {
 Look Probe::look(const motion::Stretch& stretch, double margin_m, double share) {
   Look look;
   look.reach_m = reach_m(stretch);
-  look.rounding_m = (stretch.rounding_m(radius_m_) + body_.slack_m()) * kRoundUp;
+  look.rounding_m = rounding_m(stretch);
   const double asked_m = look.reach_m + margin_m;
   // Of the ball about the triangles: what it holds cannot be inside a solid either.
   const double field_m = field_distance_m(stretch);
@@ -151,6 +151,10 @@ std::optional<std::uint32_t> Probe::surely_hit(const motion::Stretch& stretch) {
 
 double Probe::reach_m(const motion::Stretch& stretch) const {
   return (stretch.reach_m(radius_m_) + body_.slack_m()) * kRoundUp;
+}
+
+double Probe::rounding_m(const motion::Stretch& stretch) const {
+  return (stretch.rounding_m(radius_m_) + body_.slack_m()) * kRoundUp;
 }
 
 bool Probe::surely_meets(const Triangle& obstacle, double moved_m) const {

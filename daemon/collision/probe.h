@@ -72,6 +72,8 @@ class Probe {
 
   /// `Look::reach_m` of that stretch.
   [[nodiscard]] double reach_m(const motion::Stretch& stretch) const;
+  /// `Look::rounding_m` of that stretch, that of distances apart.
+  [[nodiscard]] double rounding_m(const motion::Stretch& stretch) const;
   /// Bound of the gap in the middle of `stretch` at the cost of a look-up; below 0 where the
   /// distance field does not tell.
   [[nodiscard]] double at_least_m(const motion::Stretch& stretch) const {

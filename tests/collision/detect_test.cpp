@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/interpolate.h"
@@ -198,6 +199,48 @@ TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
   EXPECT_FALSE(
       first_collision(index, path, motion::Body(corners_C), 0.0, 1.0, {}, Deadline::after_s(0.0))
           .decided);
+}
+
+// Of a path that nobody can evaluate nothing is free, and the search for it ends.
+TEST(DetectCollisions, NumbersWithoutMeaningCollideAllOver) {
+  const SceneIndex index = SceneIndex::build(plate_at_z0());
+  const motion::Body body(testing::small_camera());
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e308}) {
+    std::vector<motion::Segment> segments(3);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      segments[i].t0_s = static_cast<double>(i);
+      segments[i].t1_s = static_cast<double>(i + 1);
+      segments[i].position.fill({0, 0, 0.1});
+      segments[i].position[2].x() = bad;
+      segments[i].orientation.fill({1, 0, 0, 0});
+    }
+    const auto found =
+        detect_collisions(index, Path(segments), body, 0.0, 3.0, {}, Deadline::after_s(20.0));
+    ASSERT_TRUE(found) << bad;
+    ASSERT_EQ(found->size(), 1u) << bad;
+    EXPECT_EQ((*found)[0].t_begin_s, 0.0);
+    EXPECT_EQ((*found)[0].t_end_s, 3.0);
+  }
+}
+
+// Orientations of zero length: nothing is known of the turn, all along the way through a plate.
+TEST(DetectCollisions, OrientationsThatVanishCollideWhereverTheyCould) {
+  const SceneIndex index = SceneIndex::build(plate_at_z0());
+  const motion::Body body(testing::small_camera());
+  motion::Segment segment;
+  segment.t1_s = 1.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    segment.position[i] = {0, 0, 2.0 - 4.0 * static_cast<double>(i) / 3.0};
+  }
+  segment.orientation.fill(geometry::Vec4::Zero());
+  const auto found = detect_collisions(index, Path(std::vector<motion::Segment>{segment}), body,
+                                       0.0, 1.0, {}, Deadline::after_s(20.0));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_LE((*found)[0].t_begin_s, (2.0 - body.radius_m()) / 4.0);
+  EXPECT_GE((*found)[0].t_end_s, (2.0 + body.radius_m()) / 4.0);
+  // No orientation reaches the plate from three radii away.
+  EXPECT_GE((*found)[0].t_begin_s, (2.0 - 3.1 * body.radius_m()) / 4.0);
 }
 
 TEST(DetectCollisions, AnEmptySceneIsFree) {
