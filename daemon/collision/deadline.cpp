@@ -23,6 +23,11 @@ Deadline Deadline::never() { return after_s(kLongest_s); }
 
 bool Deadline::passed() const { return Clock::now() - start_ >= budget_; }
 
+double Deadline::remaining_s() const {
+  const double left_s = std::chrono::duration<double>(budget_ - (Clock::now() - start_)).count();
+  return std::max(left_s, 0.0);
+}
+
 double Deadline::elapsed_ms() const {
   return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
 }

@@ -17,6 +17,9 @@ class Deadline {
 
   [[nodiscard]] bool passed() const;
 
+  /// What is left, 0 once it has passed.
+  [[nodiscard]] double remaining_s() const;
+
   /// Milliseconds since it was made.
   [[nodiscard]] double elapsed_ms() const;
 

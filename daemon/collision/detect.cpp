@@ -220,7 +220,7 @@ class Detector {
     const SegmentMotion motion(*last_->segment);
     const double end_s =
         last_is_sure_ ? last_->end_s() : last_not_free(motion, *last_).value_or(last_->end_s());
-    intervals_.push_back({begin_s_, end_s, witness()});
+    intervals_.push_back({begin_s_, end_s, witness(0.5 * (begin_s_ + end_s))});
     last_.reset();
     finished_ = finished_ || only_first_;
   }
@@ -235,20 +235,18 @@ class Detector {
     return right ? right : last_not_free(motion, {piece.segment, piece.u0, piece.middle()});
   }
 
-  // The deepest of a few contacts spread over the interval.
-  std::optional<Witness> witness() {
-    std::optional<Witness> deepest;
-    const std::size_t stride = 1 + contacts_.size() / kContactsWeighed;
-    for (std::size_t i = contacts_.size() / 2 % stride; i < contacts_.size(); i += stride) {
-      const Piece& piece = contacts_[i];
-      const double u = piece.middle();
-      std::optional<Witness> found = deepest_contact(
-          probe_, SegmentMotion(*piece.segment).around(u, u), std::max(closest_gap_m_, 0.0));
-      if (!found || (deepest && found->depth_m <= deepest->depth_m)) continue;
-      found->time_s = motion::segment_time_s(*piece.segment, u);
-      deepest = found;
-    }
-    return deepest;
+  // What is touched deepest at the contact next to `time_s`.
+  std::optional<Witness> witness(double time_s) {
+    const auto distance_s = [&](const Piece& piece) {
+      return std::abs(motion::segment_time_s(*piece.segment, piece.middle()) - time_s);
+    };
+    const auto contact = std::ranges::min_element(contacts_, {}, distance_s);
+    if (contact == contacts_.end()) return std::nullopt;
+    const double u = contact->middle();
+    std::optional<Witness> found = deepest_contact(
+        probe_, SegmentMotion(*contact->segment).around(u, u), std::max(closest_gap_m_, 0.0));
+    if (found) found->time_s = motion::segment_time_s(*contact->segment, u);
+    return found;
   }
 
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
@@ -259,7 +257,6 @@ class Detector {
   static constexpr double kLargestStep = 8.0;    // of a width; more is not foreseeable
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
-  static constexpr std::size_t kContactsWeighed = 1;
   static constexpr int kMostImpatience = 15;  // looks between attempts to prove a collision
 
   Probe probe_;

@@ -8,7 +8,7 @@
 
 namespace camway::collision {
 
-/// Where a collision was seen: the deepest of the looks taken inside its interval.
+/// Where a collision was seen: the deepest contact at about the middle of its interval.
 struct Witness {
   double time_s = 0.0;
   std::uint32_t triangle = 0;  ///< of the scene's mesh

@@ -147,7 +147,8 @@ class Planner {
   // time: an answer without it would be worth nothing.
   void certify() {
     if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
-    const Deadline budget = Deadline::after_s(kFinalCheckBudget_s);
+    const Deadline budget =
+        Deadline::after_s(std::max(kFinalCheckBudget_s, deadline_.remaining_s()));
     PathCheck check = final_check(budget);
     if (check.complete) {
       result_.remaining_collisions = std::move(check.collisions);
@@ -238,7 +239,7 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
-  // Beyond the deadline.
+  // For the final check, however little of the deadline is left.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
   const collision::Obstacles obstacles_;

@@ -23,6 +23,15 @@ using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson vector_json(const geometry::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Half a unit in the last place of the largest coordinate in single precision, which is how assimp
+/// keeps them. Precondition: the bounds are not empty.
+double import_rounding_m(const scene::ImportReport& report) {
+  constexpr double kSinglePrecisionRoundoff = 0x1p-24;
+  const geometry::Box& bounds_m = report.bounds_m;
+  return kSinglePrecisionRoundoff *
+         bounds_m.min().cwiseAbs().cwiseMax(bounds_m.max().cwiseAbs()).maxCoeff();
+}
+
 OrderedJson import_json(const scene::ImportReport& report) {
   OrderedJson json;
   json["format"] = report.format;
@@ -34,6 +43,7 @@ OrderedJson import_json(const scene::ImportReport& report) {
   if (!report.bounds_m.isEmpty()) {
     json["bounds_min_m"] = vector_json(report.bounds_m.min());
     json["bounds_max_m"] = vector_json(report.bounds_m.max());
+    json["rounding_m"] = import_rounding_m(report);
   }
   json["degenerate_triangles"] = report.degenerate_triangles;
   json["dropped_nonfinite"] = report.dropped_nonfinite;
@@ -105,6 +115,9 @@ void print_import(const scene::ImportReport& report) {
     fmt::print("bounds       [{:.3f}, {:.3f}, {:.3f}] to [{:.3f}, {:.3f}, {:.3f}] m\n", low.x(),
                low.y(), low.z(), high.x(), high.y(), high.z());
     fmt::print("size         {:.3f} x {:.3f} x {:.3f} m\n", size.x(), size.y(), size.z());
+    fmt::print(
+        "rounding     coordinates may be off by {:.2g} m: the importer reads single precision\n",
+        import_rounding_m(report));
   }
   fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);
   fmt::print("dropped      {} not finite, {} with a bad index, {} points and lines\n",
