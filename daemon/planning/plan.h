@@ -15,7 +15,7 @@ namespace camway::planning {
 ///
 /// `ok` and `certificate.certified` go together: the search for collisions ran on the final
 /// segments exactly as they are returned, and everything it does not list is free, at every instant
-/// and with the rounding of the computation bounded (`collision/piece.h` has the proof,
+/// and with the rounding of the computation bounded (`collision/probe.h` has the proof,
 /// ARCHITECTURE.md its assumptions).
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const collision::Deadline& deadline);
