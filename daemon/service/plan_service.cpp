@@ -46,19 +46,18 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
 
 /// Encodes `answer`, or in its place an answer that says that it is too long.
 Pages encode_answer(plan_response_t& answer) {
-  std::vector<Bytes> pages = encode_pages(answer);
-  if (pages.size() > static_cast<std::size_t>(wire::kMaxResponsePages)) {
+  const std::size_t pages = count_pages(answer);
+  if (pages > static_cast<std::size_t>(wire::kMaxResponsePages)) {
     const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
                               answer.scene,
                               answer.scene_revision,
                               answer.scene_digest};
     answer = plain_answer(plan_response_t::STATUS_INTERNAL_ERROR,
-                          fmt::format("the answer takes {} pages, more than the {} allowed",
-                                      pages.size(), wire::kMaxResponsePages),
+                          fmt::format("the answer takes {} pages, more than the {} allowed", pages,
+                                      wire::kMaxResponsePages),
                           header);
-    pages = encode_pages(answer);
   }
-  return std::make_shared<const std::vector<Bytes>>(std::move(pages));
+  return std::make_shared<const std::vector<Bytes>>(encode_pages(answer));
 }
 
 }  // namespace

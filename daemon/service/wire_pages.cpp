@@ -40,6 +40,18 @@ void for_each_list(const Visit& visit) {
 void clear_body(plan_request_t& request) { request.body = body_t{}; }
 void clear_body(plan_response_t&) {}
 
+/// What pages after the first save by having no body.
+std::size_t body_bytes(const plan_request_t& request) {
+  return static_cast<std::size_t>(request.body._getEncodedSizeNoHash() -
+                                  body_t{}._getEncodedSizeNoHash());
+}
+std::size_t body_bytes(const plan_response_t&) { return 0; }
+
+template <class Element>
+std::size_t bytes_of(const Element& element) {
+  return static_cast<std::size_t>(element._getEncodedSizeNoHash());
+}
+
 template <class Message>
 Message without_lists(Message message) {
   for_each_list<Message>([&](auto list, auto count) {
@@ -57,10 +69,18 @@ Message blank_page(const Message& message) {
   return blank;
 }
 
+/// Of a message without the elements of its lists.
 template <class Message>
-std::size_t room_on(const Message& page) {
-  const auto size = static_cast<std::size_t>(page.getEncodedSize());
-  return size < wire::kMaxMessageBytes ? wire::kMaxMessageBytes - size : 0;
+std::size_t header_bytes(const Message& whole) {
+  auto bytes = static_cast<std::size_t>(whole.getEncodedSize());
+  for_each_list<Message>([&](auto list, auto) {
+    for (const auto& element : whole.*list) bytes -= bytes_of(element);
+  });
+  return bytes;
+}
+
+std::size_t room_beside(std::size_t bytes) {
+  return bytes < wire::kMaxMessageBytes ? wire::kMaxMessageBytes - bytes : 0;
 }
 
 template <class Message>
@@ -71,24 +91,36 @@ void append_lists(Message& whole, const Message& page) {
   });
 }
 
-/// Fills page after page, each list from where it stopped on the page before.
+/// Deals the elements to pages, each list from where it stopped on the page before: calls
+/// `turn_page()` before each page but the first and `put(list, count, element)` in between.
+template <class Message, class TurnPage, class Put>
+void deal(const Message& whole, const TurnPage& turn_page, const Put& put) {
+  const std::size_t first_header = header_bytes(whole);
+  const std::size_t later_room = room_beside(first_header - body_bytes(whole));
+  std::size_t left = room_beside(first_header);
+  for_each_list<Message>([&](auto list, auto count) {
+    for (const auto& element : whole.*list) {
+      const std::size_t size = bytes_of(element);
+      if (left < size) {
+        turn_page();
+        left = later_room;
+      }
+      put(list, count, element);
+      left -= size;
+    }
+  });
+}
+
 template <class Message>
 std::vector<Message> split(const Message& whole) {
   const Message blank = blank_page(whole);
   std::vector<Message> pages{without_lists(whole)};
-  std::size_t left = room_on(pages.back());
-  for_each_list<Message>([&](auto list, auto count) {
-    for (const auto& element : whole.*list) {
-      const auto size = static_cast<std::size_t>(element._getEncodedSizeNoHash());
-      if (left < size) {
-        pages.push_back(blank);
-        left = room_on(blank);
-      }
-      (pages.back().*list).push_back(element);
-      ++(pages.back().*count);
-      left -= size;
-    }
-  });
+  deal(
+      whole, [&] { pages.push_back(blank); },
+      [&](auto list, auto count, const auto& element) {
+        (pages.back().*list).push_back(element);
+        ++(pages.back().*count);
+      });
   return pages;
 }
 
@@ -130,6 +162,13 @@ std::string page_fault(const Message& page) {
 
 std::vector<Bytes> encode_pages(const plan_request_t& whole) { return encode_pages_of(whole); }
 std::vector<Bytes> encode_pages(const plan_response_t& whole) { return encode_pages_of(whole); }
+
+std::size_t count_pages(const plan_response_t& whole) {
+  std::size_t pages = 1;
+  deal(
+      whole, [&] { ++pages; }, [](auto, auto, const auto&) {});
+  return pages;
+}
 
 template <class Message>
 typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page) {

@@ -51,6 +51,7 @@ TEST(WirePages, EveryPageFitsAndTogetherTheyAreTheWhole) {
     SCOPED_TRACE(segments);
     const plan_response_t whole = to_wire(sample_result(segments, random), kHeader);
     std::vector<Bytes> pages = encode_pages(whole);
+    ASSERT_EQ(count_pages(whole), pages.size());
     for (const Bytes& page : pages) ASSERT_LE(page.size(), wire::kMaxMessageBytes);
     // Elements of 336 bytes: a page that is not the last wastes less than one of them.
     for (std::size_t i = 0; i + 1 < pages.size(); ++i) {
