@@ -33,24 +33,29 @@ Columns columns(std::span<const Keyframe> keyframes) {
 
 }  // namespace
 
-Path interpolate(std::span<const Keyframe> keyframes) {
+CubicPath interpolate_cubic(std::span<const Keyframe> keyframes) {
   assert(keyframes.size() >= 2);
   const Columns data = columns(keyframes);
   const std::vector<Vec3> slopes =
       spline_slopes<Vec3>(data.times_s, data.positions, EndCondition::kNatural);
-  std::vector<Segment> segments;
-  for (const OrientationPiece& piece : quaternion_spline(data.times_s, data.orientations)) {
+  const ImageSpline images = quaternion_spline(data.times_s, data.orientations);
+  CubicPath result{images.reference, {}};
+  for (const ImagePiece& piece : images.pieces) {
     const std::size_t i = piece.keyframe;
     // The pieces of one pair of keyframes share one cubic of the position, at their true times.
     const double from_s = data.times_s[i];
     const double duration_s = data.times_s[i + 1] - from_s;
-    segments.push_back(
+    result.pieces.push_back(
         {piece.t0_s, piece.t1_s,
          bezier::sub_curve(spline_piece<Vec3>(data.times_s, data.positions, slopes, i),
                            (piece.t0_s - from_s) / duration_s, (piece.t1_s - from_s) / duration_s),
-         piece.orientation});
+         piece.control_points});
   }
-  return Path(std::move(segments));
+  return result;
+}
+
+Path interpolate(std::span<const Keyframe> keyframes) {
+  return interpolate_cubic(keyframes).path();
 }
 
 }  // namespace camway::motion

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/path.h"
 
@@ -39,5 +40,8 @@ std::vector<double> derive_times_s(std::span<const Pose> poses);
 /// Preconditions: at least two keyframes, finite, quaternions of unit length to 1e-3 or so (they
 /// are normalised), times strictly increasing.
 Path interpolate(std::span<const Keyframe> keyframes);
+
+/// The same path, as corrections need it.
+CubicPath interpolate_cubic(std::span<const Keyframe> keyframes);
 
 }  // namespace camway::motion

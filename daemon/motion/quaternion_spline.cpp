@@ -139,14 +139,18 @@ void align_images(std::vector<Knot>& knots) {
   }
 }
 
-/// Bernstein coefficients of `reference·x²` for one cubic piece of x.
-std::array<Vec4, 7> squared(const Vec4& reference, const std::array<Vec4, 4>& x) {
-  std::array<Vec4, 7> q = bezier::product(x, x, multiply);
+}  // namespace
+
+std::array<Vec4, 7> orientation_of(const Vec4& reference, const std::array<Vec4, 4>& image) {
+  std::array<Vec4, 7> q = bezier::product(image, image, multiply);
   for (Vec4& coefficient : q) coefficient = multiply(reference, coefficient);
   return q;
 }
 
-}  // namespace
+Vec4 image_of(const Vec4& reference, const Vec4& orientation, const Vec4& near) {
+  const Vec4 x = square_root(multiply(conjugate(reference), orientation));
+  return x.dot(near) < 0.0 ? Vec4(-x) : x;
+}
 
 std::vector<Vec4> aligned_orientations(std::span<const Vec4> orientations) {
   std::vector<Vec4> aligned;
@@ -164,8 +168,8 @@ std::vector<Vec4> aligned_orientations(std::span<const Vec4> orientations) {
   return aligned;
 }
 
-std::vector<OrientationPiece> quaternion_spline(std::span<const double> times_s,
-                                                std::span<const Vec4> orientations) {
+ImageSpline quaternion_spline(std::span<const double> times_s,
+                              std::span<const Vec4> orientations) {
   assert(times_s.size() == orientations.size() && times_s.size() >= 2);
   const std::vector<Vec4> q = aligned_orientations(orientations);
   const std::optional<Image> one_axis = one_axis_image(times_s, q);
@@ -180,12 +184,12 @@ std::vector<OrientationPiece> quaternion_spline(std::span<const double> times_s,
     x.push_back(knot.x);
   }
   const std::vector<Vec4> slopes = spline_slopes<Vec4>(t_s, x, EndCondition::kBessel);
-  std::vector<OrientationPiece> pieces;
+  ImageSpline spline{image.reference, {}};
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    pieces.push_back({t_s[i], t_s[i + 1], knots[i].keyframe,
-                      squared(image.reference, spline_piece<Vec4>(t_s, x, slopes, i))});
+    spline.pieces.push_back(
+        {t_s[i], t_s[i + 1], knots[i].keyframe, spline_piece<Vec4>(t_s, x, slopes, i)});
   }
-  return pieces;
+  return spline;
 }
 
 }  // namespace camway::motion

@@ -10,13 +10,29 @@
 
 namespace camway::motion {
 
-/// One rational piece of an orientation curve, between two knots.
-struct OrientationPiece {
+/// One cubic piece of x(t), between two knots.
+struct ImagePiece {
   double t0_s = 0.0;
   double t1_s = 0.0;
-  std::size_t keyframe = 0;  ///< the piece lies between this keyframe and the next
-  std::array<geometry::Vec4, 7> orientation{};  ///< as in Segment
+  std::size_t keyframe = 0;                     ///< the piece lies between this keyframe and the next
+  std::array<geometry::Vec4, 4> control_points;  ///< Bézier points
 };
+
+/// An orientation curve before it is mapped back: the spline x(t) in R⁴ and the frame `r` that it
+/// is built around.
+struct ImageSpline {
+  geometry::Vec4 reference;
+  std::vector<ImagePiece> pieces;  ///< in order of time
+};
+
+/// The map back, `r·x²`, for one cubic piece of x: Bernstein coefficients as in Segment.
+std::array<geometry::Vec4, 7> orientation_of(const geometry::Vec4& reference,
+                                             const std::array<geometry::Vec4, 4>& image);
+
+/// The point x of unit length with `r·x²` = `orientation` that is nearer to `near`. Discontinuous
+/// only where `orientation` is `-r`. Preconditions: unit length.
+geometry::Vec4 image_of(const geometry::Vec4& reference, const geometry::Vec4& orientation,
+                        const geometry::Vec4& near);
 
 /// The rational interpolating quaternion spline (Johnstone & Williams, "Rational control of
 /// orientation for animation", 1995): with a reference frame `r` (reference_frame.h), keyframes are
@@ -43,8 +59,8 @@ struct OrientationPiece {
 ///
 /// Preconditions: at least two orientations, about unit length (w, x, y, z), times strictly
 /// increasing.
-std::vector<OrientationPiece> quaternion_spline(std::span<const double> times_s,
-                                                std::span<const geometry::Vec4> orientations);
+ImageSpline quaternion_spline(std::span<const double> times_s,
+                              std::span<const geometry::Vec4> orientations);
 
 /// The orientations, normalised, with signs such that neighbours' dot products are >= 0. Where one
 /// is within `kHalfTurnRounding` of zero, the turn is a half turn and neither way is shorter: it

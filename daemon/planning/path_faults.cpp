@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "daemon/motion/bezier.h"
 #include "daemon/motion/corner_rounding.h"
+#include "daemon/motion/straight_motion.h"
 
 namespace camway::planning {
 
@@ -88,18 +88,7 @@ std::optional<Segment> bridge(const Segment& before, const Segment& after) {
   Vec4 q1 = scaled(after.orientation.front());
   if (q0.dot(q1) < 0.0) q1 = -q1;
   if (p0 == p1 && q0 == q1) return std::nullopt;
-  Segment segment;
-  segment.t0_s = 0.0;
-  segment.t1_s = 1.0;
-  const auto straight = [](auto& points, const auto& from, const auto& to) {
-    const auto last = static_cast<double>(points.size() - 1);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      points[i] = motion::bezier::lerp(from, to, static_cast<double>(i) / last);
-    }
-  };
-  straight(segment.position, p0, p1);
-  straight(segment.orientation, q0, q1);
-  return segment;
+  return motion::straight_motion({p0, q0}, {p1, q1});
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "daemon/collision/detect.h"
 #include "daemon/collision/probe.h"
 #include "daemon/correction/keyframe_insertion.h"
+#include "daemon/correction/ladder.h"
 #include "daemon/motion/interpolate.h"
 #include "daemon/planning/check.h"
 
@@ -128,8 +129,35 @@ class Planner {
       mark_all_as_remaining();
       return;
     }
-    // The seed's method knows near quadrilaterals, and no clearance.
-    if (found->empty() || !body_->is_camera()) return;
+    if (found->empty()) return;
+    if (request_.options.method == Method::kLadder) {
+      correct_by_ladder(*found);
+    } else if (body_->is_camera()) {
+      // The seed's method knows near quadrilaterals, and no clearance.
+      insert_keyframes();
+    }
+    result_.timing.correct_ms = lap_ms();
+  }
+
+  void correct_by_ladder(const std::vector<CollisionInterval>& found) {
+    correction::LadderOptions options;
+    options.detect = detect_;
+    options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
+    correction::LadderResult corrected = correction::correct_by_ladder(
+        obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes), found,
+        options, deadline_);
+    timed_out_ = corrected.timed_out;
+    if (corrected.inserted_s.empty()) return;
+    is_as_interpolated_ = false;
+    result_.path = corrected.path.path();
+    for (const double time_s : corrected.inserted_s) {
+      result_.keyframes.push_back(
+          {time_s, result_.path.pose(time_s), motion::KeyframeOrigin::kInserted});
+    }
+    std::ranges::stable_sort(result_.keyframes, {}, &Keyframe::time_s);
+  }
+
+  void insert_keyframes() {
     correction::KeyframeInsertionOptions options;
     options.sweep = {request_.options.chord_error_m, detect_};
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
@@ -140,7 +168,6 @@ class Planner {
     result_.keyframes = std::move(corrected.keyframes);
     result_.path = std::move(corrected.path);
     timed_out_ = corrected.timed_out;
-    result_.timing.correct_ms = lap_ms();
   }
 
   // The final check of the path as it will be returned, which also runs when correction ran out of

@@ -14,6 +14,7 @@ namespace camway::planning {
 
 /// How a colliding path is corrected.
 enum class Method {
+  kLadder,             ///< move, turn or go round, whichever succeeds first (design, section 7)
   kKeyframeInsertion,  ///< the seed's: Ptacek & Johnstone 2006, section 4
 };
 
@@ -22,7 +23,7 @@ std::optional<Method> method_from_string(std::string_view text);
 
 /// What a request may ask for. Every default works.
 struct PlanOptions {
-  Method method = Method::kKeyframeInsertion;
+  Method method = Method::kLadder;
   /// Planning stops at this and answers `timeout` with what it has; the check of that may take a
   /// second more. [Limit: 0 < value] [Units: seconds]
   double deadline_s = 10.0;

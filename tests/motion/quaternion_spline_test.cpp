@@ -16,6 +16,13 @@ using test::Vec4;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
+struct OrientationPiece {
+  double t0_s;
+  double t1_s;
+  std::size_t keyframe;
+  std::array<Vec4, 7> orientation;
+};
+
 std::vector<OrientationPiece> spline_through(const std::vector<Quat>& rotations) {
   std::vector<double> times_s;
   std::vector<Vec4> orientations;
@@ -23,7 +30,13 @@ std::vector<OrientationPiece> spline_through(const std::vector<Quat>& rotations)
     times_s.push_back(static_cast<double>(times_s.size()));
     orientations.push_back(geometry::wxyz(rotation));
   }
-  return quaternion_spline(times_s, orientations);
+  const ImageSpline spline = quaternion_spline(times_s, orientations);
+  std::vector<OrientationPiece> pieces;
+  for (const ImagePiece& piece : spline.pieces) {
+    pieces.push_back({piece.t0_s, piece.t1_s, piece.keyframe,
+                      orientation_of(spline.reference, piece.control_points)});
+  }
+  return pieces;
 }
 
 Quat orientation_at(const std::vector<OrientationPiece>& pieces, double time_s) {

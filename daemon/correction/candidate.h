@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "daemon/collision/deadline.h"
+#include "daemon/correction/free_space.h"
+#include "daemon/motion/bump.h"
+
+namespace camway::correction {
+
+/// One collision to be corrected, and the part of the path that may change for it.
+struct Problem {
+  /// The path from the keyframe before the gap to the one after, and one gap more on either side.
+  motion::CubicPath path;
+  std::vector<double> keyframes_s;      ///< of that part, in order; the path has to keep them
+  std::size_t gap = 0;  ///< the collision lies between keyframes `gap` and `gap + 1`
+  bool has_path_begin = false;  ///< the whole path begins where `path` does; nothing is before it
+  bool has_path_end = false;    ///< and it ends there
+  collision::CollisionInterval interval;
+  /// Collisions of that part that somebody else has to correct. They need not be mended, and must
+  /// not grow.
+  std::vector<collision::CollisionInterval> others;
+
+  [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
+  [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }
+};
+
+/// What a correction came to.
+struct Candidate {
+  motion::CubicPath path;             ///< in the place of `Problem::path`
+  std::vector<motion::BumpRow> rows;  ///< what was added
+};
+
+/// Where `path` first collides between the two times, others of `problem` apart; nothing if it is
+/// proved free. If the deadline strikes, what was not searched counts as colliding.
+std::optional<collision::CollisionInterval> first_new_collision(
+    const motion::CubicPath& path, double t_begin_s, double t_end_s, const Problem& problem,
+    const FreeSpace& space, const collision::Deadline& deadline);
+
+/// `problem.path` with `rows` added, if it still meets all keyframes and is proved free wherever
+/// they change it.
+struct Attempt {
+  std::optional<Candidate> candidate;
+  std::optional<collision::CollisionInterval> collision;  ///< the first, where there is none
+};
+Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
+                const collision::Deadline& deadline);
+
+}  // namespace camway::correction

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/detour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "daemon/correction/guide.h"
+#include "daemon/correction/lattice_search.h"
+#include "daemon/correction/tree_search.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec3;
+using motion::SignedPose;
+
+// Chosen by measurement; none changes what is proved.
+constexpr std::array<int, 6> kCounts = {8, 16, 32, 64, 128, 256};
+constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
+constexpr double kLeastMargin = 0.02;
+constexpr double kLongestStep = 1.0;  // of the ball's radius: between poses of a guide
+
+class Detour {
+ public:
+  Detour(const Problem& problem, FreeSpace& space, std::uint64_t seed,
+         const collision::Deadline& deadline)
+      : problem_(problem),
+        space_(space),
+        seed_(seed),
+        deadline_(deadline),
+        radius_m_(space.ball_radius_m()),
+        from_(signed_pose_at(problem.path, problem.gap_begin_s())),
+        to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
+
+  std::optional<Candidate> run() {
+    if (std::optional<Candidate> found = follow(lattice_guide())) return found;
+    return follow(tree_guide());
+  }
+
+ private:
+  std::optional<Candidate> follow(const Guide& guide) {
+    if (guide.empty()) return std::nullopt;
+    const Guide fine = divided(guide);
+    for (const double margin : kMargins) {
+      const Guide smooth = shortened(fine, space_, margin * radius_m_);
+      for (const int count : kCounts) {
+        if (deadline_.passed()) return std::nullopt;
+        for (const bool slopes : {true, false}) {
+          if (std::optional<Candidate> found = drawn(smooth, count, slopes)) return found;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  // With `slopes` the path may change its direction at the two keyframes.
+  std::optional<Candidate> drawn(const Guide& guide, int count, bool slopes) {
+    Window window{problem_.gap_begin_s(), problem_.gap_end_s(), slopes, slopes};
+    std::optional<motion::BumpRow> row =
+        drawn_towards(problem_.path, guide, window, count, space_);
+    if (!row) return std::nullopt;
+    if (!slopes) {
+      row->bumps.erase(row->bumps.begin());
+      row->bumps.pop_back();
+      ++row->first;
+    }
+    return attempt(problem_, {*row}, space_, deadline_).candidate;
+  }
+
+  Guide lattice_guide() {
+    const std::optional<SignedPose> begin = escape(from_);
+    const std::optional<SignedPose> end = escape(to_);
+    if (!begin || !end) return {};
+    const Vec3 begin_W = space_.center_W(motion::unsigned_pose(*begin));
+    const Vec3 end_W = space_.center_W(motion::unsigned_pose(*end));
+    const double length_m = (end_W - begin_W).norm();
+    const double coarse_m = std::max(radius_m_, length_m / 8.0);
+    for (const auto& [spacing_m, points] :
+         {std::pair{coarse_m, std::size_t{4000}}, std::pair{0.5 * coarse_m, std::size_t{16000}},
+          std::pair{0.25 * coarse_m, std::size_t{60000}},
+          std::pair{0.125 * coarse_m, std::size_t{120000}}}) {
+      if (deadline_.passed()) break;
+      const LatticeResult found = lattice_way(space_, begin_W, end_W, {spacing_m, points});
+      if (!found.way_W.empty()) return oriented(found.way_W, *begin, *end);
+    }
+    return {};
+  }
+
+  /// A pose with the same orientation, reached by a straight motion, where the ball is free.
+  std::optional<SignedPose> escape(const SignedPose& pose) {
+    const Vec3 center_W = space_.center_W(motion::unsigned_pose(pose));
+    const double comfort_m = 0.1 * radius_m_;
+    if (space_.ball_gap_m(center_W, comfort_m) > 0.0) return pose;
+    for (const double share : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
+      for (int code = 0; code < 27; ++code) {
+        if (code == 13) continue;
+        const Vec3 step =
+            Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized() * (share * radius_m_);
+        if (!(space_.ball_gap_m(center_W + step, comfort_m) > 0.0)) continue;
+        const SignedPose there{pose.position + step, pose.orientation};
+        if (!space_.first_hit(pose, there, 0.0)) return there;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The camera turns as on the path it had, by the share of the way that it has gone.
+  Guide oriented(const std::vector<Vec3>& way_W, const SignedPose& begin, const SignedPose& end) {
+    double length_m = 0.0;
+    for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
+    Guide guide = {from_};
+    double so_far_m = 0.0;
+    for (std::size_t i = 0; i < way_W.size(); ++i) {
+      if (i > 0) so_far_m += (way_W[i] - way_W[i - 1]).norm();
+      const double share = length_m > 0.0 ? so_far_m / length_m : 0.0;
+      const double time_s =
+          std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), std::clamp(share, 0.0, 1.0));
+      const geometry::Vec4 q = signed_pose_at(problem_.path, time_s).orientation;
+      guide.push_back({space_.pose_around(way_W[i], geometry::from_wxyz(q)).position, q});
+    }
+    guide[1] = begin;
+    guide.back() = end;
+    guide.push_back(to_);
+    return guide;
+  }
+
+  Guide tree_guide() {
+    TreeOptions options;
+    options.margin_m = 0.5 * kLeastMargin * radius_m_;
+    options.reach_m =
+        4.0 * radius_m_ + 1.0 * (to_.position - from_.position).norm();
+    options.seed = seed_;
+    return tree_way(space_, from_, to_, options, deadline_);
+  }
+
+  /// With more poses on long motions, so that parts of them can be left out.
+  Guide divided(const Guide& guide) const {
+    Guide result = {guide.front()};
+    for (std::size_t i = 1; i < guide.size(); ++i) {
+      const double length_m = space_.distance_m(guide[i - 1], guide[i]);
+      const int parts =
+          std::clamp(static_cast<int>(std::ceil(length_m / (kLongestStep * radius_m_))), 1, 64);
+      for (int k = 1; k < parts; ++k) {
+        result.push_back(
+            motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
+      }
+      result.push_back(guide[i]);
+    }
+    return result;
+  }
+
+  const Problem& problem_;
+  FreeSpace& space_;
+  const std::uint64_t seed_;
+  const collision::Deadline& deadline_;
+  const double radius_m_;
+  const SignedPose from_;
+  const SignedPose to_;
+};
+
+}  // namespace
+
+std::optional<Candidate> go_round(const Problem& problem, FreeSpace& space, std::uint64_t seed,
+                                  const collision::Deadline& deadline) {
+  return Detour(problem, space, seed, deadline).run();
+}
+
+}  // namespace camway::correction

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/free_space.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "daemon/collision/witness.h"
+#include "daemon/motion/stretch.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Triangle;
+using geometry::Vec3;
+using motion::SignedPose;
+
+// The distance of a ball decides how far a search may jump; nearer to the truth is not worth it.
+constexpr double kBallShare = 0.8;
+
+}  // namespace
+
+FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
+                     const collision::DetectOptions& detect)
+    : obstacles_(obstacles),
+      body_(body),
+      detect_(detect),
+      probe_(obstacles, body, detect.clearance_m) {
+  geometry::Box box;
+  for (const Triangle& triangle : body.triangles_C()) box.extend(geometry::bounds(triangle));
+  center_C_ = box.center();
+  for (const Triangle& triangle : body.triangles_C()) {
+    for (const Vec3& vertex : triangle)
+      ball_radius_m_ = std::max(ball_radius_m_, (vertex - center_C_).norm());
+  }
+  ball_radius_m_ += body.ball_radius_m();
+}
+
+bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
+  return probe_.look(motion::standing_at(pose), margin_m).free;
+}
+
+double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
+  const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m);
+  return seen.free ? up_to_m : std::min(seen.gap_m, up_to_m);
+}
+
+std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedPose& to,
+                                           double margin_m) {
+  collision::DetectOptions options = detect_;
+  options.clearance_m += margin_m;
+  // A search need not know to a millimetre where it is stopped.
+  options.tolerance_m = std::max(options.tolerance_m, 0.5 * margin_m);
+  options.gap_m = std::max(options.gap_m, options.tolerance_m);
+  const motion::Path path({motion::straight_motion(from, to)});
+  const collision::FirstCollision found = collision::first_collision(
+      obstacles_, path, body_, 0.0, 1.0, options, collision::Deadline::never());
+  if (!found.interval) return std::nullopt;
+  return found.interval->t_begin_s;
+}
+
+double FreeSpace::ball_gap_m(const Vec3& point_W, double up_to_m) const {
+  const double keep_m = ball_radius_m_ + detect_.clearance_m;
+  if (obstacles_.field != nullptr) {
+    const double at_least_m = obstacles_.field->clearance_at_least_m(point_W) - keep_m;
+    if (at_least_m >= up_to_m) return up_to_m;
+  }
+  const std::array<Triangle, 1> point = {Triangle{point_W, point_W, point_W}};
+  const double horizon_m = keep_m + up_to_m;
+  const std::optional<scene::Nearest> nearest =
+      obstacles_.index.near(point, horizon_m, keep_m, kBallShare);
+  if (!nearest) return up_to_m;
+  return std::min(up_to_m, nearest->distance_m - keep_m);
+}
+
+std::optional<collision::Witness> FreeSpace::contact(const motion::Pose& pose, double beyond_m) {
+  return collision::deepest_contact(probe_, motion::standing_at(pose), beyond_m);
+}
+
+double FreeSpace::distance_m(const SignedPose& a, const SignedPose& b) const {
+  const double half_sine = 0.5 * (a.orientation - b.orientation).norm();
+  const double turn_rad = 4.0 * std::asin(std::min(1.0, half_sine));
+  return (a.position - b.position).norm() + ball_radius_m_ * turn_rad;
+}
+
+}  // namespace camway::correction

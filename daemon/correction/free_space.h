@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "daemon/collision/deadline.h"
+#include "daemon/collision/detect.h"
+#include "daemon/collision/probe.h"
+#include "daemon/motion/straight_motion.h"
+
+namespace camway::correction {
+
+/// Where the body may be: what searches ask about poses and straight motions before there is a path.
+/// Not safe from several threads at once: it holds buffers.
+class FreeSpace {
+ public:
+  /// Refers to all three, which must outlive it.
+  FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
+            const collision::DetectOptions& detect);
+
+  /// Whether the body at `pose` keeps the required clearance and `margin_m` more: proved.
+  [[nodiscard]] bool is_free(const motion::Pose& pose, double margin_m);
+
+  /// How much further than required the body at `pose` is from the scene, as computed, or
+  /// `up_to_m` if it is that much; 0 or less where it collides.
+  [[nodiscard]] double gap_m(const motion::Pose& pose, double up_to_m);
+
+  /// Where on the straight motion the body comes closer than the required clearance and
+  /// `margin_m`; nothing where it proved not to.
+  [[nodiscard]] std::optional<double> first_hit(const motion::SignedPose& from,
+                                                const motion::SignedPose& to, double margin_m);
+
+  /// How much further than required a ball about `point_W` that holds the body in every
+  /// orientation is from the scene, or `up_to_m` if it is that much; below 0 where it collides.
+  [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double up_to_m) const;
+
+  /// A deepest contact of the body at `pose`, or with what is up to `beyond_m` away.
+  [[nodiscard]] std::optional<collision::Witness> contact(const motion::Pose& pose,
+                                                          double beyond_m);
+
+  /// Centre, in the camera frame, and radius of that ball.
+  [[nodiscard]] const geometry::Vec3& center_C() const { return center_C_; }
+  [[nodiscard]] double ball_radius_m() const { return ball_radius_m_; }
+  [[nodiscard]] geometry::Vec3 center_W(const motion::Pose& pose) const {
+    return pose.position + pose.orientation * center_C_;
+  }
+  /// The pose with that orientation that has the ball at `center_W`.
+  [[nodiscard]] motion::Pose pose_around(const geometry::Vec3& center_W,
+                                         const geometry::Quat& orientation) const {
+    return {center_W - orientation * center_C_, orientation};
+  }
+  /// How far a point of the body moves between two poses, about: what searches measure ways by.
+  [[nodiscard]] double distance_m(const motion::SignedPose& a, const motion::SignedPose& b) const;
+
+  [[nodiscard]] const collision::Obstacles& obstacles() const { return obstacles_; }
+  [[nodiscard]] const motion::Body& body() const { return body_; }
+  [[nodiscard]] const collision::DetectOptions& detect() const { return detect_; }
+
+ private:
+  collision::Obstacles obstacles_;
+  const motion::Body& body_;
+  const collision::DetectOptions& detect_;
+  collision::Probe probe_;
+  geometry::Vec3 center_C_;
+  double ball_radius_m_ = 0.0;
+};
+
+}  // namespace camway::correction

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "daemon/correction/detour.h"
+#include "daemon/correction/nudge.h"
+
+namespace camway::correction {
+
+namespace {
+
+using collision::CollisionInterval;
+using motion::CubicPath;
+
+class Ladder {
+ public:
+  Ladder(FreeSpace& space, const std::vector<motion::Keyframe>& keyframes, const CubicPath& path,
+         const std::vector<CollisionInterval>& collisions, const LadderOptions& options,
+         const collision::Deadline& deadline)
+      : space_(space), options_(options), deadline_(deadline), original_(path) {
+    for (const motion::Keyframe& keyframe : keyframes) keyframes_s_.push_back(keyframe.time_s);
+    result_.path = path;
+    for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
+  }
+
+  LadderResult run() && {
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (deadline_.passed()) {
+        result_.timed_out = true;
+        break;
+      }
+      const double a = deadline_.elapsed_ms();
+      correct(i);
+      fprintf(stderr,"DBG rung %d len %.3f gap %zu ms %.2f moved %.3f turned %.2f ins %zu\n",(int)result_.corrections[i].rung, open_[i].t_end_s-open_[i].t_begin_s, gap_of(open_[i]), deadline_.elapsed_ms()-a, result_.corrections[i].moved_m, result_.corrections[i].turned_rad, result_.inserted_s.size());
+    }
+    std::ranges::sort(result_.inserted_s);
+    return std::move(result_);
+  }
+
+ private:
+  // Collisions close to each other are one interval, and there may be a keyframe between them.
+  void split_at_keyframes(CollisionInterval interval) {
+    auto next = std::ranges::upper_bound(keyframes_s_, interval.t_begin_s);
+    for (; next != keyframes_s_.end() && *next < interval.t_end_s; ++next) {
+      CollisionInterval before = interval;
+      before.t_end_s = *next;
+      open_.push_back(before);
+      interval.t_begin_s = *next;
+    }
+    open_.push_back(interval);
+    while (result_.corrections.size() < open_.size()) {
+      result_.corrections.push_back({open_[result_.corrections.size()]});
+    }
+  }
+
+  [[nodiscard]] std::size_t gap_of(const CollisionInterval& interval) const {
+    const double middle_s = 0.5 * (interval.t_begin_s + interval.t_end_s);
+    const auto next = std::ranges::upper_bound(keyframes_s_, middle_s);
+    const auto index = static_cast<std::size_t>(next - keyframes_s_.begin());
+    return std::clamp<std::size_t>(index, 1, keyframes_s_.size() - 1) - 1;
+  }
+
+  [[nodiscard]] Problem problem(std::size_t index) const {
+    const std::size_t gap = gap_of(open_[index]);
+    const std::size_t first = gap == 0 ? 0 : gap - 1;
+    const std::size_t last = std::min(gap + 2, keyframes_s_.size() - 1);
+    Problem problem;
+    problem.path = result_.path.around(keyframes_s_[first], keyframes_s_[last]);
+    problem.keyframes_s.assign(keyframes_s_.begin() + static_cast<std::ptrdiff_t>(first),
+                               keyframes_s_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    problem.gap = gap - first;
+    problem.has_path_begin = first == 0;
+    problem.has_path_end = last + 1 == keyframes_s_.size();
+    problem.interval = open_[index];
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (i != index && is_open(i)) problem.others.push_back(open_[i]);
+    }
+    return problem;
+  }
+
+  [[nodiscard]] bool is_open(std::size_t index) const {
+    return result_.corrections[index].rung == Rung::kNone;
+  }
+
+  void correct(std::size_t index) {
+    if (!is_open(index)) return;
+    Problem problem = this->problem(index);
+    for (const auto& [rung, kind] :
+         {std::pair{Rung::kMove, NudgeKind::kMove}, {Rung::kTurn, NudgeKind::kTurn}}) {
+      if (accept(index, rung, nudge(problem, kind, space_, deadline_))) return;
+    }
+    // A way round replaces all that lies between the two keyframes.
+    std::vector<std::size_t> same_gap;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (is_open(i) && gap_of(open_[i]) == gap_of(open_[index])) same_gap.push_back(i);
+    }
+    std::erase_if(problem.others, [&](const CollisionInterval& other) {
+      return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
+    });
+    const std::optional<Candidate> found = go_round(problem, space_, options_.seed, deadline_);
+    if (!accept(index, Rung::kGoRound, found)) return;
+    for (const std::size_t i : same_gap) {
+      const CollisionInterval interval = result_.corrections[i].interval;
+      result_.corrections[i] = result_.corrections[index];
+      result_.corrections[i].interval = interval;
+    }
+  }
+
+  bool accept(std::size_t index, Rung rung, const std::optional<Candidate>& candidate) {
+    if (!candidate) return false;
+    std::vector<double> inserted_s;
+    for (const motion::BumpRow& row : candidate->rows) add_keyframes(row, inserted_s);
+    if (result_.inserted_s.size() + inserted_s.size() >
+        static_cast<std::size_t>(options_.max_inserted_keyframes)) {
+      return false;
+    }
+    result_.inserted_s.insert(result_.inserted_s.end(), inserted_s.begin(), inserted_s.end());
+    result_.path.replace(candidate->path);
+    Correction& correction = result_.corrections[index];
+    correction.rung = rung;
+    measure(*candidate, correction);
+    return true;
+  }
+
+  // A bump stands for a keyframe at its peak, unless one is there already.
+  void add_keyframes(const motion::BumpRow& row, std::vector<double>& times_s) const {
+    const double near_s = 0.5 * row.knots.spacing_s();
+    for (std::size_t i = 0; i < row.bumps.size(); ++i) {
+      const double peak_s = row.knots.knot_s(row.first + static_cast<int>(i));
+      const auto next = std::ranges::lower_bound(keyframes_s_, peak_s - near_s);
+      const bool is_there = next != keyframes_s_.end() && *next <= peak_s + near_s;
+      if (!is_there) times_s.push_back(peak_s);
+    }
+  }
+
+  void measure(const Candidate& candidate, Correction& correction) const {
+    constexpr int kSamples = 64;
+    correction.t_begin_s = candidate.rows.front().begin_s();
+    correction.t_end_s = candidate.rows.front().end_s();
+    for (const motion::BumpRow& row : candidate.rows) {
+      correction.t_begin_s = std::min(correction.t_begin_s, row.begin_s());
+      correction.t_end_s = std::max(correction.t_end_s, row.end_s());
+    }
+    correction.t_begin_s = std::max(correction.t_begin_s, original_.begin_s());
+    correction.t_end_s = std::min(correction.t_end_s, original_.end_s());
+    for (int i = 0; i <= kSamples; ++i) {
+      const double time_s =
+          std::lerp(correction.t_begin_s, correction.t_end_s, static_cast<double>(i) / kSamples);
+      const motion::Pose now = candidate.path.pose(time_s);
+      const motion::Pose before = original_.pose(time_s);
+      correction.moved_m =
+          std::max(correction.moved_m, (now.position - before.position).norm());
+      correction.turned_rad =
+          std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
+    }
+  }
+
+  FreeSpace& space_;
+  const LadderOptions& options_;
+  const collision::Deadline& deadline_;
+  const CubicPath& original_;
+  std::vector<double> keyframes_s_;
+  std::vector<CollisionInterval> open_;  ///< as `result_.corrections`
+  LadderResult result_;
+};
+
+}  // namespace
+
+LadderResult correct_by_ladder(const collision::Obstacles& obstacles, const motion::Body& body,
+                               const std::vector<motion::Keyframe>& keyframes,
+                               const CubicPath& path,
+                               const std::vector<CollisionInterval>& collisions,
+                               const LadderOptions& options, const collision::Deadline& deadline) {
+  FreeSpace space(obstacles, body, options.detect);
+  return Ladder(space, keyframes, path, collisions, options, deadline).run();
+}
+
+}  // namespace camway::correction

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "daemon/collision/deadline.h"
+#include "daemon/collision/detect.h"
+#include "daemon/motion/cubic_path.h"
+#include "daemon/motion/keyframe.h"
+
+namespace camway::correction {
+
+/// How a collision was corrected.
+enum class Rung : std::uint8_t {
+  kNone,     ///< it was not
+  kMove,     ///< the camera was moved to one side
+  kTurn,     ///< it was turned
+  kGoRound,  ///< it goes another way
+};
+
+/// What became of one collision of the path as interpolated.
+struct Correction {
+  collision::CollisionInterval interval;  ///< as it was found
+  Rung rung = Rung::kNone;
+  double t_begin_s = 0.0;  ///< what of the path was changed for it
+  double t_end_s = 0.0;
+  double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
+  double turned_rad = 0.0;  ///< most that the camera is turned from how it was
+};
+
+struct LadderOptions {
+  collision::DetectOptions detect;
+  int max_inserted_keyframes = 200;  ///< for the whole path [Limit: 0 <= value]
+  std::uint64_t seed = 1;            ///< of the search for ways round
+};
+
+struct LadderResult {
+  motion::CubicPath path;
+  std::vector<double> inserted_s;  ///< times of the inserted keyframes, increasing
+  std::vector<Correction> corrections;  ///< one for each collision, in order
+  bool timed_out = false;
+};
+
+/// Corrects collisions one after the other, each by the first strategy that succeeds: move, turn,
+/// go round (design, section 7). Each changes the path by C² bumps between keyframes next to the
+/// collision, so it meets all given keyframes and stays as it was elsewhere, and is accepted only
+/// if all that it changed is proved free: no correction undoes another, and what remains are
+/// collisions that were there before. Every strategy is bounded, so the end is certain.
+///
+/// `path` is the interpolation of `keyframes`, `collisions` what `detect_collisions` found on it.
+LadderResult correct_by_ladder(const collision::Obstacles& obstacles, const motion::Body& body,
+                               const std::vector<motion::Keyframe>& keyframes,
+                               const motion::CubicPath& path,
+                               const std::vector<collision::CollisionInterval>& collisions,
+                               const LadderOptions& options, const collision::Deadline& deadline);
+
+}  // namespace camway::correction

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "daemon/correction/free_space.h"
+
+namespace camway::correction {
+
+struct LatticeOptions {
+  double spacing_m = 0.1;         ///< between neighbouring points [Limit: value > 0]
+  std::size_t max_points = 20000;  ///< of which the distance is asked for
+};
+
+struct LatticeResult {
+  /// From the begin to the end, both included; empty if none was found.
+  std::vector<geometry::Vec3> way_W;
+  /// All that can be reached at this spacing was looked at, and the end was not among it.
+  bool exhausted = false;
+};
+
+/// A way for the ball that holds the body in every orientation, by A* (Hart, Nilsson & Raphael 1968)
+/// on the points of a cubic lattice about `from_W`, 26 neighbours each, whose distance is asked for
+/// when they are met. It is the shortest on the lattice, but that being close to the scene makes a
+/// step count for up to twice its length.
+///
+/// A guide, not a proof: between points the distance is looked at in a few places. Deterministic.
+/// Precondition: the ball is free at both ends.
+LatticeResult lattice_way(const FreeSpace& space, const geometry::Vec3& from_W,
+                          const geometry::Vec3& to_W, const LatticeOptions& options);
+
+}  // namespace camway::correction

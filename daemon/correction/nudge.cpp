@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/nudge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "daemon/correction/guide.h"
+#include "daemon/motion/quaternion.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using geometry::Vec4;
+using motion::BumpRow;
+using motion::CubicPoint;
+using motion::Pose;
+using motion::SignedPose;
+
+// Chosen by measurement; none changes what is proved.
+constexpr int kFan = 8;                   // directions across the way
+constexpr int kMostAttempts = 4;          // directions of which bumps are made
+constexpr double kLeastStepShare = 0.02;  // of the radius: the first amount that is tried
+constexpr double kGrowth = 1.6;           // from one amount to the next
+constexpr double kFarthest = 8.0;         // radii
+constexpr int kHalvings = 3;              // of the last step
+constexpr double kMarginShare = 0.02;     // of the radius: what a pose keeps beside what is required
+constexpr double kLargestTurn_rad = 1.6;
+constexpr double kMoreEachTime = 1.35;
+constexpr int kMostRaises = 4;
+constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
+constexpr int kMostWidths = 5;
+constexpr int kReductions = 3;
+
+/// A direction to nudge to: of the move, or the axis of the turn.
+struct Way {
+  Vec3 direction_W;
+  double amount = 0.0;  ///< metres or radians
+};
+
+class Nudger {
+ public:
+  Nudger(const Problem& problem, NudgeKind kind, FreeSpace& space,
+         const collision::Deadline& deadline)
+      : problem_(problem),
+        kind_(kind),
+        space_(space),
+        deadline_(deadline),
+        middle_s_(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s)),
+        length_s_(problem.interval.t_end_s - problem.interval.t_begin_s),
+        radius_m_(space.ball_radius_m()),
+        margin_m_(kMarginShare * radius_m_) {
+    // Away from the middle less is needed: the ends of a collision are free.
+    for (const auto& [place, share] : {std::pair{0.0, 1.0}, {-0.3, 0.8}, {0.3, 0.8}}) {
+      samples_.push_back(
+          {signed_pose_at(problem.path, middle_s_ + place * length_s_), share});
+    }
+  }
+
+  std::optional<Candidate> run() {
+    const std::vector<Way> ways = free_ways();
+    for (std::size_t i = 0; i < ways.size() && i < kMostAttempts && !deadline_.passed(); ++i) {
+      if (std::optional<Candidate> found = with_way(ways[i])) return found;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Sample {
+    SignedPose pose;
+    double share;
+  };
+
+  [[nodiscard]] SignedPose nudged(const SignedPose& pose, const Vec3& direction_W,
+                                  double amount) const {
+    if (kind_ == NudgeKind::kMove) {
+      return {pose.position + amount * direction_W, pose.orientation};
+    }
+    const Vec4 turn = geometry::wxyz(Quat(Eigen::AngleAxisd(amount, direction_W)));
+    const SignedPose turned{pose.position,
+                            motion::quaternion::multiply(turn, pose.orientation)};
+    const Vec3 center_W = space_.center_W(motion::unsigned_pose(pose));
+    const Quat orientation = geometry::from_wxyz(turned.orientation);
+    return {space_.pose_around(center_W, orientation).position, turned.orientation};
+  }
+
+  [[nodiscard]] bool is_enough(const Vec3& direction_W, double amount) {
+    return std::ranges::all_of(samples_, [&](const Sample& sample) {
+      const SignedPose pose = nudged(sample.pose, direction_W, sample.share * amount);
+      return space_.is_free(motion::unsigned_pose(pose), margin_m_);
+    });
+  }
+
+  /// The least amount to that side, about, that frees the samples; nothing below `limit` does.
+  std::optional<double> least_amount(const Vec3& direction_W, double limit) {
+    const double first = kind_ == NudgeKind::kMove ? kLeastStepShare * radius_m_ : 0.02;
+    double below = 0.0;
+    double above = first;
+    while (!is_enough(direction_W, above)) {
+      if (above >= limit) return std::nullopt;
+      below = above;
+      above = std::min(kGrowth * above, limit);
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (below + above);
+      (is_enough(direction_W, middle) ? above : below) = middle;
+    }
+    return above;
+  }
+
+  [[nodiscard]] std::vector<Vec3> directions_W() {
+    const Quat orientation = geometry::from_wxyz(samples_[0].pose.orientation);
+    if (kind_ == NudgeKind::kTurn) {
+      std::vector<Vec3> axes;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 direction = orientation * Vec3::Unit(axis);
+        axes.push_back(direction);
+        axes.push_back(-direction);
+      }
+      return axes;
+    }
+    std::vector<Vec3> directions = contact_directions_W();
+    const Vec3 along = way_W();
+    const Vec3 across = along.unitOrthogonal();
+    for (int i = 0; i < kFan; ++i) {
+      const double angle_rad = 2.0 * std::numbers::pi * i / kFan;
+      directions.push_back(Eigen::AngleAxisd(angle_rad, along) * across);
+    }
+    return directions;
+  }
+
+  /// Where the path goes, at the collision.
+  [[nodiscard]] Vec3 way_W() const {
+    const Vec3 way = samples_[2].pose.position - samples_[1].pose.position;
+    const double length_m = way.norm();
+    return length_m > 0.0 ? Vec3(way / length_m) : Vec3::UnitZ();
+  }
+
+  /// Along the normals of what is touched, and away from the points.
+  [[nodiscard]] std::vector<Vec3> contact_directions_W() {
+    std::vector<Vec3> directions;
+    const auto add = [&](const Vec3& direction) {
+      const double length = direction.norm();
+      if (length > 0.0 && std::isfinite(length)) directions.push_back(direction / length);
+    };
+    for (const Sample& sample : samples_) {
+      const Pose pose = motion::unsigned_pose(sample.pose);
+      const std::optional<collision::Witness> contact = space_.contact(pose, 0.0);
+      if (!contact) continue;
+      const geometry::Triangle triangle = space_.obstacles().index.triangle(contact->triangle);
+      const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+      add(normal);
+      add(-normal);
+      add(space_.center_W(pose) - contact->point_W);
+    }
+    return directions;
+  }
+
+  std::vector<Way> free_ways() {
+    std::vector<Way> ways;
+    const double farthest =
+        kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : kLargestTurn_rad;
+    double limit = farthest;
+    for (const Vec3& direction_W : directions_W()) {
+      const std::optional<double> amount = least_amount(direction_W, limit);
+      if (!amount) continue;
+      ways.push_back({direction_W, *amount});
+      // Ways that are much longer than the shortest are not worth measuring.
+      limit = std::min(limit, 2.5 * *amount);
+    }
+    std::ranges::stable_sort(ways, {}, &Way::amount);
+    return ways;
+  }
+
+  std::optional<Candidate> with_way(const Way& way) {
+    double spacing_s = widest_spacing_s();
+    for (int i = 0; i < kMostWidths; ++i, spacing_s *= 0.5) {
+      if (std::optional<Candidate> found = with_width(way, spacing_s)) return found;
+      if (spacing_s < kNarrowest * length_s_) break;
+    }
+    return std::nullopt;
+  }
+
+  /// So that the bump stays between the keyframes, or, where the collision is next to one of them,
+  /// at least wide enough for the collision.
+  [[nodiscard]] double widest_spacing_s() const {
+    const double room_s =
+        std::min(middle_s_ - problem_.gap_begin_s(), problem_.gap_end_s() - middle_s_);
+    return std::max(0.5 * room_s, 1.2 * kNarrowest * length_s_);
+  }
+
+  std::optional<Candidate> with_width(const Way& way, double spacing_s) {
+    double amount = way.amount;
+    for (int i = 0; i < kMostRaises; ++i, amount *= kMoreEachTime) {
+      Attempt tried = attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
+      if (tried.candidate) {
+        return reduced(way, amount, i == 0 ? 0.0 : amount / kMoreEachTime, spacing_s,
+                       std::move(*tried.candidate));
+      }
+      // Higher helps against the collision that it is for, not against what it runs into.
+      const bool is_old = tried.collision->t_begin_s < problem_.interval.t_end_s &&
+                          tried.collision->t_end_s > problem_.interval.t_begin_s;
+      if (!is_old) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  Candidate reduced(const Way& way, double enough, double too_little, double spacing_s,
+                    Candidate best) {
+    if (too_little == 0.0) return best;  // that amount was measured
+    for (int i = 0; i < kReductions; ++i) {
+      const double amount = 0.5 * (enough + too_little);
+      Attempt tried = attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
+      if (tried.candidate) {
+        enough = amount;
+        best = std::move(*tried.candidate);
+      } else {
+        too_little = amount;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::vector<BumpRow> bump(const Vec3& direction_W, double amount,
+                                          double spacing_s) const {
+    const SignedPose wanted = nudged(samples_[0].pose, direction_W, amount);
+    const CubicPoint old = problem_.path.at(middle_s_);
+    CubicPoint offset{wanted.position - old.position, Vec4::Zero()};
+    if (kind_ == NudgeKind::kTurn) {
+      const Vec4 image =
+          motion::image_of(problem_.path.reference, wanted.orientation, old.image);
+      offset.image = image * old.image.norm() - old.image;
+    }
+    return row_with_peak(offset, spacing_s);
+  }
+
+  [[nodiscard]] std::vector<BumpRow> row_with_peak(const CubicPoint& offset,
+                                                   double spacing_s) const;
+
+  const Problem& problem_;
+  const NudgeKind kind_;
+  FreeSpace& space_;
+  const collision::Deadline& deadline_;
+  const double middle_s_;
+  const double length_s_;
+  const double radius_m_;
+  const double margin_m_;
+  std::vector<Sample> samples_;
+};
+
+/// Value at `x` knots from its peak of a bump with coefficient 1.
+double bump_value(double x) {
+  const double a = std::abs(x);
+  if (a >= 2.0) return 0.0;
+  if (a >= 1.0) return (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0;
+  return 2.0 / 3.0 - a * a + 0.5 * a * a * a;
+}
+
+CubicPoint scaled(const CubicPoint& point, double factor) {
+  return {factor * point.position, factor * point.image};
+}
+
+BumpRow single(double peak_s, double spacing_s, const CubicPoint& coefficient) {
+  return {{peak_s - 2.0 * spacing_s, peak_s + 2.0 * spacing_s, 4}, 2, {coefficient}};
+}
+
+// The bump, and one at each keyframe within its support that takes back what it does there. Those
+// are so narrow that they do not reach other keyframes.
+std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spacing_s) const {
+  const auto value = [&](double time_s) { return bump_value((time_s - middle_s_) / spacing_s); };
+  const std::vector<double>& keyframes_s = problem_.keyframes_s;
+  std::vector<double> narrow_s;
+  std::vector<BumpRow> rows;
+  double peak = motion::kBumpPeak;
+  for (std::size_t i = 0; i < keyframes_s.size(); ++i) {
+    const double share = value(keyframes_s[i]);
+    narrow_s.push_back(0.0);
+    if (share == 0.0) continue;
+    double room_s = spacing_s;
+    if (i > 0) room_s = std::min(room_s, 0.5 * (keyframes_s[i] - keyframes_s[i - 1]));
+    if (i + 1 < keyframes_s.size())
+      room_s = std::min(room_s, 0.5 * (keyframes_s[i + 1] - keyframes_s[i]));
+    narrow_s.back() = room_s;
+    peak -= share / motion::kBumpPeak * bump_value((middle_s_ - keyframes_s[i]) / room_s);
+  }
+  if (!(peak > 0.1)) return {};
+  rows.push_back(single(middle_s_, spacing_s, scaled(offset, 1.0 / peak)));
+  for (std::size_t i = 0; i < keyframes_s.size(); ++i) {
+    if (narrow_s[i] == 0.0) continue;
+    const double share = -value(keyframes_s[i]) / (motion::kBumpPeak * peak);
+    rows.push_back(single(keyframes_s[i], narrow_s[i], scaled(offset, share)));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::optional<Candidate> nudge(const Problem& problem, NudgeKind kind, FreeSpace& space,
+                               const collision::Deadline& deadline) {
+  return Nudger(problem, kind, space, deadline).run();
+}
+
+}  // namespace camway::correction

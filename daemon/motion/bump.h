@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "daemon/motion/cubic_path.h"
+
+namespace camway::motion {
+
+/// Equidistant knots: `count` steps from `begin_s` to `end_s`, and as many more of the same length
+/// on either side as are asked for.
+struct KnotRow {
+  double begin_s = 0.0;
+  double end_s = 1.0;  ///< [Limit: value > begin_s]
+  int count = 1;       ///< [Limit: value >= 1]
+
+  /// Knot `index`; exactly `begin_s` at 0 and `end_s` at `count`. Increases with the index, which may
+  /// be negative.
+  [[nodiscard]] double knot_s(int index) const;
+  [[nodiscard]] double spacing_s() const { return (end_s - begin_s) / count; }
+};
+
+/// A uniform cubic B-spline that is added to a path: bump i has its peak, two thirds of its
+/// coefficient, at knot `first + i` and its support between the knots two before and two after. The
+/// sum of equal coefficients is that coefficient. Outside the supports nothing changes, and at their
+/// ends value, first and second derivative are zero: the path stays C².
+struct BumpRow {
+  KnotRow knots;
+  int first = 0;
+  std::vector<CubicPoint> bumps;  ///< coefficients: metres, and differences of images
+
+  [[nodiscard]] double begin_s() const { return knots.knot_s(first - 2); }
+  [[nodiscard]] double end_s() const {
+    return knots.knot_s(first + static_cast<int>(bumps.size()) + 1);
+  }
+};
+
+/// Peak of a bump with coefficient 1, and its value one knot further.
+inline constexpr double kBumpPeak = 2.0 / 3.0;
+inline constexpr double kBumpShoulder = 1.0 / 6.0;
+
+/// `path` with all `rows` added, split at the knots. What lies outside the supports is the same bit
+/// for bit; pieces share their control point at a join bit for bit. A support may reach beyond the
+/// ends of the path, where it is cut off.
+CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows);
+
+/// Knots that are closer than this share of the shortest spacing become one. It changes a bump's
+/// second derivative by as much of its largest, and spares pieces too short for derivatives.
+inline constexpr double kSameKnot = 1e-9;
+
+}  // namespace camway::motion
