@@ -60,8 +60,7 @@ bool keeps_keyframes(motion::CubicPath& path, const Problem& problem) {
 
 std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& path,
                                                      double t_begin_s, double t_end_s,
-                                                     const Problem& problem,
-                                                     const FreeSpace& space,
+                                                     const Problem& problem, const FreeSpace& space,
                                                      const collision::Deadline& deadline) {
   const motion::Path segments = path.around(t_begin_s, t_end_s).path();
   const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
@@ -88,13 +87,12 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
   if (!keeps_keyframes(candidate.path, problem)) return {std::nullopt, problem.interval};
   // The collision to be mended is the likeliest to remain.
-  const double middle_s = std::clamp(
-      0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s), changed->begin_s,
-      changed->end_s);
+  const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
+                                     changed->begin_s, changed->end_s);
   for (const Span& part : {Span{middle_s, changed->end_s}, Span{changed->begin_s, middle_s}}) {
     Attempt result;
-    result.collision = first_new_collision(candidate.path, part.begin_s, part.end_s, problem, space,
-                                           deadline);
+    result.collision =
+        first_new_collision(candidate.path, part.begin_s, part.end_s, problem, space, deadline);
     if (result.collision) return result;
   }
   return {std::move(candidate), std::nullopt};

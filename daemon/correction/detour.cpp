@@ -20,7 +20,7 @@ using motion::SignedPose;
 constexpr std::array<int, 6> kCounts = {8, 16, 32, 64, 128, 256};
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
-constexpr double kLongestStep = 1.0;  // of the ball's radius: between poses of a guide
+constexpr double kLongestStep = 3.0;  // of the ball's radius: between poses of a guide
 
 class Detour {
  public:
@@ -47,26 +47,31 @@ class Detour {
       const Guide smooth = shortened(fine, space_, margin * radius_m_);
       for (const int count : kCounts) {
         if (deadline_.passed()) return std::nullopt;
-        for (const bool slopes : {true, false}) {
-          if (std::optional<Candidate> found = drawn(smooth, count, slopes)) return found;
-        }
+        if (std::optional<Candidate> found = drawn(smooth, count)) return found;
       }
     }
     return std::nullopt;
   }
 
-  // With `slopes` the path may change its direction at the two keyframes.
-  std::optional<Candidate> drawn(const Guide& guide, int count, bool slopes) {
-    Window window{problem_.gap_begin_s(), problem_.gap_end_s(), slopes, slopes};
-    std::optional<motion::BumpRow> row =
-        drawn_towards(problem_.path, guide, window, count, space_);
-    if (!row) return std::nullopt;
-    if (!slopes) {
-      row->bumps.erase(row->bumps.begin());
-      row->bumps.pop_back();
-      ++row->first;
+  std::optional<Candidate> drawn(const Guide& guide, int count) {
+    const std::optional<Offsets> offsets = offsets_to(
+        problem_.path, guide, {problem_.gap_begin_s(), problem_.gap_end_s(), count}, space_);
+    if (!offsets) return std::nullopt;
+    for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
+      std::optional<Candidate> found = tried(*offsets, ends);
+      if (!found) continue;
+      for (const double slope : {0.15, 0.4}) {
+        const Offsets closer =
+            pulled_back(problem_.path, *offsets, slope, kLeastMargin * radius_m_, space_);
+        if (std::optional<Candidate> better = tried(closer, ends)) return better;
+      }
+      return found;
     }
-    return attempt(problem_, {*row}, space_, deadline_).candidate;
+    return std::nullopt;
+  }
+
+  std::optional<Candidate> tried(const Offsets& offsets, Ends ends) {
+    return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
   Guide lattice_guide() {
@@ -129,8 +134,7 @@ class Detour {
   Guide tree_guide() {
     TreeOptions options;
     options.margin_m = 0.5 * kLeastMargin * radius_m_;
-    options.reach_m =
-        4.0 * radius_m_ + 1.0 * (to_.position - from_.position).norm();
+    options.reach_m = 4.0 * radius_m_ + 1.0 * (to_.position - from_.position).norm();
     options.seed = seed_;
     return tree_way(space_, from_, to_, options, deadline_);
   }
@@ -143,8 +147,7 @@ class Detour {
       const int parts =
           std::clamp(static_cast<int>(std::ceil(length_m / (kLongestStep * radius_m_))), 1, 64);
       for (int k = 1; k < parts; ++k) {
-        result.push_back(
-            motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
+        result.push_back(motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
       }
       result.push_back(guide[i]);
     }

@@ -10,8 +10,8 @@
 
 namespace camway::correction {
 
-/// Where the body may be: what searches ask about poses and straight motions before there is a path.
-/// Not safe from several threads at once: it holds buffers.
+/// Where the body may be: what searches ask about poses and straight motions before there is a
+/// path. Not safe from several threads at once: it holds buffers.
 class FreeSpace {
  public:
   /// Refers to all three, which must outlive it.

@@ -45,11 +45,18 @@ bool turns_little(const SignedPose& a, const SignedPose& b) {
   return a.orientation.dot(b.orientation) > kLeastDot;
 }
 
+CubicPoint scaled(const CubicPoint& offset, double share) {
+  return {share * offset.position, share * offset.image};
+}
+
 /// Makes the sum of the bumps zero at the keyframe by the bump that stands there: of its neighbours
 /// only the one inside the window is not zero.
 CubicPoint holding(const CubicPoint& neighbour) {
-  const double share = -motion::kBumpShoulder / motion::kBumpPeak;
-  return {share * neighbour.position, share * neighbour.image};
+  return scaled(neighbour, -motion::kBumpShoulder / motion::kBumpPeak);
+}
+
+bool is_none(const CubicPoint& offset) {
+  return offset.position.isZero(0.0) && offset.image.isZero(0.0);
 }
 
 }  // namespace
@@ -61,22 +68,58 @@ SignedPose signed_pose_at(const motion::CubicPath& path, double time_s) {
   return {point.position, q / q.norm()};
 }
 
-std::optional<BumpRow> drawn_towards(const motion::CubicPath& path, const Guide& guide,
-                                     const Window& window, int count, const FreeSpace& space) {
+std::optional<Offsets> offsets_to(const motion::CubicPath& path, const Guide& guide,
+                                  const motion::KnotRow& knots, const FreeSpace& space) {
   const Travelled travelled(guide, space);
-  BumpRow row{{window.begin_s, window.end_s, count}, 1, {}};
-  Vec4 image = path.at(window.begin_s).image;
-  for (int k = 1; k < count; ++k) {
-    const CubicPoint old = path.at(row.knots.knot_s(k));
-    const SignedPose wanted = travelled.at(static_cast<double>(k) / count);
+  Offsets offsets{knots, {}};
+  Vec4 image = path.at(knots.begin_s).image;
+  for (int k = 1; k < knots.count; ++k) {
+    const CubicPoint old = path.at(knots.knot_s(k));
+    const SignedPose wanted = travelled.at(static_cast<double>(k) / knots.count);
     image = motion::image_of(path.reference, wanted.orientation, image);
-    row.bumps.push_back({wanted.position - old.position, image * old.image.norm() - old.image});
+    offsets.at.push_back({wanted.position - old.position, image * old.image.norm() - old.image});
   }
-  if (image.dot(path.at(window.end_s).image) <= 0.0) return std::nullopt;
-  if (window.is_keyframe_at_end) row.bumps.push_back(holding(row.bumps.back()));
-  if (window.is_keyframe_at_begin) {
+  if (image.dot(path.at(knots.end_s).image) <= 0.0) return std::nullopt;
+  return offsets;
+}
+
+Offsets pulled_back(const motion::CubicPath& path, const Offsets& offsets, double slope,
+                    double margin_m, FreeSpace& space) {
+  constexpr int kSteps = 10;
+  std::vector<double> left(offsets.at.size(), 1.0);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const CubicPoint old = path.at(offsets.knots.knot_s(static_cast<int>(i) + 1));
+    for (int step = kSteps; step-- > 0;) {
+      const double share = static_cast<double>(step) / kSteps;
+      const CubicPoint less = scaled(offsets.at[i], share);
+      const CubicPoint point{old.position + less.position, old.image + less.image};
+      if (!space.is_free(motion::pose_of(path.reference, point), margin_m)) break;
+      left[i] = share;
+    }
+  }
+  for (std::size_t i = 1; i < left.size(); ++i) left[i] = std::max(left[i], left[i - 1] - slope);
+  for (std::size_t i = left.size(); i-- > 1;) left[i - 1] = std::max(left[i - 1], left[i] - slope);
+  Offsets result = offsets;
+  for (std::size_t i = 0; i < left.size(); ++i) result.at[i] = scaled(offsets.at[i], left[i]);
+  return result;
+}
+
+BumpRow bumps_for(const Offsets& offsets, Ends ends) {
+  BumpRow row{offsets.knots, 1, offsets.at};
+  if (ends == Ends::kFree) {
+    row.bumps.push_back(holding(row.bumps.back()));
     row.bumps.insert(row.bumps.begin(), holding(row.bumps.front()));
     row.first = 0;
+  } else {
+    row.bumps.pop_back();
+    row.bumps.erase(row.bumps.begin());
+    row.first = 2;
+  }
+  // Bumps without a coefficient would only cut the path into pieces.
+  while (!row.bumps.empty() && is_none(row.bumps.back())) row.bumps.pop_back();
+  while (!row.bumps.empty() && is_none(row.bumps.front())) {
+    row.bumps.erase(row.bumps.begin());
+    ++row.first;
   }
   return row;
 }

@@ -9,32 +9,41 @@
 
 namespace camway::correction {
 
-/// A way that is free of collision but not smooth: straight motions from pose to pose. What searches
-/// find, and what a correction is then drawn towards.
+/// A way that is free of collision but not smooth: straight motions from pose to pose. What
+/// searches find, and what a correction is then drawn towards.
 using Guide = std::vector<motion::SignedPose>;
 
 /// The way that `path` itself takes at a time, with the sign that its image has there.
 motion::SignedPose signed_pose_at(const motion::CubicPath& path, double time_s);
 
-/// The stretch of a path that a guide takes the place of, cut into knots.
-struct Window {
-  double begin_s = 0.0;
-  double end_s = 0.0;
-  /// Whether there is a keyframe at that end. It is kept, but the path may change its slope there, so
-  /// that also what is before or after it changes a little.
-  bool is_keyframe_at_begin = false;
-  bool is_keyframe_at_end = false;
+/// What has to be added to a path at the inner knots of a row, so that it passes there where a
+/// guide does.
+struct Offsets {
+  motion::KnotRow knots;
+  std::vector<motion::CubicPoint> at;  ///< knots 1 .. count - 1
 };
 
-/// Bumps that draw `path` towards `guide`, which begins and ends where the path is at the ends of
-/// the window: Schoenberg's operator on the difference of the two, at `count` equidistant knots
-/// (Schoenberg 1967; variation diminishing, so that the correction swings no more than the guide).
-/// The more knots, the closer. The guide is passed at constant speed, as `FreeSpace::distance_m`
-/// measures it. Nothing where the guide's orientation cannot be lifted to the path's image: it would
-/// arrive with the other sign. [Limit: count >= 4]
-std::optional<motion::BumpRow> drawn_towards(const motion::CubicPath& path, const Guide& guide,
-                                             const Window& window, int count,
-                                             const FreeSpace& space);
+/// The offsets of `guide`, which begins and ends where the path is at the ends of `knots` and is
+/// passed at constant speed, as `FreeSpace::distance_m` measures it. Nothing where the guide's
+/// orientation cannot be lifted to the path's image: it would arrive with the other sign.
+std::optional<Offsets> offsets_to(const motion::CubicPath& path, const Guide& guide,
+                                  const motion::KnotRow& knots, const FreeSpace& space);
+
+/// The same, each made as small as it can be so that its pose still is free and was all the way
+/// from the guide's; neighbours differ in how much is left of them by `slope` at the most. [Limit:
+/// 0 < slope <= 1]
+Offsets pulled_back(const motion::CubicPath& path, const Offsets& offsets, double slope,
+                    double margin_m, FreeSpace& space);
+
+/// What a row of bumps does at the keyframes at its ends.
+enum class Ends {
+  kFree,   ///< keeps them, but may change the path's slope there, and so a little beyond
+  kFixed,  ///< changes nothing there, nor beyond
+};
+
+/// Bumps with the offsets as coefficients: Schoenberg's operator, which swings no more than they do
+/// (Schoenberg 1967, "On spline functions", variation diminishing).
+motion::BumpRow bumps_for(const Offsets& offsets, Ends ends);
 
 /// Leaves out poses of `guide` where the straight motion between others is free and shorter.
 Guide shortened(const Guide& guide, FreeSpace& space, double margin_m);

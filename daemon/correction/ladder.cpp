@@ -32,9 +32,7 @@ class Ladder {
         result_.timed_out = true;
         break;
       }
-      const double a = deadline_.elapsed_ms();
       correct(i);
-      fprintf(stderr,"DBG rung %d len %.3f gap %zu ms %.2f moved %.3f turned %.2f ins %zu\n",(int)result_.corrections[i].rung, open_[i].t_end_s-open_[i].t_begin_s, gap_of(open_[i]), deadline_.elapsed_ms()-a, result_.corrections[i].moved_m, result_.corrections[i].turned_rad, result_.inserted_s.size());
     }
     std::ranges::sort(result_.inserted_s);
     return std::move(result_);
@@ -151,8 +149,7 @@ class Ladder {
           std::lerp(correction.t_begin_s, correction.t_end_s, static_cast<double>(i) / kSamples);
       const motion::Pose now = candidate.path.pose(time_s);
       const motion::Pose before = original_.pose(time_s);
-      correction.moved_m =
-          std::max(correction.moved_m, (now.position - before.position).norm());
+      correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
       correction.turned_rad =
           std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
     }

@@ -6,28 +6,12 @@
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
+#include "daemon/correction/constraints.h"
+#include "daemon/correction/correction.h"
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
 
 namespace camway::correction {
-
-/// How a collision was corrected.
-enum class Rung : std::uint8_t {
-  kNone,     ///< it was not
-  kMove,     ///< the camera was moved to one side
-  kTurn,     ///< it was turned
-  kGoRound,  ///< it goes another way
-};
-
-/// What became of one collision of the path as interpolated.
-struct Correction {
-  collision::CollisionInterval interval;  ///< as it was found
-  Rung rung = Rung::kNone;
-  double t_begin_s = 0.0;  ///< what of the path was changed for it
-  double t_end_s = 0.0;
-  double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
-  double turned_rad = 0.0;  ///< most that the camera is turned from how it was
-};
 
 struct LadderOptions {
   collision::DetectOptions detect;
@@ -37,7 +21,7 @@ struct LadderOptions {
 
 struct LadderResult {
   motion::CubicPath path;
-  std::vector<double> inserted_s;  ///< times of the inserted keyframes, increasing
+  std::vector<double> inserted_s;       ///< times of the inserted keyframes, increasing
   std::vector<Correction> corrections;  ///< one for each collision, in order
   bool timed_out = false;
 };

@@ -103,9 +103,8 @@ class LatticeSearch {
       const Cell step = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
       const Cell at = points_[index].cell;
       const Cell next = {at[0] + step[0], at[1] + step[1], at[2] + step[2]};
-      if (code == 13 || std::ranges::any_of(next, [](std::int32_t c) {
-            return std::abs(c) >= kFarthest;
-          })) {
+      if (code == 13 ||
+          std::ranges::any_of(next, [](std::int32_t c) { return std::abs(c) >= kFarthest; })) {
         continue;
       }
       const std::uint32_t neighbour = point_at(next);

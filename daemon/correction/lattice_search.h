@@ -10,7 +10,7 @@
 namespace camway::correction {
 
 struct LatticeOptions {
-  double spacing_m = 0.1;         ///< between neighbouring points [Limit: value > 0]
+  double spacing_m = 0.1;          ///< between neighbouring points [Limit: value > 0]
   std::size_t max_points = 20000;  ///< of which the distance is asked for
 };
 
@@ -21,10 +21,10 @@ struct LatticeResult {
   bool exhausted = false;
 };
 
-/// A way for the ball that holds the body in every orientation, by A* (Hart, Nilsson & Raphael 1968)
-/// on the points of a cubic lattice about `from_W`, 26 neighbours each, whose distance is asked for
-/// when they are met. It is the shortest on the lattice, but that being close to the scene makes a
-/// step count for up to twice its length.
+/// A way for the ball that holds the body in every orientation, by A* (Hart, Nilsson & Raphael
+/// 1968) on the points of a cubic lattice about `from_W`, 26 neighbours each, whose distance is
+/// asked for when they are met. It is the shortest on the lattice, but that being close to the
+/// scene makes a step count for up to twice its length.
 ///
 /// A guide, not a proof: between points the distance is looked at in a few places. Deterministic.
 /// Precondition: the ball is free at both ends.

@@ -23,17 +23,17 @@ using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
 constexpr int kFan = 8;                   // directions across the way
-constexpr int kMostAttempts = 4;          // directions of which bumps are made
-constexpr double kLeastStepShare = 0.02;  // of the radius: the first amount that is tried
-constexpr double kGrowth = 1.6;           // from one amount to the next
-constexpr double kFarthest = 8.0;         // radii
-constexpr int kHalvings = 3;              // of the last step
-constexpr double kMarginShare = 0.02;     // of the radius: what a pose keeps beside what is required
-constexpr double kLargestTurn_rad = 1.6;
+constexpr int kMostAttempts = 2;          // directions of which bumps are made
+constexpr double kLeastStepShare = 0.06;  // of the radius: the first amount that is tried
+constexpr double kGrowth = 2.0;           // from one amount to the next
+constexpr double kFarthest = 4.0;         // radii
+constexpr int kHalvings = 2;              // of the last step
+constexpr double kMarginShare = 0.02;  // of the radius: what a pose keeps beside what is required
+constexpr double kLargestTurn_rad = 0.8;
 constexpr double kMoreEachTime = 1.35;
-constexpr int kMostRaises = 4;
+constexpr int kMostRaises = 3;
 constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
-constexpr int kMostWidths = 5;
+constexpr int kMostWidths = 3;
 constexpr int kReductions = 3;
 
 /// A direction to nudge to: of the move, or the axis of the turn.
@@ -56,8 +56,7 @@ class Nudger {
         margin_m_(kMarginShare * radius_m_) {
     // Away from the middle less is needed: the ends of a collision are free.
     for (const auto& [place, share] : {std::pair{0.0, 1.0}, {-0.3, 0.8}, {0.3, 0.8}}) {
-      samples_.push_back(
-          {signed_pose_at(problem.path, middle_s_ + place * length_s_), share});
+      samples_.push_back({signed_pose_at(problem.path, middle_s_ + place * length_s_), share});
     }
   }
 
@@ -81,8 +80,7 @@ class Nudger {
       return {pose.position + amount * direction_W, pose.orientation};
     }
     const Vec4 turn = geometry::wxyz(Quat(Eigen::AngleAxisd(amount, direction_W)));
-    const SignedPose turned{pose.position,
-                            motion::quaternion::multiply(turn, pose.orientation)};
+    const SignedPose turned{pose.position, motion::quaternion::multiply(turn, pose.orientation)};
     const Vec3 center_W = space_.center_W(motion::unsigned_pose(pose));
     const Quat orientation = geometry::from_wxyz(turned.orientation);
     return {space_.pose_around(center_W, orientation).position, turned.orientation};
@@ -147,10 +145,8 @@ class Nudger {
       const double length = direction.norm();
       if (length > 0.0 && std::isfinite(length)) directions.push_back(direction / length);
     };
-    for (const Sample& sample : samples_) {
-      const Pose pose = motion::unsigned_pose(sample.pose);
-      const std::optional<collision::Witness> contact = space_.contact(pose, 0.0);
-      if (!contact) continue;
+    const Pose pose = motion::unsigned_pose(samples_[0].pose);
+    if (const std::optional<collision::Witness> contact = space_.contact(pose, 0.0)) {
       const geometry::Triangle triangle = space_.obstacles().index.triangle(contact->triangle);
       const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
       add(normal);
@@ -162,8 +158,7 @@ class Nudger {
 
   std::vector<Way> free_ways() {
     std::vector<Way> ways;
-    const double farthest =
-        kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : kLargestTurn_rad;
+    const double farthest = kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : kLargestTurn_rad;
     double limit = farthest;
     for (const Vec3& direction_W : directions_W()) {
       const std::optional<double> amount = least_amount(direction_W, limit);
@@ -196,7 +191,8 @@ class Nudger {
   std::optional<Candidate> with_width(const Way& way, double spacing_s) {
     double amount = way.amount;
     for (int i = 0; i < kMostRaises; ++i, amount *= kMoreEachTime) {
-      Attempt tried = attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
+      Attempt tried =
+          attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
       if (tried.candidate) {
         return reduced(way, amount, i == 0 ? 0.0 : amount / kMoreEachTime, spacing_s,
                        std::move(*tried.candidate));
@@ -214,7 +210,8 @@ class Nudger {
     if (too_little == 0.0) return best;  // that amount was measured
     for (int i = 0; i < kReductions; ++i) {
       const double amount = 0.5 * (enough + too_little);
-      Attempt tried = attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
+      Attempt tried =
+          attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
       if (tried.candidate) {
         enough = amount;
         best = std::move(*tried.candidate);
@@ -231,8 +228,7 @@ class Nudger {
     const CubicPoint old = problem_.path.at(middle_s_);
     CubicPoint offset{wanted.position - old.position, Vec4::Zero()};
     if (kind_ == NudgeKind::kTurn) {
-      const Vec4 image =
-          motion::image_of(problem_.path.reference, wanted.orientation, old.image);
+      const Vec4 image = motion::image_of(problem_.path.reference, wanted.orientation, old.image);
       offset.image = image * old.image.norm() - old.image;
     }
     return row_with_peak(offset, spacing_s);

@@ -143,7 +143,8 @@ class TreeSearch {
     // About the middle of the body, so that moving and turning do not depend on each other.
     const geometry::Quat old = geometry::from_wxyz(pose.orientation);
     const Vec3 center_W = pose.position + old * space_.center_C();
-    const Vec4 q = motion::quaternion::multiply(geometry::wxyz(turn), pose.orientation).normalized();
+    const Vec4 q =
+        motion::quaternion::multiply(geometry::wxyz(turn), pose.orientation).normalized();
     return {center_W - geometry::from_wxyz(q) * space_.center_C(), q};
   }
 

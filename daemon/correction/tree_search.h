@@ -9,17 +9,17 @@ namespace camway::correction {
 
 struct TreeOptions {
   int max_samples = 3000;
-  double margin_m = 0.0;  ///< that the guide keeps beside what is required
-  double reach_m = 0.0;   ///< how far from the two ends samples are drawn
+  double margin_m = 0.0;          ///< that the guide keeps beside what is required
+  double reach_m = 0.0;           ///< how far from the two ends samples are drawn
   double largest_turn_rad = 1.9;  ///< of samples, from orientations between the two ends
   std::uint64_t seed = 1;
 };
 
 /// A way for the body itself, turning included: two trees of straight motions grow from both ends
-/// towards random poses and each other (Kuffner & LaValle 2000, "RRT-Connect"). Every motion is proved
-/// free, not sampled. Deviations: a motion that is blocked is followed up to the obstacle, however
-/// long it is; some samples are drawn next to where motions were blocked last, which finds narrow
-/// gaps; and orientations carry a sign, so that the way arrives as `to` is signed.
+/// towards random poses and each other (Kuffner & LaValle 2000, "RRT-Connect"). Every motion is
+/// proved free, not sampled. Deviations: a motion that is blocked is followed up to the obstacle,
+/// however long it is; some samples are drawn next to where motions were blocked last, which finds
+/// narrow gaps; and orientations carry a sign, so that the way arrives as `to` is signed.
 ///
 /// Deterministic for a seed. Empty if none was found; first and last pose are `from` and `to`.
 Guide tree_way(FreeSpace& space, const motion::SignedPose& from, const motion::SignedPose& to,

@@ -50,8 +50,8 @@ std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> row
   return cuts;
 }
 
-/// Bézier points over `span` of bump `index` of `knots`, or zeros outside its support. The span lies
-/// within one interval of the knots, but for `kSameKnot`.
+/// Bézier points over `span` of bump `index` of `knots`, or zeros outside its support. The span
+/// lies within one interval of the knots, but for `kSameKnot`.
 std::array<double, 4> bump_points(const KnotRow& knots, int index, const Span& span) {
   const double middle_s = 0.5 * (span.t0_s + span.t1_s);
   for (int j = 0; j < 4; ++j) {

@@ -16,16 +16,16 @@ struct KnotRow {
   double end_s = 1.0;  ///< [Limit: value > begin_s]
   int count = 1;       ///< [Limit: value >= 1]
 
-  /// Knot `index`; exactly `begin_s` at 0 and `end_s` at `count`. Increases with the index, which may
-  /// be negative.
+  /// Knot `index`; exactly `begin_s` at 0 and `end_s` at `count`. Increases with the index, which
+  /// may be negative.
   [[nodiscard]] double knot_s(int index) const;
   [[nodiscard]] double spacing_s() const { return (end_s - begin_s) / count; }
 };
 
 /// A uniform cubic B-spline that is added to a path: bump i has its peak, two thirds of its
 /// coefficient, at knot `first + i` and its support between the knots two before and two after. The
-/// sum of equal coefficients is that coefficient. Outside the supports nothing changes, and at their
-/// ends value, first and second derivative are zero: the path stays C².
+/// sum of equal coefficients is that coefficient. Outside the supports nothing changes, and at
+/// their ends value, first and second derivative are zero: the path stays C².
 struct BumpRow {
   KnotRow knots;
   int first = 0;

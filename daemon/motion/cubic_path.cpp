@@ -20,8 +20,7 @@ Pose pose_of(const Vec4& reference, const CubicPoint& point) {
 CubicPoint CubicPath::at(double time_s) const {
   const auto later = std::ranges::upper_bound(pieces, time_s, {}, &CubicPiece::t0_s);
   const CubicPiece& piece = later == pieces.begin() ? *later : *std::prev(later);
-  const double u =
-      std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
+  const double u = std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
   return {bezier::value_at(piece.position, u), bezier::value_at(piece.image, u)};
 }
 

@@ -168,8 +168,7 @@ std::vector<Vec4> aligned_orientations(std::span<const Vec4> orientations) {
   return aligned;
 }
 
-ImageSpline quaternion_spline(std::span<const double> times_s,
-                              std::span<const Vec4> orientations) {
+ImageSpline quaternion_spline(std::span<const double> times_s, std::span<const Vec4> orientations) {
   assert(times_s.size() == orientations.size() && times_s.size() >= 2);
   const std::vector<Vec4> q = aligned_orientations(orientations);
   const std::optional<Image> one_axis = one_axis_image(times_s, q);

@@ -14,7 +14,7 @@ namespace camway::motion {
 struct ImagePiece {
   double t0_s = 0.0;
   double t1_s = 0.0;
-  std::size_t keyframe = 0;                     ///< the piece lies between this keyframe and the next
+  std::size_t keyframe = 0;  ///< the piece lies between this keyframe and the next
   std::array<geometry::Vec4, 4> control_points;  ///< Bézier points
 };
 

@@ -72,6 +72,7 @@ class Planner {
       correct(find_collisions());
       certify();
       keep_the_better_path();
+      measure();
       conclude();
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
@@ -143,10 +144,12 @@ class Planner {
     correction::LadderOptions options;
     options.detect = detect_;
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
+    options.seed = request_.options.seed;
     correction::LadderResult corrected = correction::correct_by_ladder(
         obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes), found,
         options, deadline_);
     timed_out_ = corrected.timed_out;
+    result_.corrections = std::move(corrected.corrections);
     if (corrected.inserted_s.empty()) return;
     is_as_interpolated_ = false;
     result_.path = corrected.path.path();
@@ -204,11 +207,26 @@ class Planner {
   void keep_the_better_path() {
     if (colliding_s(result_.remaining_collisions) <= colliding_s(result_.collisions)) return;
     if (result_.collisions.empty()) return;
-    std::erase_if(result_.keyframes, [](const Keyframe& keyframe) {
+    result_.keyframes = given_keyframes();
+    result_.path = motion::interpolate(result_.keyframes);
+    is_as_interpolated_ = true;
+    result_.remaining_collisions = result_.collisions;
+  }
+
+  [[nodiscard]] std::vector<Keyframe> given_keyframes() const {
+    std::vector<Keyframe> given = result_.keyframes;
+    std::erase_if(given, [](const Keyframe& keyframe) {
       return keyframe.origin == motion::KeyframeOrigin::kInserted;
     });
-    result_.path = motion::interpolate(result_.keyframes);
-    result_.remaining_collisions = result_.collisions;
+    return given;
+  }
+
+  void measure() {
+    if (result_.path.empty()) return;
+    const motion::Path before = motion::interpolate(given_keyframes());
+    result_.measures_before = motion::measure(before, before);
+    result_.measures =
+        is_as_interpolated_ ? result_.measures_before : motion::measure(result_.path, before);
   }
 
   // Fine for a flight around an object, but more often the unit or the axes of the file are not

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/correction/constraints.h"
 #include "daemon/motion/body.h"
 #include "daemon/motion/keyframe.h"
 
@@ -38,8 +39,15 @@ struct PlanOptions {
   double clearance_m = 0.0;
   /// Cut-off of the correction, per request. [Limit: 0 <= value]
   std::int32_t max_inserted_keyframes = 200;
-
-  bool operator==(const PlanOptions&) const = default;
+  correction::Objective objective = correction::Objective::kClosest;
+  correction::OrientationPolicy orientation;
+  correction::MotionLimits limits;
+  /// Where nothing else helps, the near distance may be made smaller by up to this share; cameras
+  /// only. [Limit: 0 <= value < 1]
+  double max_shrink = 0.0;
+  /// Given keyframes that collide are moved to the nearest free pose instead of being refused.
+  bool repair_keyframes = false;
+  std::uint64_t seed = 1;  ///< of the searches for ways round
 };
 
 /// The input of planning, whoever asked: daemon, command line or replay.

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "daemon/collision/interval.h"
+#include "daemon/correction/correction.h"
 #include "daemon/motion/keyframe.h"
+#include "daemon/motion/measures.h"
 #include "daemon/motion/path.h"
 
 namespace camway::planning {
@@ -50,6 +52,24 @@ struct WitnessNames {
   bool operator==(const WitnessNames&) const = default;
 };
 
+/// A given keyframe that collides, or is nearer to the scene than required.
+struct KeyframeFault {
+  std::size_t keyframe = 0;
+  double depth_m = 0.0;                   ///< estimate of how far it would have to move to be free
+  std::optional<motion::Pose> free_pose;  ///< the nearest that was found, if any
+};
+
+/// Why there is no path: a closed surface of the scene, with one keyframe inside and another
+/// outside. Whoever wants to check it needs the triangles alone: each edge (by the coordinates of
+/// its ends) has an even number of them, and a ray from one keyframe meets an odd number, from the
+/// other an even one. No continuous motion of a connected body gets from one side to the other
+/// without touching it.
+struct Infeasibility {
+  std::size_t keyframe_inside = 0;
+  std::size_t keyframe_outside = 0;
+  std::vector<std::uint32_t> triangles;  ///< indices into the scene's mesh, increasing
+};
+
 struct PlanResult {
   Status status = Status::kInternalError;
   std::string message;                  ///< one sentence for a person
@@ -64,6 +84,18 @@ struct PlanResult {
   std::vector<WitnessNames> collision_names;
   std::vector<WitnessNames> remaining_names;
   Certificate certificate;
+  /// What became of each collision; empty where nothing was corrected, and with the seed's method.
+  std::vector<correction::Correction> corrections;
+  /// Of the path as interpolated, and of `path`; nothing where there is none.
+  std::optional<motion::PathMeasures> measures_before;
+  std::optional<motion::PathMeasures> measures;
+  /// The near distance that the proof is for, as a share of the one asked for; below 1 only if
+  /// `PlanOptions::max_shrink` allowed it.
+  double near_scale = 1.0;
+  /// The times of `path` are those asked for, stretched by this, to meet limits.
+  double time_scale = 1.0;
+  std::vector<KeyframeFault> keyframe_faults;  ///< for kInvalid, or what was repaired
+  std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
   Timing timing;
 };
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "daemon/geometry/types.h"
+
+namespace camway::correction {
+
+/// What a corrected path is improved for, while it stays proved free.
+enum class Objective : std::uint8_t {
+  kClosest,    ///< to the path as interpolated
+  kShortest,   ///< length of the way of the eye
+  kSmoothest,  ///< bending energy
+  kSafest,     ///< least distance to the scene
+};
+
+/// What corrections may do to orientations.
+enum class OrientationRule : std::uint8_t {
+  kFree,    ///< turn the camera
+  kKeep,    ///< nothing: at every time the camera is oriented as on the interpolated path
+  kLevel,   ///< turn it, but never tilt its horizon: its x axis stays across `up_W`
+  kTarget,  ///< turn it, but keep looking at a point: within a cone about the view direction
+};
+
+/// Given keyframes are kept in any case; the rule is for what corrections change.
+struct OrientationPolicy {
+  OrientationRule rule = OrientationRule::kFree;
+  geometry::Vec3 up_W = geometry::Vec3::UnitZ();     ///< for kLevel; unit length
+  geometry::Vec3 target_W = geometry::Vec3::Zero();  ///< for kTarget
+  double cone_rad = 0.5;  ///< for kTarget: half angle of the cone [Limit: 0 < value <= pi]
+  /// How far the camera may be turned from how it would be on the interpolated path at that time.
+  double max_turn_rad = std::numbers::pi;  ///< [Limit: 0 <= value <= pi]
+};
+
+/// Limits that the path is to meet. Infinity: no limit. [Limit: value > 0]
+struct MotionLimits {
+  double speed_m_per_s = std::numeric_limits<double>::infinity();
+  double acceleration_m_per_s2 = std::numeric_limits<double>::infinity();
+  double turn_rate_rad_per_s = std::numeric_limits<double>::infinity();
+  /// Whether times may be stretched to meet them; else a path that breaks them is not `ok`.
+  bool may_retime = false;
+
+  [[nodiscard]] bool any() const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return speed_m_per_s < kNone || acceleration_m_per_s2 < kNone || turn_rate_rad_per_s < kNone;
+  }
+};
+
+}  // namespace camway::correction

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/correction.h"
+
+namespace camway::correction {
+
+std::string_view to_string(Rung rung) {
+  switch (rung) {
+    case Rung::kNone:
+      return "none";
+    case Rung::kMove:
+      return "move";
+    case Rung::kTurn:
+      return "turn";
+    case Rung::kGoRound:
+      return "go_round";
+    case Rung::kShrink:
+      return "shrink";
+  }
+  return "none";
+}
+
+}  // namespace camway::correction

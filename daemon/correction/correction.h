@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "daemon/collision/interval.h"
+
+namespace camway::correction {
+
+/// How a collision was corrected: the rungs of the ladder (design, section 7).
+enum class Rung : std::uint8_t {
+  kNone,     ///< it was not
+  kMove,     ///< the camera was moved to one side
+  kTurn,     ///< it was turned
+  kGoRound,  ///< it goes another way
+  kShrink,   ///< its near distance was made smaller
+};
+
+/// "none", "move", "turn", "go_round", "shrink".
+std::string_view to_string(Rung rung);
+
+/// What became of one collision of the path as interpolated.
+struct Correction {
+  collision::CollisionInterval interval;  ///< as it was found
+  Rung rung = Rung::kNone;
+  double t_begin_s = 0.0;  ///< what of the path was changed for it
+  double t_end_s = 0.0;
+  double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
+  double turned_rad = 0.0;  ///< most that the camera is turned from how it was
+};
+
+}  // namespace camway::correction

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace camway::motion {
+
+namespace {
+
+using geometry::Vec3;
+
+constexpr int kSamples = 32;  // in each segment
+
+// The acceleration of a cubic changes linearly from end to end.
+double bending_energy(const Segment& segment) {
+  const double duration_s = segment.t1_s - segment.t0_s;
+  const Vec3 begin = derivatives_at(segment, 0.0).acceleration_m_per_s2;
+  const Vec3 end = derivatives_at(segment, 1.0).acceleration_m_per_s2;
+  return duration_s / 3.0 * (begin.squaredNorm() + begin.dot(end) + end.squaredNorm());
+}
+
+}  // namespace
+
+PathMeasures measure(const Path& path, const Path& original) {
+  PathMeasures measures;
+  const double begin_s = path.begin_s();
+  const double duration_s = path.end_s() - begin_s;
+  const double original_duration_s = original.end_s() - original.begin_s();
+  for (const Segment& segment : path.segments()) {
+    measures.bending_energy_m2_per_s3 += bending_energy(segment);
+    Vec3 last = position_at(segment, 0.0);
+    for (int i = 0; i <= kSamples; ++i) {
+      const double u = static_cast<double>(i) / kSamples;
+      const SegmentDerivatives at = derivatives_at(segment, u);
+      const Vec3 position = position_at(segment, u);
+      measures.length_m += (position - last).norm();
+      last = position;
+      const double share = (segment_time_s(segment, u) - begin_s) / duration_s;
+      const Vec3 before = original.pose(original.begin_s() + share * original_duration_s).position;
+      const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };
+      raise(measures.largest_deviation_m, (position - before).norm());
+      raise(measures.largest_speed_m_per_s, at.velocity_m_per_s.norm());
+      raise(measures.largest_acceleration_m_per_s2, at.acceleration_m_per_s2.norm());
+      // A quaternion moves on the sphere at half the rate of the rotation. Of its second
+      // derivative, what is along the sphere belongs to the change of that rate.
+      raise(measures.largest_turn_rate_rad_per_s, 2.0 * at.orientation_rate_per_s.norm());
+      const double squared = at.orientation_acceleration_per_s2.squaredNorm();
+      const double inward = at.orientation_rate_per_s.squaredNorm();
+      raise(measures.largest_turn_acceleration_rad_per_s2,
+            2.0 * std::sqrt(std::max(0.0, squared - inward * inward)));
+    }
+  }
+  return measures;
+}
+
+}  // namespace camway::motion
