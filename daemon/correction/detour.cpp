@@ -7,6 +7,7 @@
 
 #include "daemon/correction/guide.h"
 #include "daemon/correction/lattice_search.h"
+#include "daemon/correction/relaxation.h"
 #include "daemon/correction/tree_search.h"
 
 namespace camway::correction {
@@ -17,16 +18,19 @@ using geometry::Vec3;
 using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
-constexpr std::array<int, 6> kCounts = {8, 16, 32, 64, 128, 256};
+constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32};  // numbers of knots
+constexpr std::array<int, 6> kFine = {8, 16, 32, 64, 128, 256};
+constexpr int kSweeps = 24;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
 constexpr double kLongestStep = 3.0;  // of the ball's radius: between poses of a guide
 
 class Detour {
  public:
-  Detour(const Problem& problem, FreeSpace& space, std::uint64_t seed,
+  Detour(const Problem& problem, Objective objective, FreeSpace& space, std::uint64_t seed,
          const collision::Deadline& deadline)
       : problem_(problem),
+        objective_(objective),
         space_(space),
         seed_(seed),
         deadline_(deadline),
@@ -42,32 +46,51 @@ class Detour {
  private:
   std::optional<Candidate> follow(const Guide& guide) {
     if (guide.empty()) return std::nullopt;
+    // The guide of the lattice keeps away from the scene; a shortened one turns around corners.
+    for (const int count : kCoarse) {
+      if (std::optional<Candidate> found = drawn(guide, count)) return found;
+    }
     const Guide fine = divided(guide);
     for (const double margin : kMargins) {
-      const Guide smooth = shortened(fine, space_, margin * radius_m_);
-      for (const int count : kCounts) {
+      const Guide direct = shortened(fine, space_, margin * radius_m_);
+      for (const int count : kFine) {
         if (deadline_.passed()) return std::nullopt;
-        if (std::optional<Candidate> found = drawn(smooth, count)) return found;
+        if (std::optional<Candidate> found = drawn(direct, count)) return found;
       }
     }
     return std::nullopt;
   }
 
   std::optional<Candidate> drawn(const Guide& guide, int count) {
-    const std::optional<Offsets> offsets = offsets_to(
-        problem_.path, guide, {problem_.gap_begin_s(), problem_.gap_end_s(), count}, space_);
+    const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), count};
+    const std::optional<Offsets> offsets = offsets_to(problem_.path, guide, knots, space_);
     if (!offsets) return std::nullopt;
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
       std::optional<Candidate> found = tried(*offsets, ends);
-      if (!found) continue;
-      for (const double slope : {0.15, 0.4}) {
-        const Offsets closer =
-            pulled_back(problem_.path, *offsets, slope, kLeastMargin * radius_m_, space_);
-        if (std::optional<Candidate> better = tried(closer, ends)) return better;
-      }
-      return found;
+      if (found) return improved(*offsets, ends, std::move(*found));
     }
     return std::nullopt;
+  }
+
+  // Relaxed, then with half the knots as long as that is free: smoother.
+  Candidate improved(const Offsets& offsets, Ends ends, Candidate found) {
+    Relaxed best =
+        relaxed(problem_, offsets, ends, std::move(found), objective_, kSweeps, space_, deadline_);
+    while (best.offsets.knots.count % 2 == 0 && best.offsets.knots.count >= 2 * kCoarse.front()) {
+      const Offsets half = with_every_other_knot(best.offsets);
+      std::optional<Candidate> coarser = tried(half, ends);
+      if (!coarser) break;
+      best = relaxed(problem_, half, ends, std::move(*coarser), objective_, kSweeps, space_,
+                     deadline_);
+    }
+    return std::move(best.candidate);
+  }
+
+  static Offsets with_every_other_knot(const Offsets& offsets) {
+    Offsets half{offsets.knots, offsets.first / 2, {}};
+    half.knots.count /= 2;
+    for (int k = half.first; 2 * k <= offsets.last(); ++k) half.at.push_back(offsets(2 * k));
+    return half;
   }
 
   std::optional<Candidate> tried(const Offsets& offsets, Ends ends) {
@@ -155,6 +178,7 @@ class Detour {
   }
 
   const Problem& problem_;
+  const Objective objective_;
   FreeSpace& space_;
   const std::uint64_t seed_;
   const collision::Deadline& deadline_;
@@ -165,9 +189,9 @@ class Detour {
 
 }  // namespace
 
-std::optional<Candidate> go_round(const Problem& problem, FreeSpace& space, std::uint64_t seed,
-                                  const collision::Deadline& deadline) {
-  return Detour(problem, space, seed, deadline).run();
+std::optional<Candidate> go_round(const Problem& problem, Objective objective, FreeSpace& space,
+                                  std::uint64_t seed, const collision::Deadline& deadline) {
+  return Detour(problem, objective, space, seed, deadline).run();
 }
 
 }  // namespace camway::correction

@@ -2,7 +2,9 @@
 #include "daemon/correction/guide.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "daemon/motion/quaternion.h"
 
@@ -24,6 +26,8 @@ class Travelled {
     }
   }
 
+  [[nodiscard]] double length_m() const { return so_far_m_.back(); }
+
   /// After `share` of the whole way.
   [[nodiscard]] SignedPose at(double share) const {
     const double at_m = share * so_far_m_.back();
@@ -39,20 +43,65 @@ class Travelled {
   std::vector<double> so_far_m_;
 };
 
+/// When a guide is passed where: so that the body is close to where the path has it at the same
+/// time, and does not hurry. The best of a grid of times and places, by dynamic programming (as in
+/// dynamic time warping, Sakoe & Chiba 1978).
+class Pacing {
+ public:
+  static constexpr int kTimes = 24;  ///< steps of the grid in time
+
+  Pacing(const motion::CubicPath& path, const Travelled& guide, double begin_s, double end_s) {
+    for (int t = 0; t <= kTimes; ++t)
+      path_.push_back(path.at(std::lerp(begin_s, end_s, t / double{kTimes})).position);
+    for (int p = 0; p <= kPlaces; ++p) guide_.push_back(guide.at(p / double{kPlaces}).position);
+    const double step_m = guide.length_m() / kPlaces;
+    hurry_ = kHurry * step_m * step_m;
+  }
+
+  /// For each time the share of the guide that is behind; from 0 to 1, never less than before.
+  [[nodiscard]] std::vector<double> shares() const {
+    std::vector<std::array<int, kPlaces + 1>> before(kTimes + 1);
+    std::array<double, kPlaces + 1> cost{};
+    cost.fill(std::numeric_limits<double>::infinity());
+    cost[0] = 0.0;
+    for (std::size_t t = 1; t <= kTimes; ++t) {
+      const std::array<double, kPlaces + 1> last = cost;
+      for (int p = 0; p <= kPlaces; ++p) {
+        const auto place = static_cast<std::size_t>(p);
+        double best = std::numeric_limits<double>::infinity();
+        for (int q = std::max(0, p - kLongestStep); q <= p; ++q) {
+          const double sum = last[static_cast<std::size_t>(q)] + hurry_ * (p - q) * (p - q);
+          if (sum < best) {
+            best = sum;
+            before[t][place] = q;
+          }
+        }
+        cost[place] = best + (path_[t] - guide_[place]).squaredNorm();
+      }
+    }
+    std::vector<double> shares(kTimes + 1);
+    int place = kPlaces;
+    for (std::size_t t = kTimes + 1; t-- > 0;) {
+      shares[t] = place / double{kPlaces};
+      place = before[t][static_cast<std::size_t>(place)];
+    }
+    return shares;
+  }
+
+ private:
+  static constexpr int kPlaces = 96;
+  static constexpr int kLongestStep = 2 * kPlaces / kTimes;  ///< twice the mean speed
+  static constexpr double kHurry = 30.0;  ///< what a squared step counts for, beside a distance
+
+  std::vector<geometry::Vec3> path_;
+  std::vector<geometry::Vec3> guide_;
+  double hurry_ = 0.0;
+};
+
 /// Less than half a turn by far: the straight motion between them is what is meant.
 bool turns_little(const SignedPose& a, const SignedPose& b) {
   constexpr double kLeastDot = 0.3;
   return a.orientation.dot(b.orientation) > kLeastDot;
-}
-
-CubicPoint scaled(const CubicPoint& offset, double share) {
-  return {share * offset.position, share * offset.image};
-}
-
-/// Makes the sum of the bumps zero at the keyframe by the bump that stands there: of its neighbours
-/// only the one inside the window is not zero.
-CubicPoint holding(const CubicPoint& neighbour) {
-  return scaled(neighbour, -motion::kBumpShoulder / motion::kBumpPeak);
 }
 
 bool is_none(const CubicPoint& offset) {
@@ -71,11 +120,15 @@ SignedPose signed_pose_at(const motion::CubicPath& path, double time_s) {
 std::optional<Offsets> offsets_to(const motion::CubicPath& path, const Guide& guide,
                                   const motion::KnotRow& knots, const FreeSpace& space) {
   const Travelled travelled(guide, space);
-  Offsets offsets{knots, {}};
+  const std::vector<double> shares = Pacing(path, travelled, knots.begin_s, knots.end_s).shares();
+  Offsets offsets{knots, 1, {}};
   Vec4 image = path.at(knots.begin_s).image;
   for (int k = 1; k < knots.count; ++k) {
+    const double place = static_cast<double>(k) / knots.count * Pacing::kTimes;
+    const auto i = std::min(static_cast<std::size_t>(place), std::size_t{Pacing::kTimes - 1});
+    const double share = std::lerp(shares[i], shares[i + 1], place - static_cast<double>(i));
     const CubicPoint old = path.at(knots.knot_s(k));
-    const SignedPose wanted = travelled.at(static_cast<double>(k) / knots.count);
+    const SignedPose wanted = travelled.at(share);
     image = motion::image_of(path.reference, wanted.orientation, image);
     offsets.at.push_back({wanted.position - old.position, image * old.image.norm() - old.image});
   }
@@ -83,37 +136,20 @@ std::optional<Offsets> offsets_to(const motion::CubicPath& path, const Guide& gu
   return offsets;
 }
 
-Offsets pulled_back(const motion::CubicPath& path, const Offsets& offsets, double slope,
-                    double margin_m, FreeSpace& space) {
-  constexpr int kSteps = 10;
-  std::vector<double> left(offsets.at.size(), 1.0);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const CubicPoint old = path.at(offsets.knots.knot_s(static_cast<int>(i) + 1));
-    for (int step = kSteps; step-- > 0;) {
-      const double share = static_cast<double>(step) / kSteps;
-      const CubicPoint less = scaled(offsets.at[i], share);
-      const CubicPoint point{old.position + less.position, old.image + less.image};
-      if (!space.is_free(motion::pose_of(path.reference, point), margin_m)) break;
-      left[i] = share;
-    }
-  }
-  for (std::size_t i = 1; i < left.size(); ++i) left[i] = std::max(left[i], left[i - 1] - slope);
-  for (std::size_t i = left.size(); i-- > 1;) left[i - 1] = std::max(left[i - 1], left[i] - slope);
-  Offsets result = offsets;
-  for (std::size_t i = 0; i < left.size(); ++i) result.at[i] = scaled(offsets.at[i], left[i]);
-  return result;
+CubicPoint holding(const CubicPoint& before, const CubicPoint& after) {
+  const double share = -motion::kBumpShoulder / motion::kBumpPeak;
+  return {share * (before.position + after.position), share * (before.image + after.image)};
 }
 
 BumpRow bumps_for(const Offsets& offsets, Ends ends) {
-  BumpRow row{offsets.knots, 1, offsets.at};
-  if (ends == Ends::kFree) {
-    row.bumps.push_back(holding(row.bumps.back()));
-    row.bumps.insert(row.bumps.begin(), holding(row.bumps.front()));
-    row.first = 0;
-  } else {
-    row.bumps.pop_back();
-    row.bumps.erase(row.bumps.begin());
-    row.first = 2;
+  const int count = offsets.knots.count;
+  const bool is_free = ends == Ends::kFree;
+  const int first = is_free ? std::min(offsets.first, 0) : 2;
+  const int last = is_free ? std::max(offsets.last(), count) : count - 2;
+  BumpRow row{offsets.knots, first, {}};
+  for (int k = first; k <= last; ++k) {
+    const bool is_keyframe = k == 0 || k == count;
+    row.bumps.push_back(is_keyframe ? holding(offsets(k - 1), offsets(k + 1)) : offsets(k));
   }
   // Bumps without a coefficient would only cut the path into pieces.
   while (!row.bumps.empty() && is_none(row.bumps.back())) row.bumps.pop_back();

@@ -98,7 +98,8 @@ class Ladder {
     std::erase_if(problem.others, [&](const CollisionInterval& other) {
       return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
     });
-    const std::optional<Candidate> found = go_round(problem, space_, options_.seed, deadline_);
+    const std::optional<Candidate> found =
+        go_round(problem, options_.objective, space_, options_.seed, deadline_);
     if (!accept(index, Rung::kGoRound, found)) return;
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = result_.corrections[i].interval;

@@ -145,6 +145,7 @@ class Planner {
     options.detect = detect_;
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     options.seed = request_.options.seed;
+    options.objective = request_.options.objective;
     correction::LadderResult corrected = correction::correct_by_ladder(
         obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes), found,
         options, deadline_);

@@ -112,6 +112,7 @@ TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
     const auto snapshot = snapshot_of(testing::scattered_triangles(random, 60, 0.3));
     PlanRequest request = bulging_tour();
     request.has_times = false;
+    request.options.method = Method::kKeyframeInsertion;
     for (motion::Keyframe& keyframe : request.keyframes) {
       keyframe.pose = {{place(random), place(random), place(random)},
                        testing::random_rotation(random)};
@@ -120,6 +121,8 @@ TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
     if (result.status != Status::kPartial) continue;
     ++partial;
     EXPECT_LE(colliding_s(result.remaining_collisions), colliding_s(result.collisions)) << run;
+    request.options.method = Method::kLadder;
+    EXPECT_EQ(plan(*snapshot, request).status, Status::kOk) << run;
   }
   EXPECT_GT(partial, 10);
 }

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/relaxation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec4;
+using motion::CubicPoint;
+
+// Chosen by measurement; none changes what is proved.
+constexpr int kSamplesAStep = 3;      // between two knots
+constexpr double kMargin = 0.03;      // of the ball's radius, kept at the samples
+constexpr double kKeptShare = 0.8;    // of the gap, where that is smaller already
+constexpr int kHalvings = 3;          // of a change that would collide
+constexpr int kRetreats = 4;          // towards the correction it began with
+constexpr double kSpread = 0.2;       // of the gap: over how much of it an offset fades out
+constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
+constexpr double kSafeStep = 0.15;    // of the ball's radius
+
+/// Weights of the squared offset, and of first and second differences of the path's or of the
+/// offset's control points.
+struct Weights {
+  double offset;
+  double stretch;
+  double bend;
+  bool of_offset;
+};
+
+Weights weights_of(Objective objective, int count) {
+  const double spread = std::pow(kSpread * count, 4.0);
+  switch (objective) {
+    case Objective::kClosest:
+      return {1.0, 0.0, spread, true};
+    case Objective::kShortest:
+      return {0.0, 1.0, 0.05, false};
+    case Objective::kSmoothest:
+    case Objective::kSafest:
+      return {0.0, 0.0, 1.0, false};
+  }
+  return {1.0, 0.0, spread, true};
+}
+
+CubicPoint operator+(const CubicPoint& a, const CubicPoint& b) {
+  return {a.position + b.position, a.image + b.image};
+}
+CubicPoint operator-(const CubicPoint& a, const CubicPoint& b) {
+  return {a.position - b.position, a.image - b.image};
+}
+CubicPoint operator*(double factor, const CubicPoint& a) {
+  return {factor * a.position, factor * a.image};
+}
+
+/// The four bumps that are not zero between two knots, at `v` in [0, 1] of the way.
+std::array<double, 4> weights_at(double v) {
+  const double w = 1.0 - v;
+  return {w * w * w / 6.0, (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0,
+          (3.0 * w * w * w - 6.0 * w * w + 4.0) / 6.0, v * v * v / 6.0};
+}
+
+class Relaxation {
+ public:
+  Relaxation(const Problem& problem, const Offsets& offsets, Ends ends, Objective objective,
+             FreeSpace& space)
+      : problem_(problem),
+        space_(space),
+        knots_(offsets.knots),
+        objective_(objective),
+        weights_(weights_of(objective, offsets.knots.count)),
+        radius_m_(space.ball_radius_m()) {
+    choose_range(ends);
+    for (int k = first_ - kOutside; k <= last_ + kOutside; ++k) {
+      coefficients_.push_back(k >= first_ && k <= last_ ? offsets(k) : CubicPoint{});
+      path_.push_back(problem.path.at(knots_.knot_s(k)));
+    }
+    hold_keyframes();
+    sample();
+  }
+
+  [[nodiscard]] Offsets run(int sweeps, const collision::Deadline& deadline) {
+    for (int sweep = 0; sweep < sweeps && !deadline.passed(); ++sweep) {
+      bool changed = false;
+      for (int i = first_; i <= last_; ++i) {
+        // To and fro, so that nothing drifts to one side.
+        const int k = sweep % 2 == 0 ? i : first_ + last_ - i;
+        if (!is_held(k)) changed = improve(k) || changed;
+      }
+      if (!changed) break;
+    }
+    Offsets result{knots_, first_, {}};
+    for (int k = first_; k <= last_; ++k) result.at.push_back(coefficient(k));
+    return result;
+  }
+
+ private:
+  static constexpr int kOutside = 4;  ///< zeros on either side, for differences
+
+  struct Sample {
+    CubicPoint path;
+    std::size_t first;  ///< of the four coefficients
+    std::array<double, 4> weights;
+    double margin_m;
+    double gap_m;  ///< for kSafest
+  };
+
+  /// Which coefficients there are: with free ends also some before the first keyframe and after the
+  /// last, as far as they do not reach the next keyframe, so that the path can swing through.
+  void choose_range(Ends ends) {
+    first_ = 2;
+    last_ = knots_.count - 2;
+    if (ends == Ends::kFixed) return;
+    holds_keyframes_ = true;
+    const double spacing_s = knots_.spacing_s();
+    const auto beyond = [&](bool is_path_end, double room_s) {
+      const int most = knots_.count / 2;
+      if (is_path_end) return 1;
+      return std::clamp(static_cast<int>(room_s / spacing_s) - 2, 0, most);
+    };
+    const std::size_t gap = problem_.gap;
+    const std::vector<double>& times_s = problem_.keyframes_s;
+    first_ = -beyond(gap == 0, gap == 0 ? 0.0 : times_s[gap] - times_s[gap - 1]);
+    const bool is_last = gap + 2 == times_s.size();
+    last_ = knots_.count + beyond(is_last, is_last ? 0.0 : times_s[gap + 2] - times_s[gap + 1]);
+  }
+
+  [[nodiscard]] bool is_held(int k) const {
+    return holds_keyframes_ && (k == 0 || k == knots_.count);
+  }
+  [[nodiscard]] std::size_t slot(int k) const {
+    return static_cast<std::size_t>(k - first_ + kOutside);
+  }
+  CubicPoint& coefficient(int k) { return coefficients_[slot(k)]; }
+  [[nodiscard]] const CubicPoint& coefficient(int k) const { return coefficients_[slot(k)]; }
+
+  void hold_keyframes() {
+    if (!holds_keyframes_) return;
+    for (const int k : {0, knots_.count})
+      coefficient(k) = holding(coefficient(k - 1), coefficient(k + 1));
+  }
+
+  void sample() {
+    const double begin_s = problem_.path.begin_s();
+    const double end_s = problem_.path.end_s();
+    for (int k = first_ - 2; k < last_ + 2; ++k) {
+      for (int m = 0; m < kSamplesAStep; ++m) {
+        const double v = (m + 0.5) / kSamplesAStep;
+        const double time_s = std::lerp(knots_.knot_s(k), knots_.knot_s(k + 1), v);
+        if (time_s <= begin_s || time_s >= end_s || is_others(time_s)) continue;
+        Sample sample{problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0, 0.0};
+        const double margin_m = kMargin * radius_m_;
+        const double wanted_m =
+            objective_ == Objective::kSafest ? kSafeComfort * radius_m_ : margin_m;
+        sample.gap_m = space_.gap_m(pose(sample), wanted_m);
+        sample.margin_m = std::min(margin_m, kKeptShare * std::max(0.0, sample.gap_m));
+        samples_.push_back(sample);
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_others(double time_s) const {
+    return std::ranges::any_of(problem_.others, [&](const collision::CollisionInterval& other) {
+      return other.t_begin_s <= time_s && time_s <= other.t_end_s;
+    });
+  }
+
+  [[nodiscard]] motion::Pose pose(const Sample& sample) const {
+    CubicPoint point = sample.path;
+    for (std::size_t i = 0; i < 4; ++i)
+      point = point + sample.weights[i] * coefficients_[sample.first + i];
+    return motion::pose_of(problem_.path.reference, point);
+  }
+
+  /// How much the coefficient at knot `i` changes when that at `k` does by 1: those at keyframes
+  /// follow.
+  [[nodiscard]] double follows(int i, int k) const {
+    if (i == k) return 1.0;
+    const bool is_next = is_held(i) && (i == k - 1 || i == k + 1);
+    return is_next ? -motion::kBumpShoulder / motion::kBumpPeak : 0.0;
+  }
+
+  /// The change of the coefficient that makes the objective least while the others stay.
+  [[nodiscard]] CubicPoint wanted_change(int k) const {
+    const auto value = [&](int i) {
+      return weights_.of_offset ? coefficient(i) : path_[slot(i)] + coefficient(i);
+    };
+    CubicPoint sum;
+    double weight = 0.0;
+    const auto count = [&](double factor, double share, const CubicPoint& term) {
+      sum = sum - (factor * share) * term;
+      weight += factor * share * share;
+    };
+    for (int i = k - 2; i <= k + 2; ++i) {
+      const double here = follows(i, k);
+      const double before = follows(i - 1, k);
+      const double after = follows(i + 1, k);
+      count(weights_.offset, here, coefficient(i));
+      count(weights_.stretch, here - before, value(i) - value(i - 1));
+      count(weights_.bend, before - 2.0 * here + after,
+            value(i - 1) - 2.0 * value(i) + value(i + 1));
+    }
+    return (1.0 / weight) * sum;
+  }
+
+  bool improve(int k) {
+    const CubicPoint old = coefficient(k);
+    if (objective_ == Objective::kSafest && step_away(k)) return true;
+    CubicPoint change = wanted_change(k);
+    const double size_m = change.position.norm() + 4.0 * radius_m_ * change.image.norm();
+    if (!(size_m > kSettled * radius_m_)) return false;
+    for (int i = 0; i <= kHalvings; ++i, change = 0.5 * change) {
+      set(k, old + change);
+      if (is_free_about(k)) return true;
+    }
+    set(k, old);
+    return false;
+  }
+
+  void set(int k, const CubicPoint& value) {
+    coefficient(k) = value;
+    hold_keyframes();
+  }
+
+  template <class Visit>
+  bool for_samples_about(int k, Visit visit) {
+    const int low = is_held(k - 1) ? k - 1 : k;
+    const int high = is_held(k + 1) ? k + 1 : k;
+    for (Sample& sample : samples_) {
+      const bool uses = sample.first + 3 >= slot(low) && sample.first <= slot(high);
+      if (uses && !visit(sample)) return false;
+    }
+    return true;
+  }
+
+  bool is_free_about(int k) {
+    return for_samples_about(
+        k, [&](const Sample& sample) { return space_.is_free(pose(sample), sample.margin_m); });
+  }
+
+  // A step in the direction, of six, that makes the smallest gap about a knot larger.
+  bool step_away(int k) {
+    const CubicPoint old = coefficient(k);
+    const auto least_gap_m = [&] {
+      double least_m = std::numeric_limits<double>::infinity();
+      for_samples_about(k, [&](Sample& sample) {
+        least_m = std::min(least_m, space_.gap_m(pose(sample), kSafeComfort * radius_m_));
+        return true;
+      });
+      return least_m;
+    };
+    const double before_m = least_gap_m();
+    if (before_m >= kSafeComfort * radius_m_) return false;
+    for (int code = 0; code < 6; ++code) {
+      const double sign = code % 2 == 0 ? 1.0 : -1.0;
+      CubicPoint moved = old;
+      moved.position += sign * kSafeStep * radius_m_ * geometry::Vec3::Unit(code / 2);
+      set(k, moved);
+      if (least_gap_m() > before_m + 0.1 * kSafeStep * radius_m_) return true;
+    }
+    set(k, old);
+    return false;
+  }
+
+  static constexpr double kSettled = 1e-3;  // of the ball's radius: changes below do not matter
+
+  const Problem& problem_;
+  FreeSpace& space_;
+  const motion::KnotRow knots_;
+  const Objective objective_;
+  const Weights weights_;
+  const double radius_m_;
+  int first_ = 0;  ///< knots of the first and the last coefficient
+  int last_ = 0;
+  bool holds_keyframes_ = false;
+  std::vector<CubicPoint> coefficients_;
+  std::vector<CubicPoint> path_;  ///< at the same knots
+  std::vector<Sample> samples_;
+};
+
+Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
+  Offsets result = b;
+  for (int k = b.first; k <= b.last(); ++k) {
+    result.at[static_cast<std::size_t>(k - b.first)] =
+        (1.0 - share_of_b) * a(k) + share_of_b * b(k);
+  }
+  return result;
+}
+
+}  // namespace
+
+Relaxed relaxed(const Problem& problem, const Offsets& offsets, Ends ends, Candidate free,
+                Objective objective, int sweeps, FreeSpace& space,
+                const collision::Deadline& deadline) {
+  const Offsets better = Relaxation(problem, offsets, ends, objective, space).run(sweeps, deadline);
+  double share = 1.0;
+  for (int i = 0; i < kRetreats; ++i, share *= 0.6) {
+    const Offsets between = share < 1.0 ? mixed(offsets, better, share) : better;
+    Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
+    if (tried.candidate) return {between, std::move(*tried.candidate)};
+  }
+  return {offsets, std::move(free)};
+}
+
+}  // namespace camway::correction

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder.h"
+
+#include <gtest/gtest.h>
+
+#include "daemon/correction/free_space.h"
+#include "daemon/motion/interpolate.h"
+#include "tests/support/scenes.h"
+
+namespace camway::correction {
+namespace {
+
+using collision::CollisionInterval;
+using geometry::Quat;
+using geometry::Vec3;
+using collision::Deadline;
+using motion::CubicPath;
+using motion::Keyframe;
+using scene::Mesh;
+
+struct Case {
+  scene::SceneIndex index;
+  motion::Body body{testing::small_camera()};
+  std::vector<Keyframe> keyframes;
+  LadderOptions options;
+
+  [[nodiscard]] CubicPath path() const { return motion::interpolate_cubic(keyframes); }
+  [[nodiscard]] std::vector<CollisionInterval> collisions(const CubicPath& path) const {
+    return collision::detect_collisions(index, path.path(), body, path.begin_s(), path.end_s(),
+                                        options.detect, Deadline::never())
+        .value();
+  }
+  [[nodiscard]] LadderResult corrected() const {
+    const CubicPath before = path();
+    return correct_by_ladder(index, body, keyframes, before, collisions(before), options,
+                             Deadline::never());
+  }
+};
+
+Case case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
+  Case c;
+  c.index = scene::SceneIndex::build(mesh);
+  c.keyframes = std::move(keyframes);
+  return c;
+}
+
+Keyframe at(double time_s, const Vec3& position) { return {time_s, {position, Quat::Identity()}}; }
+
+// Flies past a column that stands a little in the way.
+Case column() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.1, -3, -0.2}, {0.5, 3, 0.0});
+  return case_with(mesh, {at(0, {-0.15, 0, 2}), at(3, {-0.15, 0, 0.9}), at(6, {-0.15, 0, -2})});
+}
+
+// A wall without an end in y; a door at x in [2, 3.5].
+Case wall_with_door() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
+  testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
+  return case_with(mesh, {at(0, {0, 0, 2}), at(5, {0, 0, -2})});
+}
+
+void expect_keyframes_kept(const Case& c, const CubicPath& path) {
+  const motion::Path segments = path.path();
+  for (const Keyframe& keyframe : c.keyframes) {
+    const motion::Pose pose = segments.pose(keyframe.time_s);
+    EXPECT_EQ(pose.position, keyframe.pose.position);
+    EXPECT_LT(pose.orientation.angularDistance(keyframe.pose.orientation), 1e-12);
+  }
+}
+
+void expect_corrected(const Case& c, const std::vector<Rung>& rungs) {
+  const LadderResult result = c.corrected();
+  EXPECT_TRUE(c.collisions(result.path).empty());
+  expect_keyframes_kept(c, result.path);
+  ASSERT_FALSE(result.corrections.empty());
+  for (const Correction& correction : result.corrections) {
+    EXPECT_TRUE(std::ranges::count(rungs, correction.rung) == 1) << to_string(correction.rung);
+  }
+}
+
+TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {Rung::kMove}); }
+
+TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {Rung::kGoRound}); }
+
+// The near quadrilateral is 0.4 wide and 0.3 high; the gap 0.34 wide and without an end in y.
+TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-40, -60, -0.05}, {-0.17, 60, 0.05});
+  testing::add_cuboid(mesh, {0.17, -60, -0.05}, {40, 60, 0.05});
+  Case c = case_with(mesh, {at(0, {0, 0, 1.5}), at(4, {0, 0, -1.5})});
+  c.body =
+      motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
+  expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
+}
+
+TEST(Ladder, LeavesWhatItCannotCorrect) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  const Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2})});
+  const LadderResult result = c.corrected();
+  ASSERT_EQ(result.corrections.size(), 1U);
+  EXPECT_EQ(result.corrections[0].rung, Rung::kNone);
+  EXPECT_TRUE(result.inserted_s.empty());
+  EXPECT_EQ(result.path.pieces.size(), c.path().pieces.size());
+}
+
+// What lies outside the stretches that were changed is the same bit for bit.
+TEST(Ladder, IsLocal) {
+  Case c = column();
+  for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));
+  const CubicPath before = c.path();
+  const LadderResult result = c.corrected();
+  for (const motion::CubicPiece& piece : before.pieces) {
+    if (piece.t0_s < result.corrections.back().t_end_s) continue;
+    EXPECT_TRUE(std::ranges::any_of(result.path.pieces, [&](const motion::CubicPiece& other) {
+      return other.t0_s == piece.t0_s && other.position == piece.position &&
+             other.image == piece.image;
+    }));
+  }
+}
+
+TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
+  Case c = wall_with_door();
+  c.options.max_inserted_keyframes = 2;
+  const LadderResult result = c.corrected();
+  EXPECT_LE(result.inserted_s.size(), 2U);
+  EXPECT_FALSE(c.collisions(result.path).empty());
+}
+
+TEST(Ladder, KeepsTheRequiredClearance) {
+  Case c = column();
+  c.options.detect.clearance_m = 0.1;
+  expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+}
+
+TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
+  Case c = column();
+  std::string error;
+  c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)}, error);
+  expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+}
+
+}  // namespace
+}  // namespace camway::correction

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/bump.h"
+
+#include "tests/motion/random_motion.h"
+#include "tests/motion/smooth_joins.h"
+
+namespace camway::motion {
+namespace {
+
+using test::kEpsilon;
+using test::Random;
+using test::Vec3;
+using test::Vec4;
+
+CubicPath random_path(Random& random, int keyframes) {
+  std::vector<Keyframe> tour;
+  double time_s = random.uniform(-5.0, 5.0);
+  geometry::Quat orientation = random.rotation();
+  for (int i = 0; i < keyframes; ++i) {
+    tour.push_back({time_s, {random.vector(3.0), orientation}});
+    time_s += random.log_uniform(0.2, 3.0);
+    orientation = orientation * test::turned(random.vector(1.0), random.uniform(0.1, 1.5));
+  }
+  return interpolate_cubic(tour);
+}
+
+BumpRow random_row(Random& random, const CubicPath& path, double image_size) {
+  const double begin_s = random.uniform(path.begin_s(), path.end_s());
+  const double end_s = begin_s + random.uniform(0.1, 2.0);
+  BumpRow row{{begin_s, end_s, random.integer(1, 9)}, random.integer(-3, 3), {}};
+  for (int i = random.integer(1, 6); i > 0; --i) {
+    row.bumps.push_back({random.vector(0.5), image_size * random.unit_four_vector()});
+  }
+  return row;
+}
+
+// The uniform cubic B-spline by its definition as a sum of truncated powers (Schoenberg 1946).
+double b_spline(double x) {
+  constexpr std::array<double, 5> kSigns = {1.0, -4.0, 6.0, -4.0, 1.0};
+  double sum = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    const double power = std::max(0.0, x + 2.0 - i);
+    sum += kSigns[static_cast<std::size_t>(i)] * power * power * power / 6.0;
+  }
+  return sum;
+}
+
+TEST(KnotRow, IsExactAtItsEndsAndIncreasesBeyond) {
+  Random random(811);
+  for (int round = 0; round < 200; ++round) {
+    const double begin_s = random.uniform(-1e6, 1e6);
+    const KnotRow row{begin_s, begin_s + random.log_uniform(1e-3, 1e3), random.integer(1, 64)};
+    EXPECT_EQ(row.knot_s(0), row.begin_s);
+    EXPECT_EQ(row.knot_s(row.count), row.end_s);
+    for (int k = -4; k < row.count + 4; ++k) EXPECT_LT(row.knot_s(k), row.knot_s(k + 1));
+  }
+}
+
+TEST(Bump, AddsTheBSplineOfItsCoefficients) {
+  Random random(812);
+  for (int round = 0; round < 100; ++round) {
+    const CubicPath path = random_path(random, 5);
+    const BumpRow row = random_row(random, path, 0.05);
+    const CubicPath changed = with_bumps(path, {&row, 1});
+    for (int i = 0; i < 50; ++i) {
+      const double time_s = random.uniform(path.begin_s(), path.end_s());
+      CubicPoint expected = path.at(time_s);
+      for (std::size_t k = 0; k < row.bumps.size(); ++k) {
+        const double peak_s = row.knots.knot_s(row.first + static_cast<int>(k));
+        const double weight = b_spline((time_s - peak_s) / row.knots.spacing_s());
+        expected.position += weight * row.bumps[k].position;
+        expected.image += weight * row.bumps[k].image;
+      }
+      const CubicPoint point = changed.at(time_s);
+      EXPECT_LT((point.position - expected.position).norm(), 1e-12);
+      EXPECT_LT((point.image - expected.image).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Bump, KeepsThePathSmooth) {
+  Random random(813);
+  for (int round = 0; round < 100; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    const CubicPath path = random_path(random, 6);
+    const std::vector<BumpRow> rows = {random_row(random, path, 0.05),
+                                       random_row(random, path, 0.05)};
+    // Cut out of the interpolating cubic in three steps, and two rows of up to four terms added.
+    test::expect_smooth(with_bumps(path, rows).path(), 4.0);
+  }
+}
+
+TEST(Bump, ChangesNoBitOutsideItsSupport) {
+  Random random(814);
+  for (int round = 0; round < 100; ++round) {
+    const CubicPath path = random_path(random, 6);
+    const BumpRow row = random_row(random, path, 0.05);
+    const CubicPath changed = with_bumps(path, {&row, 1});
+    for (const CubicPiece& piece : path.pieces) {
+      if (piece.t1_s > row.begin_s() && piece.t0_s < row.end_s()) continue;
+      const bool is_there = std::ranges::any_of(changed.pieces, [&](const CubicPiece& other) {
+        return other.t0_s == piece.t0_s && other.t1_s == piece.t1_s &&
+               other.position == piece.position && other.image == piece.image;
+      });
+      EXPECT_TRUE(is_there);
+    }
+    EXPECT_EQ(changed.begin_s(), path.begin_s());
+    EXPECT_EQ(changed.end_s(), path.end_s());
+  }
+}
+
+TEST(CubicPath, SaysWhatItsSegmentsSay) {
+  Random random(815);
+  const CubicPath cubic = random_path(random, 8);
+  const Path path = cubic.path();
+  for (int i = 0; i < 500; ++i) {
+    const double time_s = random.uniform(cubic.begin_s(), cubic.end_s());
+    const Pose expected = path.pose(time_s);
+    const Pose pose = cubic.pose(time_s);
+    EXPECT_LT((pose.position - expected.position).norm(), 64 * kEpsilon * 10.0);
+    EXPECT_LT(test::rotation_angle_rad(pose.orientation, expected.orientation), 64 * kEpsilon);
+  }
+}
+
+TEST(CubicPath, AroundAndReplaceAreInverse) {
+  Random random(816);
+  const CubicPath path = random_path(random, 8);
+  const double from_s = path.pieces[2].t0_s;
+  const double to_s = path.pieces[4].t1_s;
+  const CubicPath part = path.around(from_s, to_s);
+  EXPECT_EQ(part.pieces.size(), 3U);
+  EXPECT_EQ(part.begin_s(), from_s);
+  EXPECT_EQ(part.end_s(), to_s);
+  CubicPath whole = path;
+  const BumpRow row{
+      {from_s, to_s, 8}, 2, std::vector<CubicPoint>(5, {Vec3(1, 2, 3), Vec4::Zero()})};
+  whole.replace(with_bumps(part, {&row, 1}));
+  EXPECT_EQ(whole.begin_s(), path.begin_s());
+  EXPECT_EQ(whole.end_s(), path.end_s());
+  test::expect_smooth(whole.path(), 4.0);
+  EXPECT_NEAR((whole.at(0.5 * (from_s + to_s)).position - path.at(0.5 * (from_s + to_s)).position -
+               Vec3(1, 2, 3))
+                  .norm(),
+              0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace camway::motion
