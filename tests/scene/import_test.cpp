@@ -184,6 +184,57 @@ TEST_F(Import, CutsPolygonsToTriangles) {
   EXPECT_DOUBLE_EQ(area, 5.0);
 }
 
+TEST_F(Import, KeepsDecimalsFarFromTheOrigin) {
+  // Floats are 6 cm apart here: a wall at the place of its number, and a triangle of a centimetre.
+  const std::string corners[] = {"1000000.03 0 0", "1000000.03 1 0", "1000000.03 0 1",
+                                 "1000000.04 0 0"};
+  std::string vertices;
+  for (const std::string& corner : corners) vertices += corner + "\n";
+  const std::string stl_wall = "facet\nvertex " + corners[0] + "\nvertex " + corners[1] +
+                               "\nvertex " + corners[2] + "\nendfacet\n";
+  const std::string stl_small = "facet\nvertex " + corners[0] + "\nvertex " + corners[3] +
+                                "\nvertex 1000000.03 0.01 0\nendfacet\n";
+  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"a.obj", "v " + corners[0] + "\nv " + corners[1] + "\nv " + corners[2] + "\nv " +
+                         corners[3] + "\nv 1000000.03 0.01 0\nf 1 2 3\nf 1 4 5\n"},
+           {"a.off", "OFF\n5 2 0\n" + vertices + "1000000.03 0.01 0\n3 0 1 2\n3 0 3 4\n"},
+           {"a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double "
+            "y\nproperty double z\nelement face 2\nproperty list uchar int "
+            "vertex_indices\nend_header\n" +
+                vertices + "1000000.03 0.01 0\n3 0 1 2\n3 0 3 4\n"},
+           {"a.stl", "solid\n" + stl_wall + stl_small + "endsolid\n"}}) {
+    SCOPED_TRACE(name);
+    const ImportResult result = import_text(name, text);
+    ASSERT_EQ(result.report.triangles, 2U);
+    EXPECT_EQ(result.mesh->triangle(0)[1], Vec3(1000000.03, 1, 0));
+    EXPECT_EQ(result.mesh->triangle(1)[1], Vec3(1000000.04, 0, 0));
+    EXPECT_EQ(result.mesh->triangle(1)[2], Vec3(1000000.03, 0.01, 0));
+    EXPECT_FALSE(result.report.single_precision);
+    // Half a unit in the last place of a million is 0.6e-10.
+    EXPECT_GT(result.report.rounding_m, 0.5e-10);
+    EXPECT_LT(result.report.rounding_m, 2e-10);
+  }
+}
+
+TEST_F(Import, BoundsTheRoundingOfScaleAndOfSinglePrecision) {
+  EXPECT_EQ(import_text("a.obj", kObj, {.scale = 3.0}).report.rounding_m, 2.0 * 0x1p-53 * 15.0);
+  EXPECT_EQ(import_text("a.stl", kStl).report.rounding_m, 0x1p-53 * 5.0);
+  // A decimal that no float holds, moved by numbers that none holds either.
+  std::string text = collada();
+  text.replace(text.find("1 2 3 4 2 3"), 5, "1000000.03 2 3");
+  text.replace(text.find("10 0 0"), 6, "10.1 0 0");
+  const ImportResult result = import_text("a.dae", text);
+  EXPECT_TRUE(result.report.single_precision);
+  double off_m = 1e9;
+  for (const Vec3& v : result.mesh->vertices) {
+    off_m = std::min(off_m, (v - Vec3(1000000.03 + 10.1, 22, 3)).cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT(off_m, 1e-4) << "floats are 6 cm apart here";
+  EXPECT_LE(off_m, result.report.rounding_m);
+  EXPECT_LT(result.report.rounding_m, 5.0);
+}
+
 TEST_F(Import, ScalesAndTurnsOnlyWhenAsked) {
   const ImportResult as_is = import_text("a.obj", kObj);
   EXPECT_EQ(as_is.report.scale, 1.0);
