@@ -267,7 +267,7 @@ TEST_F(CliCheck, SaysWhatWasFoundWhenTimeRanOut) {
                          "o plate\nv 0 -9 0\nv 9 -9 0\nv 0 9 0\nf 4 5 6\n");
   auto request =
       nlohmann::json::parse(request_json({keyframe_json(-3, 0, 0), keyframe_json(3, 0, 0)}));
-  request["options"] = {{"deadline_s", 1.0}, {"interval_tolerance_m", 1e-9}};
+  request["options"] = {{"deadline_s", 0.5}, {"interval_tolerance_m", 1e-9}};
   request_ = folder_.write("request.json", request.dump());
   const double height_m = 0.1 + 5e-10;  // the quadrilateral is 0.1 m before the eye
   nlohmann::json segment = segment_json(0, 1, height_m, height_m);
@@ -277,7 +277,7 @@ TEST_F(CliCheck, SaysWhatWasFoundWhenTimeRanOut) {
   const CliRun json = run_camway(
       {"check", "--scene", scene_, "--request", request_, "--response", response, "--json"});
   EXPECT_EQ(json.exit_code, 3);
-  EXPECT_THAT(json.err, HasSubstr("path.json: the deadline of 1 s came first"));
+  EXPECT_THAT(json.err, HasSubstr("path.json: the deadline of 0.5 s came first"));
   const nlohmann::json found = nlohmann::json::parse(json.out);
   EXPECT_EQ(found["verdict"], "timeout");
   EXPECT_EQ(found["certified"], false);

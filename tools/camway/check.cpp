@@ -131,8 +131,9 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "no\n"
       "path are refused as invalid input, and so are unknown fields of segments, but for comment "
       "and\n"
-      "those that begin with '_'; other fields of the response may be missing, unknown or "
-      "wrong.\n" +
+      "those that begin with '_'. Of the rest of the response only keyframes[].time, "
+      "keyframes[].origin\n"
+      "and scene_digest are read, if they are there.\n" +
       exit_code_help("the path collides, or the deadline came first") +
       "\nExample: camway check --scene office.obj --request R.json --response P.json");
   command->callback([flags, &exit_code] { exit_code = run_check(*flags); });
