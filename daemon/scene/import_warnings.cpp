@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/import_warnings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string_view>
@@ -36,6 +37,10 @@ std::string left_out(const ImportReport& report) {
 }
 
 }  // namespace
+
+double finest_length_m(double interval_tolerance_m, double clearance_m) {
+  return clearance_m > 0.0 ? std::min(interval_tolerance_m, clearance_m) : interval_tolerance_m;
+}
 
 std::vector<std::string> import_warnings(const ImportReport& report,
                                          std::optional<double> resolution_m) {

@@ -36,6 +36,12 @@ TEST(ImportWarnings, CountWhatIsLeftOut) {
                           "exist"));
 }
 
+TEST(ImportWarnings, KnowWhatARequestIsAbout) {
+  EXPECT_EQ(finest_length_m(1e-3, 0.0), 1e-3);
+  EXPECT_EQ(finest_length_m(1e-3, 0.1), 1e-3);
+  EXPECT_EQ(finest_length_m(1e-3, 1e-4), 1e-4);
+}
+
 TEST(ImportWarnings, SetRoundingAgainstWhatIsAskedFor) {
   ImportReport report;
   report.rounding_m = 0.06;

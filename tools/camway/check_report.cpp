@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "daemon/planning/path_faults.h"
 #include "daemon/planning/witness.h"
+#include "daemon/scene/import_warnings.h"
 
 namespace camway::tools {
 namespace {
@@ -164,6 +166,11 @@ std::vector<std::string> check_warnings(const CheckInput& input, const PathSearc
   }
   const double body_m = size_m(*input.body);
   const double tolerance_m = input.request.options.interval_tolerance_m;
+  for (std::string& warning : scene::import_warnings(
+           input.snapshot->report,
+           scene::finest_length_m(tolerance_m, input.request.options.clearance_m))) {
+    warnings.push_back(std::move(warning));
+  }
   if (!search.collisions.empty() && body_m < kToleranceFits * tolerance_m) {
     warnings.push_back(fmt::format(
         "the body is only {:.3g} m large and collisions are told to {:.3g} m: what it passes "

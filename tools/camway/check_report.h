@@ -27,7 +27,8 @@ struct CheckInput {
 };
 
 /// What the user should know beside the verdict, a sentence each: that the path was made for
-/// another scene, that the body is too small for the tolerance.
+/// another scene, that the body is too small for the tolerance, what the import of the scene left
+/// out or rounded.
 std::vector<std::string> check_warnings(const CheckInput& input, const PathSearch& search);
 
 /// The verdict with what it rests on, for a program: README.md has the fields.
