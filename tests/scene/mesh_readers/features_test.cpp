@@ -141,7 +141,9 @@ TEST(StlReader, TellsBinaryFromText) {
   std::string binary = "solid but binary";
   binary.resize(84 + 50);
   binary[80] = 1;
-  EXPECT_EQ(read(".stl", binary).text, "STL, binary");
+  const Record record = read(".stl", binary);
+  EXPECT_EQ(record.text, "STL, binary");
+  EXPECT_THAT(names_of(record), ElementsAre(":1"));
   const std::string facet =
       "FACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 "
       "0\nENDLOOP\nENDFACET\n";
