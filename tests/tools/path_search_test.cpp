@@ -24,6 +24,9 @@ constexpr unsigned kSeed = 20260914;
 /// slower than 5 cm/s for long.
 constexpr double kEnds_s = 0.02;
 
+/// Of a time up to 100 s that goes to a parameter of a segment and back.
+constexpr double kRounding_s = 1e-12;
+
 scene::Mesh dust_mesh(std::mt19937_64& random) {
   std::uniform_real_distribution<double> coordinate(-3.0, 3.0);
   scene::Mesh mesh;
@@ -39,9 +42,9 @@ scene::Mesh dust_mesh(std::mt19937_64& random) {
   return mesh;
 }
 
-motion::Path random_path(std::mt19937_64& random) {
+motion::Path random_path(std::mt19937_64& random, std::size_t count = 5) {
   std::uniform_real_distribution<double> coordinate(-3.0, 3.0);
-  std::vector<motion::Keyframe> keyframes(5);
+  std::vector<motion::Keyframe> keyframes(count);
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     keyframes[i].time_s = static_cast<double>(i);
     keyframes[i].pose.position = {coordinate(random), coordinate(random), coordinate(random)};
@@ -114,6 +117,43 @@ TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
     }
   }
   EXPECT_GT(longest_s, 0.1) << "no interval reaches over several parts of 0.04 s";
+}
+
+// Found before the deadline, found all the same. No machine is told how fast to be: the deadline is
+// sought that strikes in between.
+TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
+  RecordProperty("seed", kSeed);
+  std::mt19937_64 random(kSeed);
+  const auto made = scene::make_snapshot("dust", dust_mesh(random));
+  ASSERT_TRUE(made.snapshot) << made.error;
+  const motion::Body body{motion::Camera{1.5, 1.2, 0.3}};
+  const motion::Path path = random_path(random, 100);
+  const Deadline clock = Deadline::never();
+  const PathSearch all = search_path(*made.snapshot, path, body, {}, Deadline::never());
+  double deadline_s = clock.elapsed_ms() / 2000.0;
+  ASSERT_TRUE(all.complete);
+  PathSearch some;
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    some = search_path(*made.snapshot, path, body, {}, Deadline::after_s(deadline_s));
+    if (!some.complete && !some.collisions.empty()) break;
+    deadline_s *= some.complete ? 0.5 : 1.7;
+  }
+  ASSERT_FALSE(some.complete);
+  EXPECT_FALSE(some.certificate.certified);
+  EXPECT_GT(some.searched_until_s, path.begin_s());
+  EXPECT_LT(some.searched_until_s, path.end_s());
+  ASSERT_FALSE(some.collisions.empty());
+  const auto begun = std::ranges::count_if(all.collisions, [&](const CollisionInterval& interval) {
+    return interval.t_begin_s < some.searched_until_s - kRounding_s;
+  });
+  ASSERT_EQ(some.collisions.size(), static_cast<std::size_t>(begun));
+  for (std::size_t i = 0; i + 1 < some.collisions.size(); ++i) {
+    EXPECT_EQ(some.collisions[i], all.collisions[i]);
+  }
+  const CollisionInterval& last = some.collisions.back();
+  const CollisionInterval& whole = all.collisions[some.collisions.size() - 1];
+  EXPECT_EQ(last.t_begin_s, whole.t_begin_s);
+  EXPECT_NEAR(last.t_end_s, std::min(whole.t_end_s, some.searched_until_s), kRounding_s);
 }
 
 TEST(PathSearch, ADeadlineThatHasPassedLeavesNothingKnown) {
