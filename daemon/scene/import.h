@@ -48,7 +48,8 @@ struct ImportReport {
   bool single_precision = false;
   /// No coordinate of the scene is further than this from the number in the file times the scale
   /// (and the transforms that the file says). 0 where the file holds doubles or floats and the
-  /// scale is 1; for decimals in doubles half a unit in the last place.
+  /// scale is 1; for decimals in doubles half a unit in the last place. What a reader of
+  /// assimp's computes beyond that (curves of IFC made flat) is not in it.
   double rounding_m = 0.0;
 };
 
