@@ -6,8 +6,8 @@
 #include <string_view>
 
 /// The readers of OBJ, OFF, PLY and STL. They run in `camway-import` on files that nobody vouches
-/// for: no count is believed before the bytes are there, nothing recurses, memory is a small
-/// multiple of the file's size.
+/// for: no count is believed before the bytes are there, nothing recurses, memory is
+/// bounded by the file's size.
 ///
 /// Why our own: assimp keeps coordinates in single precision (3 cm at 1e6 m). Of Debian's other
 /// readers none does all four formats in doubles within limits: tinyobjloader reads OBJ alone, its

@@ -18,9 +18,10 @@ struct ReadResult {
 /// `read_mesh`.
 bool is_known_extension(std::string_view extension);
 
-/// Reads a file of one of these formats, coordinates in doubles. Takes any bytes. Memory: about 12
-/// times those of the file at most. Time: linear, but for polygons of very many corners, where it
-/// may grow with their cube. Precondition: `is_known_extension(extension)`.
+/// Reads a file of one of these formats, coordinates in doubles. Takes any bytes. Memory: two to
+/// four times those of the file, a hundred times in one made for it (a single face whose indices
+/// take a byte each). Time: linear, but for polygons of very many corners, where it may grow with
+/// their cube. Precondition: `is_known_extension(extension)`.
 ReadResult read_mesh(std::string_view extension, std::string_view bytes);
 
 }  // namespace camway::scene::mesh_readers
