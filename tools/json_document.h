@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -85,5 +86,25 @@ class Field {
   std::size_t index_ = 0;
   std::string* error_;
 };
+
+/// Parses `text` and lets `read` make something of the document: the value, or the first error that
+/// either met.
+template <typename T>
+Parsed<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_view source) {
+  const Parsed<nlohmann::json> document = parse_document(text, source);
+  if (!document.value) return {{}, document.error};
+  std::string error;
+  T value = read(Field(*document.value, error));
+  if (!error.empty()) return {{}, std::string(source) + ": " + error};
+  return {std::move(value), {}};
+}
+
+/// The same of a file; "-" is standard input.
+template <typename T>
+Parsed<T> read_as(T (*read)(const Field&), const std::string& file) {
+  const Parsed<std::string> text = read_text(file);
+  if (!text.value) return {{}, text.error};
+  return parse_as(read, *text.value, file == "-" ? "standard input" : file);
+}
 
 }  // namespace camway::tools

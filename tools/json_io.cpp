@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "tools/json_body.h"
+#include "tools/json_path.h"
 
 namespace camway::tools {
 namespace {
 
 using collision::CollisionInterval;
 using motion::Keyframe;
-using motion::KeyframeOrigin;
 using planning::PlanOptions;
 using planning::PlanRequest;
 using planning::PlanResult;
@@ -128,38 +128,6 @@ void read_intervals(const Field& list, std::vector<CollisionInterval>& intervals
   }
 }
 
-template <std::size_t kCount, typename Vector>
-void read_control_points(const Field& list, std::array<Vector, kCount>& points) {
-  const std::size_t count = list.size();
-  if (!list.failed() && count != kCount) {
-    list.fail("must hold " + std::to_string(kCount) + " control points, not " +
-              std::to_string(count));
-  }
-  if (list.failed()) return;
-  for (std::size_t i = 0; i < kCount; ++i) points[i] = read_vector<Vector>(list.element(i));
-}
-
-std::vector<motion::Segment> read_segments(const Field& list) {
-  std::vector<motion::Segment> segments;
-  const std::size_t count = list.size();
-  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
-    const Field item = list.element(i);
-    motion::Segment segment;
-    const Field t0 = item.member("t0");
-    const Field t1 = item.member("t1");
-    segment.t0_s = t0.number();
-    segment.t1_s = t1.number();
-    if (!(segment.t1_s > segment.t0_s)) t1.fail("must be above t0");
-    if (i > 0 && segment.t0_s != segments.back().t1_s) {
-      t0.fail("must equal t1 of the segment before");
-    }
-    read_control_points(item.member("position"), segment.position);
-    read_control_points(item.member("orientation"), segment.orientation);
-    segments.push_back(segment);
-  }
-  return segments;
-}
-
 std::vector<Keyframe> read_response_keyframes(const Field& list) {
   std::vector<Keyframe> keyframes;
   const std::size_t count = list.size();
@@ -170,12 +138,7 @@ std::vector<Keyframe> read_response_keyframes(const Field& list) {
     keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
     keyframe.pose.orientation =
         geometry::from_wxyz(read_vector<geometry::Vec4>(item.member("orientation")));
-    const Field origin_field = item.member("origin");
-    const std::string origin = origin_field.text();
-    if (origin != "given" && origin != "inserted") {
-      origin_field.fail("must be \"given\" or \"inserted\"");
-    }
-    keyframe.origin = origin == "inserted" ? KeyframeOrigin::kInserted : KeyframeOrigin::kGiven;
+    keyframe.origin = read_origin(item.member("origin"));
     keyframes.push_back(keyframe);
   }
   return keyframes;
@@ -240,40 +203,22 @@ PlanRequest read_request(const Field& root) {
   return request;
 }
 
-/// Parses `text` and hands the document to `read`; the common frame of both kinds of file.
-template <typename T>
-Parsed<T> parse_with(T (*read)(const Field&), std::string_view text, std::string_view source) {
-  const Parsed<nlohmann::json> document = parse_document(text, source);
-  if (!document.value) return {{}, document.error};
-  std::string error;
-  T value = read(Field(*document.value, error));
-  if (!error.empty()) return {{}, std::string(source) + ": " + error};
-  return {std::move(value), {}};
-}
-
-template <typename T>
-Parsed<T> read_with(T (*read)(const Field&), const std::string& file) {
-  const Parsed<std::string> text = read_text(file);
-  if (!text.value) return {{}, text.error};
-  return parse_with(read, *text.value, file == "-" ? "standard input" : file);
-}
-
 }  // namespace
 
 Parsed<PlanRequest> parse_plan_request(std::string_view text, std::string_view source) {
-  return parse_with(read_request, text, source);
+  return parse_as(read_request, text, source);
 }
 
 Parsed<PlanRequest> read_plan_request(const std::string& file) {
-  return read_with(read_request, file);
+  return read_as(read_request, file);
 }
 
 Parsed<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
-  return parse_with(read_result, text, source);
+  return parse_as(read_result, text, source);
 }
 
 Parsed<PlanResult> read_plan_response(const std::string& file) {
-  return read_with(read_result, file);
+  return read_as(read_result, file);
 }
 
 std::string describe(const planning::InvalidRequest& invalid) {

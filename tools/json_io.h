@@ -43,6 +43,8 @@ struct ResponseFormat {
   TimingField timing = TimingField::kWritten;
   std::string scene;         ///< name or file; omitted when empty
   std::string scene_digest;  ///< what the answer was computed on; omitted when empty
+  std::vector<std::string>
+      warnings;  ///< about the scene's import, a sentence each; omitted when empty
 };
 
 /// Writes a response, with keys in a fixed order, and every double so that reading gives the same

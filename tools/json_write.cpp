@@ -163,6 +163,10 @@ void write_head(Writer& w, const planning::PlanResult& result, const ResponseFor
     w.raw(",\n  \"scene_digest\": ");
     w.text(format.scene_digest);
   }
+  if (!format.warnings.empty()) {
+    w.raw(",\n  \"warnings\": ");
+    w.list(format.warnings, [&](const std::string& warning) { w.text(warning); });
+  }
 }
 
 }  // namespace

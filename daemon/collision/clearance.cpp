@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/collision/pace.h"
 #include "daemon/collision/probe.h"
 #include "daemon/motion/stretch.h"
 
@@ -85,7 +86,7 @@ class ClearanceSearch {
     const double enough_m = enough();
     if (seen.free) {
       lower_m_ = std::min(lower_m_, asked_m_);
-      aim_m_ = std::max(kLargestGrowth * seen.reach_m, kApproach * (seen.gap_m - asked_m_));
+      aim_m_ = next_reach_m(seen);
       return Verdict::kSettled;
     }
     const double everywhere_m =
@@ -97,10 +98,10 @@ class ClearanceSearch {
     if (!(seen.gap_m > 0.0)) return Verdict::kTouches;
     aim_m_ = std::max(kApproach * (seen.gap_m - enough_m), 1.5 * seen.rounding_m);
     if (hopeless || everywhere_m >= enough_m) {
-      lower_m_ = std::min(lower_m_, everywhere_m);
+      lower_m_ = std::min({lower_m_, everywhere_m, asked_m_});
       return Verdict::kSettled;
     }
-    aim_m_ = std::min(aim_m_, 0.5 * seen.reach_m);
+    aim_m_ = std::min(std::max(aim_m_, next_reach_m(seen)), kLargestShare * seen.reach_m);
     return Verdict::kTooLong;
   }
 
@@ -123,7 +124,8 @@ class ClearanceSearch {
   static constexpr int kPlacesASegment = 8;
   static constexpr double kWorthALook = 1.5;  // of the reach that was aimed at
   static constexpr double kApproach = 0.8;    // reach aimed at, of the gap that was seen
-  static constexpr double kLargestGrowth = 2.0;
+  static constexpr double kLargestGrowth = 4.0;
+  static constexpr double kLargestShare = 0.8;  // of a reach that was too long
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
 

@@ -111,30 +111,35 @@ class Detector {
   bool settle(const Piece& piece, const Stretch& stretch) {
     const Verdict inside = last_ ? settle_inside(piece, stretch) : Verdict::kUnknown;
     if (inside != Verdict::kUnknown) return inside == Verdict::kSettled;
-    const Look seen = probe_.look(stretch);
+    const Look seen = look(piece, stretch, Probe::Way::kForwards);
     if (seen.free) {
       close();
-      aim_m_ = std::max(pace_.next_reach_m(seen), kBelow * options_.tolerance_m);
+      aim_m_ = std::max(next_reach_m(seen), kBelow * options_.tolerance_m);
       return true;
     }
     if (seen.swallows) {
       extend(piece, seen.gap_m, /*surely=*/true);
-      pace_.pass(seen.reach_m);
       aim_m_ = kLargestGrowth * seen.reach_m;
       return true;
     }
-    const bool counts =
-        last_ && seen.collides() && seen.reach_m - seen.rounding_m <= options_.gap_m;
+    const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.gap_m;
     if (counts || is_resolved(seen) || !piece.splittable()) {
       extend(piece, seen.gap_m, /*surely=*/false);
-      pace_.pass(seen.reach_m);
       aim_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
       return true;
     }
     // Shorter in any case, or it would be looked at for ever.
-    aim_m_ = std::min(kBelow * (seen.reach_m - seen.rounding_m),
-                      std::max(pace_.next_reach_m(seen), kBelow * least_reach_m(seen)));
+    aim_m_ = std::min(kBelow * seen.motion_m(),
+                      std::max(next_reach_m(seen), kBelow * least_reach_m(seen)));
     return false;
+  }
+
+  // Whether the middle collides is of no interest where the piece is split in any case.
+  Look look(const Piece& piece, const Stretch& stretch, Probe::Way way) {
+    Look seen = probe_.glance(stretch, /*margin_m=*/0.0, way);
+    const double largest_m = last_ ? options_.gap_m : options_.tolerance_m;
+    if (seen.motion_m() <= largest_m || !piece.splittable()) probe_.measure(stretch, seen);
+    return seen;
   }
 
   // Finer is of no use.
@@ -151,7 +156,6 @@ class Detector {
     const bool is_short = motion_m <= options_.gap_m || !piece.splittable();
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
-      pace_.pass(reach_m);
       aim_m_ = kLargestGrowth * reach_m;
       return Verdict::kSettled;
     }
@@ -169,7 +173,6 @@ class Detector {
       patience_ = impatience_;
     }
     extend(piece, 0.0, hit_.has_value());
-    pace_.pass(reach_m);
     aim_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
     return Verdict::kSettled;
   }
@@ -180,7 +183,7 @@ class Detector {
   }
 
   [[nodiscard]] bool is_resolved(const Look& seen) const {
-    return !(seen.reach_m - seen.rounding_m > finest_m(seen));
+    return !(seen.motion_m() > finest_m(seen));
   }
 
   bool out_of_time() {
@@ -225,14 +228,24 @@ class Detector {
     finished_ = finished_ || only_first_;
   }
 
-  // Where, at the finest resolution, the last part of `piece` ends that is not free.
+  // Where, at the finest resolution, the last part of `piece` ends that is not free: walked from
+  // its end, which is free, backwards. Nothing if all of it is free.
   std::optional<double> last_not_free(const SegmentMotion& motion, const Piece& piece) {
-    const Look seen = probe_.look(motion.around(piece.u0, piece.u1));
-    if (seen.free) return std::nullopt;
-    if (is_resolved(seen) || !piece.splittable()) return piece.end_s();
-    const std::optional<double> right =
-        last_not_free(motion, {piece.segment, piece.middle(), piece.u1});
-    return right ? right : last_not_free(motion, {piece.segment, piece.u0, piece.middle()});
+    double width = piece.u1 - piece.u0;
+    for (double u = piece.u1; u > piece.u0 && !out_of_time();) {
+      const double from = std::min(u - width, std::nextafter(u, piece.u0));
+      const Piece part{piece.segment, std::max(from, piece.u0), u};
+      const Look seen = look(part, motion.around(part.u0, part.u1), Probe::Way::kBackwards);
+      if (seen.free) {
+        u = part.u0;
+      } else if (is_resolved(seen) || !part.splittable()) {
+        return part.end_s();
+      }
+      const double aim_m = std::max(next_reach_m(seen), kBelow * finest_m(seen));
+      width = (part.u1 - part.u0) *
+              std::clamp(aim_m / seen.reach_m, kLargestShrink, seen.free ? kLargestStep : kBelow);
+    }
+    return std::nullopt;
   }
 
   // What is touched deepest at the contact next to `time_s`.
@@ -260,7 +273,6 @@ class Detector {
   static constexpr int kMostImpatience = 15;  // looks between attempts to prove a collision
 
   Probe probe_;
-  Pace pace_;
   const DetectOptions& options_;
   const Deadline& deadline_;
   const bool only_first_;

@@ -21,11 +21,6 @@ using geometry::Vec3;
 // Sums of a handful of positive numbers, each of which rounds by half of this at most.
 constexpr double kRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
 
-// How far beyond what is needed a look goes: of the radius of the body, and not further than the
-// stretch reaches. Chosen by measurement: to know the next step is worth that much near a surface,
-// and nothing in the open.
-constexpr double kHorizon = 0.1;
-
 // A triangle that is large enough to prove a collision is met among the first or hardly at all.
 constexpr int kMaxCrossingsTried = 16;
 
@@ -53,7 +48,8 @@ Probe::Probe(const Obstacles& obstacles, const motion::Body& body, double cleara
       keep_m_((body.ball_radius_m() + clearance_m) * kRoundUp),
       radius_m_(body.radius_m()),
       center_C_(bounds_of(body.triangles_C()).center()),
-      placed_(body.triangles_C().size()) {
+      placed_(body.triangles_C().size()),
+      ends_(2 * placed_.size()) {
   for (const Triangle& triangle : body.triangles_C()) {
     for (const Vec3& vertex : triangle) {
       center_radius_m_ = std::max(center_radius_m_, (vertex - center_C_).norm() * kRoundUp);
@@ -75,35 +71,62 @@ double Probe::field_distance_m(const motion::Stretch& stretch) const {
          center_radius_m_ * kRoundUp;
 }
 
-Look Probe::look(const motion::Stretch& stretch, double margin_m, double share) {
+scene::MovingBody Probe::move(const motion::Stretch& stretch, Way way) {
+  const std::span<const Triangle> triangles_C = body_.triangles_C();
+  const std::size_t begin = way == Way::kForwards ? 0 : 1;
+  for (std::size_t i = 0; i < triangles_C.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 arm_W = stretch.R_WC * triangles_C[i][k];
+      const Vec3 step_W = stretch.eye_step_W + stretch.turn_step_W.cross(arm_W);
+      placed_[i][k] = arm_W + stretch.eye_W;
+      ends_[2 * i + begin][k] = placed_[i][k] - step_W;
+      ends_[2 * i + 1 - begin][k] = placed_[i][k] + step_W;
+    }
+  }
+  return {placed_, ends_, (stretch.bend_m(radius_m_) + body_.slack_m()) * kRoundUp,
+          reach_m(stretch), 0.0};
+}
+
+Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
   Look look;
   look.reach_m = reach_m(stretch);
   look.rounding_m = rounding_m(stretch);
-  const double asked_m = look.reach_m + margin_m;
   // Of the ball about the triangles: what it holds cannot be inside a solid either.
   const double field_m = field_distance_m(stretch);
-  if (field_m > (asked_m + keep_m_) * kRoundUp) {
+  if (field_m > (look.reach_m + margin_m + keep_m_) * kRoundUp) {
     look.free = true;
     look.is_measured = false;
     look.gap_m = field_m - keep_m_;
+    look.ahead = look.gap_m / look.reach_m;
     return look;
   }
-  const std::span<const Triangle> placed = place(stretch);
-  const double error_m = obstacles_.index.nearest_error_m(placed);
+  scene::MovingBody body = move(stretch, way);
+  const double error_m = obstacles_.index.nearest_error_m(body.ends);
   look.rounding_m += error_m;
-  const double needed_m = (asked_m + error_m + keep_m_) * kRoundUp;
+  body.keep_m = (margin_m + error_m + keep_m_) * kRoundUp;
   // Too large or not a number: then nothing is known, and the motion is at fault.
-  if (!(needed_m < geometry::kLargestCoordinate_m)) return look;
-  // What is a little beyond tells how far the next step may go.
-  const double horizon_m = needed_m + std::min(look.reach_m, kHorizon * center_radius_m_);
-  const std::optional<scene::Nearest> nearest =
-      obstacles_.index.near(placed, horizon_m, needed_m, share);
-  const bool is_apart = !nearest || !(nearest->distance_m < needed_m);
-  look.swallows = is_apart && holds_scene(stretch);
-  look.free = is_apart && !look.swallows;
-  look.is_measured = nearest.has_value() || !look.free;
-  if (!is_apart || look.free) look.gap_m = (nearest ? nearest->distance_m : horizon_m) - keep_m_;
+  if (!(body.bend_m + body.reach_m + body.keep_m < geometry::kLargestCoordinate_m)) return look;
+  const scene::Passage passage = obstacles_.index.passage(body);
+  look.swallows = passage.is_clear && holds_scene(stretch);
+  look.free = passage.is_clear && !look.swallows;
+  look.is_measured = passage.nearest.has_value() || !look.free;
+  look.ahead = passage.ahead;
+  look.gap_m = passage.nearest ? passage.nearest->distance_m - keep_m_ : margin_m;
   return look;
+}
+
+void Probe::measure(const motion::Stretch& stretch, Look& look, double share) {
+  if (look.free || look.swallows) return;
+  // "Nearer than": what was found before stays where nothing is.
+  const std::optional<scene::Nearest> nearest =
+      obstacles_.index.near(place(stretch), look.gap_m + keep_m_, /*certain_m=*/0.0, share);
+  if (nearest) look.gap_m = nearest->distance_m - keep_m_;
+}
+
+Look Probe::look(const motion::Stretch& stretch, double margin_m, double share) {
+  Look seen = glance(stretch, margin_m);
+  measure(stretch, seen, share);
+  return seen;
 }
 
 bool Probe::holds_scene(const motion::Stretch& stretch) {

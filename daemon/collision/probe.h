@@ -24,13 +24,17 @@ struct Look {
   double rounding_m = 0.0;
   /// Whether `gap_m` was measured; else it is a lower bound, and the stretch is free.
   bool is_measured = true;
-  /// How far the body was in the middle from colliding, as computed: distance less the required
-  /// clearance. The true distance may be less, down to the share of it that was asked for, but not
-  /// so that it would matter to `free`.
+  /// How far the body was in the middle from colliding with something near, as computed: distance
+  /// less the required clearance. Something else may be nearer, unless `Probe::measure` has looked.
   double gap_m = 0.0;
+  /// An estimate: how many times as long a stretch can be free, the next one if this is free, else
+  /// another one from the same beginning. Infinity where nothing was met.
+  double ahead = 0.0;
 
-  /// In the middle it collides, or is too close.
+  /// In the middle it collides, or is too close; known once it is measured.
   [[nodiscard]] bool collides() const { return !free && gap_m <= 0.0; }
+  /// What splitting can take away.
+  [[nodiscard]] double motion_m() const { return reach_m - rounding_m; }
 };
 
 /// Looks at stretches of a motion. Each thread needs a probe of its own: what places the body uses
@@ -41,10 +45,15 @@ struct Look {
 /// triangle is, anywhere on the stretch and in exact arithmetic, within `reach` of there
 /// (`motion::Stretch::reach_m`). So its distance is everywhere at least d - e - reach; if that is
 /// more than the radius of the body's ball and the required clearance together, all of the surface
-/// is further away than required. What is inside a solid without touching its surface is asked for
-/// apart: if the surface is free all the time, nothing can have come in or gone out.
-/// Source: He & van den Berg 2014, "Efficient exact collision-checking of 3-D rigid body motions
-/// using linear transformations and distance computations in workspace", with our motion bound.
+/// is further away than required. Where it is not, the direction of the motion counts: a point is
+/// also within `motion::Stretch::bend_m`, which is much less, of the line between its two ends, and
+/// what these lines hold may keep away all the same (`scene::SceneIndex::passage`). What is inside
+/// a solid without touching its surface is asked for apart: if the surface is free all the time,
+/// nothing can have come in or gone out. Source: He & van den Berg 2014, "Efficient exact
+/// collision-checking of 3-D rigid body motions using linear transformations and distance
+/// computations in workspace", with our motion bounds; that of motion along a direction, for a
+/// slab, is after Mirtich 1996 ("Impulse-based dynamic simulation of rigid body systems",
+/// section 2.3).
 class Probe {
  public:
   /// Refers to both, which must outlive it. [Limit: 0 <= clearance_m] [Units: metres]
@@ -53,8 +62,17 @@ class Probe {
   /// The distance that a look gives need not be nearer to the truth to be of use for the next step.
   static constexpr double kRough = 0.5;
 
-  /// Looks at a stretch. `margin_m` is asked for on top of the required clearance. The true
-  /// distance is at least `share` of the one given.
+  enum class Way { kForwards, kBackwards };
+
+  /// Looks at a stretch. `margin_m` is asked for on top of the required clearance. `Look::ahead` is
+  /// about the way that is gone. Of one that is not free, whether it collides is not told.
+  Look glance(const motion::Stretch& stretch, double margin_m = 0.0, Way way = Way::kForwards);
+
+  /// Improves `gap_m` of a glance at that stretch, unless it is free: the true distance is at least
+  /// `share` of it afterwards, and 0 exactly if it says so.
+  void measure(const motion::Stretch& stretch, Look& look, double share = kRough);
+
+  /// Both.
   Look look(const motion::Stretch& stretch, double margin_m = 0.0, double share = kRough);
 
   /// A triangle that the body touches in the middle of the stretch, or is too close to; `guess` is
@@ -87,6 +105,8 @@ class Probe {
   [[nodiscard]] double keep_m() const { return keep_m_; }
 
  private:
+  /// The body on the stretch; valid until it is placed again.
+  scene::MovingBody move(const motion::Stretch& stretch, Way way);
   [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
   [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
   /// Of the body as it was placed last.
@@ -99,6 +119,7 @@ class Probe {
   geometry::Vec3 center_C_;       ///< of a ball about the body's triangles
   double center_radius_m_ = 0.0;  ///< of that ball
   std::vector<geometry::Triangle> placed_;
+  std::vector<geometry::Triangle> ends_;  ///< of each triangle two
 };
 
 }  // namespace camway::collision

@@ -71,6 +71,7 @@ class Search {
     const double squared = offset.squaredNorm();
     if (!(squared < best2_)) return false;
     best2_ = squared;
+    offset_ = offset;
     // Too short to prove anything by a slab; the exact test decides.
     if (!(squared > smallest_ * smallest_)) return false;
     const double end_a = std::max({offset.dot(a_[0]), offset.dot(a_[1]), offset.dot(a_[2])});
@@ -83,6 +84,7 @@ class Search {
 
   [[nodiscard]] bool is_beyond() const { return is_beyond_; }
 
+  [[nodiscard]] const Vec3& offset() const { return offset_; }
   [[nodiscard]] double distance() const { return std::sqrt(best2_); }
 
  private:
@@ -93,6 +95,7 @@ class Search {
   double beyond2_ = 0.0;
   bool is_beyond_ = false;
   double best2_ = std::numeric_limits<double>::infinity();
+  Vec3 offset_ = Vec3::Zero();
 };
 
 bool edges_settle(Search& search, const Triangle& a, const Triangle& b) {
@@ -187,19 +190,39 @@ double triangle_distance(const Triangle& a, const Triangle& b) {
 }
 
 double triangle_distance(const Triangle& a, const Triangle& b, double beyond_m) {
+  return triangle_gap(a, b, beyond_m).distance_m;
+}
+
+// Coordinates relative to a vertex of `b` carry u·scale each, a product u and the sums 2u: 4u·|n|_1
+// times scale for each end, 2u for their difference (which is at most twice as large): 12u, 21u
+// once the length is divided out. Length and quotient have 5u of a width of at most
+// 2·sqrt(3)·scale: 18u. Together 39u, far inside the 192u of the contract. A direction longer than
+// the guard keeps underflow out.
+double slab_width_m(const Triangle& a, const Triangle& b, const Vec3& direction) {
+  constexpr double kLeastSquare = 0x1p-400;
+  const double squared = direction.squaredNorm();
+  if (!(squared > kLeastSquare)) return -std::numeric_limits<double>::infinity();
+  const auto along = [&](const Vec3& point) { return direction.dot(point - b[0]); };
+  const double begin = std::min({0.0, along(b[1]), along(b[2])});
+  const double end = std::max({along(a[0]), along(a[1]), along(a[2])});
+  return (begin - end) / std::sqrt(squared);
+}
+
+TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) {
   const double scale = scale_of(a, b);
   const double unit_m = unit_for_scale(scale);
   const Triangle la = to_local(a, a[0], unit_m);
   const Triangle lb = to_local(b, a[0], unit_m);
   Search search(la, lb, scale / unit_m, beyond_m / unit_m);
   if (edges_settle(search, la, lb) || faces_settle(search, la, lb)) {
-    if (search.is_beyond()) return std::numeric_limits<double>::infinity();
-    return search.distance() * unit_m;
+    if (search.is_beyond()) return {std::numeric_limits<double>::infinity(), search.offset()};
+    return {search.distance() * unit_m, search.offset()};
   }
-  if (triangles_touch(a, b)) return 0.0;
+  if (triangles_touch(a, b)) return {0.0, search.offset()};
   vertices_settle(search, la, lb);
   // Apart, so never 0.
-  return std::max(search.distance() * unit_m, std::numeric_limits<double>::denorm_min());
+  return {std::max(search.distance() * unit_m, std::numeric_limits<double>::denorm_min()),
+          search.offset()};
 }
 
 }  // namespace camway::geometry

@@ -23,6 +23,22 @@ double triangle_distance(const Triangle& a, const Triangle& b);
 /// sooner.
 double triangle_distance(const Triangle& a, const Triangle& b, double beyond_m);
 
+/// A distance, and a vector along the shortest way from `a` to `b`, in no particular unit. Where
+/// they touch, and where the distance is infinity, any vector.
+struct TriangleGap {
+  double distance_m;
+  Vec3 direction;
+};
+
+/// `triangle_distance` with the direction.
+TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m);
+
+/// How far `b` lies beyond `a` along `direction`: the width of the slab between them, below 0 if
+/// they overlap. Never above their distance by more than `triangle_distance_error_m`; minus
+/// infinity for a direction too short to have one. Other than a distance it tells something of
+/// everything between two triangles `a`. [Units: metres]
+double slab_width_m(const Triangle& a, const Triangle& b, const Vec3& direction);
+
 /// Bound of the error of `triangle_distance`, metres.
 double triangle_distance_error_m(const Triangle& a, const Triangle& b);
 

@@ -17,6 +17,9 @@ using geometry::Vec4;
 // at most.
 constexpr double kRoundUp = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
 
+// Where the turn is not small, its first order says little.
+constexpr double kLargestTangent = 0.25;
+
 template <class Value, std::size_t N>
 double largest_difference(const std::array<Value, N>& points) {
   double length = 0.0;
@@ -76,6 +79,19 @@ double sine_of(double across, double along) {
   return std::min(1.0, tangent / std::sqrt(1.0 + tangent * tangent) * kRoundUp);
 }
 
+/// Vector part of `rate` times the conjugate of the unit quaternion `q`.
+Vec3 vector_part(const Vec4& rate, const Vec4& q) {
+  const Vec3 u = rate.tail<3>();
+  const Vec3 v = q.tail<3>();
+  return q[0] * u - rate[0] * v - u.cross(v);
+}
+
+/// Nothing is known of where a turn goes, only how far.
+void go_nowhere(Stretch& stretch) {
+  stretch.turn_step_W = Vec3::Zero();
+  stretch.turn_bend = 2.0 * stretch.turn_sine;
+}
+
 double reach_of(double travel_m, double turn_sine, double radius_m) {
   return (travel_m + 2.0 * radius_m * turn_sine) * kRoundUp;
 }
@@ -86,6 +102,15 @@ double Stretch::reach_m(double radius_m) const {
   const double eye_m = eye_W.norm() + radius_m;
   return reach_of(travel_m + travel_rounding_m, turn_sine, radius_m) + kMatrixRounding * radius_m +
          kValueRounding * eye_m;
+}
+
+// That the matrix, and the place of the eye, are rounded counts once for the middle and once more
+// for the step, which a turn of less than half a radian makes from them.
+double Stretch::bend_m(double radius_m) const {
+  const double eye_m = eye_W.norm() + radius_m;
+  const double step_m = eye_step_W.norm() + radius_m * turn_step_W.norm();
+  return (travel_bend_m + travel_rounding_m + radius_m * turn_bend) * kRoundUp +
+         2.0 * (kMatrixRounding * radius_m + kValueRounding * eye_m) + kStepRounding * step_m;
 }
 
 double Stretch::rounding_m(double radius_m) const {
@@ -119,12 +144,20 @@ Stretch SegmentMotion::around(double u0, double u1) const {
 
   Stretch stretch;
   stretch.eye_W = first_position_ + position[0];
-  stretch.travel_m =
-      half_width *
-      (position[1].norm() + half_width * (position[2].norm() + half_width * position[3].norm()));
+  const double travel_bend_m =
+      half_width * half_width * (position[2].norm() + half_width * position[3].norm());
+  stretch.travel_m = half_width * position[1].norm() + travel_bend_m;
   stretch.travel_rounding_m = position_rounding_m_;
+  stretch.eye_step_W = half_width * position[1];
+  stretch.travel_bend_m = travel_bend_m;
+  turn_around(stretch, orientation, half_width);
+  return stretch;
+}
 
-  const Vec4 q = first_orientation_ + orientation[0];
+/// The part of `around` that is about the turn; `series` about the middle of the stretch.
+void SegmentMotion::turn_around(Stretch& stretch, const std::array<Vec4, 7>& series,
+                                double half_width) const {
+  const Vec4 q = first_orientation_ + series[0];
   const double squared_length = q.squaredNorm();
   const double length = std::sqrt(squared_length);
   const double rounding = orientation_rounding_ + kValueRounding * length;
@@ -132,20 +165,31 @@ Stretch SegmentMotion::around(double u0, double u1) const {
   if (!(length > 2.0 * rounding) || !(squared_length > std::numeric_limits<double>::min())) {
     stretch.R_WC.setIdentity();
     stretch.turn_sine = stretch.turn_rounding_sine = 1.0;
-    return stretch;
+    go_nowhere(stretch);
+    return;
   }
   stretch.R_WC = rotation_of(q, squared_length);
   const Vec4 direction = q / length;
   double along = 0.0;
   double across = 0.0;
-  for (std::size_t k = orientation.size() - 1; k > 0; --k) {
-    const double part = orientation[k].dot(direction);
-    across = half_width * (across + (orientation[k] - part * direction).norm());
+  double across_bend = 0.0;  // of all powers but the first
+  for (std::size_t k = series.size() - 1; k > 0; --k) {
+    const double part = series[k].dot(direction);
+    across_bend = half_width * across;
+    across = half_width * (across + (series[k] - part * direction).norm());
     along = half_width * (along + std::abs(part));
   }
   stretch.turn_sine = sine_of(across + rounding, length - along - rounding);
   stretch.turn_rounding_sine = sine_of(rounding, length - rounding);
-  return stretch;
+  const double tangent = (across + rounding) / (length - along - rounding) * kRoundUp;
+  // In this order "not a number", and a turn of a right angle or more, end here.
+  if (!(tangent >= 0.0 && tangent < kLargestTangent)) {
+    go_nowhere(stretch);
+    return;
+  }
+  stretch.turn_step_W = (2.0 * half_width / length) * vector_part(series[1], direction);
+  const double tangent_bend = (across_bend + rounding + tangent * (along + rounding)) / length;
+  stretch.turn_bend = 2.0 * (tangent_bend + tangent * tangent * (1.0 + tangent)) * kRoundUp;
 }
 
 }  // namespace camway::motion

@@ -17,7 +17,16 @@ struct Stretch {
   /// Sine of half the largest turn from `R_WC`; 1 where nothing is known of it. A turn by θ moves a
   /// point at radius ρ by the chord 2·ρ·sin(θ/2) at most. [Limit: 0 <= value <= 1]
   double turn_sine = 0.0;
-  /// What rounding alone makes of the two above: they do not sink below these on any stretch.
+  /// Where the motion goes, to first order: from the middle of the stretch to its end the point
+  /// `y = R_WC * x + eye_W` moves by `eye_step_W + turn_step_W.cross(R_WC * x)`, and by as much the
+  /// other way to its beginning. No turn where too little is known of it.
+  geometry::Vec3 eye_step_W = geometry::Vec3::Zero();
+  geometry::Vec3 turn_step_W = geometry::Vec3::Zero();
+  /// How far the motion strays from that: the eye, its rounding apart, and a point at radius 1 by
+  /// the turn. [Units: metres, 1]
+  double travel_bend_m = 0.0;
+  double turn_bend = 0.0;
+  /// What rounding alone makes of travel and turn: they do not sink below these on any stretch.
   double travel_rounding_m = 0.0;
   double turn_rounding_sine = 0.0;
 
@@ -26,6 +35,11 @@ struct Stretch {
   /// computed in doubles. Not a number or infinite where the segment's numbers are too large to
   /// say.
   [[nodiscard]] double reach_m(double radius_m) const;
+
+  /// Nor is it, at the time that divides the stretch at some ratio, further than this from the
+  /// point that divides the straight line between its two ends, to first order and as computed in
+  /// doubles, at the same ratio. Falls with the square of the stretch's length.
+  [[nodiscard]] double bend_m(double radius_m) const;
 
   /// The part of `reach_m` that splitting the stretch cannot take away.
   [[nodiscard]] double rounding_m(double radius_m) const;
@@ -44,6 +58,13 @@ Stretch standing_at(const Pose& pose);
 /// is the sine of half the turn. Nothing is sampled; in the limit of short stretches both are
 /// exact.
 ///
+/// How far the motion strays from its first order: the eye by Σ_{k>1} |Pₖ| hᵏ. With e as above the
+/// turn from Q(m) is the quaternion of direction (1, τ), τ = V/α, where Q(m + s) e* = (α, V): a
+/// rotation that moves y by 2/(1 + τ²)·(τ×y + τ×(τ×y)). Let τ₁ = V₁s/|Q₀| be its first order and
+/// the step 2·τ₁×y. With T, the bound of |τ| from above, and ε that of |τ - τ₁|, the difference is
+/// at most 2|y|·(ε + T²·T + T²). From τ - τ₁ = (Σ_{k>1} Vₖsᵏ)/|Q₀| - τ·(α - |Q₀|)/|Q₀| follows
+/// ε <= (Σ_{k>1} |Qₖ⊥|hᵏ + T·Σ_{k>0} |Qₖ·e|hᵏ)/|Q₀|.
+///
 /// The rounding of all of it is bounded below, relative to the *differences* of control points, and
 /// so does not grow with the distance from the origin; only the eye's own coordinates do.
 class SegmentMotion {
@@ -54,6 +75,9 @@ class SegmentMotion {
   [[nodiscard]] Stretch around(double u0, double u1) const;
 
  private:
+  void turn_around(Stretch& stretch, const std::array<geometry::Vec4, 7>& series,
+                   double half_width) const;
+
   std::array<geometry::Vec3, 4> position_;     ///< series about 1/2, less `first_position_`
   std::array<geometry::Vec4, 7> orientation_;  ///< series about 1/2, less `first_orientation_`
   geometry::Vec3 first_position_;
@@ -75,12 +99,15 @@ class SegmentMotion {
 // n = 3: 189 + 48 = 237, and √3 from coordinates to length: 411 u = 206 epsilons.
 inline constexpr double kPositionSeriesRounding = 210.0 * 2.220446049250313e-16;
 // n = 6: 8748 + 768 = 9516, times 2 from coordinates to length; the parts along and across the
-// middle have 8 more operations on terms that sum up to 2^6: 512. 20056 u = 10028 epsilons.
-inline constexpr double kOrientationSeriesRounding = 10240.0 * 2.220446049250313e-16;
+// middle have 8 more operations on terms that sum up to 2^6, and what the first order makes of them
+// 24: 2048. 23128 u = 11564 epsilons.
+inline constexpr double kOrientationSeriesRounding = 11776.0 * 2.220446049250313e-16;
 /// Adding the first control point, and the direction of the middle: relative to the value.
 inline constexpr double kValueRounding = 4.0 * 2.220446049250313e-16;
 /// The rotation matrix of a quaternion of any length: its entries are within 16 units, its product
 /// with a point at radius ρ within 60 units of ρ.
 inline constexpr double kMatrixRounding = 60.0 * 2.220446049250313e-16;
+/// A step: products and sums of it are fewer than 32 roundings of what it adds up.
+inline constexpr double kStepRounding = 16.0 * 2.220446049250313e-16;
 
 }  // namespace camway::motion

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "daemon/geometry/triangle_box.h"
-#include "daemon/geometry/triangle_distance.h"
 
 namespace camway::scene {
 
@@ -21,37 +20,26 @@ bool BodySearch::Candidates::was_met(std::uint32_t triangle) {
   return false;
 }
 
-BodySearch::BodySearch(std::span<const Triangle> body, const Box& body_box, const Mesh& mesh,
-                       double cutoff_m, double error_m, Goal goal, double certain_m, double share)
-    : body_(body),
+BodySearch::BodySearch(std::span<const Triangle> hull, std::size_t of_part, const Box& box,
+                       const Mesh& mesh, double error_m)
+    : hull_(hull),
+      of_part_(of_part),
       mesh_(mesh),
-      sides_(body_box),
-      box_(body),
+      sides_(box),
+      box_(hull),
       oblique_(box_),
-      error_m_(error_m),
-      goal_(goal),
-      certain_m_(certain_m),
-      share_(share),
-      best_{cutoff_m, kNone} {
-  shrink_to(cutoff_m);
-}
-
-std::optional<Nearest> BodySearch::result() const {
-  if (best_.triangle == kNone) return std::nullopt;
-  return best_;
-}
+      error_m_(error_m) {}
 
 // A distance asked may be `error_m_` below the true one, and a bound `error_m_` above it.
-void BodySearch::shrink_to(double best_m) {
-  limit_m_ = best_m;
-  const double reach_m = best_m + 2.0 * error_m_;
-  squared_reach_m2_ = reach_m * reach_m * (1.0 + 2.0 * OrientedBox::kRelativeError);
+void BodySearch::shrink_to(double reach_m) {
+  const double surely_m = reach_m + 2.0 * error_m_;
+  squared_reach_m2_ = surely_m * surely_m * (1.0 + 2.0 * OrientedBox::kRelativeError);
 }
 
-bool BodySearch::cannot_win(double squared_m2, std::uint32_t triangle) const {
-  // Nothing is nearer than a touch, so only a lower index could still win.
-  if (best_.distance_m == 0.0 && triangle >= best_.triangle) return true;
-  return squared_m2 > squared_reach_m2_;
+Box BodySearch::bounds_of(std::size_t part) const {
+  Box box;
+  for (const Triangle& triangle : hull_of(part)) box.extend(geometry::bounds(triangle));
+  return box;
 }
 
 void BodySearch::consider(std::uint32_t triangle) {
@@ -79,9 +67,9 @@ void BodySearch::settle() {
 void BodySearch::ask(std::uint32_t index) {
   const Triangle triangle = mesh_.triangle(index);
   if (cannot_win(box_.plane_bound_m2(triangle), index)) return;
-  if (body_.size() == 1) {
-    ask_part(0, triangle, index);
-  } else if (body_.size() <= kMaxOriented) {
+  if (parts() == 1) {
+    ask_pair(0, triangle, index);
+  } else if (parts() <= kMaxOriented) {
     ask_few(triangle, index);
   } else {
     ask_groups(triangle, index);
@@ -91,55 +79,44 @@ void BodySearch::ask(std::uint32_t index) {
 void BodySearch::ask_few(const Triangle& triangle, std::uint32_t index) {
   if (!part_boxes_) {
     part_boxes_.emplace();
-    for (std::size_t i = 0; i < body_.size(); ++i) {
-      (*part_boxes_)[i] = OrientedBox(body_.subspan(i, 1));
+    for (std::size_t i = 0; i < parts(); ++i) {
+      (*part_boxes_)[i] = OrientedBox(hull_of(i));
     }
   }
-  std::array<Waiting, kMaxOriented> parts;
+  std::array<Waiting, kMaxOriented> order;
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < body_.size(); ++i) {
+  for (std::uint32_t i = 0; i < parts(); ++i) {
     const double squared_m2 = (*part_boxes_)[i].squared_distance_bound_m2(triangle);
     std::size_t place = count++;
-    for (; place > 0 && parts[place - 1].squared_m2 > squared_m2; --place) {
-      parts[place] = parts[place - 1];
+    for (; place > 0 && order[place - 1].squared_m2 > squared_m2; --place) {
+      order[place] = order[place - 1];
     }
-    parts[place] = {squared_m2, i};
+    order[place] = {squared_m2, i};
   }
   for (std::size_t i = 0; i < count && !is_done_; ++i) {
-    if (!cannot_win(parts[i].squared_m2, index)) ask_part(parts[i].triangle, triangle, index);
+    if (!cannot_win(order[i].squared_m2, index)) ask_pair(order[i].triangle, triangle, index);
   }
 }
 
 void BodySearch::ask_groups(const Triangle& triangle, std::uint32_t index) {
-  const std::size_t size = std::max(kGroupSize, (body_.size() + kMaxGroups - 1) / kMaxGroups);
+  const std::size_t size = std::max(kGroupSize, (parts() + kMaxGroups - 1) / kMaxGroups);
   if (!group_boxes_) {
     group_boxes_.emplace();
-    for (std::size_t i = 0; i < body_.size(); ++i) {
-      (*group_boxes_)[i / size].extend(geometry::bounds(body_[i]));
+    for (std::size_t i = 0; i < parts(); ++i) {
+      (*group_boxes_)[i / size].extend(bounds_of(i));
     }
   }
   const Box box = geometry::bounds(triangle);
-  for (std::size_t begin = 0; begin < body_.size(); begin += size) {
+  for (std::size_t begin = 0; begin < parts(); begin += size) {
     const Box& group = (*group_boxes_)[begin / size];
     if (cannot_win(geometry::squared_box_distance_m2(group, box), index)) continue;
-    const std::size_t end = std::min(begin + size, body_.size());
+    const std::size_t end = std::min(begin + size, parts());
     for (std::size_t i = begin; i < end && !is_done_; ++i) {
-      const Box part = geometry::bounds(body_[i]);
+      const Box part = bounds_of(i);
       if (cannot_win(geometry::squared_box_distance_m2(part, box), index)) continue;
-      ask_part(i, triangle, index);
+      ask_pair(i, triangle, index);
     }
   }
-}
-
-void BodySearch::ask_part(std::size_t part, const Triangle& triangle, std::uint32_t index) {
-  const double distance_m = geometry::triangle_distance(body_[part], triangle, limit_m_);
-  const bool is_tie = distance_m == best_.distance_m && best_.triangle != kNone;
-  if (!(distance_m < best_.distance_m || (is_tie && index < best_.triangle))) return;
-  best_ = {distance_m, index};
-  shrink_to(goal_ != Goal::kNear      ? distance_m
-            : distance_m < certain_m_ ? share_ * distance_m
-                                      : std::max(share_ * distance_m, certain_m_));
-  is_done_ = goal_ == Goal::kAny || (distance_m == 0.0 && (goal_ == Goal::kNear || index == 0));
 }
 
 }  // namespace camway::scene

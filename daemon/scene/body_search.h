@@ -13,21 +13,13 @@
 
 namespace camway::scene {
 
-/// Asks triangles that the index comes upon for their distance to a body, and keeps the nearest.
-/// What is proved to be beyond the nearest so far is not asked.
+/// Puts pairs of a triangle of a body and one of the scene to a question, the most promising first,
+/// and spares those that boxes show to be beyond a reach. What is asked, and what the reach
+/// becomes, is up to the derived class. The body stands, or is anywhere between two ends.
 class BodySearch {
  public:
-  enum class Goal {
-    kNearest,
-    kNear,  ///< once one is found, only what is nearer than `share` of it or `certain_m`
-    kAny,
-  };
-
-  /// `error_m`: bound of the rounding of any distance asked. Preconditions: the body is not empty
-  /// and finite, and outlives this, as `mesh` does.
-  BodySearch(std::span<const geometry::Triangle> body, const geometry::Box& body_box,
-             const Mesh& mesh, double cutoff_m, double error_m, Goal goal, double certain_m,
-             double share);
+  BodySearch(const BodySearch&) = delete;
+  BodySearch& operator=(const BodySearch&) = delete;
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
   [[nodiscard]] const ObliqueSides* oblique() const { return &oblique_; }
@@ -37,7 +29,6 @@ class BodySearch {
     return squared_box_m2 > squared_reach_m2_ * (1.0 + 2.0 * kBoxGapRelativeError);
   }
   [[nodiscard]] bool is_done() const { return is_done_; }
-  [[nodiscard]] std::optional<Nearest> result() const;
 
   /// Puts a triangle on the list of those to be asked, unless it is surely of no interest.
   void consider(std::uint32_t triangle);
@@ -45,8 +36,23 @@ class BodySearch {
   /// Asks those on the list, the most promising first.
   void settle();
 
- private:
+ protected:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  /// `hull`: of each part of the body `of_part` triangles, in turn, between which it stays; `box`
+  /// is around them. `error_m`: bound of the rounding of distances. Preconditions: the body is not
+  /// empty and finite, and outlives this, as `mesh` does.
+  BodySearch(std::span<const geometry::Triangle> hull, std::size_t of_part,
+             const geometry::Box& box, const Mesh& mesh, double error_m);
+  virtual ~BodySearch() = default;
+
+  /// From now on only what is not surely further than `reach_m` is asked.
+  void shrink_to(double reach_m);
+  void finish() { is_done_ = true; }
+  /// A touch of triangle `index` was found: nothing is nearer, so only a lower index is asked.
+  void found_touch(std::uint32_t index) { touched_ = index; }
+
+ private:
   static constexpr std::size_t kMaxOriented = 4;  ///< triangles of a body with a box each
   static constexpr std::size_t kGroupSize = 8;    ///< triangles of larger bodies with one box
   static constexpr std::size_t kMaxGroups = 128;
@@ -69,27 +75,32 @@ class BodySearch {
     std::array<Waiting, 64> waiting;
   };
 
-  void shrink_to(double best_m);
-  [[nodiscard]] bool cannot_win(double squared_m2, std::uint32_t triangle) const;
+  /// The question, to part `part` of the body and scene triangle `index`.
+  virtual void ask_pair(std::size_t part, const geometry::Triangle& triangle,
+                        std::uint32_t index) = 0;
+
+  [[nodiscard]] bool cannot_win(double squared_m2, std::uint32_t triangle) const {
+    return squared_m2 > squared_reach_m2_ || triangle >= touched_;
+  }
+  [[nodiscard]] std::size_t parts() const { return hull_.size() / of_part_; }
+  [[nodiscard]] std::span<const geometry::Triangle> hull_of(std::size_t part) const {
+    return hull_.subspan(part * of_part_, of_part_);
+  }
+  [[nodiscard]] geometry::Box bounds_of(std::size_t part) const;
   void ask(std::uint32_t index);
   void ask_few(const geometry::Triangle& triangle, std::uint32_t index);
   void ask_groups(const geometry::Triangle& triangle, std::uint32_t index);
-  void ask_part(std::size_t part, const geometry::Triangle& triangle, std::uint32_t index);
-  void prepare_parts();
 
-  std::span<const geometry::Triangle> body_;
+  std::span<const geometry::Triangle> hull_;
+  std::size_t of_part_;
   const Mesh& mesh_;
   BoxSides sides_;
   geometry::OrientedBox box_;
   ObliqueSides oblique_;
   double error_m_;
-  Goal goal_;
-  double certain_m_;
-  double share_;
   bool is_done_ = false;
-  double limit_m_ = 0.0;  ///< what is further is of no interest
   double squared_reach_m2_ = 0.0;
-  Nearest best_;
+  std::uint32_t touched_ = kNone;
   std::optional<Candidates> candidates_;
   std::optional<std::array<geometry::OrientedBox, kMaxOriented>> part_boxes_;
   std::optional<std::array<geometry::Box, kMaxGroups>> group_boxes_;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "daemon/geometry/rounding.h"
 #include "daemon/scene/import_process.h"
 #include "daemon/scene/import_record.h"
 
@@ -58,6 +59,16 @@ std::string describe(const ImportProcessResult& process, const ImportOptions& op
   return "cannot be imported";
 }
 
+/// See `ImportReport::rounding_m`. The reader's own is relative to coordinates or absolute in file
+/// units; the product with the scale rounds once more.
+double rounding_m(const ImportRecordResult& record, const Mesh& mesh, double scale) {
+  if (mesh.triangles.empty()) return 0.0;
+  const geometry::Box bounds_m = mesh.bounds();
+  const double largest_m = bounds_m.min().cwiseAbs().cwiseMax(bounds_m.max().cwiseAbs()).maxCoeff();
+  const double of_scale = scale == 1.0 ? 0.0 : geometry::kUnitRoundoff;
+  return (record.relative_rounding + of_scale) * largest_m + record.absolute_rounding * scale;
+}
+
 std::string import_into(ImportResult& result, const fs::path& file, const ImportOptions& options) {
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
     return "the scale must be a positive number";
@@ -75,6 +86,7 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   report.triangles = mesh.triangles.size();
   report.objects = mesh.objects.size();
   report.bounds_m = mesh.bounds();
+  report.rounding_m = rounding_m(record, mesh, options.scale);
   if (mesh.triangles.empty()) return "holds no triangle with an area";
   result.mesh = std::move(record.mesh);
   return "";

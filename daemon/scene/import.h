@@ -14,7 +14,7 @@ namespace camway::scene {
 
 /// Axes are turned only when asked for.
 enum class UpAxis {
-  kAsInFile,  ///< coordinates as assimp gives them, node transforms applied
+  kAsInFile,  ///< coordinates of the file, node transforms applied
   kZToY,      ///< the file has Z up, the scene shall have Y up: (x, y, z) -> (x, z, -y)
   kYToZ,      ///< the file has Y up, the scene shall have Z up: (x, y, z) -> (x, -z, y)
 };
@@ -29,7 +29,7 @@ struct ImportOptions {
 
 /// What was read and what was assumed, so that a wrong unit or axis is seen at once.
 struct ImportReport {
-  std::string format;  ///< assimp's name of the importer
+  std::string format;  ///< in the words of our reader or of assimp's
   double scale = 1.0;
   UpAxis up = UpAxis::kAsInFile;
   std::uint64_t vertices = 0;
@@ -38,10 +38,19 @@ struct ImportReport {
   geometry::Box bounds_m;
   std::uint64_t degenerate_triangles = 0;  ///< of zero area; kept out of the scene
   std::uint64_t dropped_nonfinite = 0;     ///< triangles with a NaN or infinite coordinate
-  /// Faces that name a vertex that does not exist. (Not those that assimp mends itself: in an OFF
-  /// file it takes the last vertex instead, in a glTF file it leaves the face out.)
+  /// Faces that name a vertex that does not exist. (Not those that assimp mends itself: in a glTF
+  /// file it leaves the face out.)
   std::uint64_t dropped_bad_index = 0;
   std::uint64_t dropped_points_and_lines = 0;  ///< primitives that are no surface
+  std::uint64_t dropped_freeform = 0;          ///< curved surfaces, which no reader knows
+  /// Whether coordinates went through single precision, as assimp keeps them. OBJ, OFF, PLY and STL
+  /// files are read in doubles.
+  bool single_precision = false;
+  /// No coordinate of the scene is further than this from the number in the file times the scale
+  /// (and the transforms that the file says). 0 where the file holds doubles or floats and the
+  /// scale is 1; for decimals in doubles half a unit in the last place. What a reader of
+  /// assimp's computes beyond that (curves of IFC made flat) is not in it.
+  double rounding_m = 0.0;
 };
 
 /// What the reader of a format does to units and axes before we see a coordinate, as a sentence for
@@ -55,9 +64,10 @@ struct ImportResult {
   std::string error;  ///< names the file; empty exactly when `mesh` holds a value
 };
 
-/// Reads any format that assimp reads, in a child process with limits of memory and time, since a
-/// hostile file of a few bytes can cost gigabytes or crash the reader; then checks what came back
-/// again (indices, finiteness, counts). Never throws for a bad file. May be called from any thread.
+/// Reads OBJ, OFF, PLY and STL itself (`mesh_readers/mesh_reader.h`) and any other format that
+/// assimp reads, in a child process with limits of memory and time, since a hostile file of a few
+/// bytes can cost gigabytes or crash the reader; then checks what came back again (indices,
+/// finiteness, counts). Never throws for a bad file. May be called from any thread.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace camway::scene

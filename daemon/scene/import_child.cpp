@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: MIT
 
-/// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE with assimp and writes what
-/// `import_format.h` describes to file descriptor 3. Started by `import_mesh` only. The one place
-/// that sees assimp; a process of its own, because a file of a few bytes can make assimp crash or
-/// take all memory.
+/// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE, OBJ, OFF, PLY and STL by our own
+/// readers and all else with assimp, and writes what `import_format.h` describes to file descriptor
+/// 3. Started by `import_mesh` only. The one place that sees assimp; a process of its own, because
+/// a file of a few bytes can make assimp crash or take all memory.
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cctype>
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <new>
 #include <optional>
 #include <span>
@@ -29,10 +34,12 @@
 #include <assimp/Importer.hpp>
 
 #include "daemon/scene/import_format.h"
+#include "daemon/scene/mesh_readers/mesh_reader.h"
 
 namespace {
 
 namespace format = camway::scene::import_format;
+namespace mesh_readers = camway::scene::mesh_readers;
 
 bool set_limit(int resource, rlim_t value) {
   const rlimit limit{value, value};
@@ -126,39 +133,72 @@ void append_nodes(const aiNode& node, const aiScene& scene, format::Record& reco
   }
 }
 
-/// assimp 5.2 allocates what the header of an OFF file promises before it looks whether anything
-/// follows: 27 bytes cost 5 GB and 15 s. Every vertex and every face takes at least 2 bytes.
-std::optional<std::string> refuse_off_counts(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".off") return std::nullopt;
-  std::ifstream in(file);
-  std::string line;
-  while (std::getline(in, line)) {
-    const char* begin = line.data();
-    const char* const end = begin + line.size();
-    std::uint64_t counts[2] = {};
-    int found = 0;
-    for (; found < 2; ++found) {
-      while (begin != end && std::isspace(static_cast<unsigned char>(*begin))) ++begin;
-      const auto [next, error] = std::from_chars(begin, end, counts[found]);
-      if (error == std::errc::result_out_of_range) return "its counts are out of range";
-      if (error != std::errc{}) break;
-      begin = next;
+/// By how much assimp may be off where it only reads numbers: it makes a decimal of whole part and
+/// fraction, each rounded, and their sum, and multiplies by a power of ten, rounded too.
+constexpr double kReadingRoundoffs = 8.0;
+constexpr double kRoundoff = double{std::numeric_limits<ai_real>::epsilon()} / 2.0;
+
+/// A 4 × 4 matrix of magnitudes, for bounds.
+using Magnitudes = std::array<std::array<double, 4>, 4>;
+
+Magnitudes product_of_magnitudes(const Magnitudes& a, const aiMatrix4x4& b) {
+  Magnitudes product{};
+  for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned j = 0; j < 4; ++j) {
+      for (unsigned k = 0; k < 4; ++k) product[i][j] += a[i][k] * std::abs(double{b[k][j]});
     }
-    if (found < 2) continue;  // "OFF", a comment, or an empty line
-    const std::uintmax_t bytes = std::filesystem::file_size(file);
-    if (counts[0] > bytes || counts[1] > bytes) {
-      return "says it has " + std::to_string(counts[0]) + " vertices and " +
-             std::to_string(counts[1]) + " faces, in " + std::to_string(bytes) + " bytes";
-    }
-    return std::nullopt;
   }
-  return std::nullopt;
+  return product;
 }
 
-int import_file(const std::string& file) {
-  if (const std::optional<std::string> reason = refuse_off_counts(file)) return refuse(*reason);
+/// Bounds the rounding of node transforms in single precision. A chain of m products of 4 terms,
+/// the last with a vertex, is off by less than 4 m roundoffs, and a few of reading, of the same
+/// chain of magnitudes (Higham 2002, "Accuracy and Stability of Numerical Algorithms",
+/// section 3.5); doubled, which is more than the terms of higher order come to.
+class TransformRounding {
+ public:
+  explicit TransformRounding(const aiScene& scene) : scene_(scene) {
+    Magnitudes identity{};
+    for (std::size_t i = 0; i < 4; ++i) identity[i][i] = 1.0;
+    add(*scene.mRootNode, identity, 0.0);
+  }
+  [[nodiscard]] double bound() const { return bound_; }
+
+ private:
+  void add(const aiNode& node, const Magnitudes& parent, double products) {
+    const bool moves = !node.mTransformation.IsIdentity();
+    const Magnitudes chain = product_of_magnitudes(parent, node.mTransformation);
+    const double here = products + (moves ? 1.0 : 0.0);
+    if (here > 0.0) {
+      const double roundoffs = 2.0 * (4.0 * here + (here + 1.0) * kReadingRoundoffs);
+      for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) {
+        if (mesh < scene_.mNumMeshes) add_mesh(*scene_.mMeshes[mesh], chain, roundoffs);
+      }
+    }
+    for (const aiNode* child : std::span(node.mChildren, node.mNumChildren)) {
+      add(*child, chain, here);
+    }
+  }
+
+  void add_mesh(const aiMesh& mesh, const Magnitudes& chain, double roundoffs) {
+    std::array<double, 4> largest = {0.0, 0.0, 0.0, 1.0};
+    for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
+      for (unsigned k = 0; k < 3; ++k) {
+        if (std::isfinite(v[k])) largest[k] = std::max(largest[k], std::abs(double{v[k]}));
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      double size = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) size += chain[i][k] * largest[k];
+      bound_ = std::max(bound_, roundoffs * kRoundoff * size);
+    }
+  }
+
+  const aiScene& scene_;
+  double bound_ = 0.0;
+};
+
+int import_with_assimp(const std::string& file) {
   Assimp::Importer importer;
   // Node transforms are applied before polygons are cut to triangles, and nodes keep their names.
   importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, true);
@@ -168,17 +208,63 @@ int import_file(const std::string& file) {
       aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
           aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
           aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
-  const aiScene* scene = importer.ReadFile(
-      file, aiProcess_RemoveComponent | aiProcess_PreTransformVertices | aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(file, aiProcess_RemoveComponent);
   if (scene == nullptr) return refuse(importer.GetErrorString());
   if (scene->mRootNode == nullptr || !scene->HasMeshes()) return refuse("holds no mesh");
   format::Record record;
+  record.header.single_precision = 1;
+  record.header.relative_rounding = kReadingRoundoffs * kRoundoff;
+  record.header.absolute_rounding = TransformRounding(*scene).bound();
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* description =
       index >= 0 ? importer.GetImporterInfo(static_cast<std::size_t>(index)) : nullptr;
   record.text = description != nullptr ? description->mName : "unknown";
+  scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices | aiProcess_Triangulate);
+  if (scene == nullptr) return refuse(importer.GetErrorString());
   append_nodes(*scene->mRootNode, *scene, record);
   return write_record(record) ? format::kExitOk : format::kExitInternal;
+}
+
+/// The bytes of a file, mapped. One that shrinks meanwhile ends this process, which is its purpose.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::string& file) : fd_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    struct stat information {};
+    if (fd_ < 0 || fstat(fd_, &information) != 0) return;
+    size_ = static_cast<std::size_t>(information.st_size);
+    data_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd_, 0);
+  }
+  ~MappedFile() {
+    if (is_open()) munmap(data_, size_);
+    if (fd_ >= 0) close(fd_);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  [[nodiscard]] bool is_open() const { return data_ != MAP_FAILED; }
+  [[nodiscard]] std::string_view bytes() const { return {static_cast<const char*>(data_), size_}; }
+
+ private:
+  int fd_;
+  std::size_t size_ = 0;
+  void* data_ = MAP_FAILED;
+};
+
+int import_directly(const std::string& file, const std::string& extension) {
+  const MappedFile mapped(file);
+  if (!mapped.is_open()) {
+    // The file is there and not empty, so what is missing is address space.
+    return errno == ENOMEM ? format::kExitOutOfMemory : refuse("cannot be opened");
+  }
+  mesh_readers::ReadResult read = mesh_readers::read_mesh(extension, mapped.bytes());
+  if (!read.refusal.empty()) return refuse(std::move(read.refusal));
+  return write_record(read.record) ? format::kExitOk : format::kExitInternal;
+}
+
+int import_file(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (mesh_readers::is_known_extension(extension)) return import_directly(file, extension);
+  return import_with_assimp(file);
 }
 
 std::optional<rlim_t> parse_limit(std::string_view text) {

@@ -14,7 +14,7 @@
 /// The reader of an untrusted file may have been taken over, so the receiver trusts no count.
 namespace camway::scene::import_format {
 
-inline constexpr std::uint64_t kMagic = 0x314D'5941'574D'4143;  // "CAMWAYM1"
+inline constexpr std::uint64_t kMagic = 0x324D'5941'574D'4143;  // "CAMWAYM2"
 inline constexpr int kOutputFd = 3;
 
 /// Exit codes of `camway-import`. Any other is a crash: sanitizers and abort handlers use small
@@ -32,9 +32,15 @@ struct Header {
   std::uint64_t objects = 0;
   std::uint64_t name_bytes = 0;  ///< all names, one after the other
   std::uint64_t dropped_points_and_lines = 0;
+  std::uint64_t dropped_freeform = 0;  ///< curved surfaces that the reader does not know
+  /// Of how coordinates differ from the numbers in the file: up to `relative_rounding` times their
+  /// magnitude and, in file units, `absolute_rounding`.
+  double relative_rounding = 0.0;
+  double absolute_rounding = 0.0;
+  std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
 };
 
-using Vertex = std::array<float, 3>;  ///< node transforms applied, in file units
+using Vertex = std::array<double, 3>;  ///< node transforms applied, in file units
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct Object {

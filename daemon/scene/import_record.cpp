@@ -49,6 +49,7 @@ class RecordReader {
 bool parse(std::span<const std::byte> bytes, Record& record) {
   RecordReader reader(bytes);
   return reader.read(record.header) && record.header.magic == format::kMagic &&
+         record.header.relative_rounding >= 0.0 && record.header.absolute_rounding >= 0.0 &&
          reader.read(record.text, record.header.text_bytes) &&
          reader.read(record.vertices, record.header.vertices) &&
          reader.read(record.triangles, record.header.triangles) &&
@@ -66,7 +67,7 @@ std::string printable(std::string text) {
 
 /// File coordinates to metres in the asked orientation.
 Vec3 to_scene(const format::Vertex& v, const ImportOptions& options) {
-  const Vec3 p = options.scale * Vec3(double{v[0]}, double{v[1]}, double{v[2]});
+  const Vec3 p = options.scale * Vec3(v[0], v[1], v[2]);
   switch (options.up) {
     case UpAxis::kZToY:
       return {p.x(), p.z(), -p.y()};
@@ -166,11 +167,21 @@ class MeshBuilder {
 ImportRecordResult read_import_record(std::span<const std::byte> bytes,
                                       const ImportOptions& options, ImportReport& report) {
   Record record;
-  if (!parse(bytes, record)) return {std::nullopt, "", true};
-  if (record.header.objects == 0) return {std::nullopt, printable(record.text), false};
+  ImportRecordResult result;
+  result.broken = !parse(bytes, record);
+  if (result.broken) return result;
+  if (record.header.objects == 0) {
+    result.refusal = printable(record.text);
+    return result;
+  }
   report.format = printable(record.text);
   report.dropped_points_and_lines = record.header.dropped_points_and_lines;
-  return {MeshBuilder(record, options, report).build(), "", false};
+  report.dropped_freeform = record.header.dropped_freeform;
+  report.single_precision = record.header.single_precision != 0;
+  result.relative_rounding = record.header.relative_rounding;
+  result.absolute_rounding = record.header.absolute_rounding;
+  result.mesh = MeshBuilder(record, options, report).build();
+  return result;
 }
 
 }  // namespace camway::scene

@@ -12,9 +12,11 @@ namespace camway::scene {
 
 /// What the import process answered, checked as if an enemy had written it.
 struct ImportRecordResult {
-  std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
-  std::string refusal;       ///< why the reader refused the file, printable; else empty
-  bool broken = false;       ///< the bytes are no record; nothing else is set
+  std::optional<Mesh> mesh;        ///< may have no triangle left; nothing if the file was refused
+  std::string refusal;             ///< why the reader refused the file, printable; else empty
+  bool broken = false;             ///< the bytes are no record; nothing else is set
+  double relative_rounding = 0.0;  ///< as in the record's header; never negative or NaN
+  double absolute_rounding = 0.0;
 };
 
 /// Takes apart the record of `import_format.h`: no count is believed before the bytes are there,

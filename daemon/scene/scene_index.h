@@ -64,6 +64,32 @@ struct Nearest {
   std::uint32_t triangle = 0;
 };
 
+/// A body on a short way. What it refers to must outlive it.
+struct MovingBody {
+  std::span<const geometry::Triangle> middle;  ///< its triangles half way
+  /// Of each triangle where it begins and where it ends. Every point of the body is always within
+  /// `bend_m` of the straight line between its own two ends.
+  std::span<const geometry::Triangle> ends;
+  double bend_m = 0.0;
+  double reach_m = 0.0;  ///< nor is it ever further than this from where it is half way
+  /// The distance to keep from the scene, and what rounding makes of distances
+  /// (`SceneIndex::nearest_error_m` of the ends).
+  double keep_m = 0.0;
+};
+
+/// Whether a moving body keeps away from the scene.
+struct Passage {
+  /// Proved: no point of the body ever comes as near as it should keep.
+  bool is_clear = false;
+  /// What was met nearest to the body half way. Others may be nearer than that if the passage is
+  /// not clear.
+  std::optional<Nearest> nearest;
+  /// An estimate, not a proof: how many times as long the way may be. If this one is clear, the
+  /// next one, from its end on; else another one from the same beginning. Infinity where nothing
+  /// was met.
+  double ahead = 0.0;
+};
+
 /// A spatial decomposition of the scene (Ptacek & Johnstone 2006, section 3, for the octree). One
 /// structure for all decompositions: a tree of wide nodes in flat arrays, with boxes of a byte per
 /// side. Each node keeps the box that its triangles really fill, so that empty space is skipped at
@@ -71,9 +97,10 @@ struct Nearest {
 /// triangles at one vertex) stays in one leaf.
 ///
 /// What a query answers does not depend on the tree: it is what asking every triangle in turn with
-/// the kernels of daemon/geometry would answer, bit for bit; only `near` and `any_within` are free to choose.
-/// Who asks with a coordinate that is not finite, or beyond geometry::kLargestCoordinate_m, is told
-/// that triangle 0 is at distance 0: never that the space is free.
+/// the kernels of daemon/geometry would answer, bit for bit; only `near` and `any_within` are free
+/// to choose. Who asks with a coordinate that is not finite, or beyond
+/// geometry::kLargestCoordinate_m, is told that triangle 0 is at distance 0: never that the space
+/// is free.
 ///
 /// Immutable; queries are safe from any thread and allocate nothing unless they say so.
 class SceneIndex {
@@ -122,6 +149,15 @@ class SceneIndex {
   /// depends on the index alone. [Limit: 0 < share <= 1]
   [[nodiscard]] std::optional<Nearest> near(std::span<const geometry::Triangle> body,
                                             double cutoff_m, double certain_m, double share) const;
+
+  /// Whether the body keeps away from the scene on its way: of every triangle that is near this is
+  /// asked, until there is one which the body may meet.
+  ///
+  /// A triangle of the body is all the time within `bend_m` of the convex hull of its two ends. So
+  /// it keeps away from a triangle of the scene if both ends lie beyond a slab wider than `bend_m +
+  /// keep_m`: tried is the one across the shortest line half way. Or if it is further away half way
+  /// than `reach_m + keep_m`.
+  [[nodiscard]] Passage passage(const MovingBody& body) const;
 
   /// A scene triangle that is nearer to the body than `distance_m`, and its own distance, or
   /// nothing if there is none; the search ends at the first that it meets. Which of several it is

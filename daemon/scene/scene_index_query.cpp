@@ -8,8 +8,9 @@
 #include "daemon/geometry/triangle_box.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
-#include "daemon/scene/body_search.h"
+#include "daemon/scene/distance_search.h"
 #include "daemon/scene/index_walk.h"
+#include "daemon/scene/passage_search.h"
 #include "daemon/scene/scene_index.h"
 
 namespace camway::scene {
@@ -42,19 +43,20 @@ Box bounds_of(std::span<const Triangle> body) {
   return box;
 }
 
-/// For the walk: what is nearest to a body, or near enough.
-class DistanceQuery : public BodySearch {
+/// For the walk: a search among the triangles near a body.
+template <class Search>
+class WalkedBy : public Search {
  public:
-  using BodySearch::BodySearch;
+  using Search::Search;
 
   static bool enters(const IndexNode&, std::size_t) { return true; }
 
   void leaf(const IndexWalk::Leaf& leaf) {
     leaf.for_each(*this, [this](std::uint32_t triangle) {
-      consider(triangle);
-      return !is_done();
+      this->consider(triangle);
+      return !this->is_done();
     });
-    settle();
+    this->settle();
   }
 };
 
@@ -130,13 +132,14 @@ class BoxQuery {
 
 std::optional<Nearest> search(const SceneIndex& index, const Mesh& mesh,
                               std::span<const Triangle> body, double cutoff_m,
-                              BodySearch::Goal goal, double certain_m = 0.0, double share = 1.0) {
+                              DistanceSearch::Goal goal, double certain_m = 0.0,
+                              double share = 1.0) {
   if (!is_usable(body) || std::isnan(cutoff_m)) return Nearest{0.0, 0};
   const Box body_box = bounds_of(body);
   const Box all = body_box.merged(index.bounds());
-  DistanceQuery query(body, body_box, mesh, cutoff_m,
-                      geometry::triangle_distance_error_m(all.sizes().maxCoeff()), goal, certain_m,
-                      share);
+  WalkedBy<DistanceSearch> query(body, body_box, mesh, cutoff_m,
+                                 geometry::triangle_distance_error_m(all.sizes().maxCoeff()), goal,
+                                 certain_m, share);
   IndexWalk(index).run(query);
   return query.result();
 }
@@ -215,19 +218,30 @@ double SceneIndex::nearest_error_m(std::span<const Triangle> body) const {
 
 std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
   if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNearest);
+  return search(*this, *mesh_, body, cutoff_m, DistanceSearch::Goal::kNearest);
 }
 
 std::optional<Nearest> SceneIndex::near(std::span<const Triangle> body, double cutoff_m,
                                         double certain_m, double share) const {
   if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, cutoff_m, BodySearch::Goal::kNear, certain_m, share);
+  return search(*this, *mesh_, body, cutoff_m, DistanceSearch::Goal::kNear, certain_m, share);
+}
+
+Passage SceneIndex::passage(const MovingBody& body) const {
+  if (size() == 0 || body.middle.empty()) {
+    return {true, std::nullopt, std::numeric_limits<double>::infinity()};
+  }
+  if (!is_usable(body.middle) || !is_usable(body.ends)) return {false, Nearest{0.0, 0}, 0.0};
+  const Box ends_box = bounds_of(body.ends);
+  WalkedBy<PassageSearch> query(body, ends_box, *mesh_, nearest_error_m(body.ends));
+  IndexWalk(*this).run(query);
+  return query.passage();
 }
 
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
                                               double distance_m) const {
   if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, distance_m, BodySearch::Goal::kAny);
+  return search(*this, *mesh_, body, distance_m, DistanceSearch::Goal::kAny);
 }
 
 bool SceneIndex::visit_touching(const Box& box, bool (*visit)(void*, std::uint32_t),

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "daemon/planning/plan.h"
+#include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_map.h"
 #include "daemon/service/lcm_transport.h"
 #include "daemon/service/service.h"
@@ -19,11 +20,17 @@ void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, spdl
   const geometry::Box& box = report.bounds_m;
   log.info(
       "scene {} from {}: {}, {} triangles, bounds ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, "
-      "{:.3g}) m at scale {:g}, {} degenerate and {} bad triangles left out, digest {}",
+      "{:.3g}) m at scale {:g}, rounded by {:.2g} m at most, {} degenerate and {} bad triangles "
+      "left "
+      "out, digest {}",
       snapshot.name, scene.file.string(), report.format, report.triangles, box.min().x(),
       box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z(), report.scale,
-      report.degenerate_triangles, report.dropped_nonfinite + report.dropped_bad_index,
-      snapshot.digest);
+      report.rounding_m, report.degenerate_triangles,
+      report.dropped_nonfinite + report.dropped_bad_index, snapshot.digest);
+  for (const std::string& warning :
+       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+    log.warn("scene {}: {}", snapshot.name, warning);
+  }
   if (snapshot.occupancy) {
     log.info("scene {}: occupancy map of {} voxels at {:g} m", snapshot.name,
              snapshot.occupancy->statistics().occupied_voxels, snapshot.occupancy->resolution_m());

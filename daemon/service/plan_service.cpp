@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "daemon/planning/witness.h"
+#include "daemon/scene/import_warnings.h"
 
 namespace camway::service {
 namespace {
@@ -22,6 +23,17 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
   return header;
 }
 
+/// What an answer does not hold for, where it is read: behind its message.
+void append_warnings(const scene::ImportReport& report, const planning::PlanOptions& options,
+                     planning::PlanResult& result) {
+  if (result.status == planning::Status::kInvalid) return;
+  const double resolution_m =
+      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m);
+  for (const std::string& warning : scene::import_warnings(report, resolution_m)) {
+    result.message += "; warning: " + warning;
+  }
+}
+
 /// The answer of `planner`, whatever happens.
 plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                           const plan_request_t& wire, const DeadlineLimits& limits) {
@@ -34,6 +46,7 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
     }
     planning::PlanResult result = planner(snapshot, *converted.request);
     planning::name_witnesses(*snapshot.mesh, *converted.request, result);
+    append_warnings(snapshot.report, converted.request->options, result);
     return to_wire(result, header_of(wire, &snapshot));
   } catch (const std::exception& exception) {
     error = exception.what();

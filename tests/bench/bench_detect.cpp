@@ -54,8 +54,16 @@ struct Outcome {
 struct Options {
   RequestSource source{own_scenes() + "/requests", "", 1.0};
   std::string json_file;
+  double tolerance_m = default_options().tolerance_m;
   int rounds = 5;
   bool fine = true;
+
+  [[nodiscard]] collision::DetectOptions detect() const {
+    collision::DetectOptions detect = default_options();
+    detect.tolerance_m = tolerance_m;
+    detect.gap_m = std::max(detect.gap_m, tolerance_m);
+    return detect;
+  }
 };
 
 // One scene with everybody's structures.
@@ -86,13 +94,14 @@ class Arena {
     for (int round = 0; round < options.rounds; ++round) {
       times_s[kDetect].push_back(warm_s([&] {
         outcome.intervals = testing::certified_intervals(camway_.obstacles(), request.path,
-                                                         request.camera, default_options());
+                                                         request.camera, options.detect());
       }));
       times_s[kFclCoarse].push_back(
           warm_s([&] { sampled[kFclCoarse] = check_samples(request.path, coarse, fcl); }));
       times_s[kCheck].push_back(warm_s([&] {
-        outcome.clearance_m = check_whole(camway_.obstacles(), request.path, request.camera)
-                                  .certificate.clearance_lower_bound_m;
+        outcome.clearance_m =
+            check_whole(camway_.obstacles(), request.path, request.camera, options.detect())
+                .certificate.clearance_lower_bound_m;
       }));
       times_s[kEmbreeRays].push_back(
           warm_s([&] { sampled[kEmbreeRays] = check_samples(request.path, coarse, rays); }));
@@ -281,7 +290,10 @@ void print_summaries(const std::vector<Summary>& list) {
 }
 
 int run(const Options& options) {
-  json document{{"benchmark", "detect"}, {"machine", machine()}, {"rounds", options.rounds}};
+  json document{{"benchmark", "detect"},
+                {"machine", machine()},
+                {"rounds", options.rounds},
+                {"tolerance_m", options.tolerance_m}};
   std::vector<Summary> all;
   for (const BenchScene& scene : load_requests(options.source)) {
     Arena arena(scene);
@@ -317,6 +329,10 @@ int main(int argc, char** argv) {
   app.add_option("--scene", options.source.scene,
                  "scene of all requests, instead of the one named");
   app.add_option("--scale", options.source.scale, "multiplies the scene's coordinates")
+      ->capture_default_str();
+  app.add_option("--only", options.source.only, "requests with this in their name alone");
+  app.add_option("--tolerance", options.tolerance_m, "of ends of intervals, metres")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--rounds", options.rounds, "repetitions")
       ->check(CLI::Range(1, 1000))

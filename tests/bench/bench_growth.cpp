@@ -64,8 +64,9 @@ void measure_paths(const CamwayScene& scene, const std::vector<BenchRequest>& re
                                                  default_options())
                         .size();
       }));
-      check_rounds_s.push_back(
-          warm_s([&] { check_whole(scene.obstacles(), request.path, request.camera); }));
+      check_rounds_s.push_back(warm_s([&] {
+        check_whole(scene.obstacles(), request.path, request.camera, default_options());
+      }));
     }
     point.intervals += intervals;
     detect_s.push_back(median(detect_rounds_s));

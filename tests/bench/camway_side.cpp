@@ -25,8 +25,9 @@ std::uint64_t CamwayScene::field_bytes() const {
 collision::DetectOptions default_options() { return {}; }
 
 planning::PathCheck check_whole(const collision::Obstacles& obstacles, const motion::Path& path,
-                                const motion::Camera& camera) {
-  return planning::check_path(obstacles, path, motion::Body(camera), default_options(),
+                                const motion::Camera& camera,
+                                const collision::DetectOptions& options) {
+  return planning::check_path(obstacles, path, motion::Body(camera), options,
                               collision::Deadline::never(), collision::Deadline::never());
 }
 

@@ -32,12 +32,13 @@ class CamwayScene {
   double field_build_s_ = 0.0;
 };
 
-/// How `check_whole` and `testing::certified_intervals` resolve: the defaults of a request.
+/// The defaults of a request.
 collision::DetectOptions default_options();
 
 /// All that `camway check` asks of a path: intervals, or else the certificate with its clearance.
 planning::PathCheck check_whole(const collision::Obstacles& obstacles, const motion::Path& path,
-                                const motion::Camera& camera);
+                                const motion::Camera& camera,
+                                const collision::DetectOptions& options);
 
 /// Whether the filled quadrilateral touches the scene at the pose, exactly.
 bool touches_at(const scene::SceneIndex& index, const motion::Camera& camera,

@@ -23,13 +23,14 @@ namespace {
   std::exit(2);
 }
 
-std::vector<fs::path> request_files(const std::string& source) {
+std::vector<fs::path> request_files(const std::string& source, const std::string& only) {
   if (!fs::exists(source)) give_up(source + ": does not exist");
   if (!fs::is_directory(source)) return {source};
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(source)) {
     const std::string name = entry.path().filename().string();
-    if (name.ends_with(".json") && !name.ends_with(".index.json")) files.push_back(entry.path());
+    const bool wanted = name.ends_with(".json") && !name.ends_with(".index.json");
+    if (wanted && name.find(only) != std::string::npos) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   if (files.empty()) give_up(source + ": holds no requests");
@@ -68,7 +69,7 @@ std::shared_ptr<const scene::Mesh> load_mesh(const std::string& file, double sca
 
 std::vector<BenchScene> load_requests(const RequestSource& source) {
   std::map<std::string, BenchScene> scenes;
-  for (const fs::path& file : request_files(source.requests)) {
+  for (const fs::path& file : request_files(source.requests, source.only)) {
     tools::Parsed<planning::PlanRequest> parsed = tools::read_plan_request(file.string());
     if (!parsed.value) give_up(parsed.error);
     if (const auto invalid = planning::validate(*parsed.value)) {

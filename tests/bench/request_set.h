@@ -30,9 +30,10 @@ struct BenchScene {
 
 /// Where requests come from.
 struct RequestSource {
-  std::string requests;  ///< a folder or a file
-  std::string scene;     ///< a file; empty: the one that each request names
-  double scale = 1.0;    ///< of the scene's coordinates
+  std::string requests;   ///< a folder or a file
+  std::string scene;      ///< a file; empty: the one that each request names
+  double scale = 1.0;     ///< of the scene's coordinates
+  std::string only = {};  ///< requests with this in their name; empty: all
 };
 
 /// Reads all requests of a folder, in order of name, and the scenes they are in. Index files

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "daemon/geometry/triangle_intersection.h"
 #include "tests/geometry/exact_oracle.h"
@@ -121,6 +122,34 @@ TEST(TriangleDistance, IsTheSameUpToALimitAndNoLessBeyondIt) {
     }
   }
   EXPECT_GT(given_up, 10'000);
+}
+
+TEST(TriangleGap, ItsDirectionIsThatOfTheWidestSlab) {
+  RandomTriangles random(310);
+  int far = 0;
+  for (int run = 0; run < 20'000; ++run) {
+    const auto [a, b] = random.close_pair();
+    const TriangleGap gap = triangle_gap(a, b, std::numeric_limits<double>::infinity());
+    const double error_m = triangle_distance_error_m(a, b);
+    ASSERT_EQ(gap.distance_m, triangle_distance(a, b));
+    // Where they are close the direction is less certain than the distance, by a square root.
+    if (gap.distance_m > 1e12 * error_m) {
+      ++far;
+      ASSERT_NEAR(slab_width_m(a, b, gap.direction), gap.distance_m, 1e-3 * gap.distance_m);
+    }
+    // No direction makes more of it.
+    const Vec3 any = random.in_cube(random.log_uniform(1e-6, 1e3));
+    ASSERT_LE(slab_width_m(a, b, any), gap.distance_m + error_m) << to_text(a) << to_text(b);
+    ASSERT_LE(slab_width_m(a, b, gap.direction), gap.distance_m + error_m);
+  }
+  EXPECT_GT(far, 1000);
+}
+
+TEST(SlabWidth, OfADirectionWithoutLengthIsNone) {
+  RandomTriangles random(311);
+  const auto [a, b] = random.close_pair();
+  EXPECT_EQ(slab_width_m(a, b, Vec3::Zero()), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(slab_width_m(a, b, 0x1p-300 * Vec3::UnitX()), -std::numeric_limits<double>::infinity());
 }
 
 TEST(TriangleDistance, ScalesByPowersOfTwo) {

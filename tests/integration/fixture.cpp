@@ -57,6 +57,7 @@ void IntegrationTest::SetUp() {
 }
 
 void IntegrationTest::TearDown() {
+  stop_daemon();
   if (HasFailure()) {
     if (daemon_) std::cerr << "The daemon's log:\n" << daemon_->output();
     std::cerr << "Files are left in " << folder_ << '\n';
@@ -78,7 +79,7 @@ void IntegrationTest::start_daemon_with_scenes(const std::vector<std::string>& s
     arguments.insert(arguments.end(), {"--scene", scene});
   }
   arguments.insert(arguments.end(), more_arguments.begin(), more_arguments.end());
-  daemon_.reset();  // the old one ends before the new one starts
+  stop_daemon();  // the old one ends before the new one starts
   daemon_ =
       std::make_unique<Process>(arguments, file("daemon" + std::to_string(++daemons_) + ".log"));
   ClientOptions options;
@@ -87,6 +88,12 @@ void IntegrationTest::start_daemon_with_scenes(const std::vector<std::string>& s
   Client listener(options);
   ASSERT_TRUE(eventually([&] { return !daemon_->running() || listener.status(0.5).ok(); }));
   ASSERT_TRUE(daemon_->running()) << daemon_->output();
+}
+
+void IntegrationTest::stop_daemon() {
+  if (!daemon_ || daemon_->known_to_have_ended()) return;
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait(), 0) << daemon_->output();
 }
 
 std::unique_ptr<Process> IntegrationTest::start_client(const std::string& name,

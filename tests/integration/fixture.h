@@ -29,6 +29,10 @@ class IntegrationTest : public testing::Test {
   void start_daemon_with_scenes(const std::vector<std::string>& scenes,
                                 const std::vector<std::string>& more_arguments = {});
   Process& daemon() { return *daemon_; }
+  /// Ends a daemon that no test has ended, and fails if it does not end cleanly: a sanitizer that
+  /// found something in it, at any time or at the end, says so with the exit code. Every test ends
+  /// with this.
+  void stop_daemon();
 
   /// Starts a process that plans the requests of these files, in turn, on one scene. See
   /// planning_client.cpp for what it prints.

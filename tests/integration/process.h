@@ -33,6 +33,8 @@ class Process {
   /// end.
   std::optional<int> wait();
   bool running();
+  /// Somebody has seen that it ended.
+  [[nodiscard]] bool known_to_have_ended() const { return exit_code_.has_value(); }
   /// What it has printed so far.
   std::string output() const;
 

@@ -33,6 +33,23 @@ double sampled_reach_m(const Segment& segment, double u0, double u1, const Stret
   return largest_m;
 }
 
+/// The furthest that a corner is, at samples of the stretch, from the line between its two ends.
+double sampled_bend_m(const Segment& segment, double u0, double u1, const Stretch& stretch,
+                      const Corners& corners_C, int samples) {
+  double largest_m = 0.0;
+  for (int i = 0; i <= samples; ++i) {
+    const double u = std::min(u1, u0 + (u1 - u0) * i / samples);
+    const double ratio = u1 > u0 ? (u - 0.5 * (u0 + u1)) / (0.5 * (u1 - u0)) : 0.0;
+    for (const Vec3& corner_C : corners_C) {
+      const Vec3 arm_W = stretch.R_WC * corner_C;
+      const Vec3 step_W = stretch.eye_step_W + stretch.turn_step_W.cross(arm_W);
+      const Vec3 there = arm_W + stretch.eye_W + ratio * step_W;
+      largest_m = std::max(largest_m, distance_from_exact_m(segment, u, corner_C, there));
+    }
+  }
+  return largest_m;
+}
+
 // From a camera of a millimetre to one of ten metres, from the origin to 1e6 m away, from whole
 // segments down to stretches where only rounding is left, with orientation control points that
 // nearly cancel.
@@ -54,6 +71,24 @@ TEST(Stretch, ReachHoldsAgainstFiftyDigits) {
     const double seen_m = sampled_reach_m(segment, u0, u1, stretch, corners_C, 6);
     ASSERT_LE(seen_m, stretch.reach_m(radius_m)) << "run " << run << ", width " << width;
     ASSERT_LE(stretch.rounding_m(radius_m), stretch.reach_m(radius_m));
+    // The ratio of the sample is rounded as well, by less than this share of the step.
+    const double ratio_m = 8.0 * kEpsilon / width * stretch.reach_m(radius_m);
+    ASSERT_LE(sampled_bend_m(segment, u0, u1, stretch, corners_C, 6),
+              stretch.bend_m(radius_m) + ratio_m)
+        << "run " << run << ", width " << width;
+  }
+}
+
+// What is gained by direction: halving a stretch halves its reach and quarters its bend.
+TEST(Stretch, BendFallsWithTheSquareOfTheLength) {
+  Random random(20267);
+  for (int run = 0; run < 200; ++run) {
+    const Segment segment = random_segment(random, 0.5);
+    const SegmentMotion motion(segment);
+    const Stretch whole = motion.around(0.5, 0.5 + 0x1p-8);
+    const Stretch half = motion.around(0.5, 0.5 + 0x1p-9);
+    EXPECT_LE(half.bend_m(0.5), 0.27 * whole.bend_m(0.5)) << "run " << run;
+    EXPECT_LE(whole.bend_m(0.5), 0.2 * whole.reach_m(0.5)) << "run " << run;
   }
 }
 

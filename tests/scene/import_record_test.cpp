@@ -95,6 +95,18 @@ TEST(ImportRecord, NoCountIsBelieved) {
   EXPECT_TRUE(read_import_record(forged.bytes(), {}, report).broken);
 }
 
+TEST(ImportRecord, ARoundingThatIsNoBoundIsBroken) {
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    for (double format::Header::*member :
+         {&format::Header::relative_rounding, &format::Header::absolute_rounding}) {
+      Forged forged;
+      forged.header.*member = bad;
+      ImportReport report;
+      EXPECT_TRUE(read_import_record(forged.bytes(), {}, report).broken);
+    }
+  }
+}
+
 TEST(ImportRecord, BadIndicesAreDroppedAndCounted) {
   for (const std::uint32_t bad : {4U, 99'999'999U, std::numeric_limits<std::uint32_t>::max()}) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -114,8 +126,8 @@ TEST(ImportRecord, BadIndicesAreDroppedAndCounted) {
 }
 
 TEST(ImportRecord, CoordinatesThatAreNoNumberAreDroppedAndCounted) {
-  for (const float bad :
-       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Forged forged;
     forged.vertices[3][1] = bad;
     ImportReport report;
@@ -127,7 +139,7 @@ TEST(ImportRecord, CoordinatesThatAreNoNumberAreDroppedAndCounted) {
   }
   // Finite in the file, too large once scaled.
   Forged forged;
-  forged.vertices[3][2] = 1e38F;
+  forged.vertices[3][2] = 1e38;
   ImportReport report;
   EXPECT_EQ(read_import_record(forged.bytes(), {.scale = 1e30}, report).mesh->triangles.size(), 1U);
   EXPECT_EQ(report.dropped_nonfinite, 1U);

@@ -172,6 +172,61 @@ TEST_P(IndexQueries, NearIsWithinTheShareOfTheNearestAndSureUpToALimit) {
   EXPECT_GT(rough, 0);
 }
 
+// Whether a body that goes straight from one place to another is anywhere nearer to a triangle than
+// `keep_m`, at samples.
+bool comes_near(const SceneIndex& tree, std::span<const Triangle> ends, double keep_m) {
+  constexpr int kSamples = 16;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double share = static_cast<double>(i) / kSamples;
+    std::vector<Triangle> there;
+    for (std::size_t part = 0; part < ends.size(); part += 2) {
+      Triangle& t = there.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        t[k] = (1.0 - share) * ends[part][k] + share * ends[part + 1][k];
+      }
+    }
+    if (tree.any_within(there, keep_m)) return true;
+  }
+  return false;
+}
+
+TEST_P(IndexQueries, AClearPassageKeepsAwayAllTheWay) {
+  int clear = 0;
+  int beyond_reach = 0;  // clear, though what is near half way is nearer than the body moves
+  int wrong = 0;         // not clear, though nothing comes near
+  for (int run = 0; run < 600; ++run) {
+    std::vector<Triangle> ends;
+    std::vector<Triangle> middle;
+    const Vec3 step = random_.in_cube(random_.log_uniform(1e-3, 1.0));
+    const Vec3 at = point();
+    for (int part = 0; part < 1 + run % 12; ++part) {
+      const Triangle t = moved(random_.grid_triangle(1), at + random_.in_cube(0.3));
+      middle.push_back(t);
+      ends.push_back(moved(t, -step));
+      ends.push_back(moved(t, step));
+    }
+    MovingBody body{middle, ends, random_.log_uniform(1e-6, 0.02), step.norm(), 0.0};
+    body.reach_m += body.bend_m;
+    const double error_m = tree_.nearest_error_m(ends);
+    const double clearance_m = random_.log_uniform(1e-6, 0.1);
+    body.keep_m = clearance_m + error_m;
+    const Passage passage = tree_.passage(body);
+    const bool near = comes_near(tree_, ends, clearance_m + body.bend_m);
+    ASSERT_FALSE(passage.is_clear && near) << "run " << run;
+    clear += passage.is_clear ? 1 : 0;
+    wrong += !passage.is_clear && !near ? 1 : 0;
+    if (passage.is_clear && tree_.any_within(middle, body.reach_m + clearance_m)) ++beyond_reach;
+    if (passage.nearest) {
+      // Of one part of the body; others may not have been asked.
+      EXPECT_GE(passage.nearest->distance_m,
+                brute_nearest_of(tree_, middle, passage.nearest->triangle));
+    }
+  }
+  EXPECT_GT(clear, 100);
+  EXPECT_GT(beyond_reach, 10);
+  EXPECT_LT(wrong, 120);
+}
+
 TEST_P(IndexQueries, LargeBodiesAreAskedWhole) {
   for (int i = 0; i < 42; ++i) {
     std::vector<Triangle> body;

@@ -53,6 +53,20 @@ TEST(PlanService, AnswersARequestOnItsClientsChannel) {
       << daemon.log_text();
 }
 
+TEST(PlanService, SaysBehindTheMessageWhatTheImportLeftOut) {
+  RunningService daemon;
+  auto scene = std::make_shared<scene::Snapshot>(*daemon.scenes.find("room"));
+  scene->report.dropped_nonfinite = 3;
+  daemon.scenes.put(scene);
+  const plan_request_t request = request_with(1);
+  daemon.send(request);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->message, echo_result(*from_wire(request).request).message +
+                                 "; warning: the scene is without faces of its file: 3 with a "
+                                 "coordinate that is no finite number");
+}
+
 TEST(PlanService, LongRequestsAndAnswersTravelInPages) {
   RunningService daemon;
   const plan_request_t request = request_with(1, 3000);

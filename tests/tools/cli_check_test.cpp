@@ -186,6 +186,107 @@ TEST_F(CliCheck, DoesNotGuessWhenKeyframesAreToBeMet) {
   }
 }
 
+TEST_F(CliCheck, AcceptsABarePathWithRemarks) {
+  request_ = folder_.write("request.json",
+                           request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)}));
+  nlohmann::json segment = segment_json(0, 1, 1, -1);
+  for (nlohmann::json& point : segment["position"]) point[0] = 1;
+  segment["_id"] = 7;
+  segment["comment"] = "the only one";
+  nlohmann::json path{{"segments", {segment}}, {"fps", 25}, {"status", 200}, {"comment", "mine"}};
+  const CliRun run = check(folder_.write("path.json", path.dump()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("keyframes met: not known"));
+  // Keyframes of which nothing is said but when.
+  path["keyframes"] = {{{"time", 0}}, {{"time", 1}}};
+  EXPECT_THAT(check(folder_.write("path.json", path.dump())).out,
+              HasSubstr("keyframes met: 2 of 2"));
+  // What could change the path is not passed over.
+  path["segments"][0]["weights"] = {1, 2, 2, 1};
+  const CliRun refused = check(folder_.write("path.json", path.dump()));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("path.json: segments[0].weights: is unknown"));
+}
+
+TEST_F(CliCheck, WarnsOfAResponseForAnotherScene) {
+  const std::string response = planned("free", 1);
+  const auto json_of = [&] {
+    const CliRun run = run_camway(
+        {"check", "--scene", scene_, "--request", request_, "--response", response, "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(run.out);
+  };
+  EXPECT_EQ(check(response).err, "");
+  EXPECT_EQ(json_of()["same_scene"], true);
+  scene_ = folder_.write("other.obj", wall_obj() + "v 8 8 8\nv 9 8 8\nv 8 9 8\nf -3 -2 -1\n");
+  const CliRun run = check(response);
+  EXPECT_EQ(run.exit_code, 0) << "the scene that was given decides";
+  EXPECT_THAT(run.err, HasSubstr("warning: " + response + ": was made for another scene: "));
+  EXPECT_THAT(run.err, HasSubstr("that of " + scene_ + " is "));
+  const nlohmann::json json = json_of();
+  EXPECT_EQ(json["same_scene"], false);
+  EXPECT_THAT(json["warnings"][0].get<std::string>(), HasSubstr("another scene"));
+  const auto made_for = nlohmann::json::parse(read_all(response))["scene_digest"];
+  EXPECT_NE(json["scene_digest"], made_for);
+  EXPECT_THAT(run.err, HasSubstr(made_for.get<std::string>()));
+}
+
+TEST_F(CliCheck, DoesNotMeetAKeyframeAtATimeThatThePathDoesNotHave) {
+  const std::string file = planned("free", 1);
+  // The path stands still in time after its end, and would be where keyframe 1 wants it.
+  auto request = nlohmann::json::parse(read_all(request_));
+  const auto response = nlohmann::json::parse(read_all(file));
+  const double end_s = response["keyframes"][1]["time"];
+  request["keyframes"][0]["time"] = response["keyframes"][0]["time"];
+  request["keyframes"][1]["time"] = end_s + 1.0;
+  request_ = folder_.write("later.json", request.dump());
+  const CliRun run = check(file);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("keyframes met: 1 of 2, largest miss 0 m, 1 outside the path's "
+                                 "time\nkeyframe 1 (at "));
+  EXPECT_THAT(run.out, HasSubstr(") is missed: the path is from 0.000000 to "));
+  const CliRun json =
+      run_camway({"check", "--scene", scene_, "--request", request_, "--response", file, "--json"});
+  const nlohmann::json keyframes = nlohmann::json::parse(json.out)["keyframes"];
+  EXPECT_EQ(keyframes["met"], 1);
+  EXPECT_EQ(keyframes["outside"], 1);
+  EXPECT_EQ(keyframes["missed"][0]["keyframe"], 1);
+  EXPECT_TRUE(keyframes["missed"][0]["miss"].is_null());
+  // Ten digits of the time are enough.
+  request["keyframes"][1]["time"] = end_s * (1 + 1e-10);
+  request_ = folder_.write("later.json", request.dump());
+  EXPECT_THAT(check(file).out, HasSubstr("keyframes met: 2 of 2"));
+}
+
+TEST_F(CliCheck, GivesAVerdictWhenTimeRanOut) {
+  const std::string response = planned("free", 1);
+  auto request = nlohmann::json::parse(read_all(request_));
+  request["options"] = {{"deadline_s", 1e-9}};
+  request_ = folder_.write("hurried.json", request.dump());
+  const CliRun json = run_camway(
+      {"check", "--scene", scene_, "--request", request_, "--response", response, "--json"});
+  EXPECT_EQ(json.exit_code, 3);
+  EXPECT_THAT(json.err, HasSubstr(response + ": the deadline of 1e-09 s came first"));
+  const nlohmann::json found = nlohmann::json::parse(json.out);
+  EXPECT_EQ(found["verdict"], "timeout");
+  EXPECT_EQ(found["certified"], false);
+  EXPECT_EQ(found["searched_until"], 0.0);
+  EXPECT_EQ(found["keyframes"]["met"], 2);
+  const CliRun text = check(response);
+  EXPECT_EQ(text.exit_code, 3);
+  EXPECT_THAT(text.out, StartsWith("time ran out: nothing is known from 0.000000 to "));
+}
+
+TEST_F(CliCheck, SaysOnceWhereOnTheBodyAContactIs) {
+  // Only the head of a thin rod is in the quadrilateral: no edge of it is touched.
+  const std::string response = planned("free", 1);
+  scene_ = folder_.write("rod.obj", "o rod\nv 1 0 -9\nv 1.001 0 -9\nv 1 0 0\nf 1 2 3\n");
+  const CliRun run = check(response);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("with rod (triangle 0) inside the near quadrilateral, "));
+}
+
 TEST_F(CliCheck, NamesTheFileAtFault) {
   const std::string response = planned("free", 1);
   const CliRun missing = run_camway(

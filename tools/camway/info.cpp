@@ -3,9 +3,13 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/planning/request.h"
+#include "daemon/scene/import_warnings.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/scene_flags.h"
 
@@ -23,13 +27,9 @@ using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson vector_json(const geometry::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Half a unit in the last place of the largest coordinate in single precision, which is how assimp
-/// keeps them. Precondition: the bounds are not empty.
-double import_rounding_m(const scene::ImportReport& report) {
-  constexpr double kSinglePrecisionRoundoff = 0x1p-24;
-  const geometry::Box& bounds_m = report.bounds_m;
-  return kSinglePrecisionRoundoff *
-         bounds_m.min().cwiseAbs().cwiseMax(bounds_m.max().cwiseAbs()).maxCoeff();
+/// As far as they can be told without a request: its tolerance is taken to be the default.
+std::vector<std::string> warnings_of(const scene::ImportReport& report) {
+  return scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m);
 }
 
 OrderedJson import_json(const scene::ImportReport& report) {
@@ -43,13 +43,16 @@ OrderedJson import_json(const scene::ImportReport& report) {
   if (!report.bounds_m.isEmpty()) {
     json["bounds_min_m"] = vector_json(report.bounds_m.min());
     json["bounds_max_m"] = vector_json(report.bounds_m.max());
-    json["rounding_m"] = import_rounding_m(report);
+    json["single_precision"] = report.single_precision;
+    json["rounding_m"] = report.rounding_m;
   }
   json["degenerate_triangles"] = report.degenerate_triangles;
   json["dropped_nonfinite"] = report.dropped_nonfinite;
   json["dropped_bad_index"] = report.dropped_bad_index;
   json["note"] = scene::importer_note(report.format);
   json["dropped_points_and_lines"] = report.dropped_points_and_lines;
+  json["dropped_freeform"] = report.dropped_freeform;
+  json["warnings"] = warnings_of(report);
   return json;
 }
 
@@ -104,6 +107,16 @@ void print_json(const scene::Snapshot& snapshot, const InfoFlags& flags, double 
 
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
+void print_rounding(const scene::ImportReport& report) {
+  if (report.rounding_m == 0.0) {
+    fmt::print("rounding     none: coordinates are those of the file\n");
+    return;
+  }
+  fmt::print("rounding     coordinates are off by {:.2g} m at most: {}\n", report.rounding_m,
+             report.single_precision ? "files of this format are read in single precision"
+                                     : "decimals and scale round to the nearest double");
+}
+
 void print_import(const scene::ImportReport& report) {
   fmt::print("format       {}\n", report.format);
   fmt::print("triangles    {} in {} objects, {} vertices\n", report.triangles, report.objects,
@@ -115,13 +128,12 @@ void print_import(const scene::ImportReport& report) {
     fmt::print("bounds       [{:.3f}, {:.3f}, {:.3f}] to [{:.3f}, {:.3f}, {:.3f}] m\n", low.x(),
                low.y(), low.z(), high.x(), high.y(), high.z());
     fmt::print("size         {:.3f} x {:.3f} x {:.3f} m\n", size.x(), size.y(), size.z());
-    fmt::print(
-        "rounding     coordinates may be off by {:.2g} m: the importer reads single precision\n",
-        import_rounding_m(report));
+    print_rounding(report);
   }
   fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);
-  fmt::print("dropped      {} not finite, {} with a bad index, {} points and lines\n",
-             report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines);
+  fmt::print("dropped      {} not finite, {} with a bad index, {} points and lines, {} free-form\n",
+             report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines,
+             report.dropped_freeform);
   fmt::print("assumed      {} m per unit, axes {} (see --scale and --up)\n", report.scale,
              to_string(report.up));
   if (const std::string_view note = scene::importer_note(report.format); !note.empty()) {
@@ -170,6 +182,9 @@ ExitCode run_info(const InfoFlags& flags) {
   if (!loaded.result.snapshot) {
     print_error(loaded.result.error);
     return ExitCode::kInvalidInput;
+  }
+  for (const std::string& warning : warnings_of(loaded.result.snapshot->report)) {
+    print_error("warning: " + warning);
   }
   if (flags.json) {
     print_json(*loaded.result.snapshot, flags, loaded.load_ms);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "daemon/planning/witness.h"
+#include "daemon/scene/import_warnings.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/json_io.h"
@@ -37,6 +38,7 @@ struct Answer {
   PlanResult result;
   std::string scene_file;
   std::string scene_digest;
+  std::vector<std::string> warnings;  ///< of the scene's import
 };
 
 PlanResult invalid(std::string message) {
@@ -96,6 +98,10 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     return answer;
   }
   answer.scene_digest = scene.result.snapshot->digest;
+  const planning::PlanOptions& options = request.value->options;
+  answer.warnings = scene::import_warnings(
+      scene.result.snapshot->report,
+      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
   answer.result = planning::plan(*scene.result.snapshot, *request.value);
   planning::name_witnesses(*scene.result.snapshot->mesh, *request.value, answer.result);
   answer.result.timing.load_scene_ms = scene.load_ms;
@@ -111,12 +117,19 @@ std::size_t inserted_count(const PlanResult& result) {
       [](const auto& keyframe) { return keyframe.origin == motion::KeyframeOrigin::kInserted; }));
 }
 
+void print_warnings(const Answer& answer) {
+  for (const std::string& warning : answer.warnings) {
+    print_error("warning: " + answer.scene_file + ": " + warning);
+  }
+}
+
 /// Writes the response to `file`, or to standard output if it is empty.
 ExitCode write_response(const Answer& answer, const std::string& file, bool no_timing) {
   ResponseFormat format;
   format.timing = no_timing ? TimingField::kOmitted : TimingField::kWritten;
   format.scene = answer.scene_file;
   format.scene_digest = answer.scene_digest;
+  format.warnings = answer.warnings;
   const Parsed<std::string> text = write_plan_response(answer.result, format);
   if (!text.value) {
     print_error("the response cannot be written: " + text.error);
@@ -157,6 +170,7 @@ void print_summary(const std::string& request, const PlanResult& result) {
 ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
   const std::string& file = flags.requests.front();
   const Answer answer = answer_request(flags, file, scenes);
+  print_warnings(answer);
   print_summary(file, answer.result);
   const ExitCode outcome = exit_code_of(answer.result.status);
   // Invalid input leaves nothing on standard output, where a path is expected.
@@ -195,10 +209,12 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
   }
   ExitCode outcome = ExitCode::kSuccess;
   std::size_t ok_count = 0;
+  std::set<std::string> warned_of;  // once a scene; every response has its own
   fmt::print("{:<14} {:>9} {:>9} {:>8} {:>9}  {}\n", "status", "ms", "colliding", "inserted",
              "remaining", "request");
   for (std::size_t i = 0; i < flags.requests.size(); ++i) {
     const Answer answer = answer_request(flags, flags.requests[i], scenes);
+    if (warned_of.insert(answer.scene_file).second) print_warnings(answer);
     const PlanResult& result = answer.result;
     ok_count += result.status == Status::kOk ? 1 : 0;
     fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/scene/body_search.h"
+
+namespace camway::scene {
+
+/// Asks what is near the way of a body whether the body keeps away from it; see
+/// `SceneIndex::passage`.
+class PassageSearch : public BodySearch {
+ public:
+  /// Arguments as those of `BodySearch`; `ends_box` is around both ends.
+  PassageSearch(const MovingBody& body, const geometry::Box& ends_box, const Mesh& mesh,
+                double error_m);
+
+  [[nodiscard]] Passage passage() const;
+
+ private:
+  /// So many near triangles are passed one by one; with more in sight, shorter ways are cheaper.
+  static constexpr int kMostPassed = 32;
+
+  void ask_pair(std::size_t part, const geometry::Triangle& triangle, std::uint32_t index) final;
+  /// Whether the way is proved to be clear of `triangle`, across `direction`.
+  bool passes(std::span<const geometry::Triangle> ends, const geometry::Triangle& triangle,
+              const geometry::Vec3& direction);
+  void stop_before(std::span<const geometry::Triangle> ends, const geometry::Triangle& triangle);
+  [[nodiscard]] double way_ahead(double gap_m, double change_m) const;
+
+  const MovingBody& body_;
+  int passed_ = 0;
+  bool is_clear_ = true;
+  Nearest nearest_;
+  double ahead_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace camway::scene
