@@ -85,8 +85,9 @@ TEST(Bump, KeepsThePathSmooth) {
     const CubicPath path = random_path(random, 6);
     const std::vector<BumpRow> rows = {random_row(random, path, 0.05),
                                        random_row(random, path, 0.05)};
-    // Cut out of the interpolating cubic in three steps, and two rows of up to four terms added.
-    test::expect_smooth(with_bumps(path, rows).path(), 4.0);
+    // Cut out of the interpolating cubic by three convex combinations, and two rows of up to four
+    // terms added.
+    test::expect_smooth(with_bumps(path, rows).path(), 16.0);
   }
 }
 
@@ -137,7 +138,7 @@ TEST(CubicPath, AroundAndReplaceAreInverse) {
   whole.replace(with_bumps(part, {&row, 1}));
   EXPECT_EQ(whole.begin_s(), path.begin_s());
   EXPECT_EQ(whole.end_s(), path.end_s());
-  test::expect_smooth(whole.path(), 4.0);
+  test::expect_smooth(whole.path(), 16.0);
   EXPECT_NEAR((whole.at(0.5 * (from_s + to_s)).position - path.at(0.5 * (from_s + to_s)).position -
                Vec3(1, 2, 3))
                   .norm(),
