@@ -19,7 +19,7 @@ constexpr double kMargin = 0.03;      // of the ball's radius, kept at the sampl
 constexpr double kKeptShare = 0.8;    // of the gap, where that is smaller already
 constexpr int kHalvings = 3;          // of a change that would collide
 constexpr int kRetreats = 4;          // towards the correction it began with
-constexpr double kSpread = 0.2;       // of the gap: over how much of it an offset fades out
+constexpr double kSpread = 0.5;       // of the gap: over how much of it an offset fades out
 constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
 constexpr double kSafeStep = 0.15;    // of the ball's radius
 
