@@ -111,6 +111,8 @@ Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
   look.free = passage.is_clear && !look.swallows;
   look.is_measured = passage.nearest.has_value() || !look.free;
   look.ahead = passage.ahead;
+  // What is inside a solid has no gap, however far from the surface.
+  if (look.swallows) return look;
   look.gap_m = passage.nearest ? passage.nearest->distance_m - keep_m_ : margin_m;
   return look;
 }
