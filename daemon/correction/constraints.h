@@ -33,6 +33,8 @@ struct OrientationPolicy {
   double cone_rad = 0.5;  ///< for kTarget: half angle of the cone [Limit: 0 < value <= pi]
   /// How far the camera may be turned from how it would be on the interpolated path at that time.
   double max_turn_rad = std::numbers::pi;  ///< [Limit: 0 <= value <= pi]
+
+  bool operator==(const OrientationPolicy&) const = default;
 };
 
 /// Limits that the path is to meet. Infinity: no limit. [Limit: value > 0]
@@ -42,6 +44,8 @@ struct MotionLimits {
   double turn_rate_rad_per_s = std::numeric_limits<double>::infinity();
   /// Whether times may be stretched to meet them; else a path that breaks them is not `ok`.
   bool may_retime = false;
+
+  bool operator==(const MotionLimits&) const = default;
 
   [[nodiscard]] bool any() const {
     constexpr double kNone = std::numeric_limits<double>::infinity();

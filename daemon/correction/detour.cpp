@@ -23,6 +23,7 @@ constexpr std::array<int, 6> kFine = {8, 16, 32, 64, 128, 256};
 constexpr int kSweeps = 24;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
+constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
 constexpr double kLongestStep = 3.0;  // of the ball's radius: between poses of a guide
 
 class Detour {
@@ -39,8 +40,8 @@ class Detour {
         to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
 
   std::optional<Candidate> run() {
-    if (std::optional<Candidate> found = follow(lattice_guide())) return found;
-    return follow(tree_guide());
+    if (std::optional<Candidate> found = with_ball()) return found;
+    return with_turns();
   }
 
  private:
@@ -97,36 +98,78 @@ class Detour {
     return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
-  Guide lattice_guide() {
-    const std::optional<SignedPose> begin = escape(from_);
-    const std::optional<SignedPose> end = escape(to_);
+  // Ways on which the body may be turned as it likes, on finer and finer lattices.
+  std::optional<Candidate> with_ball() {
+    const std::optional<SignedPose> begin = escape(from_, radius_m_);
+    const std::optional<SignedPose> end = escape(to_, radius_m_);
+    if (!begin || !end) return std::nullopt;
+    for (const LatticeOptions& options : lattices(radius_m_, center_W(*begin), center_W(*end))) {
+      if (deadline_.passed()) return std::nullopt;
+      const LatticeResult found = lattice_way(space_, center_W(*begin), center_W(*end), options);
+      if (found.way_W.empty()) continue;
+      if (auto candidate = follow(oriented(found.way_W, *begin, *end))) return candidate;
+    }
+    return std::nullopt;
+  }
+
+  // Ways where the body has to be turned to get through: where a smaller ball does, trees look for
+  // how.
+  std::optional<Candidate> with_turns() {
+    for (const double share : kBallShares) {
+      if (deadline_.passed()) return std::nullopt;
+      const std::vector<Vec3> way_W = way_for_ball(share * radius_m_);
+      if (way_W.empty()) continue;
+      TreeOptions options;
+      options.margin_m = 0.5 * kLeastMargin * radius_m_;
+      options.about_W = way_W;
+      options.reach_m = 2.0 * radius_m_;
+      options.seed = seed_;
+      if (auto found = follow(tree_way(space_, from_, to_, options, deadline_))) return found;
+    }
+    return std::nullopt;
+  }
+
+  std::vector<Vec3> way_for_ball(double ball_radius_m) {
+    const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
+    const std::optional<SignedPose> end = escape(to_, ball_radius_m);
     if (!begin || !end) return {};
-    const Vec3 begin_W = space_.center_W(motion::unsigned_pose(*begin));
-    const Vec3 end_W = space_.center_W(motion::unsigned_pose(*end));
-    const double length_m = (end_W - begin_W).norm();
-    const double coarse_m = std::max(radius_m_, length_m / 8.0);
-    for (const auto& [spacing_m, points] :
-         {std::pair{coarse_m, std::size_t{4000}}, std::pair{0.5 * coarse_m, std::size_t{16000}},
-          std::pair{0.25 * coarse_m, std::size_t{60000}},
-          std::pair{0.125 * coarse_m, std::size_t{120000}}}) {
+    for (const LatticeOptions& options :
+         lattices(ball_radius_m, center_W(*begin), center_W(*end))) {
       if (deadline_.passed()) break;
-      const LatticeResult found = lattice_way(space_, begin_W, end_W, {spacing_m, points});
-      if (!found.way_W.empty()) return oriented(found.way_W, *begin, *end);
+      LatticeResult found = lattice_way(space_, center_W(*begin), center_W(*end), options);
+      if (found.way_W.empty()) continue;
+      found.way_W.insert(found.way_W.begin(), center_W(from_));
+      found.way_W.push_back(center_W(to_));
+      return found.way_W;
     }
     return {};
   }
 
+  [[nodiscard]] static std::array<LatticeOptions, 4> lattices(double ball_radius_m,
+                                                              const Vec3& from_W,
+                                                              const Vec3& to_W) {
+    const double coarse_m = std::max(ball_radius_m, (to_W - from_W).norm() / 8.0);
+    return {LatticeOptions{ball_radius_m, coarse_m, 4000},
+            LatticeOptions{ball_radius_m, 0.5 * coarse_m, 16000},
+            LatticeOptions{ball_radius_m, 0.25 * coarse_m, 60000},
+            LatticeOptions{ball_radius_m, 0.125 * coarse_m, 120000}};
+  }
+
+  [[nodiscard]] Vec3 center_W(const SignedPose& pose) const {
+    return space_.center_W(motion::unsigned_pose(pose));
+  }
+
   /// A pose with the same orientation, reached by a straight motion, where the ball is free.
-  std::optional<SignedPose> escape(const SignedPose& pose) {
-    const Vec3 center_W = space_.center_W(motion::unsigned_pose(pose));
+  std::optional<SignedPose> escape(const SignedPose& pose, double ball_radius_m) {
+    const Vec3 middle_W = center_W(pose);
     const double comfort_m = 0.1 * radius_m_;
-    if (space_.ball_gap_m(center_W, comfort_m) > 0.0) return pose;
+    if (space_.ball_gap_m(middle_W, ball_radius_m, comfort_m) > 0.0) return pose;
     for (const double share : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
       for (int code = 0; code < 27; ++code) {
         if (code == 13) continue;
         const Vec3 step =
             Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized() * (share * radius_m_);
-        if (!(space_.ball_gap_m(center_W + step, comfort_m) > 0.0)) continue;
+        if (!(space_.ball_gap_m(middle_W + step, ball_radius_m, comfort_m) > 0.0)) continue;
         const SignedPose there{pose.position + step, pose.orientation};
         if (!space_.first_hit(pose, there, 0.0)) return there;
       }
@@ -152,14 +195,6 @@ class Detour {
     guide.back() = end;
     guide.push_back(to_);
     return guide;
-  }
-
-  Guide tree_guide() {
-    TreeOptions options;
-    options.margin_m = 0.5 * kLeastMargin * radius_m_;
-    options.reach_m = 4.0 * radius_m_ + 1.0 * (to_.position - from_.position).norm();
-    options.seed = seed_;
-    return tree_way(space_, from_, to_, options, deadline_);
   }
 
   /// With more poses on long motions, so that parts of them can be left out.

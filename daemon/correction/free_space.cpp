@@ -60,8 +60,8 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
   return found.interval->t_begin_s;
 }
 
-double FreeSpace::ball_gap_m(const Vec3& point_W, double up_to_m) const {
-  const double keep_m = ball_radius_m_ + detect_.clearance_m;
+double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
+  const double keep_m = radius_m + detect_.clearance_m;
   if (obstacles_.field != nullptr) {
     const double at_least_m = obstacles_.field->clearance_at_least_m(point_W) - keep_m;
     if (at_least_m >= up_to_m) return up_to_m;

@@ -30,9 +30,11 @@ class FreeSpace {
   [[nodiscard]] std::optional<double> first_hit(const motion::SignedPose& from,
                                                 const motion::SignedPose& to, double margin_m);
 
-  /// How much further than required a ball about `point_W` that holds the body in every
-  /// orientation is from the scene, or `up_to_m` if it is that much; below 0 where it collides.
-  [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double up_to_m) const;
+  /// How much further than required a ball about `point_W` is from the scene, or `up_to_m` if it is
+  /// that much; below 0 where it collides. One of radius `ball_radius_m()` holds the body in every
+  /// orientation.
+  [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double radius_m,
+                                  double up_to_m) const;
 
   /// A deepest contact of the body at `pose`, or with what is up to `beyond_m` away.
   [[nodiscard]] std::optional<collision::Witness> contact(const motion::Pose& pose,

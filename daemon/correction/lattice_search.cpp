@@ -18,7 +18,7 @@ using Cell = std::array<std::int32_t, 3>;
 
 constexpr std::int32_t kFarthest = (1 << 20) - 1;  // so that a key takes 63 bits
 constexpr double kComfort = 0.5;                   // of the ball: gap from which a way is not near
-constexpr int kMostHalvings = 2;                   // of a step whose gaps do not cover it
+constexpr double kShortestStep = 0.1;              // of the ball: what is shorter is not looked at
 
 class LatticeSearch {
  public:
@@ -28,7 +28,7 @@ class LatticeSearch {
         from_W_(from_W),
         to_W_(to_W),
         options_(options),
-        comfort_m_(kComfort * space.ball_radius_m()),
+        comfort_m_(kComfort * options.ball_radius_m),
         horizon_m_(std::max(2.0 * options.spacing_m, comfort_m_)) {}
 
   LatticeResult run() {
@@ -69,6 +69,10 @@ class LatticeSearch {
     }
   };
 
+  [[nodiscard]] double gap_m(const Vec3& point_W) const {
+    return space_.ball_gap_m(point_W, options_.ball_radius_m, horizon_m_);
+  }
+
   [[nodiscard]] Vec3 place_W(const Cell& cell) const {
     return from_W_ + options_.spacing_m * Vec3(cell[0], cell[1], cell[2]);
   }
@@ -84,8 +88,8 @@ class LatticeSearch {
     const auto [entry, is_new] =
         known_.try_emplace(key(cell), static_cast<std::uint32_t>(points_.size()));
     if (is_new) {
-      const double gap_m = space_.ball_gap_m(place_W(cell), horizon_m_);
-      points_.push_back({cell, kNone, std::numeric_limits<double>::infinity(), gap_m});
+      points_.push_back(
+          {cell, kNone, std::numeric_limits<double>::infinity(), gap_m(place_W(cell))});
     }
     return entry->second;
   }
@@ -116,18 +120,20 @@ class LatticeSearch {
       const double near = std::clamp(1.0 - std::min(from.gap_m, to.gap_m) / comfort_m_, 0.0, 1.0);
       const double cost_m = from.cost_m + length_m * (1.0 + near);
       if (!(cost_m < to.cost_m)) continue;
-      if (!step_is_free(place_W(at), from.gap_m, place_W(next), to.gap_m, kMostHalvings)) continue;
+      if (!step_is_free(place_W(at), from.gap_m, place_W(next), to.gap_m)) continue;
       meet(next, index, cost_m);
     }
   }
 
-  [[nodiscard]] bool step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W, double gap_b_m,
-                                  int halvings) const {
-    if (gap_a_m + gap_b_m >= (a_W - b_W).norm() || halvings == 0) return true;
+  [[nodiscard]] bool step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W,
+                                  double gap_b_m) const {
+    const double length_m = (a_W - b_W).norm();
+    if (length_m <= std::max(gap_a_m + gap_b_m, kShortestStep * options_.ball_radius_m))
+      return true;
     const Vec3 middle_W = 0.5 * (a_W + b_W);
-    const double gap_m = space_.ball_gap_m(middle_W, horizon_m_);
-    return gap_m > 0.0 && step_is_free(a_W, gap_a_m, middle_W, gap_m, halvings - 1) &&
-           step_is_free(middle_W, gap_m, b_W, gap_b_m, halvings - 1);
+    const double middle_m = gap_m(middle_W);
+    return middle_m > 0.0 && step_is_free(a_W, gap_a_m, middle_W, middle_m) &&
+           step_is_free(middle_W, middle_m, b_W, gap_b_m);
   }
 
   [[nodiscard]] bool is_goal(std::uint32_t index) const {
@@ -135,8 +141,7 @@ class LatticeSearch {
     const Vec3 place = place_W(point.cell);
     const double reach_m = 1.8 * options_.spacing_m;  // more than the diagonal of a cell
     return (place - to_W_).norm() <= reach_m &&
-           step_is_free(place, point.gap_m, to_W_, space_.ball_gap_m(to_W_, horizon_m_),
-                        kMostHalvings + 1);
+           step_is_free(place, point.gap_m, to_W_, gap_m(to_W_));
   }
 
   [[nodiscard]] std::vector<Vec3> way(std::uint32_t last) const {

@@ -10,6 +10,9 @@
 namespace camway::correction {
 
 struct LatticeOptions {
+  /// Of the ball. One that holds the body in every orientation is on the safe side; a smaller one
+  /// shows where the body may get through if it turns.
+  double ball_radius_m = 0.0;
   double spacing_m = 0.1;          ///< between neighbouring points [Limit: value > 0]
   std::size_t max_points = 20000;  ///< of which the distance is asked for
 };
@@ -21,12 +24,13 @@ struct LatticeResult {
   bool exhausted = false;
 };
 
-/// A way for the ball that holds the body in every orientation, by A* (Hart, Nilsson & Raphael
+/// A way for a ball, by A* (Hart, Nilsson & Raphael
 /// 1968) on the points of a cubic lattice about `from_W`, 26 neighbours each, whose distance is
 /// asked for when they are met. It is the shortest on the lattice, but that being close to the
 /// scene makes a step count for up to twice its length.
 ///
-/// A guide, not a proof: between points the distance is looked at in a few places. Deterministic.
+/// Between points the distance is looked at until the ball is shown to pass, or in steps that are
+/// small beside it: a guide, not a proof. Deterministic.
 /// Precondition: the ball is free at both ends.
 LatticeResult lattice_way(const FreeSpace& space, const geometry::Vec3& from_W,
                           const geometry::Vec3& to_W, const LatticeOptions& options);

@@ -150,14 +150,24 @@ class TreeSearch {
 
   SignedPose sample(int index) {
     if (!blocked_.empty() && uniform() < kBlockedShare) return next_to_blocked();
-    SignedPose pose = motion::between(from_, to_, uniform());
-    // Close to the straight way at first, then further and further.
+    const double share = uniform();
+    const SignedPose straight = motion::between(from_, to_, share);
+    // Close to the way at first, then further and further.
     const double reach_m = options_.reach_m * std::exp2(-static_cast<double>(index % 4));
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      pose.position[axis] += reach_m * (2.0 * uniform() - 1.0);
-    }
+    Vec3 center_W = along_way_W(share);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      center_W[axis] += reach_m * (2.0 * uniform() - 1.0);
+    const geometry::Quat q = geometry::from_wxyz(straight.orientation);
+    const SignedPose pose{center_W - q * space_.center_C(), straight.orientation};
     if (uniform() < kStraightShare) return pose;
     return turned(pose, options_.largest_turn_rad * uniform());
+  }
+
+  [[nodiscard]] Vec3 along_way_W(double share) const {
+    const auto last = static_cast<double>(options_.about_W.size() - 1);
+    const auto i = static_cast<std::size_t>(std::min(share * last, last - 1.0));
+    const double rest = share * last - static_cast<double>(i);
+    return (1.0 - rest) * options_.about_W[i] + rest * options_.about_W[i + 1];
   }
 
   SignedPose next_to_blocked() {

@@ -48,6 +48,8 @@ struct PlanOptions {
   /// Given keyframes that collide are moved to the nearest free pose instead of being refused.
   bool repair_keyframes = false;
   std::uint64_t seed = 1;  ///< of the searches for ways round
+
+  bool operator==(const PlanOptions&) const = default;
 };
 
 /// The input of planning, whoever asked: daemon, command line or replay.
