@@ -15,6 +15,7 @@ namespace camway::correction {
 struct Problem {
   /// The path from the keyframe before the gap to the one after, and one gap more on either side.
   motion::CubicPath path;
+  motion::CubicPath original;       ///< the same part of the path as interpolated
   std::vector<double> keyframes_s;  ///< of that part, in order; the path has to keep them
   std::size_t gap = 0;              ///< the collision lies between keyframes `gap` and `gap + 1`
   bool has_path_begin = false;  ///< the whole path begins where `path` does; nothing is before it

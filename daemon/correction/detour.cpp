@@ -19,8 +19,9 @@ using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
 constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32};  // numbers of knots
-constexpr std::array<int, 6> kFine = {8, 16, 32, 64, 128, 256};
-constexpr int kSweeps = 24;
+constexpr std::array<int, 4> kFine = {8, 16, 32, 64};
+constexpr int kMostRefinements = 40;  // of parts of a row of bumps
+constexpr int kFinest = 2048;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
 constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
@@ -58,13 +59,59 @@ class Detour {
         if (deadline_.passed()) return std::nullopt;
         if (std::optional<Candidate> found = drawn(direct, count)) return found;
       }
+      if (std::optional<Candidate> found = refined(direct)) return found;
     }
     return std::nullopt;
   }
 
+  // Where a row of bumps is too coarse for the guide, a finer one is added for what is missing,
+  // next to the collision alone.
+  std::optional<Candidate> refined(const Guide& guide) {
+    motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), kFine.back()};
+    const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
+    const std::optional<Offsets> offsets = offsets_to(problem_.path, timed, knots);
+    if (!offsets) return std::nullopt;
+    std::vector<motion::BumpRow> rows = {bumps_for(*offsets, Ends::kFixed)};
+    for (int i = 0; i < kMostRefinements && !deadline_.passed(); ++i) {
+      Attempt tried = attempt(problem_, rows, space_, deadline_);
+      if (tried.candidate) return std::move(tried.candidate);
+      const double at_s = 0.5 * (tried.collision->t_begin_s + tried.collision->t_end_s);
+      knots.count = 2 * finest_at(rows, at_s);
+      if (knots.count > kFinest) return std::nullopt;
+      const std::optional<Offsets> rest =
+          offsets_to(motion::with_bumps(problem_.path, rows), timed, knots);
+      if (!rest) return std::nullopt;
+      rows.push_back(part_of(*rest, *tried.collision));
+      if (rows.back().bumps.empty()) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] static int finest_at(const std::vector<motion::BumpRow>& rows, double time_s) {
+    int finest = kFine.back();
+    for (const motion::BumpRow& row : rows) {
+      if (row.begin_s() < time_s && time_s < row.end_s())
+        finest = std::max(finest, row.knots.count);
+    }
+    return finest;
+  }
+
+  [[nodiscard]] static motion::BumpRow part_of(const Offsets& offsets,
+                                               const collision::CollisionInterval& about) {
+    const motion::KnotRow& knots = offsets.knots;
+    const auto knot_before = [&](double time_s) {
+      return static_cast<int>(std::floor((time_s - knots.begin_s) / knots.spacing_s()));
+    };
+    motion::BumpRow row{knots, std::max(2, knot_before(about.t_begin_s) - 2), {}};
+    const int last = std::min(knots.count - 2, knot_before(about.t_end_s) + 3);
+    for (int k = row.first; k <= last; ++k) row.bumps.push_back(offsets(k));
+    return row;
+  }
+
   std::optional<Candidate> drawn(const Guide& guide, int count) {
     const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), count};
-    const std::optional<Offsets> offsets = offsets_to(problem_.path, guide, knots, space_);
+    const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
+    const std::optional<Offsets> offsets = offsets_to(problem_.path, timed, knots);
     if (!offsets) return std::nullopt;
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
       std::optional<Candidate> found = tried(*offsets, ends);
@@ -76,13 +123,12 @@ class Detour {
   // Relaxed, then with half the knots as long as that is free: smoother.
   Candidate improved(const Offsets& offsets, Ends ends, Candidate found) {
     Relaxed best =
-        relaxed(problem_, offsets, ends, std::move(found), objective_, kSweeps, space_, deadline_);
+        relaxed(problem_, {offsets, std::move(found)}, ends, objective_, space_, deadline_);
     while (best.offsets.knots.count % 2 == 0 && best.offsets.knots.count >= 2 * kCoarse.front()) {
       const Offsets half = with_every_other_knot(best.offsets);
       std::optional<Candidate> coarser = tried(half, ends);
       if (!coarser) break;
-      best = relaxed(problem_, half, ends, std::move(*coarser), objective_, kSweeps, space_,
-                     deadline_);
+      best = relaxed(problem_, {half, std::move(*coarser)}, ends, objective_, space_, deadline_);
     }
     return std::move(best.candidate);
   }

@@ -17,86 +17,12 @@ using motion::BumpRow;
 using motion::CubicPoint;
 using motion::SignedPose;
 
-/// A guide by the distance travelled on it.
-class Travelled {
- public:
-  Travelled(const Guide& guide, const FreeSpace& space) : guide_(guide), so_far_m_(1, 0.0) {
-    for (std::size_t i = 1; i < guide.size(); ++i) {
-      so_far_m_.push_back(so_far_m_.back() + space.distance_m(guide[i - 1], guide[i]));
-    }
-  }
+constexpr int kTimes = 24;   // steps in time of the grid on which a guide is timed
+constexpr int kPlaces = 96;  // and along the guide
+constexpr int kLongestStep = 2 * kPlaces / kTimes;  // twice the mean speed
+constexpr double kHurry = 30.0;  // what a squared step counts for, beside a squared distance
 
-  [[nodiscard]] double length_m() const { return so_far_m_.back(); }
-
-  /// After `share` of the whole way.
-  [[nodiscard]] SignedPose at(double share) const {
-    const double at_m = share * so_far_m_.back();
-    const auto next = std::ranges::upper_bound(so_far_m_, at_m);
-    if (next == so_far_m_.end()) return guide_.back();
-    const auto i = static_cast<std::size_t>(next - so_far_m_.begin());
-    const double step_m = so_far_m_[i] - so_far_m_[i - 1];
-    return motion::between(guide_[i - 1], guide_[i], (at_m - so_far_m_[i - 1]) / step_m);
-  }
-
- private:
-  const Guide& guide_;
-  std::vector<double> so_far_m_;
-};
-
-/// When a guide is passed where: so that the body is close to where the path has it at the same
-/// time, and does not hurry. The best of a grid of times and places, by dynamic programming (as in
-/// dynamic time warping, Sakoe & Chiba 1978).
-class Pacing {
- public:
-  static constexpr int kTimes = 24;  ///< steps of the grid in time
-
-  Pacing(const motion::CubicPath& path, const Travelled& guide, double begin_s, double end_s) {
-    for (int t = 0; t <= kTimes; ++t)
-      path_.push_back(path.at(std::lerp(begin_s, end_s, t / double{kTimes})).position);
-    for (int p = 0; p <= kPlaces; ++p) guide_.push_back(guide.at(p / double{kPlaces}).position);
-    const double step_m = guide.length_m() / kPlaces;
-    hurry_ = kHurry * step_m * step_m;
-  }
-
-  /// For each time the share of the guide that is behind; from 0 to 1, never less than before.
-  [[nodiscard]] std::vector<double> shares() const {
-    std::vector<std::array<int, kPlaces + 1>> before(kTimes + 1);
-    std::array<double, kPlaces + 1> cost{};
-    cost.fill(std::numeric_limits<double>::infinity());
-    cost[0] = 0.0;
-    for (std::size_t t = 1; t <= kTimes; ++t) {
-      const std::array<double, kPlaces + 1> last = cost;
-      for (int p = 0; p <= kPlaces; ++p) {
-        const auto place = static_cast<std::size_t>(p);
-        double best = std::numeric_limits<double>::infinity();
-        for (int q = std::max(0, p - kLongestStep); q <= p; ++q) {
-          const double sum = last[static_cast<std::size_t>(q)] + hurry_ * (p - q) * (p - q);
-          if (sum < best) {
-            best = sum;
-            before[t][place] = q;
-          }
-        }
-        cost[place] = best + (path_[t] - guide_[place]).squaredNorm();
-      }
-    }
-    std::vector<double> shares(kTimes + 1);
-    int place = kPlaces;
-    for (std::size_t t = kTimes + 1; t-- > 0;) {
-      shares[t] = place / double{kPlaces};
-      place = before[t][static_cast<std::size_t>(place)];
-    }
-    return shares;
-  }
-
- private:
-  static constexpr int kPlaces = 96;
-  static constexpr int kLongestStep = 2 * kPlaces / kTimes;  ///< twice the mean speed
-  static constexpr double kHurry = 30.0;  ///< what a squared step counts for, beside a distance
-
-  std::vector<geometry::Vec3> path_;
-  std::vector<geometry::Vec3> guide_;
-  double hurry_ = 0.0;
-};
+using Places = std::array<double, kPlaces + 1>;
 
 /// Less than half a turn by far: the straight motion between them is what is meant.
 bool turns_little(const SignedPose& a, const SignedPose& b) {
@@ -117,18 +43,72 @@ SignedPose signed_pose_at(const motion::CubicPath& path, double time_s) {
   return {point.position, q / q.norm()};
 }
 
-std::optional<Offsets> offsets_to(const motion::CubicPath& path, const Guide& guide,
-                                  const motion::KnotRow& knots, const FreeSpace& space) {
-  const Travelled travelled(guide, space);
-  const std::vector<double> shares = Pacing(path, travelled, knots.begin_s, knots.end_s).shares();
+TimedGuide::TimedGuide(const motion::CubicPath& path, const Guide& guide, double begin_s,
+                       double end_s, const FreeSpace& space)
+    : guide_(guide), begin_s_(begin_s), end_s_(end_s), so_far_m_(1, 0.0) {
+  for (std::size_t i = 1; i < guide.size(); ++i)
+    so_far_m_.push_back(so_far_m_.back() + space.distance_m(guide[i - 1], guide[i]));
+  choose_shares(path);
+}
+
+SignedPose TimedGuide::after(double share) const {
+  const double at_m = share * so_far_m_.back();
+  const auto next = std::ranges::upper_bound(so_far_m_, at_m);
+  if (next == so_far_m_.end()) return guide_.back();
+  const auto i = static_cast<std::size_t>(next - so_far_m_.begin());
+  const double step_m = so_far_m_[i] - so_far_m_[i - 1];
+  return motion::between(guide_[i - 1], guide_[i], (at_m - so_far_m_[i - 1]) / step_m);
+}
+
+SignedPose TimedGuide::at(double time_s) const {
+  const double place = (time_s - begin_s_) / (end_s_ - begin_s_) * kTimes;
+  const auto i = static_cast<std::size_t>(std::clamp(place, 0.0, kTimes - 1.0));
+  return after(std::lerp(shares_[i], shares_[i + 1], place - static_cast<double>(i)));
+}
+
+// The best of a grid of times and places, by dynamic programming (as in dynamic time warping, Sakoe
+// & Chiba 1978).
+void TimedGuide::choose_shares(const motion::CubicPath& path) {
+  std::vector<geometry::Vec3> places_W;
+  for (int p = 0; p <= kPlaces; ++p) places_W.push_back(after(p / double{kPlaces}).position);
+  const double step_m = so_far_m_.back() / kPlaces;
+  const double hurry = kHurry * step_m * step_m;
+  std::vector<std::array<int, kPlaces + 1>> before(kTimes + 1);
+  Places cost{};
+  cost.fill(std::numeric_limits<double>::infinity());
+  cost[0] = 0.0;
+  for (std::size_t t = 1; t <= kTimes; ++t) {
+    const geometry::Vec3 old_W =
+        path.at(std::lerp(begin_s_, end_s_, static_cast<double>(t) / kTimes)).position;
+    const Places last = cost;
+    for (int p = 0; p <= kPlaces; ++p) {
+      const auto place = static_cast<std::size_t>(p);
+      double best = std::numeric_limits<double>::infinity();
+      for (int q = std::max(0, p - kLongestStep); q <= p; ++q) {
+        const double sum = last[static_cast<std::size_t>(q)] + hurry * (p - q) * (p - q);
+        if (sum < best) {
+          best = sum;
+          before[t][place] = q;
+        }
+      }
+      cost[place] = best + (old_W - places_W[place]).squaredNorm();
+    }
+  }
+  shares_.resize(kTimes + 1);
+  int place = kPlaces;
+  for (std::size_t t = kTimes + 1; t-- > 0;) {
+    shares_[t] = place / double{kPlaces};
+    place = before[t][static_cast<std::size_t>(place)];
+  }
+}
+
+std::optional<Offsets> offsets_to(const motion::CubicPath& path, const TimedGuide& guide,
+                                  const motion::KnotRow& knots) {
   Offsets offsets{knots, 1, {}};
   Vec4 image = path.at(knots.begin_s).image;
   for (int k = 1; k < knots.count; ++k) {
-    const double place = static_cast<double>(k) / knots.count * Pacing::kTimes;
-    const auto i = std::min(static_cast<std::size_t>(place), std::size_t{Pacing::kTimes - 1});
-    const double share = std::lerp(shares[i], shares[i + 1], place - static_cast<double>(i));
     const CubicPoint old = path.at(knots.knot_s(k));
-    const SignedPose wanted = travelled.at(share);
+    const SignedPose wanted = guide.at(knots.knot_s(k));
     image = motion::image_of(path.reference, wanted.orientation, image);
     offsets.at.push_back({wanted.position - old.position, image * old.image.norm() - old.image});
   }

@@ -30,11 +30,31 @@ struct Offsets {
   }
 };
 
-/// The offsets of `guide`, which begins and ends where the path is at the ends of `knots`, and is
-/// passed so that it stays close to the path at the same time without hurrying. Nothing where the
+/// A guide, and when it is where: so that the body stays close to where the path has it at the same
+/// time, and does not hurry.
+class TimedGuide {
+ public:
+  /// From `begin_s` to `end_s`, where `path` and `guide` meet.
+  TimedGuide(const motion::CubicPath& path, const Guide& guide, double begin_s, double end_s,
+             const FreeSpace& space);
+
+  [[nodiscard]] motion::SignedPose at(double time_s) const;
+
+ private:
+  [[nodiscard]] motion::SignedPose after(double share) const;
+  void choose_shares(const motion::CubicPath& path);
+
+  const Guide& guide_;
+  const double begin_s_;
+  const double end_s_;
+  std::vector<double> so_far_m_;  ///< distance travelled at each pose of the guide
+  std::vector<double> shares_;    ///< of it, at equidistant times
+};
+
+/// What has to be added to `path` at the inner knots to be where the guide is. Nothing where the
 /// guide's orientation cannot be lifted to the path's image: it would arrive with the other sign.
-std::optional<Offsets> offsets_to(const motion::CubicPath& path, const Guide& guide,
-                                  const motion::KnotRow& knots, const FreeSpace& space);
+std::optional<Offsets> offsets_to(const motion::CubicPath& path, const TimedGuide& guide,
+                                  const motion::KnotRow& knots);
 
 /// What a row of bumps does at the two keyframes.
 enum class Ends {

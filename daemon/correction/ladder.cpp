@@ -7,6 +7,7 @@
 
 #include "daemon/correction/detour.h"
 #include "daemon/correction/nudge.h"
+#include "daemon/correction/relaxation.h"
 
 namespace camway::correction {
 
@@ -34,6 +35,7 @@ class Ladder {
       }
       correct(i);
     }
+    for (int round = 0; round < kPolishingRounds; ++round) polish();
     std::ranges::sort(result_.inserted_s);
     return std::move(result_);
   }
@@ -62,19 +64,26 @@ class Ladder {
   }
 
   [[nodiscard]] Problem problem(std::size_t index) const {
-    const std::size_t gap = gap_of(open_[index]);
+    Problem problem = problem_of_gap(gap_of(open_[index]));
+    problem.interval = open_[index];
+    std::erase(problem.others, open_[index]);
+    return problem;
+  }
+
+  [[nodiscard]] Problem problem_of_gap(std::size_t gap) const {
     const std::size_t first = gap == 0 ? 0 : gap - 1;
     const std::size_t last = std::min(gap + 2, keyframes_s_.size() - 1);
     Problem problem;
     problem.path = result_.path.around(keyframes_s_[first], keyframes_s_[last]);
+    problem.original = original_.around(keyframes_s_[first], keyframes_s_[last]);
     problem.keyframes_s.assign(keyframes_s_.begin() + static_cast<std::ptrdiff_t>(first),
                                keyframes_s_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     problem.gap = gap - first;
     problem.has_path_begin = first == 0;
     problem.has_path_end = last + 1 == keyframes_s_.size();
-    problem.interval = open_[index];
+    problem.interval = {keyframes_s_[gap], keyframes_s_[gap + 1]};
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (i != index && is_open(i)) problem.others.push_back(open_[i]);
+      if (is_open(i)) problem.others.push_back(open_[i]);
     }
     return problem;
   }
@@ -108,19 +117,39 @@ class Ladder {
     }
   }
 
-  bool accept(std::size_t index, Rung rung, const std::optional<Candidate>& candidate) {
-    if (!candidate) return false;
-    std::vector<double> inserted_s;
-    for (const motion::BumpRow& row : candidate->rows) add_keyframes(row, inserted_s);
-    if (result_.inserted_s.size() + inserted_s.size() >
-        static_cast<std::size_t>(options_.max_inserted_keyframes)) {
-      return false;
+  // What one correction left to the next can be better now that all are there.
+  void polish() {
+    for (std::size_t gap = 0; gap + 1 < keyframes_s_.size(); ++gap) {
+      const bool was_changed =
+          std::ranges::any_of(result_.corrections, [&](const Correction& correction) {
+            return correction.rung != Rung::kNone && correction.t_begin_s < keyframes_s_[gap + 1] &&
+                   correction.t_end_s > keyframes_s_[gap];
+          });
+      if (!was_changed || deadline_.passed()) continue;
+      const std::optional<Candidate> better =
+          polished(problem_of_gap(gap), options_.objective, space_, deadline_);
+      if (better) take(*better);
     }
-    result_.inserted_s.insert(result_.inserted_s.end(), inserted_s.begin(), inserted_s.end());
-    result_.path.replace(candidate->path);
+  }
+
+  bool accept(std::size_t index, Rung rung, const std::optional<Candidate>& candidate) {
+    if (!candidate || !take(*candidate)) return false;
     Correction& correction = result_.corrections[index];
     correction.rung = rung;
     measure(*candidate, correction);
+    return true;
+  }
+
+  // Puts the candidate into the path, unless it would need more keyframes than allowed.
+  bool take(const Candidate& candidate) {
+    std::vector<double> inserted_s = result_.inserted_s;
+    for (const motion::BumpRow& row : candidate.rows) add_keyframes(row, inserted_s);
+    std::ranges::sort(inserted_s);
+    const auto same = std::ranges::unique(inserted_s);
+    inserted_s.erase(same.begin(), same.end());
+    if (inserted_s.size() > static_cast<std::size_t>(options_.max_inserted_keyframes)) return false;
+    result_.inserted_s = std::move(inserted_s);
+    result_.path.replace(candidate.path);
     return true;
   }
 
@@ -155,6 +184,8 @@ class Ladder {
           std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
     }
   }
+
+  static constexpr int kPolishingRounds = 2;
 
   FreeSpace& space_;
   const LadderOptions& options_;

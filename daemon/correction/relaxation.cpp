@@ -14,36 +14,36 @@ using geometry::Vec4;
 using motion::CubicPoint;
 
 // Chosen by measurement; none changes what is proved.
-constexpr int kSamplesAStep = 3;      // between two knots
-constexpr double kMargin = 0.03;      // of the ball's radius, kept at the samples
-constexpr double kKeptShare = 0.8;    // of the gap, where that is smaller already
-constexpr int kHalvings = 3;          // of a change that would collide
-constexpr int kRetreats = 4;          // towards the correction it began with
-constexpr double kSpread = 0.5;       // of the gap: over how much of it an offset fades out
+constexpr int kSamplesAStep = 3;    // between two knots
+constexpr double kMargin = 0.03;    // of the ball's radius, kept at the samples
+constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
+constexpr int kHalvings = 3;        // of a change that would collide
+constexpr int kRetreats = 4;        // towards the correction it began with
+constexpr double kSpread = 0.5;     // of the gap: over how much of it an offset fades out
+constexpr int kSweeps = 32;
+constexpr int kPolishedKnots = 12;
 constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
 constexpr double kSafeStep = 0.15;    // of the ball's radius
 
-/// Weights of the squared offset, and of first and second differences of the path's or of the
-/// offset's control points.
+/// Weights of the squared distance from the original, and of squared first and second differences
+/// of the path's control points.
 struct Weights {
-  double offset;
+  double distance;
   double stretch;
   double bend;
-  bool of_offset;
 };
 
 Weights weights_of(Objective objective, int count) {
-  const double spread = std::pow(kSpread * count, 4.0);
   switch (objective) {
     case Objective::kClosest:
-      return {1.0, 0.0, spread, true};
+      return {1.0, 0.0, std::pow(kSpread * count, 4.0)};
     case Objective::kShortest:
-      return {0.0, 1.0, 0.05, false};
+      return {0.0, 1.0, 0.05};
     case Objective::kSmoothest:
     case Objective::kSafest:
-      return {0.0, 0.0, 1.0, false};
+      return {0.0, 0.0, 1.0};
   }
-  return {1.0, 0.0, spread, true};
+  return {1.0, 0.0, 1.0};
 }
 
 CubicPoint operator+(const CubicPoint& a, const CubicPoint& b) {
@@ -77,13 +77,14 @@ class Relaxation {
     for (int k = first_ - kOutside; k <= last_ + kOutside; ++k) {
       coefficients_.push_back(k >= first_ && k <= last_ ? offsets(k) : CubicPoint{});
       path_.push_back(problem.path.at(knots_.knot_s(k)));
+      original_.push_back(problem.original.at(knots_.knot_s(k)));
     }
     hold_keyframes();
     sample();
   }
 
-  [[nodiscard]] Offsets run(int sweeps, const collision::Deadline& deadline) {
-    for (int sweep = 0; sweep < sweeps && !deadline.passed(); ++sweep) {
+  [[nodiscard]] Offsets run(const collision::Deadline& deadline) {
+    for (int sweep = 0; sweep < kSweeps && !deadline.passed(); ++sweep) {
       bool changed = false;
       for (int i = first_; i <= last_; ++i) {
         // To and fro, so that nothing drifts to one side.
@@ -185,9 +186,7 @@ class Relaxation {
 
   /// The change of the coefficient that makes the objective least while the others stay.
   [[nodiscard]] CubicPoint wanted_change(int k) const {
-    const auto value = [&](int i) {
-      return weights_.of_offset ? coefficient(i) : path_[slot(i)] + coefficient(i);
-    };
+    const auto value = [&](int i) { return path_[slot(i)] + coefficient(i); };
     CubicPoint sum;
     double weight = 0.0;
     const auto count = [&](double factor, double share, const CubicPoint& term) {
@@ -198,7 +197,7 @@ class Relaxation {
       const double here = follows(i, k);
       const double before = follows(i - 1, k);
       const double after = follows(i + 1, k);
-      count(weights_.offset, here, coefficient(i));
+      count(weights_.distance, here, value(i) - original_[slot(i)]);
       count(weights_.stretch, here - before, value(i) - value(i - 1));
       count(weights_.bend, before - 2.0 * here + after,
             value(i - 1) - 2.0 * value(i) + value(i + 1));
@@ -277,7 +276,8 @@ class Relaxation {
   int last_ = 0;
   bool holds_keyframes_ = false;
   std::vector<CubicPoint> coefficients_;
-  std::vector<CubicPoint> path_;  ///< at the same knots
+  std::vector<CubicPoint> path_;      ///< at the same knots
+  std::vector<CubicPoint> original_;  ///< and there
   std::vector<Sample> samples_;
 };
 
@@ -292,17 +292,24 @@ Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
 
 }  // namespace
 
-Relaxed relaxed(const Problem& problem, const Offsets& offsets, Ends ends, Candidate free,
-                Objective objective, int sweeps, FreeSpace& space,
-                const collision::Deadline& deadline) {
-  const Offsets better = Relaxation(problem, offsets, ends, objective, space).run(sweeps, deadline);
+Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Objective objective,
+                FreeSpace& space, const collision::Deadline& deadline) {
+  const Offsets better = Relaxation(problem, free.offsets, ends, objective, space).run(deadline);
   double share = 1.0;
   for (int i = 0; i < kRetreats; ++i, share *= 0.6) {
-    const Offsets between = share < 1.0 ? mixed(offsets, better, share) : better;
+    const Offsets between = share < 1.0 ? mixed(free.offsets, better, share) : better;
     Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
     if (tried.candidate) return {between, std::move(*tried.candidate)};
   }
-  return {offsets, std::move(free)};
+  return free;
+}
+
+std::optional<Candidate> polished(const Problem& problem, Objective objective, FreeSpace& space,
+                                  const collision::Deadline& deadline) {
+  const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), kPolishedKnots}, 1, {}};
+  Relaxed better = relaxed(problem, {none, {}}, Ends::kFree, objective, space, deadline);
+  if (better.candidate.rows.empty()) return std::nullopt;
+  return std::move(better.candidate);
 }
 
 }  // namespace camway::correction

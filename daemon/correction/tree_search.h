@@ -10,10 +10,10 @@ namespace camway::correction {
 
 struct TreeOptions {
   int max_samples = 3000;
-  double margin_m = 0.0;          ///< that the guide keeps beside what is required
+  double margin_m = 0.0;  ///< that the guide keeps beside what is required
   /// About which samples are drawn, from end to end: a way for something smaller than the body.
   std::vector<geometry::Vec3> about_W;
-  double reach_m = 0.0;  ///< how far from it
+  double reach_m = 0.0;           ///< how far from it
   double largest_turn_rad = 1.9;  ///< of samples, from orientations between the two ends
   std::uint64_t seed = 1;
 };

@@ -38,7 +38,7 @@ struct PlanOptions {
   /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
   double clearance_m = 0.0;
   /// Cut-off of the correction, per request. [Limit: 0 <= value]
-  std::int32_t max_inserted_keyframes = 200;
+  std::int32_t max_inserted_keyframes = 2000;
   correction::Objective objective = correction::Objective::kClosest;
   correction::OrientationPolicy orientation;
   correction::MotionLimits limits;
