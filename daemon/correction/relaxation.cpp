@@ -20,7 +20,7 @@ constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
 constexpr int kHalvings = 3;        // of a change that would collide
 constexpr int kRetreats = 4;        // towards the correction it began with
 constexpr double kSpread = 0.5;     // of the gap: over how much of it an offset fades out
-constexpr int kSweeps = 32;
+constexpr int kSweeps = 16;
 constexpr int kPolishedKnots = 12;
 constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
 constexpr double kSafeStep = 0.15;    // of the ball's radius
@@ -56,6 +56,19 @@ CubicPoint operator*(double factor, const CubicPoint& a) {
   return {factor * a.position, factor * a.image};
 }
 
+/// The path, and beyond its ends the straight line that goes on as it does there: a natural end.
+CubicPoint extended(const motion::CubicPath& path, double time_s) {
+  const bool is_before = time_s < path.begin_s();
+  if (!is_before && time_s <= path.end_s()) return path.at(time_s);
+  const motion::CubicPiece& piece = is_before ? path.pieces.front() : path.pieces.back();
+  const std::size_t i = is_before ? 0 : 2;  // the leg of the control polygon at that end
+  const double legs =
+      3.0 / (piece.t1_s - piece.t0_s) * (time_s - (is_before ? piece.t0_s : piece.t1_s));
+  const std::size_t end = is_before ? 0 : 3;
+  return {piece.position[end] + legs * (piece.position[i + 1] - piece.position[i]),
+          piece.image[end] + legs * (piece.image[i + 1] - piece.image[i])};
+}
+
 /// The four bumps that are not zero between two knots, at `v` in [0, 1] of the way.
 std::array<double, 4> weights_at(double v) {
   const double w = 1.0 - v;
@@ -76,9 +89,10 @@ class Relaxation {
     choose_range(ends);
     for (int k = first_ - kOutside; k <= last_ + kOutside; ++k) {
       coefficients_.push_back(k >= first_ && k <= last_ ? offsets(k) : CubicPoint{});
-      path_.push_back(problem.path.at(knots_.knot_s(k)));
-      original_.push_back(problem.original.at(knots_.knot_s(k)));
+      path_.push_back(extended(problem.path, knots_.knot_s(k)));
+      original_.push_back(extended(problem.original, knots_.knot_s(k)));
     }
+    is_active_.assign(coefficients_.size(), true);
     hold_keyframes();
     sample();
   }
@@ -89,7 +103,13 @@ class Relaxation {
       for (int i = first_; i <= last_; ++i) {
         // To and fro, so that nothing drifts to one side.
         const int k = sweep % 2 == 0 ? i : first_ + last_ - i;
-        if (!is_held(k)) changed = improve(k) || changed;
+        if (is_held(k) || !is_active_[slot(k)]) continue;
+        const bool moved = improve(k);
+        is_active_[slot(k)] = moved;
+        changed = changed || moved;
+        // What was blocked may be free to move now.
+        for (int j = std::max(first_, k - 3); moved && j <= std::min(last_, k + 3); ++j)
+          is_active_[slot(j)] = true;
       }
       if (!changed) break;
     }
@@ -184,6 +204,11 @@ class Relaxation {
     return is_next ? -motion::kBumpShoulder / motion::kBumpPeak : 0.0;
   }
 
+  [[nodiscard]] bool is_on_path(int k) const {
+    const double time_s = knots_.knot_s(k);
+    return time_s >= problem_.path.begin_s() && time_s <= problem_.path.end_s();
+  }
+
   /// The change of the coefficient that makes the objective least while the others stay.
   [[nodiscard]] CubicPoint wanted_change(int k) const {
     const auto value = [&](int i) { return path_[slot(i)] + coefficient(i); };
@@ -194,6 +219,7 @@ class Relaxation {
       weight += factor * share * share;
     };
     for (int i = k - 2; i <= k + 2; ++i) {
+      if (!is_on_path(i)) continue;
       const double here = follows(i, k);
       const double before = follows(i - 1, k);
       const double after = follows(i + 1, k);
@@ -264,7 +290,7 @@ class Relaxation {
     return false;
   }
 
-  static constexpr double kSettled = 1e-3;  // of the ball's radius: changes below do not matter
+  static constexpr double kSettled = 5e-3;  // of the ball's radius: changes below do not matter
 
   const Problem& problem_;
   FreeSpace& space_;
@@ -278,6 +304,7 @@ class Relaxation {
   std::vector<CubicPoint> coefficients_;
   std::vector<CubicPoint> path_;      ///< at the same knots
   std::vector<CubicPoint> original_;  ///< and there
+  std::vector<bool> is_active_;       ///< whether another look at a coefficient may change it
   std::vector<Sample> samples_;
 };
 
