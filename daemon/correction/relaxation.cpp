@@ -17,9 +17,11 @@ using motion::CubicPoint;
 constexpr int kSamplesAStep = 3;    // between two knots
 constexpr double kMargin = 0.03;    // of the ball's radius, kept at the samples
 constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
-constexpr int kHalvings = 3;        // of a change that would collide
-constexpr int kRetreats = 4;        // towards the correction it began with
-constexpr double kSpread = 0.5;     // of the gap: over how much of it an offset fades out
+constexpr int kHalvings = 1;        // of a change that would collide
+constexpr int kRounds = 6;          // of relaxing, with more samples each time
+constexpr double kRetreat = 0.6;
+constexpr int kRetreats = 3;     // towards the correction it began with
+constexpr double kSpread = 1.5;  // of the gap: over how much of it an offset fades out
 constexpr int kSweeps = 16;
 constexpr int kPolishedKnots = 12;
 constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
@@ -88,13 +90,29 @@ class Relaxation {
         radius_m_(space.ball_radius_m()) {
     choose_range(ends);
     for (int k = first_ - kOutside; k <= last_ + kOutside; ++k) {
-      coefficients_.push_back(k >= first_ && k <= last_ ? offsets(k) : CubicPoint{});
       path_.push_back(extended(problem.path, knots_.knot_s(k)));
       original_.push_back(extended(problem.original, knots_.knot_s(k)));
     }
+    begin_with(offsets);
+    sample();
+  }
+
+  void begin_with(const Offsets& offsets) {
+    coefficients_.clear();
+    for (int k = first_ - kOutside; k <= last_ + kOutside; ++k)
+      coefficients_.push_back(k >= first_ && k <= last_ ? offsets(k) : CubicPoint{});
     is_active_.assign(coefficients_.size(), true);
     hold_keyframes();
-    sample();
+  }
+
+  /// From now on the body has to be free there too; what it begins with has to be set.
+  void watch(const collision::CollisionInterval& collision) {
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double time_s = std::lerp(collision.t_begin_s, collision.t_end_s, share);
+      const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
+      const double k = std::clamp(std::floor(place), first_ - 2.0, last_ + 1.0);
+      add_sample(static_cast<int>(k), std::clamp(place - k, 0.0, 1.0));
+    }
   }
 
   [[nodiscard]] Offsets run(const collision::Deadline& deadline) {
@@ -165,22 +183,22 @@ class Relaxation {
   }
 
   void sample() {
-    const double begin_s = problem_.path.begin_s();
-    const double end_s = problem_.path.end_s();
     for (int k = first_ - 2; k < last_ + 2; ++k) {
-      for (int m = 0; m < kSamplesAStep; ++m) {
-        const double v = (m + 0.5) / kSamplesAStep;
-        const double time_s = std::lerp(knots_.knot_s(k), knots_.knot_s(k + 1), v);
-        if (time_s <= begin_s || time_s >= end_s || is_others(time_s)) continue;
-        Sample sample{problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0, 0.0};
-        const double margin_m = kMargin * radius_m_;
-        const double wanted_m =
-            objective_ == Objective::kSafest ? kSafeComfort * radius_m_ : margin_m;
-        sample.gap_m = space_.gap_m(pose(sample), wanted_m);
-        sample.margin_m = std::min(margin_m, kKeptShare * std::max(0.0, sample.gap_m));
-        samples_.push_back(sample);
-      }
+      for (int m = 0; m < kSamplesAStep; ++m) add_sample(k, (m + 0.5) / kSamplesAStep);
     }
+  }
+
+  // `v` of the way from knot `k` to the next.
+  void add_sample(int k, double v) {
+    const double time_s = std::lerp(knots_.knot_s(k), knots_.knot_s(k + 1), v);
+    if (time_s <= problem_.path.begin_s() || time_s >= problem_.path.end_s()) return;
+    if (is_others(time_s)) return;
+    Sample sample{problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0, 0.0};
+    const double margin_m = kMargin * radius_m_;
+    const double wanted_m = objective_ == Objective::kSafest ? kSafeComfort * radius_m_ : margin_m;
+    sample.gap_m = space_.gap_m(pose(sample), wanted_m);
+    sample.margin_m = std::min(margin_m, kKeptShare * std::max(0.0, sample.gap_m));
+    samples_.push_back(sample);
   }
 
   [[nodiscard]] bool is_others(double time_s) const {
@@ -232,15 +250,28 @@ class Relaxation {
   }
 
   bool improve(int k) {
-    const CubicPoint old = coefficient(k);
     if (objective_ == Objective::kSafest && step_away(k)) return true;
     CubicPoint change = wanted_change(k);
+    for (int i = 0; i <= kHalvings; ++i, change = 0.5 * change) {
+      if (moves(k, change)) return true;
+    }
+    // Blocked in one direction it may slide in the others.
+    change = 2.0 * change;
+    bool moved = moves(k, {geometry::Vec3::Zero(), change.image});
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      CubicPoint part;
+      part.position[axis] = change.position[axis];
+      moved = moves(k, part) || moved;
+    }
+    return moved;
+  }
+
+  bool moves(int k, const CubicPoint& change) {
     const double size_m = change.position.norm() + 4.0 * radius_m_ * change.image.norm();
     if (!(size_m > kSettled * radius_m_)) return false;
-    for (int i = 0; i <= kHalvings; ++i, change = 0.5 * change) {
-      set(k, old + change);
-      if (is_free_about(k)) return true;
-    }
+    const CubicPoint old = coefficient(k);
+    set(k, old + change);
+    if (is_free_about(k)) return true;
     set(k, old);
     return false;
   }
@@ -321,10 +352,19 @@ Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
 
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Objective objective,
                 FreeSpace& space, const collision::Deadline& deadline) {
-  const Offsets better = Relaxation(problem, free.offsets, ends, objective, space).run(deadline);
-  double share = 1.0;
-  for (int i = 0; i < kRetreats; ++i, share *= 0.6) {
-    const Offsets between = share < 1.0 ? mixed(free.offsets, better, share) : better;
+  Relaxation relaxation(problem, free.offsets, ends, objective, space);
+  Offsets better = free.offsets;
+  for (int i = 0; i < kRounds && !deadline.passed(); ++i) {
+    better = relaxation.run(deadline);
+    Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
+    if (tried.candidate) return {better, std::move(*tried.candidate)};
+    // Something slips through between the samples: then there is to be one.
+    relaxation.begin_with(free.offsets);
+    relaxation.watch(*tried.collision);
+  }
+  double share = kRetreat;
+  for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
+    const Offsets between = mixed(free.offsets, better, share);
     Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
     if (tried.candidate) return {between, std::move(*tried.candidate)};
   }
