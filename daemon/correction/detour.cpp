@@ -120,17 +120,18 @@ class Detour {
     return std::nullopt;
   }
 
-  // Relaxed, then with half the knots as long as that is free: smoother.
-  Candidate improved(const Offsets& offsets, Ends ends, Candidate found) {
-    Relaxed best =
-        relaxed(problem_, {offsets, std::move(found)}, ends, objective_, space_, deadline_);
-    while (best.offsets.knots.count % 2 == 0 && best.offsets.knots.count >= 2 * kCoarse.front()) {
-      const Offsets half = with_every_other_knot(best.offsets);
+  // With half the knots as long as that is free, which is smoother, then relaxed.
+  Candidate improved(Offsets offsets, Ends ends, Candidate found) {
+    while (offsets.knots.count % 2 == 0 && offsets.knots.count >= 2 * kCoarse.front()) {
+      Offsets half = with_every_other_knot(offsets);
       std::optional<Candidate> coarser = tried(half, ends);
       if (!coarser) break;
-      best = relaxed(problem_, {half, std::move(*coarser)}, ends, objective_, space_, deadline_);
+      offsets = std::move(half);
+      found = std::move(*coarser);
     }
-    return std::move(best.candidate);
+    return relaxed(problem_, {std::move(offsets), std::move(found)}, ends, objective_, space_,
+                   deadline_)
+        .candidate;
   }
 
   static Offsets with_every_other_knot(const Offsets& offsets) {

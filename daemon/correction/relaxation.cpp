@@ -18,12 +18,13 @@ constexpr int kSamplesAStep = 3;    // between two knots
 constexpr double kMargin = 0.03;    // of the ball's radius, kept at the samples
 constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
 constexpr int kHalvings = 1;        // of a change that would collide
-constexpr int kRounds = 6;          // of relaxing, with more samples each time
+constexpr int kRounds = 10;         // of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;     // towards the correction it began with
 constexpr double kSpread = 1.5;  // of the gap: over how much of it an offset fades out
 constexpr int kSweeps = 16;
 constexpr int kPolishedKnots = 12;
+constexpr double kHorizon = 0.5;      // of the ball's radius: gaps are not measured further
 constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
 constexpr double kSafeStep = 0.15;    // of the ball's radius
 
@@ -105,13 +106,24 @@ class Relaxation {
     hold_keyframes();
   }
 
-  /// From now on the body has to be free there too; what it begins with has to be set.
-  void watch(const collision::CollisionInterval& collision) {
+  /// From now on the body has to be free there too. Takes back what was done about it: as much as
+  /// it takes to be free at all samples again, old and new.
+  void watch(const collision::CollisionInterval& collision, const Offsets& free) {
+    const double middle_s = 0.5 * (collision.t_begin_s + collision.t_end_s);
+    const int middle = knot_before(middle_s);
+    for (int width = 2; width <= 2 * (last_ - first_ + 4); width *= 2) {
+      const int low = std::max(first_, middle - width);
+      const int high = std::min(last_, middle + 1 + width);
+      for (int k = low; k <= high; ++k) coefficient(k) = free(k);
+      hold_keyframes();
+      if (!is_free_between(low, high) || !is_free_on(collision)) continue;
+      for (int k = std::max(first_, low - 3); k <= std::min(last_, high + 3); ++k)
+        is_active_[slot(k)] = true;
+      break;
+    }
     for (const double share : {0.0, 0.5, 1.0}) {
       const double time_s = std::lerp(collision.t_begin_s, collision.t_end_s, share);
-      const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
-      const double k = std::clamp(std::floor(place), first_ - 2.0, last_ + 1.0);
-      add_sample(static_cast<int>(k), std::clamp(place - k, 0.0, 1.0));
+      add_sample(knot_before(time_s), place_after_knot(time_s));
     }
   }
 
@@ -144,7 +156,10 @@ class Relaxation {
     std::size_t first;  ///< of the four coefficients
     std::array<double, 4> weights;
     double margin_m;
-    double gap_m;  ///< for kSafest
+    /// Where the body was asked about last and found free, and how far it was from the scene there:
+    /// until it has moved by that, there is no need to ask again.
+    motion::SignedPose known{};
+    double known_gap_m = 0.0;
   };
 
   /// Which coefficients there are: with free ends also some before the first keyframe and after the
@@ -182,6 +197,33 @@ class Relaxation {
       coefficient(k) = holding(coefficient(k - 1), coefficient(k + 1));
   }
 
+  [[nodiscard]] int knot_before(double time_s) const {
+    const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
+    return static_cast<int>(std::clamp(std::floor(place), first_ - 2.0, last_ + 1.0));
+  }
+  [[nodiscard]] double place_after_knot(double time_s) const {
+    const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
+    return std::clamp(place - knot_before(time_s), 0.0, 1.0);
+  }
+
+  bool is_free_between(int low, int high) {
+    return std::ranges::all_of(samples_, [&](const Sample& sample) {
+      const bool uses = sample.first + 3 >= slot(low) && sample.first <= slot(high);
+      return !uses || space_.is_free(pose(sample), 0.0);
+    });
+  }
+
+  bool is_free_on(const collision::CollisionInterval& collision) {
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double time_s = std::lerp(collision.t_begin_s, collision.t_end_s, share);
+      const int k = knot_before(time_s);
+      const Sample sample{problem_.path.at(time_s), slot(k - 1),
+                          weights_at(place_after_knot(time_s)), 0.0};
+      if (!space_.is_free(pose(sample), 0.0)) return false;
+    }
+    return true;
+  }
+
   void sample() {
     for (int k = first_ - 2; k < last_ + 2; ++k) {
       for (int m = 0; m < kSamplesAStep; ++m) add_sample(k, (m + 0.5) / kSamplesAStep);
@@ -193,12 +235,31 @@ class Relaxation {
     const double time_s = std::lerp(knots_.knot_s(k), knots_.knot_s(k + 1), v);
     if (time_s <= problem_.path.begin_s() || time_s >= problem_.path.end_s()) return;
     if (is_others(time_s)) return;
-    Sample sample{problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0, 0.0};
-    const double margin_m = kMargin * radius_m_;
-    const double wanted_m = objective_ == Objective::kSafest ? kSafeComfort * radius_m_ : margin_m;
-    sample.gap_m = space_.gap_m(pose(sample), wanted_m);
-    sample.margin_m = std::min(margin_m, kKeptShare * std::max(0.0, sample.gap_m));
+    Sample sample{problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0};
+    look(sample);
+    sample.margin_m = std::min(kMargin * radius_m_, kKeptShare * std::max(0.0, sample.known_gap_m));
     samples_.push_back(sample);
+  }
+
+  void look(Sample& sample) {
+    const motion::Pose now = pose(sample);
+    sample.known = motion::signed_pose(now);
+    sample.known_gap_m = space_.gap_m(now, kHorizon * radius_m_);
+  }
+
+  bool is_free(Sample& sample) {
+    const motion::SignedPose now = motion::signed_pose(pose(sample));
+    // A point at radius ρ moves by 2ρ·sin a where the quaternions are an angle a apart; signs
+    // agree, as both are squares of images close to each other.
+    const double moved_m =
+        (now.position - sample.known.position).norm() +
+        2.0 * space_.body().radius_m() * (now.orientation - sample.known.orientation).norm();
+    if (moved_m + sample.margin_m < sample.known_gap_m) return true;
+    const double gap_m = space_.gap_m(motion::unsigned_pose(now), kHorizon * radius_m_);
+    if (!(gap_m > sample.margin_m)) return false;
+    sample.known = now;
+    sample.known_gap_m = gap_m;
+    return true;
   }
 
   [[nodiscard]] bool is_others(double time_s) const {
@@ -293,8 +354,7 @@ class Relaxation {
   }
 
   bool is_free_about(int k) {
-    return for_samples_about(
-        k, [&](const Sample& sample) { return space_.is_free(pose(sample), sample.margin_m); });
+    return for_samples_about(k, [&](Sample& sample) { return is_free(sample); });
   }
 
   // A step in the direction, of six, that makes the smallest gap about a knot larger.
@@ -359,8 +419,7 @@ Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Objective objec
     Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
     if (tried.candidate) return {better, std::move(*tried.candidate)};
     // Something slips through between the samples: then there is to be one.
-    relaxation.begin_with(free.offsets);
-    relaxation.watch(*tried.collision);
+    relaxation.watch(*tried.collision, free.offsets);
   }
   double share = kRetreat;
   for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
