@@ -33,6 +33,8 @@ struct OrientationPolicy {
   double cone_rad = 0.5;  ///< for kTarget: half angle of the cone [Limit: 0 < value <= pi]
   /// How far the camera may be turned from how it would be on the interpolated path at that time.
   double max_turn_rad = std::numbers::pi;  ///< [Limit: 0 <= value <= pi]
+
+  bool operator==(const OrientationPolicy&) const = default;
 };
 
 /// Limits that the path is to meet. Infinity: no limit. [Limit: value > 0]
@@ -47,6 +49,8 @@ struct MotionLimits {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     return speed_m_per_s < kNone || acceleration_m_per_s2 < kNone || turn_rate_rad_per_s < kNone;
   }
+
+  bool operator==(const MotionLimits&) const = default;
 };
 
 }  // namespace camway::correction
