@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <vector>
 
+#include "daemon/correction/face_grid.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -165,6 +167,19 @@ TEST(Cage, ABarThatIsNotClosedIsNoBar) {
   scene::Mesh mesh = mesh_of(cage_bars(kBox, kTenBars, 0.02));
   mesh.triangles.erase(mesh.triangles.begin() + 12 * 5);  // of a bar in the middle of a face
   EXPECT_FALSE(cage(mesh, {kOutside, kInside}, 0.15));
+}
+
+TEST(FaceGrid, BlocksTheOtherSideOfASurfaceOnly) {
+  scene::Mesh around;
+  testing::add_cuboid(around, Vec3(0, 0, 0), Vec3(9, 9, 9));
+  std::vector<std::uint32_t> all(12);
+  std::iota(all.begin(), all.end(), 0U);
+  FaceGrid outside(kBox, 0, 1.0, 0.1);
+  outside.block(around, all, false);
+  EXPECT_EQ(outside.widest_hole_m(), 0.0);
+  FaceGrid inside(kBox, 0, 1.0, 0.1);
+  inside.block(around, all, true);
+  EXPECT_FALSE(inside.widest_hole_m()) << "the body may be anywhere";
 }
 
 // The bounds of a bar across a face hold half of the face, and the bar does not.
