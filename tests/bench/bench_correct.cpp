@@ -264,11 +264,6 @@ std::vector<Summary> summaries(const Groups& groups) {
   return list;
 }
 
-template <class Item, class Value>
-std::function<json(const Item&)> field(Value Item::*member) {
-  return [member](const Item& item) -> json { return item.*member; };
-}
-
 template <class Item>
 json name_of_contender(const Item& item) {
   return kContenderNames[item.contender];

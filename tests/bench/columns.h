@@ -25,6 +25,12 @@ struct Column {
   std::string (*text)(const nlohmann::json&) = plain;
 };
 
+/// The value of a column that is a member.
+template <class Item, class Value>
+std::function<nlohmann::json(const Item&)> field(Value Item::*member) {
+  return [member](const Item& item) -> nlohmann::json { return item.*member; };
+}
+
 /// A row for each item.
 template <class Item>
 void print_table(const std::vector<Column<Item>>& columns, const std::vector<Item>& items) {
