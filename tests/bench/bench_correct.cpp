@@ -40,8 +40,11 @@ constexpr std::size_t kContenders = 4;
 constexpr std::array<const char*, kContenders> kContenderNames{"ladder", "keyframe_insertion",
                                                                "rrt_connect", "bit_star"};
 
+bool is_ours(std::size_t contender) { return contender <= kKeyframeInsertion; }
+
 struct Options {
   RequestSource source{own_scenes() + "/requests", "", 1.0};
+  std::vector<std::tuple<std::string, std::string, double>> sets;  // in place of `source`
   std::vector<std::string> contenders{kContenderNames.begin(), kContenderNames.end()};
   double deadline_s = 10.0;
   int rounds = 1;
@@ -117,7 +120,7 @@ class Arena {
     for (std::size_t k = 0; k < kContenders; ++k) {
       if (!options_.wants(k)) continue;
       Outcome& outcome = round.emplace_back(Outcome{.request = &request, .contender = k});
-      if (k == kLadder || k == kKeyframeInsertion) {
+      if (is_ours(k)) {
         run_ours(outcome);
       } else {
         run_peer(outcome);
@@ -327,11 +330,30 @@ std::vector<Column<Summary>> summary_columns() {
   };
 }
 
+// Whether an `ok` of ours was refuted, which must not be.
+bool wrong(const Outcome& outcome) {
+  if (!is_ours(outcome.contender) || !outcome.refuted) return false;
+  fmt::print(stderr, "bench_correct: {} by {} is refuted\n", outcome.request->name,
+             kContenderNames[outcome.contender]);
+  return true;
+}
+
+std::vector<BenchScene> load(const Options& options) {
+  if (options.sets.empty()) return load_requests(options.source);
+  std::vector<BenchScene> scenes;
+  for (const auto& [requests, scene, scale] : options.sets) {
+    RequestSource source = options.source;
+    std::tie(source.requests, source.scene, source.scale) = std::tie(requests, scene, scale);
+    std::ranges::move(load_requests(source), std::back_inserter(scenes));
+  }
+  return scenes;
+}
+
 int run(const Options& options) {
   json document = document_of("correct");
   document["rounds"] = options.rounds;
   document["deadline_s"] = options.deadline_s;
-  const std::vector<BenchScene> scenes = load_requests(options.source);
+  const std::vector<BenchScene> scenes = load(options);
   std::vector<std::vector<Outcome>> of_scenes;  // kept: the groups refer to them
   for (const BenchScene& scene : scenes) {
     Arena arena(scene, options);
@@ -349,8 +371,10 @@ int run(const Options& options) {
     print_table(outcome_columns(), outcomes);
   }
   Groups groups;
+  bool faultless = true;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (const Outcome& outcome : of_scenes[i]) {
+      faultless = !wrong(outcome) && faultless;
       const std::string& difficulty = outcome.request->difficulty;
       groups[{scenes[i].name, difficulty}][outcome.contender].push_back(&outcome);
       if (scenes.size() > 1) groups[{"all", difficulty}][outcome.contender].push_back(&outcome);
@@ -363,7 +387,8 @@ int run(const Options& options) {
       "original\n\n");
   print_table(summary_columns(), list);
   document["summaries"] = to_json(summary_columns(), list);
-  return finish(document, options.json_file);
+  const int written = finish(document, options.json_file);
+  return faultless ? written : 1;
 }
 
 }  // namespace
@@ -374,6 +399,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Correction: the ladder, keyframe insertion, and OMPL with FCL, side by side"};
   Options options;
   add_request_options(app, options.source);
+  app.add_option("--set", options.sets,
+                 "in place of --requests, --scene, --scale; any number of them")
+      ->type_name("REQUESTS SCENE SCALE");
   app.add_option("--contenders", options.contenders, "who takes part")
       ->delimiter(',')
       ->check(
