@@ -129,13 +129,15 @@ TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
 }
 
 TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
-  // The wall ends at x = 0.2 and the fin begins at x = 2: in between there is room for 1.8 m.
+  // The wall ends at x = 0.2 and the fin begins at x = 2: in between there is room for 1.8 m. The
+  // seed's method corrects cameras alone, so others are answered as they are interpolated.
   const auto planned = [&](const std::string& body, double clearance) {
     std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
     const std::string camera = R"("camera": {"fov_x_deg": 70, "fov_y_deg": 50, "near": 0.1},)";
-    text.replace(
-        text.find(camera), camera.size(),
-        "\"body\": " + body + ", \"options\": {\"clearance\": " + std::to_string(clearance) + "},");
+    text.replace(text.find(camera), camera.size(),
+                 "\"body\": " + body +
+                     ", \"options\": {\"method\": \"keyframe_insertion\", \"clearance\": " +
+                     std::to_string(clearance) + "},");
     const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
     EXPECT_EQ(run.exit_code == 0, parse_plan_response(run.out, "stdout").value.has_value() &&
                                       run.err.find(": ok: ") != std::string::npos)
@@ -191,10 +193,12 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
 TEST_F(CliPlan, FlagsGoBeforeTheRequestsOptions) {
   std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
   text.replace(text.find("\"camera\""), 0,
-               R"("body": {"type": "sphere", "radius": 0.8}, "options": {"clearance": 0.15}, )");
+               R"("body": {"type": "sphere", "radius": 0.8},
+                  "options": {"method": "keyframe_insertion", "clearance": 0.15}, )");
   const std::string request = folder_.write("R.json", text);
   EXPECT_EQ(run_camway({"plan", "--request", request}).exit_code, 3);
   EXPECT_EQ(run_camway({"plan", "--request", request, "--clearance", "0.05"}).exit_code, 0);
+  EXPECT_EQ(run_camway({"plan", "--request", request, "--method", "ladder"}).exit_code, 0);
   const CliRun run = run_camway({"plan", "--request", request, "--max-shrink", "0.5"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("R.json: options.max_shrink: is 0.5, but the body is no camera"));

@@ -57,6 +57,16 @@ TEST(PlanSummary, SaysWhatEachCorrectionDid) {
                        "  9.00-10.00 s: not corrected (corner 1 met the scene)"));
 }
 
+TEST(PlanSummary, LeavesRoundingOutAndLargeNumbersWhole) {
+  const PlanResult result = result_with({corrected(1, 2, Rung::kMove, 0.046, 2e-16),
+                                         corrected(3, 4, Rung::kGoRound, 123.4, 2.1),
+                                         corrected(5.001, 5.002, Rung::kTurn, 1e-15, 1e-9)});
+  EXPECT_THAT(plan_summary(result, nullptr),
+              EndsWith("  1.00-2.00 s: moved 0.046 m\n"
+                       "  3.00-4.00 s: goes round, moved 123 m, turned 120 degrees\n"
+                       "  5.00 s: turned"));
+}
+
 TEST(PlanSummary, BeginsWithAllInOneLine) {
   PlanResult result = result_with({corrected(1, 2, Rung::kMove, 0.1, 0.1)});
   result.keyframes.resize(3);

@@ -272,7 +272,7 @@ void add_option_flags(CLI::App& command, PlanFlags& flags) {
   command
       .add_option("--max-shrink", flags.max_shrink,
                   "By what share the near distance may be made smaller where nothing else helps")
-      ->check(CLI::Range(0.0, 0.999));
+      ->check(CLI::NonNegativeNumber);  // below 1: planning::validate
   command.add_option("--seed", flags.seed, "Of the searches for ways round")
       ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
   command.add_flag("--repair-keyframes", flags.repair_keyframes,

@@ -21,22 +21,47 @@ using planning::Status;
 constexpr std::size_t kMostLines = 20;
 constexpr std::size_t kMostObjects = 3;
 
+/// Less than this is rounding, or nothing that a person would see.
+constexpr double kLeastMove_m = 1e-4;
+constexpr double kLeastTurn_deg = 0.01;
+
+/// Two digits, none behind the point from 10 on.
+std::string two_digits(double value) {
+  return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
+/// ", moved 0.12 m, turned 3 degrees", or what of that there is to see.
+std::string extent(const Correction& correction) {
+  std::string text;
+  if (correction.moved_m >= kLeastMove_m)
+    text += ", moved " + two_digits(correction.moved_m) + " m";
+  const double turned_deg = degrees(correction.turned_rad);
+  if (turned_deg >= kLeastTurn_deg) text += ", turned " + two_digits(turned_deg) + " degrees";
+  return text;
+}
+
 std::string deed(const Correction& correction) {
-  const std::string moved = fmt::format("moved {:.2g} m", correction.moved_m);
-  const std::string turned = fmt::format("turned {:.2g} degrees", degrees(correction.turned_rad));
+  const std::string text = extent(correction);
   switch (correction.rung) {
     case Rung::kMove:
-      return correction.turned_rad > 0.0 ? moved + ", " + turned : moved;
+      return text.empty() ? "moved" : text.substr(2);
     case Rung::kTurn:
-      return correction.moved_m > 0.0 ? turned + ", " + moved : turned;
+      return text.empty() ? "turned" : text.substr(2);
     case Rung::kGoRound:
-      return "goes round, " + moved + ", " + turned;
+      return "goes round" + text;
     case Rung::kShrink:
-      return "near distance made smaller";
+      return "near distance made smaller" + text;
     case Rung::kNone:
       break;
   }
   return "not corrected";
+}
+
+/// "2.31-2.65 s", or "2.31 s" where that is all to a hundredth.
+std::string span(const collision::CollisionInterval& interval) {
+  const std::string begin = fmt::format("{:.2f}", interval.t_begin_s);
+  const std::string end = fmt::format("{:.2f}", interval.t_end_s);
+  return begin == end ? begin + " s" : begin + "-" + end + " s";
 }
 
 /// " (edge 2 met sofa_04)", or nothing if nobody saw what collided.
@@ -53,8 +78,7 @@ void add_corrections(const PlanResult& result, std::vector<std::string>& lines) 
   const std::size_t shown = std::min(result.corrections.size(), kMostLines);
   for (std::size_t i = 0; i < shown; ++i) {
     const Correction& correction = result.corrections[i];
-    lines.push_back(fmt::format("{:.2f}-{:.2f} s: {}{}", correction.interval.t_begin_s,
-                                correction.interval.t_end_s, deed(correction), meeting(result, i)));
+    lines.push_back(span(correction.interval) + ": " + deed(correction) + meeting(result, i));
   }
   if (shown < result.corrections.size()) {
     lines.push_back(fmt::format("and {} more", result.corrections.size() - shown));
