@@ -10,6 +10,8 @@
 #include <camway/plan_request_t.hpp>
 
 #include "client/body_wire.h"
+#include "client/constraints_wire.h"
+#include "client/correction_wire.h"
 #include "client/text.h"
 #include "lcmtypes/wire_check.h"
 #include "lcmtypes/wire_layout.h"
@@ -82,6 +84,12 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.interval_tolerance_m = request.interval_tolerance_m;
   wire.clearance_m = request.clearance_m;
   wire.max_inserted_keyframes = request.max_inserted_keyframes;
+  wire.objective = to_wire(request.objective);
+  wire.orientation = to_wire(request.orientation);
+  wire.limits = to_wire(request.limits);
+  wire.max_shrink = request.max_shrink;
+  wire.repair_keyframes = request.repair_keyframes ? 1 : 0;
+  wire.seed = request.seed;
   wire.has_times = request.has_times ? 1 : 0;
   return wire;
 }
@@ -114,7 +122,10 @@ bool same_answer(const plan_response_t& a, const plan_response_t& b) {
          a.scene_revision == b.scene_revision && a.scene_digest == b.scene_digest &&
          a.certified == b.certified &&
          same_bits(a.clearance_lower_bound_m, b.clearance_lower_bound_m) &&
-         same_bits(a.total_ms, b.total_ms);
+         same_bits(a.near_scale, b.near_scale) && same_bits(a.time_scale, b.time_scale) &&
+         a.has_measures_before == b.has_measures_before && a.has_measures == b.has_measures &&
+         a.has_infeasibility == b.has_infeasibility && a.keyframe_inside == b.keyframe_inside &&
+         a.keyframe_outside == b.keyframe_outside && same_bits(a.total_ms, b.total_ms);
 }
 
 void append_lists(const plan_response_t& page, std::vector<Segment>& segments,
@@ -143,6 +154,7 @@ PlanResponse head_of(const plan_response_t& page) {
   response.scene_revision = page.scene_revision;
   response.scene_digest = page.scene_digest;
   response.request_id = page.request_id;
+  read_correction_head(page, response);
   response.timing = {page.motion_ms, page.detect_ms, page.correct_ms, page.certify_ms,
                      page.total_ms};
   return response;
@@ -250,6 +262,9 @@ PlanResponse PlanCollector::response() const {
       previous = &segment;
     }
     append_lists(page, segments, response);
+    if (const auto fault = append_correction_lists(page, response)) {
+      return bad_answer(response, *fault);
+    }
   }
   if (response.ok() && segments.empty()) return bad_answer(response, "status ok without a path");
   response.path = Path(std::move(segments));

@@ -22,6 +22,11 @@ constexpr std::size_t kDouble = 8;
 
 constexpr std::size_t kCamera = 3 * kDouble;
 constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + kByte;
+constexpr std::size_t kOrientation = kByte + (3 + 3 + 1) * kDouble + kByte + kDouble;
+constexpr std::size_t kMotionLimits = 3 * kDouble + kByte;
+constexpr std::size_t kMeasures = 7 * kDouble;
+constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble;
+constexpr std::size_t kKeyframeFault = kInt32 + kDouble + kByte + (3 + 4) * kDouble;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
 
 constexpr Field fixed(std::string_view name, std::size_t bytes) {
@@ -58,6 +63,12 @@ constexpr std::array kPlanRequest{
     fixed("interval_tolerance_m", kDouble),
     fixed("clearance_m", kDouble),
     fixed("max_inserted_keyframes", kInt32),
+    fixed("objective", kByte),
+    fixed("orientation", kOrientation),
+    fixed("limits", kMotionLimits),
+    fixed("max_shrink", kDouble),
+    fixed("repair_keyframes", kByte),
+    fixed("seed", kInt64),
     fixed("has_times", kByte),
     list("keyframes", kKeyframe),
 };
@@ -83,11 +94,21 @@ constexpr std::array kPlanResponse{
     text("scene_digest", kMaxDigestBytes),
     fixed("certified", kByte),
     fixed("clearance_lower_bound_m", kDouble),
+    fixed("scales", 2 * kDouble),
+    fixed("has_measures_before", kByte),
+    fixed("measures_before", kMeasures),
+    fixed("has_measures", kByte),
+    fixed("measures", kMeasures),
+    fixed("has_infeasibility", kByte),
+    fixed("keyframes_apart", 2 * kInt32),
     fixed("timing", 5 * kDouble),
     list("segments", kSegment),
     list("keyframes", kKeyframe),
     list_of("collisions", kInterval),
     list_of("remaining", kInterval),
+    list("corrections", kCorrection),
+    list("keyframe_faults", kKeyframeFault),
+    list("proof_triangles", kInt32),
 };
 
 constexpr std::array kOccupancyRequest{

@@ -35,6 +35,46 @@ Body sent_body(const motion::MeshShape& mesh) {
   return Body::mesh(points(mesh.vertices_C), std::move(triangles));
 }
 
+Objective sent_objective(correction::Objective objective) {
+  switch (objective) {
+    case correction::Objective::kClosest:
+      return Objective::kClosest;
+    case correction::Objective::kShortest:
+      return Objective::kShortest;
+    case correction::Objective::kSmoothest:
+      return Objective::kSmoothest;
+    case correction::Objective::kSafest:
+      return Objective::kSafest;
+  }
+  return Objective::kClosest;
+}
+
+Orientation::Policy sent_policy(correction::OrientationRule rule) {
+  switch (rule) {
+    case correction::OrientationRule::kFree:
+      return Orientation::Policy::kFree;
+    case correction::OrientationRule::kKeep:
+      return Orientation::Policy::kKeep;
+    case correction::OrientationRule::kLevel:
+      return Orientation::Policy::kLevel;
+    case correction::OrientationRule::kTarget:
+      return Orientation::Policy::kTarget;
+  }
+  return Orientation::Policy::kFree;
+}
+
+void add_correction_options(const planning::PlanOptions& options, PlanRequest& sent) {
+  sent.objective = sent_objective(options.objective);
+  sent.orientation = {sent_policy(options.orientation.rule), point(options.orientation.up_W),
+                      point(options.orientation.target_W), options.orientation.cone_rad,
+                      options.orientation.max_turn_rad};
+  sent.limits = {options.limits.speed_m_per_s, options.limits.acceleration_m_per_s2,
+                 options.limits.turn_rate_rad_per_s, options.limits.may_retime};
+  sent.max_shrink = options.max_shrink;
+  sent.repair_keyframes = options.repair_keyframes;
+  sent.seed = static_cast<std::int64_t>(options.seed);
+}
+
 }  // namespace
 
 PlanRequest to_client_request(const planning::PlanRequest& request, const std::string& scene) {
@@ -61,6 +101,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
   sent.interval_tolerance_m = request.options.interval_tolerance_m;
   sent.clearance_m = request.options.clearance_m;
   sent.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  add_correction_options(request.options, sent);
   return sent;
 }
 

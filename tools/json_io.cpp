@@ -3,22 +3,21 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "tools/json_angle.h"
 #include "tools/json_body.h"
+#include "tools/json_options.h"
 #include "tools/json_path.h"
+#include "tools/json_report.h"
 
 namespace camway::tools {
 namespace {
 
 using collision::CollisionInterval;
 using motion::Keyframe;
-using planning::PlanOptions;
 using planning::PlanRequest;
 using planning::PlanResult;
-
-double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 
 motion::Camera read_camera(const Field& field) {
   field.allow_only({"fov_x_deg", "fov_y_deg", "near"});
@@ -76,31 +75,6 @@ void read_keyframes(const Field& list, PlanRequest& request) {
     keyframe.pose.orientation = unit_quaternion(orientation, wxyz);
     request.keyframes.push_back(keyframe);
   }
-}
-
-PlanOptions read_options(const Field& field) {
-  field.allow_only({"method", "deadline_s", "clearance", "chord_error_m", "interval_tolerance_m",
-                    "max_inserted_keyframes"});
-  PlanOptions options;
-  if (const auto option = field.optional_member("method")) {
-    const std::string name = option->text();
-    const std::optional<planning::Method> method = planning::method_from_string(name);
-    if (!method) option->fail("'" + name + "' is unknown; this version knows keyframe_insertion");
-    options.method = method.value_or(options.method);
-  }
-  const std::pair<const char*, double*> numbers[] = {
-      {"deadline_s", &options.deadline_s},
-      {"clearance", &options.clearance_m},
-      {"chord_error_m", &options.chord_error_m},
-      {"interval_tolerance_m", &options.interval_tolerance_m}};
-  for (const auto& [name, value] : numbers) {
-    if (const auto option = field.optional_member(name)) *value = option->number();
-  }
-  if (const auto option = field.optional_member("max_inserted_keyframes")) {
-    options.max_inserted_keyframes =
-        static_cast<std::int32_t>(option->integer(0, std::numeric_limits<std::int32_t>::max()));
-  }
-  return options;
 }
 
 collision::Witness read_witness(const Field& field, planning::WitnessNames& names) {
@@ -184,6 +158,7 @@ PlanResult read_result(const Field& root) {
       result.certificate.clearance_lower_bound_m = bound->number();
     }
   }
+  read_report(root, result);
   if (const auto timing = root.optional_member("timing_ms")) read_timing(*timing, result.timing);
   return result;
 }

@@ -8,8 +8,8 @@
 #include "daemon/planning/result.h"
 #include "tools/json_document.h"
 
-/// The files of planning: requests and responses as JSON. Angles of the camera are degrees there
-/// and radians in memory; everything else has the same units on both sides.
+/// The files of planning: requests and responses as JSON. Angles are degrees there and radians
+/// in memory; everything else has the same units on both sides.
 namespace camway::tools {
 
 /// A quaternion whose computed squared length is this close to 1 is of unit length as far as
@@ -54,8 +54,10 @@ Parsed<std::string> write_plan_response(const planning::PlanResult& result,
                                         const ResponseFormat& format = {});
 
 /// Reads a response back, bit for bit, but for the number of a witness's feature, whose name alone
-/// is written. The segments are checked to be a path: each at least as long as nothing, each
-/// beginning where the one before ends. Unknown fields are ignored: later versions may say more.
+/// is written, the witness of a correction's collision, which stands in `collisions`, and angles
+/// (of corrections and measures), which may be off by a rounding. The segments are checked to be a
+/// path: each at least as long as nothing, each beginning where the one before ends. Unknown fields
+/// are ignored: later versions may say more.
 Parsed<planning::PlanResult> parse_plan_response(std::string_view text, std::string_view source);
 
 /// The same from a file; "-" is standard input.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
+#include "tools/json_angle.h"
 #include "tools/json_io.h"
 
 namespace camway::tools {
@@ -131,22 +134,126 @@ void write_intervals(Writer& w, const std::vector<collision::CollisionInterval>&
   });
 }
 
-void write_timing(Writer& w, const planning::Timing& timing) {
-  const std::pair<const char*, double> members[] = {
-      {"load_scene", timing.load_scene_ms}, {"motion", timing.motion_ms},
-      {"detect", timing.detect_ms},         {"correct", timing.correct_ms},
-      {"certify", timing.certify_ms},       {"total", timing.total_ms}};
+/// An object on one line, its values finite.
+void write_numbers(Writer& w, std::initializer_list<std::pair<const char*, double>> members,
+                   std::string_view what) {
   bool first = true;
-  w.raw(",\n  \"timing_ms\": {");
+  w.raw("{");
   for (const auto& [name, value] : members) {
     if (!first) w.raw(", ");
     first = false;
     w.raw("\"");
     w.raw(name);
     w.raw("\": ");
-    w.number(value, "timing_ms");
+    w.number(value, what);
   }
   w.raw("}");
+}
+
+void write_correction(Writer& w, const correction::Correction& correction) {
+  constexpr std::string_view kWhat = "corrections";
+  w.raw("{\"t_begin\": ");
+  w.number(correction.interval.t_begin_s, kWhat);
+  w.raw(", \"t_end\": ");
+  w.number(correction.interval.t_end_s, kWhat);
+  w.raw(", \"method\": ");
+  w.text(correction::to_string(correction.rung));
+  w.raw(", \"changed\": [");
+  w.number(correction.t_begin_s, kWhat);
+  w.raw(", ");
+  w.number(correction.t_end_s, kWhat);
+  w.raw("], \"moved_m\": ");
+  w.number(correction.moved_m, kWhat);
+  w.raw(", \"turned_deg\": ");
+  w.number(degrees(correction.turned_rad), kWhat);
+  w.raw("}");
+}
+
+void write_measures(Writer& w, const motion::PathMeasures& measures) {
+  write_numbers(w,
+                {{"length_m", measures.length_m},
+                 {"largest_deviation_m", measures.largest_deviation_m},
+                 {"bending_energy_m2_per_s3", measures.bending_energy_m2_per_s3},
+                 {"largest_speed_m_per_s", measures.largest_speed_m_per_s},
+                 {"largest_acceleration_m_per_s2", measures.largest_acceleration_m_per_s2},
+                 {"largest_turn_rate_deg_per_s", degrees(measures.largest_turn_rate_rad_per_s)},
+                 {"largest_turn_acceleration_deg_per_s2",
+                  degrees(measures.largest_turn_acceleration_rad_per_s2)}},
+                "measures");
+}
+
+void write_both_measures(Writer& w, const planning::PlanResult& result) {
+  if (!result.measures_before && !result.measures) return;
+  w.raw(",\n  \"measures\": {");
+  if (result.measures_before) {
+    w.raw("\n    \"before\": ");
+    write_measures(w, *result.measures_before);
+  }
+  if (result.measures) {
+    w.raw(result.measures_before ? ",\n    \"after\": " : "\n    \"after\": ");
+    write_measures(w, *result.measures);
+  }
+  w.raw("\n  }");
+}
+
+void write_keyframe_fault(Writer& w, const planning::KeyframeFault& fault) {
+  constexpr std::string_view kWhat = "keyframe_faults";
+  w.raw("{\"keyframe\": " + std::to_string(fault.keyframe) + ", \"depth\": ");
+  w.number(fault.depth_m, kWhat);
+  if (fault.free_pose) {
+    w.raw(", \"free_pose\": {\"position\": ");
+    w.vector(fault.free_pose->position, kWhat);
+    w.raw(", \"orientation\": ");
+    w.vector(geometry::wxyz(fault.free_pose->orientation), kWhat);
+    w.raw("}");
+  }
+  w.raw("}");
+}
+
+void write_infeasibility(Writer& w, const planning::Infeasibility& proof) {
+  w.raw(",\n  \"infeasibility\": {\"keyframe_inside\": " + std::to_string(proof.keyframe_inside) +
+        ", \"keyframe_outside\": " + std::to_string(proof.keyframe_outside) +
+        ",\n    \"triangles\": [");
+  bool first = true;
+  for (const std::uint32_t triangle : proof.triangles) {
+    if (!first) w.raw(", ");
+    first = false;
+    w.raw(std::to_string(triangle));
+  }
+  w.raw("]}");
+}
+
+/// What correction did, and what stood in its way.
+void write_report(Writer& w, const planning::PlanResult& result) {
+  w.raw(",\n  \"corrections\": ");
+  w.list(result.corrections, [&](const correction::Correction& c) { write_correction(w, c); });
+  write_both_measures(w, result);
+  if (result.near_scale != 1.0) {
+    w.raw(",\n  \"near_scale\": ");
+    w.number(result.near_scale, "near_scale");
+  }
+  if (result.time_scale != 1.0) {
+    w.raw(",\n  \"time_scale\": ");
+    w.number(result.time_scale, "time_scale");
+  }
+  if (!result.keyframe_faults.empty()) {
+    w.raw(",\n  \"keyframe_faults\": ");
+    w.list(result.keyframe_faults,
+           [&](const planning::KeyframeFault& fault) { write_keyframe_fault(w, fault); });
+  }
+  if (result.infeasibility) write_infeasibility(w, *result.infeasibility);
+}
+
+void write_timing(Writer& w, const planning::Timing& timing) {
+  w.raw(",\n  \"timing_ms\": ");
+  write_numbers(w,
+                {{"load_scene", timing.load_scene_ms},
+                 {"motion", timing.motion_ms},
+                 {"detect", timing.detect_ms},
+                 {"correct", timing.correct_ms},
+                 {"certify", timing.certify_ms},
+                 {"total", timing.total_ms}},
+                "timing_ms");
 }
 
 void write_head(Writer& w, const planning::PlanResult& result, const ResponseFormat& format) {
@@ -189,6 +296,7 @@ Parsed<std::string> write_plan_response(const planning::PlanResult& result,
   w.raw(", \"clearance_lower_bound\": ");
   w.number(result.certificate.clearance_lower_bound_m, "certificate.clearance_lower_bound");
   w.raw("}");
+  write_report(w, result);
   if (format.timing == TimingField::kWritten) write_timing(w, result.timing);
   w.raw("\n}\n");
   if (!w.error().empty()) return {{}, w.error()};

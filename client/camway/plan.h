@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "camway/body.h"
+#include "camway/constraints.h"
+#include "camway/correction.h"
 #include "camway/path.h"
 #include "camway/status.h"
 
@@ -35,15 +37,25 @@ struct PlanRequest {
   std::string scene;  ///< name of a scene that the daemon holds [Limit: 128 bytes]
   Camera camera;
   Body body;  ///< what must not collide; the camera's near quadrilateral unless set
-  std::vector<Keyframe> keyframes;  ///< [Limit: 2 to 100,000, free of collision]
-  bool has_times = false;           ///< whether `keyframes[i].time_s` count; else they are derived
+  /// [Limit: 2 to 100,000, free of collision unless `repair_keyframes`]
+  std::vector<Keyframe> keyframes;
+  bool has_times = false;  ///< whether `keyframes[i].time_s` count; else they are derived
 
-  std::string method;                 ///< "keyframe_insertion" or empty
+  std::string method;                 ///< "ladder", "keyframe_insertion" or empty
   double deadline_s = 0.0;            ///< for planning alone
   double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
   double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
   double clearance_m = 0.0;  ///< how far the body has to stay from the scene [Limit: 0 <= value]
   std::int32_t max_inserted_keyframes = -1;  ///< negative: the daemon's default
+  Objective objective = Objective::kClosest;
+  Orientation orientation;
+  MotionLimits limits;
+  /// Where nothing else helps, the near distance may be made smaller by up to this share; cameras
+  /// only. [Limit: 0 <= value < 1]
+  double max_shrink = 0.0;
+  /// Given keyframes that collide are moved to the nearest free pose instead of being refused.
+  bool repair_keyframes = false;
+  std::int64_t seed = 0;  ///< of the searches for ways round
 
   /// 0: the client picks a new one. Otherwise a number that this client id never used for another
   /// request; the daemon answers the same id with the same answer, without planning again.
@@ -96,6 +108,14 @@ struct PlanResponse {
   bool certified =
       false;  ///< whether freedom of collision is proved for `path`, between samples too
   double clearance_lower_bound_m = 0.0;
+
+  std::vector<Correction> corrections;          ///< what became of each of `collisions`
+  std::optional<PathMeasures> measures_before;  ///< of the path as interpolated
+  std::optional<PathMeasures> measures;         ///< of `path`
+  double near_scale = 1.0;  ///< the near distance that is proved, as a share of the one asked for
+  double time_scale = 1.0;  ///< the times of `path` are those asked for, stretched by this
+  std::vector<KeyframeFault> keyframe_faults;  ///< why invalid, or what was repaired
+  std::optional<Infeasibility> infeasibility;  ///< the proof, if infeasible
 
   std::string scene;
   std::int64_t scene_revision = 0;  ///< of the scene that the answer holds for

@@ -51,6 +51,8 @@ struct MotionLimits {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     return speed_m_per_s < kNone || acceleration_m_per_s2 < kNone || turn_rate_rad_per_s < kNone;
   }
+
+  bool operator==(const MotionLimits&) const = default;
 };
 
 }  // namespace camway::correction

@@ -40,9 +40,8 @@ class Detour {
         from_(signed_pose_at(problem.path, problem.gap_begin_s())),
         to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
 
-  std::optional<Candidate> run() {
-    if (std::optional<Candidate> found = with_ball()) return found;
-    return with_turns();
+  std::optional<Candidate> run(Search search) {
+    return search == Search::kWithRoom ? with_ball() : with_turns();
   }
 
  private:
@@ -271,9 +270,10 @@ class Detour {
 
 }  // namespace
 
-std::optional<Candidate> go_round(const Problem& problem, Objective objective, FreeSpace& space,
-                                  std::uint64_t seed, const collision::Deadline& deadline) {
-  return Detour(problem, objective, space, seed, deadline).run();
+std::optional<Candidate> go_round(const Problem& problem, Search search, Objective objective,
+                                  FreeSpace& space, std::uint64_t seed,
+                                  const collision::Deadline& deadline) {
+  return Detour(problem, objective, space, seed, deadline).run(search);
 }
 
 }  // namespace camway::correction

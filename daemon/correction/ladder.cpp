@@ -18,23 +18,27 @@ using motion::CubicPath;
 
 class Ladder {
  public:
-  Ladder(FreeSpace& space, const std::vector<motion::Keyframe>& keyframes, const CubicPath& path,
-         const std::vector<CollisionInterval>& collisions, const LadderOptions& options,
-         const collision::Deadline& deadline)
-      : space_(space), options_(options), deadline_(deadline), original_(path) {
-    for (const motion::Keyframe& keyframe : keyframes) keyframes_s_.push_back(keyframe.time_s);
+  Ladder(const scene::Mesh& mesh, FreeSpace& space, const std::vector<motion::Keyframe>& keyframes,
+         const CubicPath& path, const std::vector<CollisionInterval>& collisions,
+         const LadderOptions& options, const collision::Deadline& deadline)
+      : mesh_(mesh), space_(space), options_(options), deadline_(deadline), original_(path) {
+    for (const motion::Keyframe& keyframe : keyframes) {
+      keyframes_s_.push_back(keyframe.time_s);
+      body_points_W_.push_back(body_point_W(keyframe.pose));
+    }
     result_.path = path;
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
   }
 
   LadderResult run() && {
-    for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (deadline_.passed()) {
-        result_.timed_out = true;
-        break;
-      }
-      correct(i);
+    correct_all(Search::kWithRoom);
+    if (any_open() && !deadline_.passed()) {
+      result_.separation =
+          find_separation(mesh_, find_closed_surfaces(mesh_), body_points_W_, kPointRounding_m);
+      if (result_.separation) return std::move(result_);
+      correct_all(Search::kTurning);
     }
+    result_.timed_out = any_open() && deadline_.passed();
     for (int round = 0; round < kPolishingRounds; ++round) polish();
     std::ranges::sort(result_.inserted_s);
     return std::move(result_);
@@ -92,14 +96,35 @@ class Ladder {
     return result_.corrections[index].rung == Rung::kNone;
   }
 
-  void correct(std::size_t index) {
-    if (!is_open(index)) return;
-    Problem problem = this->problem(index);
-    for (const auto& [rung, kind] :
-         {std::pair{Rung::kMove, NudgeKind::kMove}, {Rung::kTurn, NudgeKind::kTurn}}) {
-      if (accept(index, rung, nudge(problem, kind, space_, deadline_))) return;
+  // A point of the body itself, which no keyframe takes with it but as it turns and moves.
+  [[nodiscard]] geometry::Vec3 body_point_W(const motion::Pose& pose) const {
+    const geometry::Triangle& part = space_.body().triangles_C().front();
+    return pose.position + pose.orientation * geometry::Vec3((part[0] + part[1] + part[2]) / 3.0);
+  }
+
+  [[nodiscard]] bool any_open() const {
+    return std::ranges::any_of(result_.corrections, [](const Correction& correction) {
+      return correction.rung == Rung::kNone;
+    });
+  }
+
+  void correct_all(Search search) {
+    for (std::size_t i = 0; i < open_.size() && !deadline_.passed(); ++i) {
+      if (!is_open(i)) continue;
+      if (search == Search::kWithRoom && nudge_away(i)) continue;
+      replace_gap(i, search);
     }
-    // A way round replaces all that lies between the two keyframes.
+  }
+
+  bool nudge_away(std::size_t index) {
+    const Problem problem = this->problem(index);
+    return accept(index, Rung::kMove, nudge(problem, NudgeKind::kMove, space_, deadline_)) ||
+           accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline_));
+  }
+
+  // A way round replaces all that lies between the two keyframes.
+  void replace_gap(std::size_t index, Search search) {
+    Problem problem = this->problem(index);
     std::vector<std::size_t> same_gap;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (is_open(i) && gap_of(open_[i]) == gap_of(open_[index])) same_gap.push_back(i);
@@ -108,7 +133,7 @@ class Ladder {
       return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
     });
     const std::optional<Candidate> found =
-        go_round(problem, options_.objective, space_, options_.seed, deadline_);
+        go_round(problem, search, options_.objective, space_, options_.seed, deadline_);
     if (!accept(index, Rung::kGoRound, found)) return;
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = result_.corrections[i].interval;
@@ -186,25 +211,31 @@ class Ladder {
   }
 
   static constexpr int kPolishingRounds = 2;
+  /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
+  /// the body: surfaces so close to it prove nothing.
+  static constexpr double kPointRounding_m = 1e-6;
 
+  const scene::Mesh& mesh_;
   FreeSpace& space_;
   const LadderOptions& options_;
   const collision::Deadline& deadline_;
   const CubicPath& original_;
   std::vector<double> keyframes_s_;
-  std::vector<CollisionInterval> open_;  ///< as `result_.corrections`
+  std::vector<geometry::Vec3> body_points_W_;  ///< at the keyframes
+  std::vector<CollisionInterval> open_;        ///< as `result_.corrections`
   LadderResult result_;
 };
 
 }  // namespace
 
-LadderResult correct_by_ladder(const collision::Obstacles& obstacles, const motion::Body& body,
+LadderResult correct_by_ladder(const scene::Mesh& mesh, const collision::Obstacles& obstacles,
+                               const motion::Body& body,
                                const std::vector<motion::Keyframe>& keyframes,
                                const CubicPath& path,
                                const std::vector<CollisionInterval>& collisions,
                                const LadderOptions& options, const collision::Deadline& deadline) {
   FreeSpace space(obstacles, body, options.detect);
-  return Ladder(space, keyframes, path, collisions, options, deadline).run();
+  return Ladder(mesh, space, keyframes, path, collisions, options, deadline).run();
 }
 
 }  // namespace camway::correction

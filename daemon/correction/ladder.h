@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
 #include "daemon/correction/constraints.h"
 #include "daemon/correction/correction.h"
+#include "daemon/correction/separation.h"
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
 
@@ -24,17 +26,22 @@ struct LadderResult {
   motion::CubicPath path;
   std::vector<double> inserted_s;       ///< times of the inserted keyframes, increasing
   std::vector<Correction> corrections;  ///< one for each collision, in order
+  /// A proof that there is no path at all; looked for where the cheap ways fail.
+  std::optional<Separation> separation;
   bool timed_out = false;
 };
 
 /// Corrects collisions one after the other, each by the first strategy that succeeds: move, turn,
-/// go round (design, section 7). Each changes the path by C² bumps between keyframes next to the
-/// collision, so it meets all given keyframes and stays as it was elsewhere, and is accepted only
-/// if all that it changed is proved free: no correction undoes another, and what remains are
-/// collisions that were there before. Every strategy is bounded, so the end is certain.
+/// go round (design, section 7). The costly search for ways round that need turning comes last,
+/// after it was asked whether there can be any. Each changes the path by C² bumps between keyframes
+/// next to the collision, so it meets all given keyframes and stays as it was elsewhere, and is
+/// accepted only if all that it changed is proved free: no correction undoes another, and what
+/// remains are collisions that were there before. Every strategy is bounded, so the end is certain.
 ///
-/// `path` is the interpolation of `keyframes`, `collisions` what `detect_collisions` found on it.
-LadderResult correct_by_ladder(const collision::Obstacles& obstacles, const motion::Body& body,
+/// `path` is the interpolation of `keyframes`, `collisions` what `detect_collisions` found on it,
+/// `mesh` the scene that `obstacles` index.
+LadderResult correct_by_ladder(const scene::Mesh& mesh, const collision::Obstacles& obstacles,
+                               const motion::Body& body,
                                const std::vector<motion::Keyframe>& keyframes,
                                const motion::CubicPath& path,
                                const std::vector<collision::CollisionInterval>& collisions,

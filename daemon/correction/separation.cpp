@@ -14,10 +14,6 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// Patches that are looked at to make surfaces smaller, in all: about a tenth of a second. Just for
-/// a proof that is easier to look at.
-constexpr std::uint64_t kMaxImprovementSteps = 10'000'000;
-
 /// Where a scene has too many seams for all its closed surfaces, those around this many points are
 /// looked for one by one.
 constexpr std::size_t kMaxPointsToLookAround = 8;
@@ -30,7 +26,7 @@ class Search {
     count_hits();
   }
 
-  [[nodiscard]] std::optional<Separation> run() {
+  [[nodiscard]] std::optional<Separation> run() const {
     if (std::optional<Separation> found = among(surfaces_.surfaces)) return found;
     if (surfaces_.complete) return std::nullopt;
     const std::size_t last = std::min(points_.size(), kMaxPointsToLookAround);
@@ -44,7 +40,7 @@ class Search {
   }
 
  private:
-  [[nodiscard]] std::optional<Separation> among(const std::vector<IndexSet>& surfaces) {
+  [[nodiscard]] std::optional<Separation> among(const std::vector<IndexSet>& surfaces) const {
     std::vector<const IndexSet*> separating;
     for (const IndexSet& surface : surfaces) {
       if (separates(surface)) separating.push_back(&surface);
@@ -52,7 +48,6 @@ class Search {
     std::stable_sort(separating.begin(), separating.end(),
                      [&](const IndexSet* a, const IndexSet* b) { return size(*a) < size(*b); });
     for (const IndexSet* surface : separating) {
-      if (std::optional<Separation> found = proof(improved(*surface, surfaces))) return found;
       if (std::optional<Separation> found = proof(*surface)) return found;
     }
     return std::nullopt;
@@ -136,27 +131,6 @@ class Search {
     return triangles;
   }
 
-  /// A smaller one, by adding others as long as a part of the sum is smaller and separates too.
-  [[nodiscard]] IndexSet improved(IndexSet surface, const std::vector<IndexSet>& others) {
-    // What is closed by itself has no patch in common with any other.
-    while (surface.size() > 1) {
-      IndexSet best = surface;
-      for (const IndexSet& other : others) {
-        improvement_steps_ += surface.size() + other.size();
-        if (improvement_steps_ > kMaxImprovementSteps) return best;
-        const IndexSet sum = sum_mod_2(surface, other);
-        // Without a patch in common the sum is just both.
-        if (sum.empty() || sum.size() == surface.size() + other.size()) continue;
-        for (const IndexSet& part : connected_parts(sum, surfaces_.seams_of)) {
-          if (size(part) < size(best) && separates(part)) best = part;
-        }
-      }
-      if (best == surface) break;
-      surface = std::move(best);
-    }
-    return surface;
-  }
-
   [[nodiscard]] bool is_clear(const std::vector<std::uint32_t>& triangles, const Vec3& p) const {
     const Triangle point = {p, p, p};
     return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
@@ -194,7 +168,6 @@ class Search {
   std::span<const Vec3> points_;
   double within_m_;
   std::vector<IndexSet> odd_points_;  ///< by patch
-  std::uint64_t improvement_steps_ = 0;
 };
 
 }  // namespace

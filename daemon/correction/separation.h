@@ -34,11 +34,12 @@ struct Separation {
 /// `within_m`: how far from there it may really be, at any of them, for rounding and, where the
 /// camera may shrink, for that; surfaces so near to a point do not count for it. [Limit: >= 0]
 ///
-/// Where `surfaces.complete`, nothing is found only if there is no such surface, or it is too near.
-/// What is not closed, edge for edge and bit for bit, is never found: two pieces whose vertices
-/// differ by a rounding, or an edge that ends in the middle of another, leave a slit, and a proof
-/// must not close slits. Of several surfaces it is a small one, not surely the smallest; always the
-/// same one. Linear in triangles times points; safe from any thread.
+/// Where `surfaces.complete`, nothing is found only if no closed surface separates two of the
+/// points, or one of `surfaces.surfaces` that does is too near to them. What is not closed, edge
+/// for edge and bit for bit, is never found: two pieces whose vertices differ by a rounding, or an
+/// edge that ends in the middle of another, leave a slit, and a proof must not close slits. Of
+/// several surfaces it is a small one, not surely the smallest; always the same. Linear in
+/// triangles times points; safe from any thread.
 std::optional<Separation> find_separation(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                                           std::span<const geometry::Vec3> points_W,
                                           double within_m);

@@ -10,6 +10,7 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/collision/probe.h"
+#include "daemon/correction/free_pose.h"
 #include "daemon/correction/keyframe_insertion.h"
 #include "daemon/correction/ladder.h"
 #include "daemon/motion/interpolate.h"
@@ -62,7 +63,8 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 class Planner {
  public:
   Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
-      : obstacles_(snapshot),
+      : mesh_(*snapshot.mesh),
+        obstacles_(snapshot),
         request_(request),
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
@@ -99,21 +101,56 @@ class Planner {
     return true;
   }
 
+  // Finds all that are not, and where they could be. Those are moved there if that was asked for;
+  // else the request cannot be planned.
   bool keyframes_are_free() {
-    collision::Probe probe(obstacles_, *body_, detect_.clearance_m);
+    correction::FreeSpace space(obstacles_, *body_, detect_);
     for (std::size_t i = 0; i < result_.keyframes.size(); ++i) {
-      const collision::Look seen = probe.look(motion::standing_at(result_.keyframes[i].pose));
-      if (!seen.collides()) continue;
-      const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
-      const bool touches = seen.gap_m <= -detect_.clearance_m;
-      refuse(touches ? fmt::format("keyframes[{}]: the {} collides with the scene there", i, body)
-                     : fmt::format("keyframes[{}]: the {} is {:.3g} m from the scene there, nearer "
-                                   "than the clearance of {:.3g} m that was asked for",
-                                   i, body, seen.gap_m + detect_.clearance_m, detect_.clearance_m),
-             i);
-      return false;
+      motion::Pose& pose = result_.keyframes[i].pose;
+      if (space.gap_m(pose, detect_.tolerance_m) > 0.0) continue;
+      const std::optional<correction::FreePose> free =
+          correction::nearest_free_pose(space, pose, kRepairMargin * detect_.tolerance_m);
+      KeyframeFault fault{i, depth_m(space, pose), std::nullopt};
+      if (free) fault.free_pose = free->pose;
+      result_.keyframe_faults.push_back(fault);
+      if (result_.keyframe_faults.size() == kMostFaults) break;
+      if (request_.options.repair_keyframes && free) pose = free->pose;
     }
-    return true;
+    const bool all_repaired = std::ranges::all_of(
+        result_.keyframe_faults, [](const KeyframeFault& fault) { return fault.free_pose; });
+    if (result_.keyframe_faults.empty() || (request_.options.repair_keyframes && all_repaired &&
+                                            result_.keyframe_faults.size() < kMostFaults)) {
+      return true;
+    }
+    refuse_keyframes();
+    return false;
+  }
+
+  [[nodiscard]] double depth_m(correction::FreeSpace& space, const motion::Pose& pose) const {
+    const std::optional<collision::Witness> contact = space.contact(pose, 0.0);
+    return contact ? contact->depth_m : 0.0;
+  }
+
+  void refuse_keyframes() {
+    const KeyframeFault& first = result_.keyframe_faults.front();
+    const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
+    const std::string rule =
+        detect_.clearance_m > 0.0
+            ? fmt::format(
+                  "is nearer to the scene than the clearance of {:.3g} m that was asked for",
+                  detect_.clearance_m)
+            : std::string("collides with the scene");
+    std::string message = fmt::format("keyframes[{}]: the {} {} there, by about {:.3g} m",
+                                      first.keyframe, body, rule, first.depth_m);
+    if (first.free_pose) {
+      const geometry::Vec3& to = first.free_pose->position;
+      message +=
+          fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
+    }
+    if (result_.keyframe_faults.size() > 1) {
+      message += fmt::format("; {} keyframes are at fault", result_.keyframe_faults.size());
+    }
+    refuse(std::move(message), first.keyframe);
   }
 
   // Whether the path as interpolated collides, and where. Nothing if the deadline struck.
@@ -147,10 +184,15 @@ class Planner {
     options.seed = request_.options.seed;
     options.objective = request_.options.objective;
     correction::LadderResult corrected = correction::correct_by_ladder(
-        obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes), found,
-        options, deadline_);
+        mesh_, obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes),
+        found, options, deadline_);
     timed_out_ = corrected.timed_out;
     result_.corrections = std::move(corrected.corrections);
+    if (corrected.separation) {
+      result_.infeasibility =
+          Infeasibility{corrected.separation->inside, corrected.separation->outside,
+                        std::move(corrected.separation->triangles)};
+    }
     if (corrected.inserted_s.empty()) return;
     is_as_interpolated_ = false;
     result_.path = corrected.path.path();
@@ -255,12 +297,25 @@ class Planner {
           note();
       return;
     }
+    if (result_.infeasibility) {
+      result_.status = Status::kInfeasible;
+      result_.message = why_infeasible() + note();
+      return;
+    }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
     result_.message = fmt::format("{}{} found, {} inserted, {} left on the path",
                                   timed_out_ ? "the deadline came first: " : "",
                                   counted(result_.collisions.size(), "collision"),
                                   counted(inserted, "keyframe"), remaining) +
                       note();
+  }
+
+  [[nodiscard]] std::string why_infeasible() const {
+    const Infeasibility& proof = *result_.infeasibility;
+    return fmt::format(
+        "there is no path: keyframe {} is inside a closed surface of {} triangles of the scene, "
+        "keyframe {} outside",
+        proof.keyframe_inside, proof.triangles.size(), proof.keyframe_outside);
   }
 
   std::optional<std::vector<CollisionInterval>> detect() const {
@@ -285,9 +340,15 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
+  // Of the tolerance: what a repaired keyframe keeps, so that a path can leave it.
+  static constexpr double kRepairMargin = 10.0;
+  // A request of which more keyframes collide has its unit or its axes wrong.
+  static constexpr std::size_t kMostFaults = 100;
+
   // For the final check, however little of the deadline is left.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
+  const scene::Mesh& mesh_;
   const collision::Obstacles obstacles_;
   const PlanRequest& request_;
   const Deadline& deadline_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/planning/request.h"
 
+#include <cmath>
+
 namespace camway::planning {
 
 namespace {
@@ -24,6 +26,15 @@ std::optional<Method> method_from_string(std::string_view text) {
   if (text == kLadder) return Method::kLadder;
   if (text == kKeyframeInsertion) return Method::kKeyframeInsertion;
   return std::nullopt;
+}
+
+geometry::Vec3 direction_of(const geometry::Vec3& vector) {
+  // Scaled first, so that squares neither overflow nor vanish.
+  const double largest = vector.cwiseAbs().maxCoeff();
+  if (!vector.allFinite() || largest == 0.0) return vector;
+  if (std::abs(vector.squaredNorm() - 1.0) <= kUnitLengthError) return vector;
+  const geometry::Vec3 scaled = vector / largest;
+  return scaled / scaled.norm();
 }
 
 }  // namespace camway::planning

@@ -63,6 +63,16 @@ struct PlanRequest {
   PlanOptions options;
 };
 
+/// The unit vector in the direction of `vector`, of any length. A unit vector, as far as doubles
+/// can tell, keeps its bits; what is zero or not finite comes back as it is, for `validate` to
+/// refuse.
+geometry::Vec3 direction_of(const geometry::Vec3& vector);
+
+/// How far the computed squared length of a unit vector may be from 1. With u = eps / 2: computing
+/// a squared length is off by 3 u (three squares, two sums), its root by 2.5 u, so a normalised
+/// vector is by 3.5 u, its square by 7 u, and computing that adds 3 u.
+inline constexpr double kUnitLengthError = 5 * 2.220446049250313e-16;
+
 /// Why a request cannot be planned at all.
 struct InvalidRequest {
   std::string field;                    ///< e.g. "keyframes[3].orientation"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "daemon/planning/request.h"
 
@@ -101,6 +103,69 @@ std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes
   return std::nullopt;
 }
 
+bool is_within_scenes(const geometry::Vec3& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kMaxCoordinate_m;
+}
+
+std::optional<InvalidRequest> check_orientation(const correction::OrientationPolicy& policy) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  // The edges bring directions to unit length; what they could not is zero or not finite.
+  if (!(std::abs(policy.up_W.squaredNorm() - 1.0) <= kUnitLengthError)) {
+    return invalid("options.orientation.up",
+                   fmt::format("has length {:g}, which is no direction", policy.up_W.norm()));
+  }
+  if (!is_within_scenes(policy.target_W)) {
+    return invalid("options.orientation.target",
+                   fmt::format("must be finite and within {:g} m", kMaxCoordinate_m));
+  }
+  if (!(policy.cone_rad > 0.0 && policy.cone_rad <= std::numbers::pi)) {
+    return invalid("options.orientation.cone",
+                   fmt::format("is {} degrees; it must be above 0 and at most 180 degrees",
+                               policy.cone_rad * kDegrees));
+  }
+  if (!(policy.max_turn_rad >= 0.0 && policy.max_turn_rad <= std::numbers::pi)) {
+    return invalid("options.orientation.max_turn",
+                   fmt::format("is {} degrees; it must lie between 0 and 180 degrees",
+                               policy.max_turn_rad * kDegrees));
+  }
+  return std::nullopt;
+}
+
+/// Infinity is no limit.
+std::optional<InvalidRequest> check_limits(const correction::MotionLimits& limits) {
+  const std::pair<const char*, double> members[] = {
+      {"options.limits.speed", limits.speed_m_per_s},
+      {"options.limits.acceleration", limits.acceleration_m_per_s2},
+      {"options.limits.turn_rate", limits.turn_rate_rad_per_s}};
+  for (const auto& [field, value] : members) {
+    if (!(value > 0.0)) return invalid(field, fmt::format("is {}; it must be above 0", value));
+  }
+  return std::nullopt;
+}
+
+bool moves_a_camera(const PlanRequest& request) {
+  return !request.body || std::holds_alternative<motion::Camera>(*request.body);
+}
+
+/// What is asked of corrections.
+std::optional<InvalidRequest> check_correction(const PlanRequest& request) {
+  const PlanOptions& options = request.options;
+  if (auto fault = check_orientation(options.orientation)) return fault;
+  if (auto fault = check_limits(options.limits)) return fault;
+  if (!(options.max_shrink >= 0.0 && options.max_shrink < 1.0)) {
+    return invalid("options.max_shrink",
+                   fmt::format("is {}; it must be at least 0 and below 1", options.max_shrink));
+  }
+  if (options.max_shrink > 0.0 && !moves_a_camera(request)) {
+    return invalid("options.max_shrink",
+                   fmt::format("is {}, but the body is no camera: it has no near distance that "
+                               "could be made smaller",
+                               options.max_shrink));
+  }
+  if (options.seed == 0) return invalid("options.seed", "is 0; it must be at least 1");
+  return std::nullopt;
+}
+
 std::optional<InvalidRequest> check_options(const PlanOptions& options) {
   const auto at_least = [](std::string_view field, double value,
                            double least) -> std::optional<InvalidRequest> {
@@ -147,7 +212,8 @@ std::optional<InvalidRequest> validate(const PlanRequest& request) {
   if (request.has_times) {
     if (auto fault = check_times(request.keyframes)) return fault;
   }
-  return check_options(request.options);
+  if (auto fault = check_options(request.options)) return fault;
+  return check_correction(request);
 }
 
 }  // namespace camway::planning

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "daemon/service/wire_body.h"
+#include "daemon/service/wire_options.h"
+#include "daemon/service/wire_report.h"
 #include "lcmtypes/wire_layout.h"
 
 namespace camway::service {
@@ -213,6 +215,9 @@ ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& lim
   if (wire.max_inserted_keyframes >= 0) {
     options.max_inserted_keyframes = wire.max_inserted_keyframes;
   }
+  if (std::string error = read_correction_options(wire, options); !error.empty()) {
+    return {std::nullopt, std::move(error)};
+  }
   request.has_times = wire.has_times != 0;
   request.keyframes.reserve(wire.keyframes.size());
   for (const keyframe_t& keyframe : wire.keyframes) {
@@ -243,6 +248,7 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   wire.interval_tolerance_m = request.options.interval_tolerance_m;
   wire.clearance_m = request.options.clearance_m;
   wire.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  put_correction_options(request.options, wire);
   wire.has_times = request.has_times ? 1 : 0;
   wire.keyframes.reserve(request.keyframes.size());
   for (const motion::Keyframe& keyframe : request.keyframes) {
@@ -278,6 +284,9 @@ ConvertedResult from_wire(const plan_response_t& wire) {
   result.timing.correct_ms = wire.correct_ms;
   result.timing.certify_ms = wire.certify_ms;
   result.timing.total_ms = wire.total_ms;
+  if (std::string error = read_report(wire, result); !error.empty()) {
+    return {std::nullopt, std::move(error)};
+  }
   return {std::move(result), {}};
 }
 
@@ -303,6 +312,7 @@ plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& 
   wire.num_keyframes = count(wire.keyframes);
   wire.num_collisions = count(wire.collisions);
   wire.num_remaining = count(wire.remaining);
+  put_report(result, wire);
   return wire;
 }
 
@@ -319,6 +329,10 @@ plan_response_t plain_answer(std::int32_t status, std::string_view message,
   wire.scene = clipped(header.scene, wire::kMaxSceneNameBytes);
   wire.scene_revision = header.scene_revision;
   wire.scene_digest = clipped(header.scene_digest, wire::kMaxDigestBytes);
+  wire.near_scale = 1.0;
+  wire.time_scale = 1.0;
+  wire.keyframe_inside = -1;
+  wire.keyframe_outside = -1;
   return wire;
 }
 

@@ -43,14 +43,15 @@ struct RequestIds {
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
 
 /// A result, or why there is none: a status that no planning has (overloaded, malformed), or
-/// segments that are no path.
+/// segments that are no path, or a report that says what no correction does.
 struct ConvertedResult {
   std::optional<planning::PlanResult> result;
   std::string error;
 };
 
 /// `wire` holds the lists of all pages. What it does not carry (`Timing::load_scene_ms`, the number
-/// of a witness's feature beside its name) stays 0.
+/// of a witness's feature beside its name, the witness of a correction's collision) stays 0 or
+/// empty.
 ConvertedResult from_wire(const plan_response_t& wire);
 
 /// What an answer says beside the result.

@@ -22,11 +22,14 @@ struct Lists<plan_request_t> {
 };
 template <>
 struct Lists<plan_response_t> {
-  static constexpr auto kMembers =
-      std::make_tuple(std::pair{&plan_response_t::segments, &plan_response_t::num_segments},
-                      std::pair{&plan_response_t::keyframes, &plan_response_t::num_keyframes},
-                      std::pair{&plan_response_t::collisions, &plan_response_t::num_collisions},
-                      std::pair{&plan_response_t::remaining, &plan_response_t::num_remaining});
+  static constexpr auto kMembers = std::make_tuple(
+      std::pair{&plan_response_t::segments, &plan_response_t::num_segments},
+      std::pair{&plan_response_t::keyframes, &plan_response_t::num_keyframes},
+      std::pair{&plan_response_t::collisions, &plan_response_t::num_collisions},
+      std::pair{&plan_response_t::remaining, &plan_response_t::num_remaining},
+      std::pair{&plan_response_t::corrections, &plan_response_t::num_corrections},
+      std::pair{&plan_response_t::keyframe_faults, &plan_response_t::num_keyframe_faults},
+      std::pair{&plan_response_t::proof_triangles, &plan_response_t::num_proof_triangles});
   static constexpr std::int32_t kMaxPages = wire::kMaxResponsePages;
 };
 
@@ -46,6 +49,8 @@ std::size_t body_bytes(const plan_request_t& request) {
                                   body_t{}._getEncodedSizeNoHash());
 }
 std::size_t body_bytes(const plan_response_t&) { return 0; }
+
+std::size_t bytes_of(std::int32_t number) { return sizeof(number); }
 
 template <class Element>
 std::size_t bytes_of(const Element& element) {

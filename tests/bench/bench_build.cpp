@@ -7,13 +7,11 @@
 #include <filesystem>
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "daemon/scene/scene_index.h"
+#include "tests/bench/columns.h"
+#include "tests/bench/command_line.h"
 #include "tests/bench/embree_peer.h"
 #include "tests/bench/fcl_peer.h"
-#include "tests/bench/measure.h"
-#include "tests/bench/request_set.h"
 #include "tests/bench/tiled_scene.h"
 
 namespace camway::bench {
@@ -25,6 +23,8 @@ enum Builder { kCamway, kCamwayOneThread, kEmbree, kEmbreeOneThread, kFcl };
 constexpr std::size_t kBuilders = 5;
 constexpr std::array<const char*, kBuilders> kBuilderNames{"camway", "camway_1_thread", "embree",
                                                            "embree_1_thread", "fcl"};
+constexpr std::array<const char*, kBuilders> kBuilderTitles{"camway", "camway, 1 thread", "Embree",
+                                                            "Embree, 1 thread", "FCL"};
 
 struct Options {
   std::vector<std::string> scenes{own_scenes() + "/gallery.obj", own_scenes() + "/maze.obj",
@@ -36,6 +36,8 @@ struct Options {
 };
 
 struct Builds {
+  std::string scene;
+  std::size_t triangles = 0;
   std::array<double, kBuilders> median_s{};
   std::array<double, kBuilders> bytes_per_triangle{};
   scene::IndexStatistics statistics;
@@ -67,6 +69,7 @@ double build_fcl(const scene::Mesh& mesh, double& bytes) {
 
 Builds measure(const std::shared_ptr<const scene::Mesh>& mesh, int rounds) {
   Builds builds;
+  builds.triangles = mesh->triangles.size();
   std::array<std::vector<double>, kBuilders> times_s;
   for (int round = -1; round < rounds; ++round) {  // round -1 warms up
     std::array<double, kBuilders> once_s{};
@@ -86,48 +89,40 @@ Builds measure(const std::shared_ptr<const scene::Mesh>& mesh, int rounds) {
   return builds;
 }
 
-std::vector<std::string> row(const std::string& name, std::size_t triangles, const Builds& b) {
-  const auto text = [&](Builder k) { return duration_text(b.median_s[k]); };
-  const auto bytes = [&](Builder k) { return fmt::format("{:.1f}", b.bytes_per_triangle[k]); };
-  return {name,
-          std::to_string(triangles),
-          text(kCamway),
-          text(kCamwayOneThread),
-          text(kEmbree),
-          text(kEmbreeOneThread),
-          text(kFcl),
-          ratio_text(b.median_s[kCamway] / b.median_s[kEmbree]),
-          ratio_text(b.median_s[kFcl] / b.median_s[kCamway]),
-          bytes(kCamway),
-          bytes(kEmbree),
-          bytes(kFcl)};
-}
-
-json to_json(const std::string& name, std::size_t triangles, const Builds& b) {
-  json entry{{"scene", name},
-             {"triangles", triangles},
-             {"nodes", b.statistics.nodes},
-             {"leaves", b.statistics.leaves},
-             {"depth", b.statistics.depth},
-             {"duplication", b.statistics.duplication},
-             {"time_to_embree", b.median_s[kCamway] / b.median_s[kEmbree]},
-             {"ratio_fcl", b.median_s[kFcl] / b.median_s[kCamway]}};
+std::vector<Column<Builds>> columns() {
+  using B = Builds;
+  std::vector<Column<B>> columns{
+      {"/scene", "scene", field(&B::scene)},
+      {"/triangles", "triangles", field(&B::triangles)},
+      {"/nodes", "", [](const B& b) -> json { return b.statistics.nodes; }},
+      {"/leaves", "", [](const B& b) -> json { return b.statistics.leaves; }},
+      {"/depth", "", [](const B& b) -> json { return b.statistics.depth; }},
+      {"/duplication", "", [](const B& b) -> json { return b.statistics.duplication; }},
+  };
   for (std::size_t k = 0; k < kBuilders; ++k) {
-    entry["seconds"][kBuilderNames[k]] = b.median_s[k];
-    entry["bytes_per_triangle"][kBuilderNames[k]] = b.bytes_per_triangle[k];
+    columns.push_back({std::string("/seconds/") + kBuilderNames[k], kBuilderTitles[k],
+                       [k](const B& b) -> json { return b.median_s[k]; }, as_duration});
   }
-  return entry;
+  columns.push_back({"/time_to_embree", "camway / Embree",
+                     [](const B& b) -> json { return b.median_s[kCamway] / b.median_s[kEmbree]; },
+                     as_ratio});
+  columns.push_back({"/ratio_fcl", "FCL / camway",
+                     [](const B& b) -> json { return b.median_s[kFcl] / b.median_s[kCamway]; },
+                     as_ratio});
+  for (std::size_t k = 0; k < kBuilders; ++k) {
+    const bool alone = k != kCamwayOneThread && k != kEmbreeOneThread;
+    columns.push_back({std::string("/bytes_per_triangle/") + kBuilderNames[k],
+                       alone ? std::string(kBuilderTitles[k]) + " B/tri" : std::string(),
+                       [k](const B& b) -> json { return b.bytes_per_triangle[k]; }, as_tenths});
+  }
+  return columns;
 }
 
 int run(const Options& options) {
-  json document{{"benchmark", "build"}, {"machine", machine()}, {"rounds", options.rounds}};
-  Table table({"scene", "triangles", "camway", "camway, 1 thread", "Embree", "Embree, 1 thread",
-               "FCL", "camway / Embree", "FCL / camway", "camway B/tri", "Embree B/tri",
-               "FCL B/tri"});
+  std::vector<Builds> all;
   const auto add = [&](const std::string& name, const std::shared_ptr<const scene::Mesh>& mesh) {
-    const Builds builds = measure(mesh, options.rounds);
-    table.add(row(name, mesh->triangles.size(), builds));
-    document["scenes"].push_back(to_json(name, mesh->triangles.size(), builds));
+    all.push_back(measure(mesh, options.rounds));
+    all.back().scene = name;
   };
   std::shared_ptr<const scene::Mesh> last;
   std::string last_name;
@@ -140,10 +135,11 @@ int run(const Options& options) {
     add(last_name + ", tiled", tiled(*last, options.tile_to));
   }
   fmt::print("\nmedians of {} builds; mesh and buffers ready before\n\n", options.rounds);
-  table.print();
-  const std::string error = write_json(options.json_file, document);
-  if (!error.empty()) fmt::print(stderr, "bench_build: {}\n", error);
-  return error.empty() ? 0 : 1;
+  print_table(columns(), all);
+  json document = document_of("build");
+  document["rounds"] = options.rounds;
+  document["scenes"] = to_json(columns(), all);
+  return finish(document, options.json_file);
 }
 
 }  // namespace
@@ -157,10 +153,8 @@ int main(int argc, char** argv) {
   app.add_option("--scale", options.scale, "multiplies coordinates")->capture_default_str();
   app.add_option("--tile-to", options.tile_to, "triangles of the tiled scene at least; 0 for none")
       ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "repetitions")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--json", options.json_file, "write all numbers to this file");
+  camway::bench::add_rounds_option(app, options.rounds);
+  camway::bench::add_json_option(app, options.json_file);
   CLI11_PARSE(app, argc, argv);
   return camway::bench::run(options);
 }

@@ -7,10 +7,9 @@
 #include <cstdio>
 #include <thread>
 
-#include <CLI/CLI.hpp>
-
+#include "tests/bench/columns.h"
+#include "tests/bench/command_line.h"
 #include "tests/bench/fcl_peer.h"
-#include "tests/bench/measure.h"
 #include "tests/bench/motion_samples.h"
 #include "tests/collision/crossing_campaign.h"
 
@@ -35,6 +34,7 @@ struct Options {
 
 // What a peer missed of the colliding cases of one family.
 struct PeerTally {
+  std::string family{};
   std::uint64_t cases = 0;
   std::uint64_t missed_discrete = 0;
   std::uint64_t missed_naive = 0;
@@ -71,84 +71,91 @@ PeerTally ask_fcl(const CrossingCase& c) {
   fcl.build();
   fcl.set_camera(c.camera);
   using Continuous = FclPeer::Continuous;
-  return {1, fcl_sees(fcl, c) ? 0U : 1U, fcl_sees_between(fcl, c, Continuous::kNaive) ? 0U : 1U,
+  return {"", 1, fcl_sees(fcl, c) ? 0U : 1U, fcl_sees_between(fcl, c, Continuous::kNaive) ? 0U : 1U,
           fcl_sees_between(fcl, c, Continuous::kConservativeAdvancement) ? 0U : 1U};
 }
 
-std::array<PeerTally, kCrossingFamilies> ask_fcl_all(const Options& options) {
-  std::array<PeerTally, kCrossingFamilies> tallies;
-  for (std::uint64_t i = 0; i < options.count; ++i) {
-    const CrossingCase c = testing::make_crossing_case(options.seed, options.first + i);
-    const PeerTally one = ask_fcl(c);
-    PeerTally& sum = tallies[static_cast<std::size_t>(c.family)];
-    sum.cases += one.cases;
-    sum.missed_discrete += one.missed_discrete;
-    sum.missed_naive += one.missed_naive;
-    sum.missed_advancement += one.missed_advancement;
-  }
-  return tallies;
+void add(const PeerTally& one, PeerTally& sum) {
+  sum.cases += one.cases;
+  sum.missed_discrete += one.missed_discrete;
+  sum.missed_naive += one.missed_naive;
+  sum.missed_advancement += one.missed_advancement;
 }
 
 std::string name_of(std::size_t family) {
   return std::string(to_string(static_cast<CrossingFamily>(family)));
 }
 
-json to_json(const std::string& name, const CrossingTally& tally) {
-  return {{"family", name},
-          {"cases", tally.cases},
-          {"redrawn", tally.redrawn},
-          {"misses", tally.misses},
-          {"false_alarms", tally.false_alarms},
-          {"clearance_above_truth", tally.clearance_above_truth},
-          {"clearance_too_low", tally.clearance_too_low}};
+std::vector<PeerTally> ask_fcl_all(const Options& options) {
+  std::vector<PeerTally> tallies(kCrossingFamilies);
+  for (std::size_t f = 0; f < kCrossingFamilies; ++f) tallies[f].family = name_of(f);
+  for (std::uint64_t i = 0; i < options.count; ++i) {
+    const CrossingCase c = testing::make_crossing_case(options.seed, options.first + i);
+    add(ask_fcl(c), tallies[static_cast<std::size_t>(c.family)]);
+  }
+  return tallies;
 }
 
-void add_row(Table& table, const std::string& name, const CrossingTally& tally) {
-  table.add({name, std::to_string(tally.cases), std::to_string(tally.misses),
-             std::to_string(tally.false_alarms), std::to_string(tally.clearance_above_truth),
-             std::to_string(tally.clearance_too_low), std::to_string(tally.redrawn)});
+struct NamedTally {
+  std::string family;
+  CrossingTally tally;
+};
+
+std::vector<Column<NamedTally>> tally_columns() {
+  const auto count = [](auto CrossingTally::*member) {
+    return [member](const NamedTally& named) -> json { return named.tally.*member; };
+  };
+  return {
+      {"/family", "family", field(&NamedTally::family)},
+      {"/cases", "cases", count(&CrossingTally::cases)},
+      {"/misses", "misses", count(&CrossingTally::misses)},
+      {"/false_alarms", "false alarms", count(&CrossingTally::false_alarms)},
+      {"/clearance_above_truth", "clearance above truth",
+       count(&CrossingTally::clearance_above_truth)},
+      {"/clearance_too_low", "clearance too low", count(&CrossingTally::clearance_too_low)},
+      {"/redrawn", "redrawn", count(&CrossingTally::redrawn)},
+  };
 }
 
 CrossingTally report(const CampaignResult& result, json& document) {
-  Table table({"family", "cases", "misses", "false alarms", "clearance above truth",
-               "clearance too low", "redrawn"});
+  std::vector<NamedTally> tallies;
   for (std::size_t f = 0; f < kCrossingFamilies; ++f) {
-    add_row(table, name_of(f), result.families[f]);
-    document["families"].push_back(to_json(name_of(f), result.families[f]));
+    tallies.push_back({name_of(f), result.families[f]});
   }
+  document["families"] = to_json(tally_columns(), tallies);
   const CrossingTally total = result.total();
-  add_row(table, "all", total);
-  document["total"] = to_json("all", total);
+  tallies.push_back({"all", total});
+  document["total"] = to_json(tally_columns(), tallies).back();
   document["faults"] = result.faults;
-  table.print();
+  print_table(tally_columns(), tallies);
   for (const std::uint64_t index : result.faults) fmt::print("fault in case {}\n", index);
   return total;
 }
 
+std::vector<Column<PeerTally>> peer_columns() {
+  using P = PeerTally;
+  return {
+      {"/family", "family", field(&P::family)},
+      {"/collisions", "collisions", field(&P::cases)},
+      {"/missed_discrete_1cm", "FCL at 1 cm missed", field(&P::missed_discrete)},
+      {"/missed_continuous_naive", "FCL continuous (default) missed", field(&P::missed_naive)},
+      {"/missed_continuous_advancement", "FCL conservative advancement missed",
+       field(&P::missed_advancement)},
+  };
+}
+
 void report_fcl(const Options& options, json& document) {
-  const auto tallies = ask_fcl_all(options);
-  Table table({"family", "collisions", "FCL at 1 cm missed", "FCL continuous (default) missed",
-               "FCL conservative advancement missed"});
-  PeerTally total;
-  for (std::size_t f = 0; f < kCrossingFamilies; ++f) {
-    const PeerTally& t = tallies[f];
-    if (t.cases == 0) continue;
-    table.add({name_of(f), std::to_string(t.cases), std::to_string(t.missed_discrete),
-               std::to_string(t.missed_naive), std::to_string(t.missed_advancement)});
-    document["fcl"].push_back({{"family", name_of(f)},
-                               {"collisions", t.cases},
-                               {"missed_discrete_1cm", t.missed_discrete},
-                               {"missed_continuous_naive", t.missed_naive},
-                               {"missed_continuous_advancement", t.missed_advancement}});
-    total.cases += t.cases;
-    total.missed_discrete += t.missed_discrete;
-    total.missed_naive += t.missed_naive;
-    total.missed_advancement += t.missed_advancement;
+  std::vector<PeerTally> tallies;
+  PeerTally total{.family = "all"};
+  for (PeerTally& tally : ask_fcl_all(options)) {
+    if (tally.cases == 0) continue;
+    add(tally, total);
+    tallies.push_back(std::move(tally));
   }
-  table.add({"all", std::to_string(total.cases), std::to_string(total.missed_discrete),
-             std::to_string(total.missed_naive), std::to_string(total.missed_advancement)});
+  document["fcl"] = to_json(peer_columns(), tallies);
+  tallies.push_back(total);
   fmt::print("\n");
-  table.print();
+  print_table(peer_columns(), tallies);
 }
 
 int run(const Options& options) {
@@ -157,17 +164,15 @@ int run(const Options& options) {
       testing::run_crossing_campaign(options.seed, options.first, options.count, options.threads);
   fmt::print("\n{} crossings, seed {}, from case {}, {} threads, {}\n\n", options.count,
              options.seed, options.first, options.threads, duration_text(watch.seconds()));
-  json document{{"benchmark", "campaign"},
-                {"machine", machine()},
-                {"seed", options.seed},
-                {"first", options.first},
-                {"seconds", watch.seconds()}};
+  json document = document_of("campaign");
+  document["seed"] = options.seed;
+  document["first"] = options.first;
+  document["seconds"] = watch.seconds();
   const CrossingTally total = report(result, document);
   if (options.peer == "fcl") report_fcl(options, document);
-  const std::string error = write_json(options.json_file, document);
-  if (!error.empty()) fmt::print(stderr, "bench_campaign: {}\n", error);
+  const int written = finish(document, options.json_file);
   if (!total.faultless()) fmt::print("\nFAULTS: {} misses\n", total.misses);
-  return error.empty() && total.faultless() ? 0 : 1;
+  return total.faultless() ? written : 1;
 }
 
 }  // namespace
@@ -186,7 +191,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--peer", options.peer, "ask FCL about the same cases as well, on one thread")
       ->check(CLI::IsMember({"fcl"}));
-  app.add_option("--json", options.json_file, "write all numbers to this file");
+  camway::bench::add_json_option(app, options.json_file);
   CLI11_PARSE(app, argc, argv);
   return camway::bench::run(options);
 }

@@ -8,13 +8,11 @@
 #include <limits>
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/interpolate.h"
 #include "tests/bench/camway_side.h"
-#include "tests/bench/measure.h"
-#include "tests/bench/request_set.h"
+#include "tests/bench/columns.h"
+#include "tests/bench/command_line.h"
 #include "tests/bench/tiled_scene.h"
 #include "tests/collision/crossing_random.h"
 
@@ -40,6 +38,9 @@ struct Options {
 };
 
 struct Measured {
+  std::string scene{};
+  std::size_t triangles = 0;
+  std::string decomposition{};
   double build_s = 0.0;
   double build_one_thread_s = 0.0;
   double bytes_per_triangle = 0.0;
@@ -159,9 +160,15 @@ Measured medians(const std::vector<Measured>& rounds) {
     for (const Measured& m : rounds) values.push_back(m.*field);
     return median(values);
   };
-  return {over(&Measured::build_s),          over(&Measured::build_one_thread_s),
-          rounds.front().bytes_per_triangle, over(&Measured::nearest_s),
-          over(&Measured::within_s),         over(&Measured::intersects_s),
+  return {rounds.front().scene,
+          rounds.front().triangles,
+          rounds.front().decomposition,
+          over(&Measured::build_s),
+          over(&Measured::build_one_thread_s),
+          rounds.front().bytes_per_triangle,
+          over(&Measured::nearest_s),
+          over(&Measured::within_s),
+          over(&Measured::intersects_s),
           over(&Measured::certify_s)};
 }
 
@@ -179,6 +186,22 @@ std::vector<NamedScene> default_scenes() {
           {"dust: small triangles everywhere", dust(250'000, 7)}};
 }
 
+std::vector<Column<Measured>> columns() {
+  using M = Measured;
+  return {
+      {"/scene", "scene", field(&M::scene)},
+      {"/triangles", "triangles", field(&M::triangles)},
+      {"/decomposition", "decomposition", field(&M::decomposition)},
+      {"/build_seconds", "build", field(&M::build_s), as_duration},
+      {"/build_1_thread_seconds", "build, 1 thread", field(&M::build_one_thread_s), as_duration},
+      {"/bytes_per_triangle", "B/triangle", field(&M::bytes_per_triangle), as_tenths},
+      {"/nearest_seconds", "nearest", field(&M::nearest_s), as_duration},
+      {"/any_within_seconds", "any within 25 cm", field(&M::within_s), as_duration},
+      {"/intersects_seconds", "intersects", field(&M::intersects_s), as_duration},
+      {"/certify_seconds", "certify a path", field(&M::certify_s), as_duration},
+  };
+}
+
 class Comparison {
  public:
   explicit Comparison(int rounds) : rounds_(rounds) {}
@@ -192,7 +215,9 @@ class Comparison {
     for (int round = 0; round < rounds_; ++round) {
       for (std::size_t k = 0; k < kDecompositions.size(); ++k) {
         std::optional<scene::SceneIndex> index;
-        Measured m;
+        Measured m{.scene = scene.name,
+                   .triangles = scene.mesh->triangles.size(),
+                   .decomposition = kDecompositions[k].first};
         m.build_one_thread_s = build(scene.mesh, kDecompositions[k].second, 1, index);
         m.build_s = build(scene.mesh, kDecompositions[k].second, 0, index);
         m.bytes_per_triangle = static_cast<double>(index->statistics().memory_bytes) /
@@ -202,33 +227,14 @@ class Comparison {
       }
     }
     for (std::size_t k = 0; k < kDecompositions.size(); ++k) {
-      report(scene, kDecompositions[k].first, medians(rounds[k]));
+      measured_.push_back(medians(rounds[k]));
     }
     return agree(answers, scene.name);
   }
 
-  void print() const { table_.print(); }
-  [[nodiscard]] const json& scenes() const { return scenes_; }
+  [[nodiscard]] const std::vector<Measured>& measured() const { return measured_; }
 
  private:
-  void report(const NamedScene& scene, const char* decomposition, const Measured& m) {
-    table_.add({scene.name, std::to_string(scene.mesh->triangles.size()), decomposition,
-                duration_text(m.build_s), duration_text(m.build_one_thread_s),
-                fmt::format("{:.1f}", m.bytes_per_triangle), duration_text(m.nearest_s),
-                duration_text(m.within_s), duration_text(m.intersects_s),
-                duration_text(m.certify_s)});
-    scenes_.push_back({{"scene", scene.name},
-                       {"triangles", scene.mesh->triangles.size()},
-                       {"decomposition", decomposition},
-                       {"build_seconds", m.build_s},
-                       {"build_1_thread_seconds", m.build_one_thread_s},
-                       {"bytes_per_triangle", m.bytes_per_triangle},
-                       {"nearest_seconds", m.nearest_s},
-                       {"any_within_seconds", m.within_s},
-                       {"intersects_seconds", m.intersects_s},
-                       {"certify_seconds", m.certify_s}});
-  }
-
   static bool agree(const std::array<Answers, kDecompositions.size()>& answers,
                     const std::string& scene) {
     for (const Answers& other : answers) {
@@ -249,9 +255,7 @@ class Comparison {
   }
 
   int rounds_;
-  Table table_{{"scene", "triangles", "decomposition", "build", "build, 1 thread", "B/triangle",
-                "nearest", "any within 25 cm", "intersects", "certify a path"}};
-  json scenes_;
+  std::vector<Measured> measured_;
 };
 
 int run(const Options& options) {
@@ -265,12 +269,11 @@ int run(const Options& options) {
   for (const NamedScene& scene : scenes) agreed = comparison.add(scene) && agreed;
   fmt::print("\nmedians of {} rounds; queries with the near quadrilateral at 2000 poses\n\n",
              options.rounds);
-  comparison.print();
-  const std::string error = write_json(
-      options.json_file,
-      {{"benchmark", "decompositions"}, {"machine", machine()}, {"scenes", comparison.scenes()}});
-  if (!error.empty()) fmt::print(stderr, "bench_decompositions: {}\n", error);
-  return error.empty() && agreed ? 0 : 1;
+  print_table(columns(), comparison.measured());
+  json document = document_of("decompositions");
+  document["scenes"] = to_json(columns(), comparison.measured());
+  const int written = finish(document, options.json_file);
+  return agreed ? written : 1;
 }
 
 }  // namespace
@@ -281,10 +284,8 @@ int main(int argc, char** argv) {
   camway::bench::Options options;
   app.add_option("--scene", options.scenes, "scenes, instead of five of different kinds");
   app.add_option("--scale", options.scale, "multiplies coordinates")->capture_default_str();
-  app.add_option("--rounds", options.rounds, "repetitions")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--json", options.json_file, "write all numbers to this file");
+  camway::bench::add_rounds_option(app, options.rounds);
+  camway::bench::add_json_option(app, options.json_file);
   CLI11_PARSE(app, argc, argv);
   return camway::bench::run(options);
 }

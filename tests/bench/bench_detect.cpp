@@ -7,15 +7,14 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-
-#include <CLI/CLI.hpp>
+#include <map>
 
 #include "tests/bench/camway_side.h"
+#include "tests/bench/columns.h"
+#include "tests/bench/command_line.h"
 #include "tests/bench/embree_peer.h"
 #include "tests/bench/fcl_peer.h"
-#include "tests/bench/measure.h"
 #include "tests/bench/motion_samples.h"
-#include "tests/bench/request_set.h"
 
 namespace camway::bench {
 namespace {
@@ -130,7 +129,8 @@ class Arena {
       outcome.seen[k] = sampled[k].begin_s.size();
     }
     for (const collision::CollisionInterval& interval : outcome.intervals) {
-      if (!shown_colliding(*outcome.request, interval)) continue;
+      const BenchRequest& request = *outcome.request;
+      if (!shown_colliding(camway_.index(), request.camera, request.path, interval)) continue;
       ++outcome.shown;
       for (const std::size_t k : {kFclCoarse, kFclFine, kEmbreeRays, kEmbreePacket}) {
         if (std::isnan(outcome.median_s[k])) continue;
@@ -138,19 +138,6 @@ class Arena {
         outcome.missed[k] += blind ? 1 : 0;
       }
     }
-  }
-
-  // Whether some pose in the interval collides without doubt; an interval may be there only because
-  // the resolution ended.
-  [[nodiscard]] bool shown_colliding(const BenchRequest& request,
-                                     const collision::CollisionInterval& interval) const {
-    constexpr int kLooks = 500;
-    for (int i = 0; i <= kLooks; ++i) {
-      const double share = static_cast<double>(i) / kLooks;
-      const double time_s = interval.t_begin_s + share * (interval.t_end_s - interval.t_begin_s);
-      if (touches_at(camway_.index(), request.camera, request.path.pose(time_s))) return true;
-    }
-    return false;
   }
 
   CamwayScene camway_;
@@ -212,88 +199,84 @@ std::vector<Summary> summaries(const std::string& scene, const std::vector<Outco
   return list;
 }
 
-json to_json(const Outcome& outcome) {
-  json entry{{"name", outcome.request->name},
-             {"difficulty", outcome.request->difficulty},
-             {"keyframes", outcome.request->keyframes},
-             {"segments", outcome.request->path.segments().size()},
-             {"samples_1cm", outcome.samples_1cm},
-             {"intervals", outcome.intervals.size()},
-             {"intervals_shown_colliding", outcome.shown},
-             {"clearance_lower_bound_m", outcome.clearance_m},
-             {"ratio_fcl_1cm", outcome.median_s[kFclCoarse] / outcome.median_s[kDetect]},
-             {"ratio_embree_1cm", outcome.embree_s() / outcome.median_s[kDetect]}};
-  for (std::size_t k = 0; k < kContenders; ++k) {
-    entry["seconds"][kContenderNames[k]] = outcome.median_s[k];
-    if (k >= kFclCoarse) entry["intervals_seen"][kContenderNames[k]] = outcome.seen[k];
-    if (k >= kFclCoarse) entry["intervals_missed"][kContenderNames[k]] = outcome.missed[k];
-  }
-  return entry;
-}
-
-json to_json(const Summary& summary) {
-  json entry{{"scene", summary.scene},
-             {"group", summary.group},
-             {"requests", summary.requests},
-             {"intervals", summary.intervals},
-             {"intervals_shown_colliding", summary.shown},
-             {"median_ratio_fcl_1cm", summary.fcl_1cm},
-             {"median_ratio_fcl_1mm", summary.fcl_1mm},
-             {"median_ratio_embree_1cm", summary.embree},
-             {"median_ratio_embree_single_rays_1cm", summary.embree_rays},
-             {"median_ratio_check_fcl_1cm", summary.check_fcl_1cm}};
-  for (std::size_t k = 0; k < kContenders; ++k) {
-    entry["p50_seconds"][kContenderNames[k]] = summary.p50_s[k];
-    entry["intervals_missed"][kContenderNames[k]] = summary.missed[k];
-  }
-  return entry;
-}
-
-double fine_s(const Outcome& outcome) { return outcome.median_s[kFclFine]; }
-double fine_s(const Summary& summary) { return summary.p50_s[kFclFine]; }
-
 template <class Counts>
-std::string missed_text(const Counts& counts) {
-  const std::string fine =
-      std::isnan(fine_s(counts)) ? "-" : std::to_string(counts.missed[kFclFine]);
-  return fmt::format("{} / {} / {}", counts.missed[kFclCoarse], fine, counts.missed[kEmbreeRays]);
+json missed_text(const Counts& counts, double fine_s) {
+  const std::string fine = std::isnan(fine_s) ? "-" : std::to_string(counts.missed[kFclFine]);
+  return fmt::format("{} / {} / {} of {}", counts.missed[kFclCoarse], fine,
+                     counts.missed[kEmbreeRays], counts.shown);
 }
 
-void print_requests(const std::vector<Outcome>& outcomes) {
-  Table table({"request", "intervals", "detect", "check", "FCL 1 cm", "Embree 1 cm", "to FCL",
-               "to Embree", "missed by FCL 1 cm / 1 mm / Embree"});
-  for (const Outcome& o : outcomes) {
-    table.add({o.request->name, std::to_string(o.intervals.size()),
-               duration_text(o.median_s[kDetect]), duration_text(o.median_s[kCheck]),
-               duration_text(o.median_s[kFclCoarse]), duration_text(o.embree_s()),
-               ratio_text(o.median_s[kFclCoarse] / o.median_s[kDetect]),
-               ratio_text(o.embree_s() / o.median_s[kDetect]),
-               missed_text(o) + fmt::format(" of {}", o.shown)});
+// Of each contender from `first` on: what `array` has of it, under its name.
+template <class Item, class Array>
+void add_columns(std::vector<Column<Item>>& columns, const std::string& pointer,
+                 const Array Item::*array, std::size_t first = kDetect) {
+  for (std::size_t k = first; k < kContenders; ++k) {
+    columns.push_back({pointer + kContenderNames[k], "",
+                       [array, k](const Item& item) -> json { return (item.*array)[k]; }});
   }
-  table.print();
 }
 
-void print_summaries(const std::vector<Summary>& list) {
-  Table table({"scene", "requests", "n", "detect p50", "check p50", "FCL 1 cm p50", "FCL 1 mm p50",
-               "Embree 1 cm p50, packets", "single rays", "ratio FCL 1 cm", "ratio FCL 1 mm",
-               "ratio Embree packets", "single rays", "collisions",
-               "missed by FCL 1 cm / 1 mm / Embree"});
-  for (const Summary& s : list) {
-    table.add({s.scene, s.group, std::to_string(s.requests), duration_text(s.p50_s[kDetect]),
-               duration_text(s.p50_s[kCheck]), duration_text(s.p50_s[kFclCoarse]),
-               duration_text(s.p50_s[kFclFine]), duration_text(s.p50_s[kEmbreePacket]),
-               duration_text(s.p50_s[kEmbreeRays]), ratio_text(s.fcl_1cm), ratio_text(s.fcl_1mm),
-               ratio_text(s.embree), ratio_text(s.embree_rays), std::to_string(s.shown),
-               missed_text(s)});
-  }
-  table.print();
+std::vector<Column<Outcome>> outcome_columns() {
+  using O = Outcome;
+  const auto time = [](Contender k) { return [k](const O& o) -> json { return o.median_s[k]; }; };
+  std::vector<Column<O>> columns{
+      {"/name", "request", [](const O& o) -> json { return o.request->name; }},
+      {"/difficulty", "", [](const O& o) -> json { return o.request->difficulty; }},
+      {"/keyframes", "", [](const O& o) -> json { return o.request->keyframes; }},
+      {"/segments", "", [](const O& o) -> json { return o.request->path.segments().size(); }},
+      {"/samples_1cm", "", field(&O::samples_1cm)},
+      {"/intervals", "intervals", [](const O& o) -> json { return o.intervals.size(); }},
+      {"/intervals_shown_colliding", "", field(&O::shown)},
+      {"/clearance_lower_bound_m", "", field(&O::clearance_m)},
+      {"", "detect", time(kDetect), as_duration},
+      {"", "check", time(kCheck), as_duration},
+      {"", "FCL 1 cm", time(kFclCoarse), as_duration},
+      {"", "Embree 1 cm", [](const O& o) -> json { return o.embree_s(); }, as_duration},
+      {"/ratio_fcl_1cm", "to FCL",
+       [](const O& o) -> json { return o.median_s[kFclCoarse] / o.median_s[kDetect]; }, as_ratio},
+      {"/ratio_embree_1cm", "to Embree",
+       [](const O& o) -> json { return o.embree_s() / o.median_s[kDetect]; }, as_ratio},
+      {"", "missed by FCL 1 cm / 1 mm / Embree",
+       [](const O& o) { return missed_text(o, o.median_s[kFclFine]); }},
+  };
+  add_columns(columns, "/seconds/", &O::median_s);
+  add_columns(columns, "/intervals_seen/", &O::seen, kFclCoarse);
+  add_columns(columns, "/intervals_missed/", &O::missed, kFclCoarse);
+  return columns;
+}
+
+std::vector<Column<Summary>> summary_columns() {
+  using S = Summary;
+  const auto time = [](Contender k) { return [k](const S& s) -> json { return s.p50_s[k]; }; };
+  std::vector<Column<S>> columns{
+      {"/scene", "scene", field(&S::scene)},
+      {"/group", "requests", field(&S::group)},
+      {"/requests", "n", field(&S::requests)},
+      {"/intervals", "", field(&S::intervals)},
+      {"/intervals_shown_colliding", "", field(&S::shown)},
+      {"", "detect p50", time(kDetect), as_duration},
+      {"", "check p50", time(kCheck), as_duration},
+      {"", "FCL 1 cm p50", time(kFclCoarse), as_duration},
+      {"", "FCL 1 mm p50", time(kFclFine), as_duration},
+      {"", "Embree 1 cm p50, packets", time(kEmbreePacket), as_duration},
+      {"", "single rays", time(kEmbreeRays), as_duration},
+      {"/median_ratio_fcl_1cm", "ratio FCL 1 cm", field(&S::fcl_1cm), as_ratio},
+      {"/median_ratio_fcl_1mm", "ratio FCL 1 mm", field(&S::fcl_1mm), as_ratio},
+      {"/median_ratio_embree_1cm", "ratio Embree packets", field(&S::embree), as_ratio},
+      {"/median_ratio_embree_single_rays_1cm", "single rays", field(&S::embree_rays), as_ratio},
+      {"/median_ratio_check_fcl_1cm", "", field(&S::check_fcl_1cm)},
+      {"", "missed by FCL 1 cm / 1 mm / Embree",
+       [](const S& s) { return missed_text(s, s.p50_s[kFclFine]); }},
+  };
+  add_columns(columns, "/p50_seconds/", &S::p50_s);
+  add_columns(columns, "/intervals_missed/", &S::missed);
+  return columns;
 }
 
 int run(const Options& options) {
-  json document{{"benchmark", "detect"},
-                {"machine", machine()},
-                {"rounds", options.rounds},
-                {"tolerance_m", options.tolerance_m}};
+  json document = document_of("detect");
+  document["rounds"] = options.rounds;
+  document["tolerance_m"] = options.tolerance_m;
   std::vector<Summary> all;
   for (const BenchScene& scene : load_requests(options.source)) {
     Arena arena(scene);
@@ -303,19 +286,17 @@ int run(const Options& options) {
     }
     fmt::print("\n{}: {} triangles, medians of {} rounds\n\n", scene.name,
                scene.mesh->triangles.size(), options.rounds);
-    print_requests(outcomes);
-    json entry{{"name", scene.name}, {"triangles", scene.mesh->triangles.size()}};
-    for (const Outcome& outcome : outcomes) entry["requests"].push_back(to_json(outcome));
-    document["scenes"].push_back(entry);
+    print_table(outcome_columns(), outcomes);
+    document["scenes"].push_back({{"name", scene.name},
+                                  {"triangles", scene.mesh->triangles.size()},
+                                  {"requests", to_json(outcome_columns(), outcomes)}});
     for (const Summary& summary : summaries(scene.name, outcomes)) all.push_back(summary);
   }
   fmt::print(
       "\nmedians over requests; a ratio is how many times faster than the peer detection is\n\n");
-  print_summaries(all);
-  for (const Summary& summary : all) document["summaries"].push_back(to_json(summary));
-  const std::string error = write_json(options.json_file, document);
-  if (!error.empty()) fmt::print(stderr, "bench_detect: {}\n", error);
-  return error.empty() ? 0 : 1;
+  print_table(summary_columns(), all);
+  document["summaries"] = to_json(summary_columns(), all);
+  return finish(document, options.json_file);
 }
 
 }  // namespace
@@ -324,21 +305,13 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Certified detection on one thread against FCL and Embree at samples"};
   camway::bench::Options options;
-  app.add_option("--requests", options.source.requests, "folder of requests, or one request")
-      ->capture_default_str();
-  app.add_option("--scene", options.source.scene,
-                 "scene of all requests, instead of the one named");
-  app.add_option("--scale", options.source.scale, "multiplies the scene's coordinates")
-      ->capture_default_str();
-  app.add_option("--only", options.source.only, "requests with this in their name alone");
+  camway::bench::add_request_options(app, options.source);
   app.add_option("--tolerance", options.tolerance_m, "of ends of intervals, metres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "repetitions")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  camway::bench::add_rounds_option(app, options.rounds);
   app.add_flag("!--no-fine", options.fine, "leave out FCL at 1 mm, which takes most of the time");
-  app.add_option("--json", options.json_file, "write all numbers to this file");
+  camway::bench::add_json_option(app, options.json_file);
   CLI11_PARSE(app, argc, argv);
   return camway::bench::run(options);
 }

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
-
-#include <CLI/CLI.hpp>
 
 #include "daemon/motion/interpolate.h"
 #include "tests/bench/camway_side.h"
-#include "tests/bench/measure.h"
-#include "tests/bench/request_set.h"
+#include "tests/bench/columns.h"
+#include "tests/bench/command_line.h"
 #include "tests/bench/tiled_scene.h"
 
 namespace camway::bench {
@@ -29,14 +28,17 @@ struct Options {
   std::string json_file;
 };
 
+// Where nothing was built.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 // One size of one series.
 struct Point {
   std::string series;
   std::size_t size = 0;  // triangles or keyframes
-  double build_s = -1.0;
-  double field_build_s = -1.0;
-  double bytes_per_triangle = 0.0;  // of the index
-  double field_bytes = 0.0;
+  double build_s = kUnknown;
+  double field_build_s = kUnknown;
+  double bytes_per_triangle = kUnknown;  // of the index
+  double field_bytes = kUnknown;
   double detect_s = 0.0;  // median over requests of medians over rounds
   double check_s = 0.0;
   std::size_t intervals = 0;
@@ -166,17 +168,20 @@ double growth(const std::vector<Point>& points, const std::string& series) {
   return small == nullptr ? 0.0 : large->detect_s / small->detect_s;
 }
 
-void print(const std::vector<Point>& points) {
-  Table table({"series", "size", "index build", "field build", "index B/tri", "field MiB", "detect",
-               "check", "intervals"});
-  for (const Point& p : points) {
-    table.add({p.series, std::to_string(p.size), duration_text(p.build_s),
-               duration_text(p.field_build_s),
-               p.build_s < 0.0 ? "-" : fmt::format("{:.1f}", p.bytes_per_triangle),
-               fmt::format("{:.1f}", p.field_bytes / 0x1p20), duration_text(p.detect_s),
-               duration_text(p.check_s), std::to_string(p.intervals)});
-  }
-  table.print();
+std::vector<Column<Point>> point_columns() {
+  using P = Point;
+  return {
+      {"/series", "series", field(&P::series)},
+      {"/size", "size", field(&P::size)},
+      {"/build_seconds", "index build", field(&P::build_s), as_duration},
+      {"/field_build_seconds", "field build", field(&P::field_build_s), as_duration},
+      {"/bytes_per_triangle", "index B/tri", field(&P::bytes_per_triangle), as_tenths},
+      {"/field_bytes", "", field(&P::field_bytes)},
+      {"", "field MiB", [](const P& p) -> json { return p.field_bytes / 0x1p20; }, as_tenths},
+      {"/detect_seconds", "detect", field(&P::detect_s), as_duration},
+      {"/check_seconds", "check", field(&P::check_s), as_duration},
+      {"/intervals", "intervals", field(&P::intervals)},
+  };
 }
 
 int run(const Options& options) {
@@ -197,7 +202,7 @@ int run(const Options& options) {
   std::vector<Point> points = scene_points(*base, options);
   const std::vector<Point> keyframes = keyframe_points(*base, options);
   points.insert(points.end(), keyframes.begin(), keyframes.end());
-  print(points);
+  print_table(point_columns(), points);
   const double space = growth(points, "more space");
   const double finer = growth(points, "finer triangles");
   fmt::print(
@@ -205,29 +210,13 @@ int run(const Options& options) {
       "{} (finer triangles)\n",
       ratio_text(space), ratio_text(finer));
 
-  json document{{"benchmark", "growth"},
-                {"machine", machine()},
-                {"base", base->name},
-                {"rounds", options.rounds},
-                {"detect_growth_more_space", space},
-                {"detect_growth_finer_triangles", finer}};
-  for (const Point& p : points) {
-    json entry{{"series", p.series},
-               {"size", p.size},
-               {"detect_seconds", p.detect_s},
-               {"check_seconds", p.check_s},
-               {"intervals", p.intervals}};
-    if (p.build_s >= 0.0) {
-      entry["build_seconds"] = p.build_s;
-      entry["field_build_seconds"] = p.field_build_s;
-      entry["field_bytes"] = p.field_bytes;
-      entry["bytes_per_triangle"] = p.bytes_per_triangle;
-    }
-    document["points"].push_back(entry);
-  }
-  const std::string error = write_json(options.json_file, document);
-  if (!error.empty()) fmt::print(stderr, "bench_growth: {}\n", error);
-  return error.empty() ? 0 : 1;
+  json document = document_of("growth");
+  document["base"] = base->name;
+  document["rounds"] = options.rounds;
+  document["detect_growth_more_space"] = space;
+  document["detect_growth_finer_triangles"] = finer;
+  document["points"] = to_json(point_columns(), points);
+  return finish(document, options.json_file);
 }
 
 }  // namespace
@@ -236,20 +225,13 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"How building and certifying grow with triangles and keyframes"};
   camway::bench::Options options;
-  app.add_option("--requests", options.source.requests, "folder of requests")
-      ->capture_default_str();
-  app.add_option("--scene", options.source.scene,
-                 "scene of all requests, instead of the one named");
-  app.add_option("--scale", options.source.scale, "multiplies the scene's coordinates")
-      ->capture_default_str();
+  camway::bench::add_request_options(app, options.source);
   app.add_option("--largest", options.largest, "triangles of the largest scene")
       ->capture_default_str();
   app.add_option("--most-keyframes", options.most_keyframes, "keyframes of the longest path")
       ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "repetitions")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--json", options.json_file, "write all numbers to this file");
+  camway::bench::add_rounds_option(app, options.rounds);
+  camway::bench::add_json_option(app, options.json_file);
   CLI11_PARSE(app, argc, argv);
   return camway::bench::run(options);
 }

@@ -40,4 +40,15 @@ bool touches_at(const scene::SceneIndex& index, const motion::Camera& camera,
   return false;
 }
 
+bool shown_colliding(const scene::SceneIndex& index, const motion::Camera& camera,
+                     const motion::Path& path, const collision::CollisionInterval& interval) {
+  constexpr int kLooks = 500;
+  for (int i = 0; i <= kLooks; ++i) {
+    const double share = static_cast<double>(i) / kLooks;
+    const double time_s = interval.t_begin_s + share * (interval.t_end_s - interval.t_begin_s);
+    if (touches_at(index, camera, path.pose(time_s))) return true;
+  }
+  return false;
+}
+
 }  // namespace camway::bench

@@ -44,4 +44,9 @@ planning::PathCheck check_whole(const collision::Obstacles& obstacles, const mot
 bool touches_at(const scene::SceneIndex& index, const motion::Camera& camera,
                 const motion::Pose& pose);
 
+/// Whether some pose in the interval collides without doubt; an interval may be there only because
+/// the resolution ended.
+bool shown_colliding(const scene::SceneIndex& index, const motion::Camera& camera,
+                     const motion::Path& path, const collision::CollisionInterval& interval);
+
 }  // namespace camway::bench

@@ -80,8 +80,6 @@ std::string ratio_text(double ratio) {
   return ratio < 100.0 ? fmt::format("{:.3g}×", ratio) : fmt::format("{:.0f}×", ratio);
 }
 
-std::string number_text(double value) { return fmt::format("{:.4g}", value); }
-
 std::string write_json(const std::string& file, const nlohmann::json& document) {
   if (file.empty()) return {};
   std::ofstream out(file);

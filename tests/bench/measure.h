@@ -75,7 +75,6 @@ class Table {
 std::string duration_text(double seconds);
 /// "31.4×"; "-" for what is not finite.
 std::string ratio_text(double ratio);
-std::string number_text(double value);
 
 /// Writes `document` to `file`; nothing if `file` is empty. Returns an error text, empty on
 /// success.

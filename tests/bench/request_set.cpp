@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "daemon/motion/interpolate.h"
 #include "daemon/scene/import.h"
@@ -45,7 +46,9 @@ std::string difficulty_of(const std::string& name) {
 }
 
 BenchRequest to_bench(const fs::path& file, planning::PlanRequest request) {
+  if (request.body) give_up(file.string() + ": has a body; benchmarks know cameras alone");
   std::vector<motion::Keyframe>& keyframes = request.keyframes;
+  for (motion::Keyframe& keyframe : keyframes) keyframe.pose.orientation.normalize();
   if (!request.has_times) {
     std::vector<motion::Pose> poses;
     for (const motion::Keyframe& keyframe : keyframes) poses.push_back(keyframe.pose);
@@ -53,8 +56,13 @@ BenchRequest to_bench(const fs::path& file, planning::PlanRequest request) {
     for (std::size_t i = 0; i < keyframes.size(); ++i) keyframes[i].time_s = times_s[i];
   }
   const std::string name = file.stem().string();
-  return {name, difficulty_of(name), request.camera, motion::interpolate(keyframes),
-          keyframes.size()};
+  request.has_times = true;
+  return {name,
+          difficulty_of(name),
+          request.camera,
+          motion::interpolate(keyframes),
+          keyframes.size(),
+          std::move(request)};
 }
 
 }  // namespace
@@ -83,7 +91,11 @@ std::vector<BenchScene> load_requests(const RequestSource& source) {
       scene.name = fs::path(scene_file).stem().string();
       scene.mesh = load_mesh(scene_file, source.scale);
     }
-    scene.requests.push_back(to_bench(file, std::move(*parsed.value)));
+    BenchRequest request = to_bench(file, std::move(*parsed.value));
+    const auto same =
+        std::ranges::count(scene.requests, request.difficulty, &BenchRequest::difficulty);
+    if (static_cast<std::size_t>(same) >= source.each) continue;
+    scene.requests.push_back(std::move(request));
   }
   std::vector<BenchScene> list;
   for (auto& [file, scene] : scenes) list.push_back(std::move(scene));

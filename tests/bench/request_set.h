@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "daemon/motion/camera.h"
 #include "daemon/motion/path.h"
+#include "daemon/planning/request.h"
 #include "daemon/scene/mesh.h"
 
 namespace camway::bench {
 
-/// A request as the benchmarks need it: the motion through its keyframes.
+/// A request as the benchmarks need it, and the motion through its keyframes.
 struct BenchRequest {
   std::string name;        ///< of the file, without folder and ending
   std::string difficulty;  ///< the word in the name that says it: free, graze, wall, ...
   motion::Camera camera;
   motion::Path path;
   std::size_t keyframes = 0;
+  planning::PlanRequest plan = {};  ///< as read, but with times and quaternions of length 1
 };
 
 /// A scene and the requests in it.
@@ -34,6 +37,8 @@ struct RequestSource {
   std::string scene;      ///< a file; empty: the one that each request names
   double scale = 1.0;     ///< of the scene's coordinates
   std::string only = {};  ///< requests with this in their name; empty: all
+  /// So many of each difficulty and scene, the first ones.
+  std::size_t each = std::numeric_limits<std::size_t>::max();
 };
 
 /// Reads all requests of a folder, in order of name, and the scenes they are in. Index files

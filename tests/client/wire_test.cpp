@@ -127,6 +127,50 @@ TEST(PlanPages, EveryBodyHasItsForm) {
   EXPECT_EQ(mesh.triangles[0], (std::vector<std::int32_t>{2, 1, 0}));
 }
 
+TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
+  PlanRequest request = request_with(2000);
+  request.objective = Objective::kSmoothest;
+  request.orientation = Orientation::target({1, 2, 3}, 0.5);
+  request.orientation.max_turn_rad = 0.0;
+  request.limits.acceleration_m_per_s2 = 2.5;
+  request.limits.may_retime = true;
+  request.max_shrink = 0.25;
+  request.repair_keyframes = true;
+  request.seed = 99;
+  const std::vector<Bytes> pages = to_pages(request, "me", 7);
+  ASSERT_GT(pages.size(), 1u);
+  for (const Bytes& bytes : pages) {
+    const auto page = wire::decode<plan_request_t>(bytes).message;
+    ASSERT_TRUE(page);
+    EXPECT_EQ(page->objective, plan_request_t::SMOOTHEST);
+    EXPECT_EQ(page->orientation.policy, orientation_t::TARGET);
+    EXPECT_EQ(page->orientation.target_m[2], 3.0);
+    EXPECT_EQ(page->orientation.cone_rad, 0.5);
+    EXPECT_EQ(page->orientation.has_max_turn, 1);
+    EXPECT_EQ(page->orientation.max_turn_rad, 0.0);
+    EXPECT_EQ(page->limits.acceleration_m_per_s2, 2.5);
+    EXPECT_EQ(page->limits.speed_m_per_s, 0.0);
+    EXPECT_EQ(page->limits.may_retime, 1);
+    EXPECT_EQ(page->max_shrink, 0.25);
+    EXPECT_EQ(page->repair_keyframes, 1);
+    EXPECT_EQ(page->seed, 99);
+  }
+}
+
+TEST(PlanPages, EveryOrientationHasItsForm) {
+  const auto sent = [](const Orientation& orientation) {
+    PlanRequest request = request_with(2);
+    request.orientation = orientation;
+    const auto page = wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+    return page ? page->orientation : orientation_t{};
+  };
+  EXPECT_EQ(sent({}).policy, orientation_t::FREE);
+  EXPECT_EQ(sent({}).has_max_turn, 0);
+  EXPECT_EQ(sent(Orientation::keep()).policy, orientation_t::KEEP);
+  EXPECT_EQ(sent(Orientation::level({0, 2, 0})).policy, orientation_t::LEVEL);
+  EXPECT_EQ(sent(Orientation::level({0, 2, 0})).up[1], 2.0);
+}
+
 TEST(PlanPages, WhatHasNoFormIsNamed) {
   PlanRequest request = request_with(2);
   request.scene = std::string(200, 's');
@@ -194,6 +238,68 @@ TEST(PlanCollector, ReadsWitnesses) {
   EXPECT_EQ(witness.feature, "edge 2");
   EXPECT_EQ(witness.depth_m, 0.125);
   EXPECT_EQ(witness.point_m, (std::array<double, 3>{0, 0, 3}));
+}
+
+TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
+  std::vector<plan_response_t> pages = answer_pages(wire_request(), 2, 1);
+  for (plan_response_t& page : pages) {
+    page.near_scale = 0.75;
+    page.time_scale = 1.25;
+    page.has_measures = 1;
+    page.measures.length_m = 7.0;
+    page.measures.largest_turn_acceleration_rad_per_s2 = 8.0;
+    page.has_infeasibility = 1;
+    page.keyframe_inside = 3;
+    page.keyframe_outside = 1;
+  }
+  correction_t correction{};
+  correction.t_end_s = 0.5;
+  correction.method = correction_t::GO_ROUND;
+  correction.changed_t_end_s = 1.5;
+  correction.moved_m = 0.25;
+  correction.turned_rad = 0.125;
+  pages[0].corrections = {correction};
+  pages[0].num_corrections = 1;
+  pages[0].proof_triangles = {2, 4};
+  pages[0].num_proof_triangles = 2;
+  keyframe_fault_t fault{};
+  fault.keyframe = 4;
+  fault.depth_m = 0.5;
+  fault.has_free_pose = 1;
+  fault.free_position_m[2] = 3.0;
+  fault.free_orientation_wxyz[0] = 1.0;
+  pages[1].keyframe_faults = {fault, keyframe_fault_t{}};
+  pages[1].num_keyframe_faults = 2;
+  pages[1].proof_triangles = {6};
+  pages[1].num_proof_triangles = 1;
+  PlanCollector collector("me", 7);
+  collector.take(wire::encode(pages[1]));
+  collector.take(wire::encode(pages[0]));
+  ASSERT_TRUE(collector.complete());
+  const PlanResponse response = collector.response();
+  ASSERT_TRUE(response.ok()) << response.error;
+  ASSERT_EQ(response.corrections.size(), 1u);
+  EXPECT_EQ(response.corrections[0].t_end_s, 0.5);
+  EXPECT_EQ(response.corrections[0].method, Correction::Method::kGoRound);
+  EXPECT_EQ(response.corrections[0].changed_t_end_s, 1.5);
+  EXPECT_EQ(response.corrections[0].moved_m, 0.25);
+  EXPECT_EQ(response.corrections[0].turned_rad, 0.125);
+  EXPECT_FALSE(response.measures_before);
+  ASSERT_TRUE(response.measures);
+  EXPECT_EQ(response.measures->length_m, 7.0);
+  EXPECT_EQ(response.measures->largest_turn_acceleration_rad_per_s2, 8.0);
+  EXPECT_EQ(response.near_scale, 0.75);
+  EXPECT_EQ(response.time_scale, 1.25);
+  ASSERT_EQ(response.keyframe_faults.size(), 2u);
+  EXPECT_EQ(response.keyframe_faults[0].keyframe, 4);
+  EXPECT_EQ(response.keyframe_faults[0].depth_m, 0.5);
+  ASSERT_TRUE(response.keyframe_faults[0].free_pose);
+  EXPECT_EQ(response.keyframe_faults[0].free_pose->position_m[2], 3.0);
+  EXPECT_FALSE(response.keyframe_faults[1].free_pose);
+  ASSERT_TRUE(response.infeasibility);
+  EXPECT_EQ(response.infeasibility->keyframe_inside, 3);
+  EXPECT_EQ(response.infeasibility->keyframe_outside, 1);
+  EXPECT_EQ(response.infeasibility->triangles, (std::vector<std::int32_t>{2, 4, 6}));
 }
 
 TEST(PlanCollector, IsNotCompleteWhileAPageIsMissing) {
@@ -289,6 +395,12 @@ TEST(PlanCollector, RefusesAPathThatIsNone) {
   refused(damaged([](auto& p) { p.segments[2].position_m[3][1] = NAN; }), "not finite");
   refused(damaged([](auto& p) { p.segments[0].orientation_wxyz[6][3] = INFINITY; }), "not finite");
   refused(damaged([](auto& p) { p.status = 77; }), "status 77");
+  refused(damaged([](auto& p) {
+            p.corrections.resize(1);
+            p.num_corrections = 1;
+            p.corrections[0].method = 5;
+          }),
+          "a correction by method 5");
   refused(damaged([](auto& p) {
             p.segments.clear();
             p.num_segments = 0;

@@ -19,6 +19,7 @@ using motion::Keyframe;
 using scene::Mesh;
 
 struct Case {
+  Mesh mesh;
   scene::SceneIndex index;
   motion::Body body{testing::small_camera()};
   std::vector<Keyframe> keyframes;
@@ -32,13 +33,14 @@ struct Case {
   }
   [[nodiscard]] LadderResult corrected() const {
     const CubicPath before = path();
-    return correct_by_ladder(index, body, keyframes, before, collisions(before), options,
+    return correct_by_ladder(mesh, index, body, keyframes, before, collisions(before), options,
                              Deadline::never());
   }
 };
 
 Case case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
   Case c;
+  c.mesh = mesh;
   c.index = scene::SceneIndex::build(mesh);
   c.keyframes = std::move(keyframes);
   return c;

@@ -8,7 +8,9 @@
 
 #include <camway/occupancy_request_t.hpp>
 #include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
 
+#include "client/plan_wire.h"
 #include "daemon/planning/request.h"
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/occupancy_answer.h"
@@ -51,6 +53,15 @@ void exercise(const plan_request_t& message) {
   if (converted.request) static_cast<void>(planning::validate(*converted.request));
 }
 
+/// As `camway replay` reads it from a log, and as a client does.
+void exercise(const plan_response_t& message, std::span<const std::uint8_t> bytes) {
+  const service::ConvertedResult converted = service::from_wire(message);
+  require(converted.result.has_value() == converted.error.empty(), "a result or a reason");
+  PlanCollector collector(message.client_id, message.request_id);
+  collector.take(bytes);
+  if (collector.complete()) static_cast<void>(collector.response());
+}
+
 }  // namespace
 
 int exercise_message(std::span<const std::uint8_t> bytes) {
@@ -61,6 +72,10 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
   }
   if (const auto batch = decoded<occupancy_request_t>(bytes)) {
     static_cast<void>(service::batch_fault(*batch));
+    ++right;
+  }
+  if (const auto answer = decoded<plan_response_t>(bytes)) {
+    exercise(*answer, bytes);
     ++right;
   }
   return right;

@@ -8,6 +8,7 @@
 
 #include <camway/occupancy_request_t.hpp>
 #include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/service/random_messages.h"
@@ -42,5 +43,6 @@ int main(int argc, char** argv) {
   Random random(camway::testing::kSeed);
   write_messages<camway::plan_request_t>(folder, random);
   write_messages<camway::occupancy_request_t>(folder, random);
+  write_messages<camway::plan_response_t>(folder, random);
   return 0;
 }

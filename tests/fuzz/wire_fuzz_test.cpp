@@ -5,6 +5,7 @@
 
 #include <camway/occupancy_request_t.hpp>
 #include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/fuzz/exercise_message.h"
@@ -15,8 +16,8 @@ namespace {
 
 template <class Message>
 class WireFuzz : public ::testing::Test {};
-using Inbound = ::testing::Types<plan_request_t, occupancy_request_t>;
-TYPED_TEST_SUITE(WireFuzz, Inbound);
+using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t>;
+TYPED_TEST_SUITE(WireFuzz, Exercised);
 
 TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {
   constexpr int kMutants = 20'000;

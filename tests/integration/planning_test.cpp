@@ -148,6 +148,29 @@ TEST_F(PlanningTest, LongRequestsAndAnswersTravelInPages) {
   EXPECT_EQ(response.path.end(), double(kKeyframes - 1));
 }
 
+TEST_F(PlanningTest, OptionsOfCorrectionArriveAndAnswersSayWhatWasDone) {
+  start_daemon();
+  Client client(patient());
+  PlanRequest request = request_of("office-graze-column", "office");
+  request.objective = Objective::kShortest;
+  request.seed = 5;
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error;
+  ASSERT_FALSE(response.collisions.empty());
+  ASSERT_EQ(response.corrections.size(), response.collisions.size());
+  for (std::size_t i = 0; i < response.corrections.size(); ++i) {
+    EXPECT_EQ(response.corrections[i].t_begin_s, response.collisions[i].t_begin_s);
+    EXPECT_NE(response.corrections[i].method, Correction::Method::kNone);
+    EXPECT_LE(response.corrections[i].changed_t_begin_s, response.collisions[i].t_begin_s);
+  }
+  ASSERT_TRUE(response.measures_before);
+  ASSERT_TRUE(response.measures);
+  EXPECT_GT(response.measures->length_m, 0.0);
+  EXPECT_LT(response.measures_before->largest_deviation_m, 1e-9) << "of itself, but for rounding";
+  EXPECT_GT(response.measures->largest_deviation_m, 1e-3);
+  EXPECT_FALSE(response.infeasibility);
+}
+
 TEST_F(PlanningTest, SameIdGetsTheSameAnswerWithoutPlanningAgain) {
   start_daemon();
   Client client(patient());

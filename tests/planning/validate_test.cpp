@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include "daemon/planning/request.h"
 #include "tests/support/scenes.h"
@@ -101,6 +103,50 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"options.max_inserted_keyframes",
        {},
        [](PlanRequest& r) { r.options.max_inserted_keyframes = -1; }},
+      {"options.orientation.up", {}, [](PlanRequest& r) { r.options.orientation.up_W.setZero(); }},
+      {"options.orientation.up", {}, [](PlanRequest& r) { r.options.orientation.up_W.x() = kNaN; }},
+      {"options.orientation.up", {}, [](PlanRequest& r) { r.options.orientation.up_W *= 2.0; }},
+      {"options.orientation.target",
+       {},
+       [](PlanRequest& r) { r.options.orientation.target_W.z() = kNaN; }},
+      {"options.orientation.target",
+       {},
+       [](PlanRequest& r) { r.options.orientation.target_W.z() = -2e9; }},
+      {"options.orientation.cone",
+       {},
+       [](PlanRequest& r) { r.options.orientation.cone_rad = 0.0; }},
+      {"options.orientation.cone",
+       {},
+       [](PlanRequest& r) { r.options.orientation.cone_rad = 3.2; }},
+      {"options.orientation.cone",
+       {},
+       [](PlanRequest& r) { r.options.orientation.cone_rad = kNaN; }},
+      {"options.orientation.max_turn",
+       {},
+       [](PlanRequest& r) { r.options.orientation.max_turn_rad = -0.1; }},
+      {"options.orientation.max_turn",
+       {},
+       [](PlanRequest& r) { r.options.orientation.max_turn_rad = 3.2; }},
+      {"options.orientation.max_turn",
+       {},
+       [](PlanRequest& r) { r.options.orientation.max_turn_rad = kNaN; }},
+      {"options.limits.speed", {}, [](PlanRequest& r) { r.options.limits.speed_m_per_s = 0.0; }},
+      {"options.limits.acceleration",
+       {},
+       [](PlanRequest& r) { r.options.limits.acceleration_m_per_s2 = -1.0; }},
+      {"options.limits.turn_rate",
+       {},
+       [](PlanRequest& r) { r.options.limits.turn_rate_rad_per_s = kNaN; }},
+      {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = -0.1; }},
+      {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = 1.0; }},
+      {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = kNaN; }},
+      {"options.max_shrink",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{geometry::Vec3::Zero(), 1.0};
+         r.options.max_shrink = 0.5;
+       }},
+      {"options.seed", {}, [](PlanRequest& r) { r.options.seed = 0; }},
   };
   for (const Fault& fault : faults) {
     PlanRequest request = good_request();
@@ -111,6 +157,43 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
     EXPECT_EQ(found->keyframe, fault.keyframe) << fault.field;
     EXPECT_THAT(found->message, ::testing::StartsWith(std::string(fault.field) + ": "));
   }
+}
+
+TEST(Validate, TheEndsOfRangesPass) {
+  PlanRequest request = good_request();
+  request.options.orientation.cone_rad = std::numbers::pi;
+  request.options.orientation.max_turn_rad = 0.0;
+  request.options.limits.speed_m_per_s = std::numeric_limits<double>::denorm_min();
+  request.options.limits.acceleration_m_per_s2 = kInfinity;
+  request.options.max_shrink = std::nextafter(1.0, 0.0);
+  request.options.seed = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_FALSE(validate(request));
+  request.body = request.camera;
+  EXPECT_FALSE(validate(request)) << "a camera of its own can shrink too";
+}
+
+// Every direction that comes out passes `validate`, and coming out again it is the same.
+TEST(Validate, DirectionsOfAnyLengthBecomeUnitVectors) {
+  constexpr unsigned kSeed = 7;
+  RecordProperty("seed", kSeed);
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-300, 300);
+  for (int i = 0; i < 10'000; ++i) {
+    const geometry::Vec3 given = geometry::Vec3(normal(random), normal(random), normal(random)) *
+                                 std::pow(10.0, exponent(random));
+    PlanRequest request = good_request();
+    const geometry::Vec3 unit = direction_of(given);
+    request.options.orientation.up_W = unit;
+    EXPECT_FALSE(validate(request)) << "seed " << kSeed << ", trial " << i;
+    EXPECT_EQ(direction_of(unit), unit);
+    const geometry::Vec3 scaled = given / given.cwiseAbs().maxCoeff();
+    // Scaling, normalising and the product itself: 1 + 3.5 + 3 roundings of half an epsilon.
+    EXPECT_LE(unit.cross(scaled).norm(),
+              4 * std::numeric_limits<double>::epsilon() * scaled.norm());
+    EXPECT_GT(unit.dot(scaled), 0.0);
+  }
+  EXPECT_EQ(direction_of(geometry::Vec3::Zero()), geometry::Vec3::Zero());
 }
 
 TEST(Validate, TimesDoNotMatterWhereNoneWereGiven) {

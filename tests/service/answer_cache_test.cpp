@@ -102,6 +102,15 @@ TEST(RequestDigest, IsOfContentAlone) {
   changed.clearance_m += 0.25;
   EXPECT_NE(digest_of(request), digest_of(changed));
   changed = request;
+  changed.objective = static_cast<std::int8_t>(3 - changed.objective);
+  EXPECT_NE(digest_of(request), digest_of(changed));
+  changed = request;
+  changed.orientation.max_turn_rad += 0.25;
+  EXPECT_NE(digest_of(request), digest_of(changed));
+  changed = request;
+  changed.seed += 1;
+  EXPECT_NE(digest_of(request), digest_of(changed));
+  changed = request;
   changed.body = wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
   const RequestDigest with_ball = digest_of(changed);
   EXPECT_NE(digest_of(request), with_ball);

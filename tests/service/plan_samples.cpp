@@ -39,6 +39,62 @@ collision::Witness witness(double time_s, Random& random) {
           .point_W = point(random)};
 }
 
+correction::OrientationPolicy orientation(Random& random) {
+  correction::OrientationPolicy policy;
+  policy.rule = static_cast<correction::OrientationRule>(below(random, 4));
+  policy.up_W = planning::direction_of(point(random));
+  policy.target_W = point(random);
+  policy.cone_rad = 0.25;
+  policy.max_turn_rad = static_cast<double>(below(random, 4));
+  return policy;
+}
+
+correction::MotionLimits limits(Random& random) {
+  correction::MotionLimits limits;
+  if (below(random, 2) == 0) limits.speed_m_per_s = 1.5;
+  if (below(random, 2) == 0) limits.acceleration_m_per_s2 = 2.5;
+  if (below(random, 2) == 0) limits.turn_rate_rad_per_s = 3.5;
+  limits.may_retime = below(random, 2) == 0;
+  return limits;
+}
+
+motion::PathMeasures measures(Random& random) {
+  return {number(random), number(random), number(random), number(random),
+          number(random), number(random), number(random)};
+}
+
+correction::Correction corrected(const collision::CollisionInterval& interval, Random& random) {
+  correction::Correction correction;
+  correction.interval = {interval.t_begin_s, interval.t_end_s};
+  correction.rung = static_cast<correction::Rung>(below(random, 5));
+  correction.t_begin_s = number(random);
+  correction.t_end_s = number(random);
+  correction.moved_m = number(random);
+  correction.turned_rad = number(random);
+  return correction;
+}
+
+void add_report(planning::PlanResult& result, Random& random) {
+  for (const collision::CollisionInterval& interval : result.collisions) {
+    result.corrections.push_back(corrected(interval, random));
+  }
+  if (below(random, 2) == 0) result.measures_before = measures(random);
+  if (below(random, 2) == 0) result.measures = measures(random);
+  result.near_scale = 0.75;
+  result.time_scale = 1.25;
+  for (std::size_t i = 0; i < below(random, 5); ++i) {
+    planning::KeyframeFault& fault = result.keyframe_faults.emplace_back();
+    fault.keyframe = i;
+    fault.depth_m = number(random);
+    if (below(random, 2) == 0) fault.free_pose = keyframe(0.0, random).pose;
+  }
+  planning::Infeasibility& proof = result.infeasibility.emplace();
+  proof.keyframe_inside = 3;
+  proof.keyframe_outside = 1;
+  for (std::uint32_t i = 0; i < 60 * result.collisions.size(); ++i)
+    proof.triangles.push_back(2 * i);
+}
+
 }  // namespace
 
 planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
@@ -51,6 +107,12 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   request.options.interval_tolerance_m = 1e-5;
   request.options.clearance_m = 0.0625;
   request.options.max_inserted_keyframes = 17;
+  request.options.objective = static_cast<correction::Objective>(below(random, 4));
+  request.options.orientation = orientation(random);
+  request.options.limits = limits(random);
+  request.options.max_shrink = 0.375;
+  request.options.repair_keyframes = below(random, 2) == 0;
+  request.options.seed = 1 + random();
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
   }
@@ -101,6 +163,7 @@ planning::PlanResult sample_result(std::size_t segments, Random& random) {
   result.remaining_names = {{"", ""}, {"chair", "corner 0"}};
   result.certificate = {true, 0.0123};
   result.timing = {0.0, 1.5, 2.5, 3.5, 4.5, 12.0};
+  add_report(result, random);
   return result;
 }
 

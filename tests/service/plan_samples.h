@@ -25,8 +25,8 @@ std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random);
 /// The largest body that a request may hold: `kMaxBodyPoints` points in as many pieces.
 motion::BodyShape largest_body(Random& random);
 
-/// A result as planning might return it, with a path of `segments` segments and twice as many
-/// keyframes, half of them inserted.
+/// A result of the form that planning returns, with a path of `segments` segments, twice as many
+/// keyframes, half of them inserted, and a report of everything that corrections may say.
 planning::PlanResult sample_result(std::size_t segments, Random& random);
 
 /// An empty scene.

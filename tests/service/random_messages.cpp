@@ -78,6 +78,57 @@ collision_interval_t interval(Random& random) {
   return interval;
 }
 
+orientation_t orientation(Random& random) {
+  orientation_t orientation{};
+  orientation.policy = static_cast<std::int8_t>(below(random, 6));
+  fill(orientation.up, random);
+  fill(orientation.target_m, random);
+  orientation.cone_rad = number(random);
+  orientation.has_max_turn = static_cast<std::int8_t>(random());
+  orientation.max_turn_rad = number(random);
+  return orientation;
+}
+
+motion_limits_t limits(Random& random) {
+  motion_limits_t limits{};
+  limits.speed_m_per_s = number(random);
+  limits.acceleration_m_per_s2 = number(random);
+  limits.turn_rate_rad_per_s = number(random);
+  limits.may_retime = static_cast<std::int8_t>(random());
+  return limits;
+}
+
+path_measures_t measures(Random& random) {
+  path_measures_t measures{};
+  for (double* value :
+       {&measures.length_m, &measures.largest_deviation_m, &measures.bending_energy_m2_per_s3,
+        &measures.largest_speed_m_per_s, &measures.largest_acceleration_m_per_s2,
+        &measures.largest_turn_rate_rad_per_s, &measures.largest_turn_acceleration_rad_per_s2}) {
+    *value = number(random);
+  }
+  return measures;
+}
+
+correction_t correction(Random& random) {
+  correction_t correction{};
+  correction.method = static_cast<std::int8_t>(below(random, 7));
+  for (double* value : {&correction.t_begin_s, &correction.t_end_s, &correction.changed_t_begin_s,
+                        &correction.changed_t_end_s, &correction.moved_m, &correction.turned_rad}) {
+    *value = number(random);
+  }
+  return correction;
+}
+
+keyframe_fault_t keyframe_fault(Random& random) {
+  keyframe_fault_t fault{};
+  fault.keyframe = small(random);
+  fault.depth_m = number(random);
+  fault.has_free_pose = static_cast<std::int8_t>(random());
+  fill(fault.free_position_m, random);
+  fill(fault.free_orientation_wxyz, random);
+  return fault;
+}
+
 template <class Element, class Make>
 std::int32_t fill_list(std::vector<Element>& list, std::size_t count, const Make& make) {
   std::generate_n(std::back_inserter(list), count, make);
@@ -133,6 +184,12 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
   message.max_inserted_keyframes = small(random);
+  message.objective = static_cast<std::int8_t>(below(random, 6));
+  message.orientation = orientation(random);
+  message.limits = limits(random);
+  message.max_shrink = number(random);
+  message.repair_keyframes = static_cast<std::int8_t>(random());
+  message.seed = integer(random);
   message.has_times = static_cast<std::int8_t>(random());
   message.num_keyframes =
       fill_list(message.keyframes, length(random, 700), [&] { return keyframe(random); });
@@ -148,6 +205,12 @@ plan_response_t random_message<plan_response_t>(Random& random) {
   message.page = small(random);
   message.num_pages = small(random);
   message.status = small(random);
+  // Half of them get past the first look, to where the lists are read.
+  if (below(random, 2) == 0) {
+    message.page = 0;
+    message.num_pages = 1;
+    message.status = static_cast<std::int32_t>(below(random, 9));
+  }
   message.message = text(random, wire::kMaxTextBytes);
   message.keyframe = small(random);
   message.scene = text(random, wire::kMaxSceneNameBytes);
@@ -166,6 +229,21 @@ plan_response_t random_message<plan_response_t>(Random& random) {
       fill_list(message.collisions, length(random, 100), [&] { return interval(random); });
   message.num_remaining =
       fill_list(message.remaining, length(random, 100), [&] { return interval(random); });
+  message.near_scale = number(random);
+  message.time_scale = number(random);
+  message.has_measures_before = static_cast<std::int8_t>(random());
+  message.measures_before = measures(random);
+  message.has_measures = static_cast<std::int8_t>(random());
+  message.measures = measures(random);
+  message.has_infeasibility = static_cast<std::int8_t>(random());
+  message.keyframe_inside = small(random);
+  message.keyframe_outside = small(random);
+  message.num_corrections =
+      fill_list(message.corrections, length(random, 100), [&] { return correction(random); });
+  message.num_keyframe_faults = fill_list(message.keyframe_faults, length(random, 100),
+                                          [&] { return keyframe_fault(random); });
+  message.num_proof_triangles =
+      fill_list(message.proof_triangles, length(random, 1000), [&] { return small(random); });
   return message;
 }
 

@@ -40,6 +40,59 @@ TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
   }
 }
 
+TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    const planning::PlanRequest request = sample_request(2, random);
+    const ConvertedRequest back = from_wire(to_wire(request, kIds));
+    ASSERT_TRUE(back.request) << back.error;
+    EXPECT_EQ(back.request->options, request.options);
+  }
+}
+
+TEST(WireConvert, OptionsHaveTheirNumbersWhereTheTypesSayTheyAre) {
+  planning::PlanRequest request;
+  planning::PlanOptions& options = request.options;
+  options.objective = correction::Objective::kSafest;
+  options.orientation.rule = correction::OrientationRule::kTarget;
+  options.orientation.target_W = {1, 2, 3};
+  options.orientation.cone_rad = 0.5;
+  options.orientation.max_turn_rad = 0.25;
+  options.limits.turn_rate_rad_per_s = 1.5;
+  options.limits.may_retime = true;
+  options.seed = 99;
+  const plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.objective, 3);
+  EXPECT_EQ(wire.orientation.policy, 3);
+  EXPECT_EQ(wire.orientation.target_m[1], 2.0);
+  EXPECT_EQ(wire.orientation.cone_rad, 0.5);
+  EXPECT_EQ(wire.orientation.has_max_turn, 1);
+  EXPECT_EQ(wire.orientation.max_turn_rad, 0.25);
+  EXPECT_EQ(wire.limits.turn_rate_rad_per_s, 1.5);
+  EXPECT_EQ(wire.limits.may_retime, 1);
+  EXPECT_EQ(wire.seed, 99);
+}
+
+TEST(WireConvert, DirectionsNeedNotBeOfUnitLength) {
+  plan_request_t wire = minimal_request();
+  wire.orientation.policy = orientation_t::LEVEL;
+  wire.orientation.up[1] = 1e200;
+  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitY());
+  wire.orientation.up[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(from_wire(wire).request->options.orientation.up_W.y()))
+      << "for planning::validate to refuse";
+}
+
+TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
+  plan_request_t wire = minimal_request();
+  wire.objective = 4;
+  EXPECT_EQ(from_wire(wire).error, "objective: 4 is unknown");
+  wire = minimal_request();
+  wire.orientation.policy = -1;
+  EXPECT_EQ(from_wire(wire).error, "orientation.policy: -1 is unknown");
+}
+
 TEST(WireConvert, EveryBodySurvivesTheWayThereAndBack) {
   Random random(kSeed);
   std::vector<std::optional<motion::BodyShape>> bodies = testing::sample_bodies(random);
@@ -146,7 +199,78 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     EXPECT_EQ(back.result->remaining_collisions, result.remaining_collisions);
     EXPECT_EQ(back.result->remaining_names, result.remaining_names);
     EXPECT_FALSE(back.result->keyframe);
+    EXPECT_EQ(back.result->corrections.size(), segments);
+    EXPECT_EQ(back.result->measures_before, result.measures_before);
+    EXPECT_EQ(back.result->measures, result.measures);
+    EXPECT_EQ(back.result->near_scale, 0.75);
+    EXPECT_EQ(back.result->time_scale, 1.25);
+    EXPECT_EQ(back.result->keyframe_faults.size(), result.keyframe_faults.size());
+    ASSERT_TRUE(back.result->infeasibility);
+    EXPECT_EQ(back.result->infeasibility->keyframe_inside, 3U);
+    EXPECT_EQ(back.result->infeasibility->triangles, result.infeasibility->triangles);
   }
+}
+
+TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
+  planning::PlanResult result;
+  correction::Correction correction;
+  correction.interval = {1.0, 2.0, collision::Witness{}};
+  correction.rung = correction::Rung::kGoRound;
+  correction.t_begin_s = 0.5;
+  correction.t_end_s = 2.5;
+  correction.moved_m = 0.25;
+  correction.turned_rad = 0.125;
+  result.corrections = {correction};
+  motion::PathMeasures measures;
+  measures.length_m = 7.0;
+  measures.largest_turn_acceleration_rad_per_s2 = 8.0;
+  result.measures = measures;
+  planning::KeyframeFault fault;
+  fault.keyframe = 4;
+  fault.depth_m = 0.0625;
+  fault.free_pose = motion::Pose{{1, 2, 3}, geometry::Quat(0.1, 0.2, 0.3, 0.4)};
+  result.keyframe_faults = {fault};
+  const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+  ASSERT_EQ(wire.num_corrections, 1);
+  EXPECT_EQ(wire.corrections[0].t_end_s, 2.0);
+  EXPECT_EQ(wire.corrections[0].method, correction_t::GO_ROUND);
+  EXPECT_EQ(wire.corrections[0].changed_t_begin_s, 0.5);
+  EXPECT_EQ(wire.corrections[0].changed_t_end_s, 2.5);
+  EXPECT_EQ(wire.corrections[0].moved_m, 0.25);
+  EXPECT_EQ(wire.corrections[0].turned_rad, 0.125);
+  EXPECT_FALSE(from_wire(wire).result->corrections[0].interval.witness);
+  EXPECT_EQ(wire.has_measures_before, 0);
+  EXPECT_EQ(wire.has_measures, 1);
+  EXPECT_EQ(wire.measures.length_m, 7.0);
+  EXPECT_EQ(wire.measures.largest_turn_acceleration_rad_per_s2, 8.0);
+  ASSERT_EQ(wire.num_keyframe_faults, 1);
+  EXPECT_EQ(wire.keyframe_faults[0].keyframe, 4);
+  EXPECT_EQ(wire.keyframe_faults[0].free_position_m[2], 3.0);
+  EXPECT_EQ(wire.keyframe_faults[0].free_orientation_wxyz[0], 0.1);
+  EXPECT_EQ(wire.has_infeasibility, 0);
+  EXPECT_EQ(wire.keyframe_inside, -1);
+  EXPECT_EQ(wire.near_scale, 1.0);
+}
+
+TEST(WireConvert, ReportsThatMakeNoSenseAreErrors) {
+  Random random(kSeed);
+  planning::PlanResult result = sample_result(4, random);
+  result.keyframe_faults.resize(2);
+  const plan_response_t good = to_wire(result, {kIds, "room", 7, "abc"});
+  const auto error_of = [&](const auto& edit) {
+    plan_response_t wire = good;
+    edit(wire);
+    return from_wire(wire).error;
+  };
+  EXPECT_EQ(error_of([](plan_response_t&) {}), "");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.corrections[2].method = 5; }),
+            "corrections[2].method: 5 is unknown");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_faults[1].keyframe = -1; }),
+            "keyframe_faults[1].keyframe: is below 0");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_outside = -1; }),
+            "keyframe_outside: is below 0");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.proof_triangles[7] = -2; }),
+            "proof_triangles[7]: is below 0");
 }
 
 TEST(WireConvert, QuaternionsAreOrderedWxyzOnTheWire) {

@@ -64,6 +64,21 @@ TEST(WirePages, EveryPageFitsAndTogetherTheyAreTheWhole) {
   }
 }
 
+TEST(WirePages, AProofOfManyTrianglesComesInPages) {
+  planning::PlanResult result;
+  result.status = planning::Status::kInfeasible;
+  planning::Infeasibility& proof = result.infeasibility.emplace();
+  for (std::uint32_t i = 0; i < 100'000; ++i) proof.triangles.push_back(3 * i);
+  const plan_response_t whole = to_wire(result, kHeader);
+  const std::vector<Bytes> pages = encode_pages(whole);
+  EXPECT_EQ(pages.size(), 7U);
+  EXPECT_EQ(count_pages(whole), pages.size());
+  for (const Bytes& page : pages) ASSERT_LE(page.size(), wire::kMaxMessageBytes);
+  const std::optional<plan_response_t> back = joined<plan_response_t>(pages);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->proof_triangles, whole.proof_triangles);
+}
+
 TEST(WirePages, RequestsComeInPagesToo) {
   Random random(kSeed);
   for (const std::size_t keyframes : {0U, 900U, 1000U, 20'000U}) {

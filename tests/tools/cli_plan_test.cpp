@@ -129,13 +129,15 @@ TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
 }
 
 TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
-  // The wall ends at x = 0.2 and the fin begins at x = 2: in between there is room for 1.8 m.
+  // The wall ends at x = 0.2 and the fin begins at x = 2: in between there is room for 1.8 m. The
+  // seed's method corrects cameras alone, so others are answered as they are interpolated.
   const auto planned = [&](const std::string& body, double clearance) {
     std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
     const std::string camera = R"("camera": {"fov_x_deg": 70, "fov_y_deg": 50, "near": 0.1},)";
-    text.replace(
-        text.find(camera), camera.size(),
-        "\"body\": " + body + ", \"options\": {\"clearance\": " + std::to_string(clearance) + "},");
+    text.replace(text.find(camera), camera.size(),
+                 "\"body\": " + body +
+                     ", \"options\": {\"method\": \"keyframe_insertion\", \"clearance\": " +
+                     std::to_string(clearance) + "},");
     const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
     EXPECT_EQ(run.exit_code == 0, parse_plan_response(run.out, "stdout").value.has_value() &&
                                       run.err.find(": ok: ") != std::string::npos)
@@ -171,11 +173,65 @@ TEST_F(CliPlan, WitnessesSayWhatCollides) {
   EXPECT_GT(response.value->collisions[0].witness->depth_m, 0.0);
 }
 
+TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
+  const std::string request = folder_.write(
+      "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
+  const CliRun run = run_camway({"plan", "--request", request, "--objective", "smoothest",
+                                 "--max-turn-deg", "90", "--seed", "3", "--repair-keyframes",
+                                 "--max-shrink", "0.5", "--method", "ladder"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto response = parse_plan_response(run.out, "stdout");
+  ASSERT_TRUE(response.value) << response.error;
+  ASSERT_EQ(response.value->corrections.size(), response.value->collisions.size());
+  EXPECT_NE(response.value->corrections.at(0).rung, correction::Rung::kNone);
+  EXPECT_TRUE(response.value->measures_before);
+  EXPECT_TRUE(response.value->measures);
+  EXPECT_THAT(run.err, HasSubstr("\n  0."));
+  EXPECT_THAT(run.err, HasSubstr(" met fin)"));
+}
+
+TEST_F(CliPlan, FlagsGoBeforeTheRequestsOptions) {
+  std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
+  text.replace(text.find("\"camera\""), 0,
+               R"("body": {"type": "sphere", "radius": 0.8},
+                  "options": {"method": "keyframe_insertion", "clearance": 0.15}, )");
+  const std::string request = folder_.write("R.json", text);
+  EXPECT_EQ(run_camway({"plan", "--request", request}).exit_code, 3);
+  EXPECT_EQ(run_camway({"plan", "--request", request, "--clearance", "0.05"}).exit_code, 0);
+  EXPECT_EQ(run_camway({"plan", "--request", request, "--method", "ladder"}).exit_code, 0);
+  const CliRun run = run_camway({"plan", "--request", request, "--max-shrink", "0.5"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("R.json: options.max_shrink: is 0.5, but the body is no camera"));
+}
+
+TEST_F(CliPlan, NamesTheOptionAtFault) {
+  const auto error_of = [&](const std::string& options) {
+    std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+    text.replace(text.find("\"camera\""), 0, "\"options\": " + options + ", ");
+    const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
+    EXPECT_EQ(run.exit_code, 2);
+    return run.err;
+  };
+  EXPECT_THAT(error_of(R"({"orientation": {"policy": "level", "up": [0, 0, 0]}})"),
+              HasSubstr("R.json: options.orientation.up: has length 0, which is no direction"));
+  EXPECT_THAT(error_of(R"({"orientation": {"policy": "target"}})"),
+              HasSubstr("R.json: options.orientation.target: is missing"));
+  EXPECT_THAT(error_of(R"({"limits": {"turn_rate_deg": 0}})"),
+              HasSubstr("R.json: options.limits.turn_rate: is 0; it must be above 0"));
+  EXPECT_THAT(error_of(R"({"max_shrink": 1})"),
+              HasSubstr("R.json: options.max_shrink: is 1; it must be at least 0 and below 1"));
+  EXPECT_THAT(error_of(R"({"objectiv": "closest"})"), HasSubstr("options.objectiv: is unknown"));
+}
+
 TEST_F(CliPlan, HelpNamesBodyAndClearance) {
   const CliRun run = run_camway({"plan", "--help"});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, HasSubstr("options.clearance"));
   EXPECT_THAT(run.out, HasSubstr("\"body\""));
+  for (const char* flag : {"--method", "--deadline-s", "--clearance", "--objective",
+                           "--max-turn-deg", "--max-shrink", "--seed", "--repair-keyframes"}) {
+    EXPECT_THAT(run.out, HasSubstr(flag));
+  }
 }
 
 TEST_F(CliPlan, ReadsStandardInput) {
@@ -241,6 +297,11 @@ TEST_F(CliPlan, RefusesBadFlags) {
       {"plan", "--request", free_, "--up", "7"},
       {"plan", "--request", free_, "--method", "magic"},
       {"plan", "--request", free_, "--deadline-s", "0"},
+      {"plan", "--request", free_, "--clearance", "-1"},
+      {"plan", "--request", free_, "--objective", "cheapest"},
+      {"plan", "--request", free_, "--max-turn-deg", "181"},
+      {"plan", "--request", free_, "--max-shrink", "1"},
+      {"plan", "--request", free_, "--seed", "0"},
       {"plan", "--request", free_, free_},
       {"plan", "--request", free_, "--nonsense"},
       {"fly"},

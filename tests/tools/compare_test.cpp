@@ -127,6 +127,46 @@ TEST(Compare, SeesAnotherWitness) {
   EXPECT_EQ(compare(a, b, body()).what, "collisions");
 }
 
+TEST(Compare, SeesWhatCorrectionDid) {
+  planning::PlanResult a = result_through(three_keyframes());
+  a.corrections.resize(1);
+  a.corrections[0].interval = {0.25, 0.5, collision::Witness{}};
+  a.measures = motion::PathMeasures{};
+  a.measures_before = motion::PathMeasures{};
+  a.keyframe_faults.resize(1);
+  a.infeasibility = planning::Infeasibility{0, 1, {2, 3}};
+  const auto difference_after = [&](const auto& edit) {
+    planning::PlanResult b = a;
+    edit(b);
+    return compare(a, b, body()).what;
+  };
+  using Result = planning::PlanResult;
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].interval.witness.reset(); }), "")
+      << "it stands with the collision";
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections.clear(); }), "corrections 1 -> 0");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].interval.t_end_s = 0.75; }),
+            "corrections");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].rung = correction::Rung::kTurn; }),
+            "corrections");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_begin_s = -0.0; }), "corrections");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_end_s = 1.0; }), "corrections");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].moved_m = 1.0; }), "corrections");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].turned_rad = 1.0; }), "corrections");
+  EXPECT_EQ(difference_after([](Result& b) { b.measures->length_m = 1.0; }), "measures");
+  EXPECT_EQ(difference_after([](Result& b) { b.measures_before.reset(); }),
+            "measures before correction");
+  EXPECT_EQ(difference_after([](Result& b) { b.near_scale = 0.5; }), "near scale");
+  EXPECT_EQ(difference_after([](Result& b) { b.time_scale = 2.0; }), "time scale");
+  EXPECT_EQ(difference_after([](Result& b) { b.keyframe_faults[0].depth_m = 1.0; }),
+            "keyframe faults");
+  EXPECT_EQ(difference_after([](Result& b) { b.keyframe_faults[0].free_pose.emplace(); }),
+            "keyframe faults");
+  EXPECT_EQ(difference_after([](Result& b) { b.infeasibility->triangles[1] = 4; }),
+            "proof that there is no path");
+  EXPECT_EQ(difference_after([](Result& b) { b.infeasibility.reset(); }),
+            "proof that there is no path");
+}
+
 TEST(Compare, MeasuresATurnByTheCornersOfAnyBody) {
   const planning::PlanResult a = result_through(three_keyframes());
   std::vector<motion::Keyframe> turned = three_keyframes();

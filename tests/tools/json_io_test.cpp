@@ -13,6 +13,7 @@
 #include <string>
 
 #include "tools/camway/compare.h"
+#include "tools/json_angle.h"
 
 namespace camway::tools {
 namespace {
@@ -104,7 +105,7 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("time": 1.5, )", "", "keyframes[1]: has a time and keyframe 0 has none"},
       {R"("time": 2.5)", R"("time": null)", "keyframes[1].time: must be a number, not null"},
       {R"("method": "keyframe_insertion")", R"("method": "magic")",
-       "options.method: 'magic' is unknown"},
+       "options.method: 'magic' is unknown; there are ladder, keyframe_insertion"},
       {R"("deadline_s": 2.5)", R"("dead_line_s": 2.5)",
        "options.dead_line_s: is unknown; options has method, deadline_s, clearance, chord_error_m"},
       {R"("clearance": 0.25)", R"("clearance": "wide")",
@@ -176,6 +177,49 @@ double any_double(std::mt19937_64& random) {
   }
 }
 
+/// An angle that reads back as the same bits from degrees.
+double any_angle(std::mt19937_64& random) {
+  return radians(std::uniform_real_distribution<double>(0, 180)(random));
+}
+
+motion::PathMeasures any_measures(std::mt19937_64& random) {
+  const auto number = [&] { return any_double(random); };
+  return {number(), number(), number(), number(), number(), any_angle(random), any_angle(random)};
+}
+
+/// All that a response may say of correction, each of it there or not.
+void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
+  const auto number = [&] { return any_double(random); };
+  result.corrections.resize(random() % 4);
+  for (correction::Correction& correction : result.corrections) {
+    correction.interval = {number(), number()};
+    correction.rung = static_cast<correction::Rung>(random() % 5);
+    correction.t_begin_s = number();
+    correction.t_end_s = number();
+    correction.moved_m = number();
+    correction.turned_rad = any_angle(random);
+  }
+  if (random() % 2 == 0) result.measures_before = any_measures(random);
+  if (random() % 2 == 0) result.measures = any_measures(random);
+  if (random() % 2 == 0) result.near_scale = number();
+  if (random() % 2 == 0) result.time_scale = number();
+  result.keyframe_faults.resize(random() % 3);
+  for (planning::KeyframeFault& fault : result.keyframe_faults) {
+    fault.keyframe = random() % 1000;
+    fault.depth_m = number();
+    if (random() % 2 == 0) continue;
+    motion::Pose& pose = fault.free_pose.emplace();
+    pose.position = {number(), number(), number()};
+    pose.orientation = geometry::from_wxyz({number(), number(), number(), number()});
+  }
+  if (random() % 2 == 0) return;
+  planning::Infeasibility& proof = result.infeasibility.emplace();
+  proof.keyframe_inside = random() % 1000;
+  proof.keyframe_outside = random() % 1000;
+  proof.triangles.resize(random() % 20);
+  for (std::uint32_t& triangle : proof.triangles) triangle = static_cast<std::uint32_t>(random());
+}
+
 planning::PlanResult any_result(std::mt19937_64& random) {
   const auto number = [&] { return any_double(random); };
   planning::PlanResult result;
@@ -219,6 +263,7 @@ planning::PlanResult any_result(std::mt19937_64& random) {
   }
   result.certificate = {random() % 2 == 0, number()};
   result.timing = {number(), number(), number(), number(), number(), number()};
+  add_any_report(result, random);
   return result;
 }
 
@@ -259,8 +304,8 @@ TEST(JsonResponse, HasTheKeysOfTheFormatInAFixedOrder) {
   std::size_t at = 0;
   for (const char* key :
        {"status", "message", "scene", "scene_digest", "segments", "keyframes", "collisions",
-        "remaining_collisions", "certificate", "certified", "clearance_lower_bound", "timing_ms",
-        "load_scene", "motion", "detect", "correct", "certify", "total"}) {
+        "remaining_collisions", "certificate", "certified", "clearance_lower_bound", "corrections",
+        "timing_ms", "load_scene", "motion", "detect", "correct", "certify", "total"}) {
     const std::size_t found = text.find('"' + std::string(key) + "\":");
     ASSERT_NE(found, std::string::npos) << key;
     EXPECT_GE(found, at) << key;
@@ -331,6 +376,103 @@ TEST(JsonResponse, WitnessesStandInTheirIntervals) {
   EXPECT_EQ(read.value->collision_names, result.collision_names);
   EXPECT_EQ(read.value->collisions[0].witness->triangle, 12U);
   EXPECT_FALSE(read.value->collisions[1].witness);
+}
+
+TEST(JsonResponse, SaysWhatCorrectionDid) {
+  planning::PlanResult result;
+  correction::Correction correction;
+  correction.interval = {2.25, 2.75, collision::Witness{}};
+  correction.rung = correction::Rung::kGoRound;
+  correction.t_begin_s = 2.0;
+  correction.t_end_s = 3.0;
+  correction.moved_m = 0.125;
+  correction.turned_rad = std::numbers::pi / 2;
+  result.corrections = {correction};
+  motion::PathMeasures measures;
+  measures.length_m = 4.0;
+  measures.largest_turn_rate_rad_per_s = std::numbers::pi;
+  result.measures_before = measures;
+  measures.length_m = 5.0;
+  result.measures = measures;
+  result.near_scale = 0.75;
+  result.time_scale = 1.5;
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"("corrections": [
+    {"t_begin": 2.25, "t_end": 2.75, "method": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
+  ],
+  "measures": {
+    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0},
+    "after": {"length_m": 5.0,)"));
+  EXPECT_THAT(text, HasSubstr("\"near_scale\": 0.75,\n  \"time_scale\": 1.5"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
+  EXPECT_EQ(read.value->measures, result.measures);
+}
+
+TEST(JsonResponse, SaysWhyThereIsNoPath) {
+  planning::PlanResult result;
+  result.status = planning::Status::kInfeasible;
+  result.infeasibility = planning::Infeasibility{2, 0, {3, 5, 8}};
+  planning::KeyframeFault fault;
+  fault.keyframe = 1;
+  fault.depth_m = 0.5;
+  result.keyframe_faults = {fault};
+  fault.free_pose = motion::Pose{{1, 2, 3}, geometry::Quat(1, 0, 0, 0)};
+  result.keyframe_faults.push_back(fault);
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"("keyframe_faults": [
+    {"keyframe": 1, "depth": 0.5},
+    {"keyframe": 1, "depth": 0.5, "free_pose": {"position": [1.0, 2.0, 3.0], "orientation": [1.0, 0.0, 0.0, 0.0]}}
+  ],
+  "infeasibility": {"keyframe_inside": 2, "keyframe_outside": 0,
+    "triangles": [3, 5, 8]})"));
+}
+
+TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
+  const std::string text = *write_plan_response({}).value;
+  for (const char* key :
+       {"measures", "near_scale", "time_scale", "keyframe_faults", "infeasibility"}) {
+    EXPECT_EQ(text.find(key), std::string::npos) << key;
+  }
+}
+
+TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
+  planning::PlanResult result;
+  result.corrections.resize(2);
+  result.infeasibility = planning::Infeasibility{2, 0, {3, 5, 8}};
+  result.measures = motion::PathMeasures{};
+  const std::string good = *write_plan_response(result).value;
+  const auto error_of = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.rfind(from), from.size(), to);
+    return parse_plan_response(text, "P.json").error;
+  };
+  EXPECT_EQ(error_of("\"none\"", "\"fly\""), "P.json: corrections[1].method: 'fly' is unknown");
+  EXPECT_EQ(error_of("\"moved_m\"", "\"moved\""), "P.json: corrections[1].moved_m: is missing");
+  EXPECT_THAT(error_of("[3, 5, 8]", "[3, -5]"),
+              HasSubstr("infeasibility.triangles[1]: must be a whole number from 0"));
+  EXPECT_EQ(error_of("\"length_m\"", "\"length\""), "P.json: measures.after.length_m: is missing");
+}
+
+// What is written for an angle is read as the same bits where degrees can say so, within a rounding
+// of each of the two factors otherwise, and in any case written as the same text again.
+TEST(JsonAngle, DegreesReadBack) {
+  constexpr unsigned kSeed = 11;
+  RecordProperty("seed", kSeed);
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> angle(0, std::numbers::pi);
+  int exact = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double given = angle(random);
+    const double read = radians(degrees(given));
+    ASSERT_NEAR(read, given, 2 * std::numeric_limits<double>::epsilon() * given);
+    ASSERT_EQ(degrees(read), degrees(given)) << given;
+    exact += read == given ? 1 : 0;
+    const double from_degrees = any_angle(random);
+    ASSERT_EQ(radians(degrees(from_degrees)), from_degrees);
+  }
+  EXPECT_GT(exact, 50'000);
 }
 
 TEST(JsonResponse, OfLaterVersionsMaySayMore) {

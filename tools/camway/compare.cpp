@@ -66,6 +66,40 @@ bool same_names(std::vector<planning::WitnessNames> a, std::vector<planning::Wit
   return a == b;
 }
 
+/// But for the witness, which stands with the collision.
+bool same_correction(const correction::Correction& a, const correction::Correction& b) {
+  return same(a.interval.t_begin_s, b.interval.t_begin_s) &&
+         same(a.interval.t_end_s, b.interval.t_end_s) && a.rung == b.rung &&
+         same(a.t_begin_s, b.t_begin_s) && same(a.t_end_s, b.t_end_s) &&
+         same(a.moved_m, b.moved_m) && same(a.turned_rad, b.turned_rad);
+}
+
+bool same_measures(const std::optional<motion::PathMeasures>& a,
+                   const std::optional<motion::PathMeasures>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return same(a->length_m, b->length_m) && same(a->largest_deviation_m, b->largest_deviation_m) &&
+         same(a->bending_energy_m2_per_s3, b->bending_energy_m2_per_s3) &&
+         same(a->largest_speed_m_per_s, b->largest_speed_m_per_s) &&
+         same(a->largest_acceleration_m_per_s2, b->largest_acceleration_m_per_s2) &&
+         same(a->largest_turn_rate_rad_per_s, b->largest_turn_rate_rad_per_s) &&
+         same(a->largest_turn_acceleration_rad_per_s2, b->largest_turn_acceleration_rad_per_s2);
+}
+
+bool same_fault(const planning::KeyframeFault& a, const planning::KeyframeFault& b) {
+  if (a.keyframe != b.keyframe || !same(a.depth_m, b.depth_m)) return false;
+  if (!a.free_pose || !b.free_pose) return a.free_pose.has_value() == b.free_pose.has_value();
+  return same_vector(a.free_pose->position, b.free_pose->position) &&
+         same_vector(geometry::wxyz(a.free_pose->orientation),
+                     geometry::wxyz(b.free_pose->orientation));
+}
+
+bool same_proof(const std::optional<planning::Infeasibility>& a,
+                const std::optional<planning::Infeasibility>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->keyframe_inside == b->keyframe_inside && a->keyframe_outside == b->keyframe_outside &&
+         a->triangles == b->triangles;
+}
+
 template <typename List, typename Same>
 std::string differing(const char* name, const List& a, const List& b, Same same_item) {
   if (a.size() != b.size()) return fmt::format("{} {} -> {}", name, a.size(), b.size());
@@ -110,6 +144,20 @@ double path_distance_m(const Path& a, const Path& b, const motion::Body& body) {
   return std::max(largest, std::numeric_limits<double>::denorm_min());
 }
 
+/// Of what the answers say of correction.
+std::string report_difference(const planning::PlanResult& a, const planning::PlanResult& b) {
+  std::string text = differing("corrections", a.corrections, b.corrections, same_correction);
+  if (text.empty()) {
+    text = differing("keyframe faults", a.keyframe_faults, b.keyframe_faults, same_fault);
+  }
+  if (!text.empty()) return text;
+  if (!same_measures(a.measures_before, b.measures_before)) return "measures before correction";
+  if (!same_measures(a.measures, b.measures)) return "measures";
+  if (!same(a.near_scale, b.near_scale)) return "near scale";
+  if (!same(a.time_scale, b.time_scale)) return "time scale";
+  return same_proof(a.infeasibility, b.infeasibility) ? "" : "proof that there is no path";
+}
+
 std::string first_difference(const planning::PlanResult& a, const planning::PlanResult& b) {
   if (a.status != b.status) {
     return fmt::format("status {} -> {}", planning::to_string(a.status),
@@ -131,7 +179,8 @@ std::string first_difference(const planning::PlanResult& a, const planning::Plan
   const bool same_certificate =
       a.certificate.certified == b.certificate.certified &&
       same(a.certificate.clearance_lower_bound_m, b.certificate.clearance_lower_bound_m);
-  return text.empty() && !same_certificate ? "certificate" : text;
+  if (text.empty() && !same_certificate) text = "certificate";
+  return text.empty() ? report_difference(a, b) : text;
 }
 
 }  // namespace

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -14,8 +15,11 @@
 #include "daemon/planning/witness.h"
 #include "daemon/scene/import_warnings.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/plan_summary.h"
 #include "tools/camway/scene_flags.h"
+#include "tools/json_angle.h"
 #include "tools/json_io.h"
+#include "tools/json_options.h"
 
 namespace camway::tools {
 namespace {
@@ -30,6 +34,12 @@ struct PlanFlags {
   std::string response_dir;
   std::optional<std::string> method;
   std::optional<double> deadline_s;
+  std::optional<double> clearance_m;
+  std::optional<std::string> objective;
+  std::optional<double> max_turn_deg;
+  std::optional<double> max_shrink;
+  std::optional<std::int64_t> seed;
+  bool repair_keyframes = false;
   bool no_timing = false;
 };
 
@@ -38,7 +48,8 @@ struct Answer {
   PlanResult result;
   std::string scene_file;
   std::string scene_digest;
-  std::vector<std::string> warnings;  ///< of the scene's import
+  std::vector<std::string> warnings;        ///< of the scene's import
+  std::shared_ptr<const scene::Mesh> mesh;  ///< of the scene; null if it was not loaded
 };
 
 PlanResult invalid(std::string message) {
@@ -73,6 +84,18 @@ std::string scene_file_of(const PlanFlags& flags, const std::string& request_fil
   return (std::filesystem::path(request_file).parent_path() / requested).string();
 }
 
+/// What the command line says goes before what the request says.
+void apply(const PlanFlags& flags, planning::PlanOptions& options) {
+  if (flags.method) options.method = *planning::method_from_string(*flags.method);
+  if (flags.deadline_s) options.deadline_s = *flags.deadline_s;
+  if (flags.clearance_m) options.clearance_m = *flags.clearance_m;
+  if (flags.objective) options.objective = *objective_from_string(*flags.objective);
+  if (flags.max_turn_deg) options.orientation.max_turn_rad = radians(*flags.max_turn_deg);
+  if (flags.max_shrink) options.max_shrink = *flags.max_shrink;
+  if (flags.seed) options.seed = static_cast<std::uint64_t>(*flags.seed);
+  if (flags.repair_keyframes) options.repair_keyframes = true;
+}
+
 Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCache& scenes) {
   Answer answer;
   Parsed<planning::PlanRequest> request = read_plan_request(file);
@@ -80,8 +103,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     answer.result = invalid(request.error);
     return answer;
   }
-  if (flags.method) request.value->options.method = *planning::method_from_string(*flags.method);
-  if (flags.deadline_s) request.value->options.deadline_s = *flags.deadline_s;
+  apply(flags, request.value->options);
   if (const auto fault = planning::validate(*request.value)) {
     answer.result = invalid(file + ": " + describe(*fault));
     answer.result.keyframe = fault->keyframe;
@@ -98,6 +120,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     return answer;
   }
   answer.scene_digest = scene.result.snapshot->digest;
+  answer.mesh = scene.result.snapshot->mesh;
   const planning::PlanOptions& options = request.value->options;
   answer.warnings = scene::import_warnings(
       scene.result.snapshot->report,
@@ -109,12 +132,6 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     answer.result.message = file + ": " + answer.result.message;
   }
   return answer;
-}
-
-std::size_t inserted_count(const PlanResult& result) {
-  return static_cast<std::size_t>(std::count_if(
-      result.keyframes.begin(), result.keyframes.end(),
-      [](const auto& keyframe) { return keyframe.origin == motion::KeyframeOrigin::kInserted; }));
 }
 
 void print_warnings(const Answer& answer) {
@@ -149,29 +166,17 @@ ExitCode write_response(const Answer& answer, const std::string& file, bool no_t
   return ExitCode::kInvalidInput;
 }
 
-std::string plural(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
-void print_summary(const std::string& request, const PlanResult& result) {
-  if (result.status == Status::kInvalid) {
-    print_error(result.message);
-    return;
-  }
-  print_error(fmt::format(
-      "{}: {}: {} before correction, {} inserted, {} remaining, planned in {:.1f} ms, scene loaded "
-      "in {:.1f} ms: {}",
-      request, planning::to_string(result.status), plural(result.collisions.size(), "collision"),
-      plural(inserted_count(result), "keyframe"),
-      plural(result.remaining_collisions.size(), "collision"), result.timing.total_ms,
-      result.timing.load_scene_ms, result.message));
+void print_summary(const std::string& request, const Answer& answer) {
+  const std::string text = plan_summary(answer.result, answer.mesh.get());
+  // An invalid request's message names the file already.
+  print_error(answer.result.status == Status::kInvalid ? text : request + ": " + text);
 }
 
 ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
   const std::string& file = flags.requests.front();
   const Answer answer = answer_request(flags, file, scenes);
   print_warnings(answer);
-  print_summary(file, answer.result);
+  print_summary(file, answer);
   const ExitCode outcome = exit_code_of(answer.result.status);
   // Invalid input leaves nothing on standard output, where a path is expected.
   if (outcome == ExitCode::kInvalidInput && flags.response.empty()) return outcome;
@@ -224,7 +229,7 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
     const ExitCode code = exit_code_of(result.status);
     // Of the others the table says all.
     if (code == ExitCode::kInvalidInput || code == ExitCode::kOurFault) {
-      print_summary(flags.requests[i], result);
+      print_summary(flags.requests[i], answer);
     }
     outcome = worse(outcome, code);
     outcome = worse(outcome, write_response(answer, (*files.value)[i], flags.no_timing));
@@ -241,6 +246,38 @@ ExitCode run_plan(const PlanFlags& flags) {
   if (flags.requests.size() == 1) return plan_one(flags, scenes);
   print_error("several requests need --response-dir");
   return ExitCode::kInvalidInput;
+}
+
+/// Flags that go before the request's own options.
+void add_option_flags(CLI::App& command, PlanFlags& flags) {
+  command
+      .add_option(
+          "--method", flags.method,
+          "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
+          "keyframe_insertion (the paper's); these flags go before the request's options")
+      ->check(CLI::IsMember({"ladder", "keyframe_insertion"}));
+  command
+      .add_option("--deadline-s", flags.deadline_s,
+                  "Seconds after which planning stops with what it has")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--clearance", flags.clearance_m, "Distance to keep from the scene, in metres")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--objective", flags.objective, "What a corrected path is improved for")
+      ->check(CLI::IsMember(objective_names()));
+  command
+      .add_option("--max-turn-deg", flags.max_turn_deg,
+                  "Most degrees that corrections may turn the camera")
+      ->check(CLI::Range(0.0, 180.0));
+  command
+      .add_option("--max-shrink", flags.max_shrink,
+                  "By what share the near distance may be made smaller where nothing else helps")
+      ->check(CLI::NonNegativeNumber);  // below 1: planning::validate
+  command.add_option("--seed", flags.seed, "Of the searches for ways round")
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
+  command.add_flag("--repair-keyframes", flags.repair_keyframes,
+                   "Move given keyframes that collide to the nearest free pose instead of refusing "
+                   "the request");
 }
 
 }  // namespace
@@ -265,23 +302,18 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "scene is loaded once, a table goes to standard output")
       ->excludes(response)
       ->type_name("DIR");
-  command
-      ->add_option("--method", flags->method,
-                   "How a colliding path is corrected; before the request's own")
-      ->check(CLI::IsMember({"keyframe_insertion"}));
-  command
-      ->add_option("--deadline-s", flags->deadline_s,
-                   "Seconds after which planning stops with what it has; before the request's own")
-      ->check(CLI::PositiveNumber);
+  add_option_flags(*command, *flags);
   command->add_flag("--no-timing", flags->no_timing,
                     "Leave timing_ms out, so that two responses compare byte by byte");
   command->footer(
       exit_code_help("no path free of collision was found (partial, infeasible, timeout)") +
       "\nWhat must not collide is the request's body: the camera's near quadrilateral, or a box, "
       "sphere, convex or mesh (\"body\": {\"type\": \"box\", \"size\": [x, y, z]}, metres, in the "
-      "camera's frame). options.clearance asks for a distance to keep, in metres. Fields that are "
-      "unknown are refused, but for comment and those that begin with '_'. Each collision of the "
-      "response has a witness: time, object, triangle, feature of the body, depth, point.\n"
+      "camera's frame). options.clearance asks for a distance to keep, in metres; "
+      "options.orientation and options.limits say how corrections may turn the camera and how fast "
+      "it may move; README.md lists all options. Fields that are unknown are refused, but for "
+      "comment and those that begin with '_'. Each collision of the response has a witness: time, "
+      "object, triangle, feature of the body, depth, point; corrections say what became of it.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "Example: camway plan --scene office.obj --request office-graze-1.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });

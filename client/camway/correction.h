@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "camway/path.h"
+
+namespace camway {
+
+/// What became of one collision of the path as interpolated.
+struct Correction {
+  enum class Method {
+    kNone,     ///< it was not corrected
+    kMove,     ///< the camera was moved to one side
+    kTurn,     ///< it was turned
+    kGoRound,  ///< it goes another way
+    kShrink,   ///< its near distance was made smaller
+  };
+
+  double t_begin_s = 0.0;  ///< the collision
+  double t_end_s = 0.0;
+  Method method = Method::kNone;
+  double changed_t_begin_s = 0.0;  ///< what of the path was changed for it
+  double changed_t_end_s = 0.0;
+  double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
+  double turned_rad = 0.0;  ///< most that the camera is turned from how it was
+};
+
+/// What a path is like, for comparing paths. Extrema are over samples; no part of any proof.
+struct PathMeasures {
+  double length_m = 0.0;             ///< of the way of the eye
+  double largest_deviation_m = 0.0;  ///< of the eye from the path as interpolated
+  double bending_energy_m2_per_s3 = 0.0;
+  double largest_speed_m_per_s = 0.0;
+  double largest_acceleration_m_per_s2 = 0.0;
+  double largest_turn_rate_rad_per_s = 0.0;
+  double largest_turn_acceleration_rad_per_s2 = 0.0;
+};
+
+/// A given keyframe that collides, or is nearer to the scene than required.
+struct KeyframeFault {
+  std::int32_t keyframe = 0;
+  double depth_m = 0.0;           ///< about how far it would have to move to be free
+  std::optional<Pose> free_pose;  ///< the nearest that was found, if any
+};
+
+/// Why there is no path: a closed surface of the scene with one given keyframe inside and another
+/// outside.
+struct Infeasibility {
+  std::int32_t keyframe_inside = 0;
+  std::int32_t keyframe_outside = 0;
+  std::vector<std::int32_t> triangles;  ///< the surface, as triangles of the scene, increasing
+};
+
+}  // namespace camway

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <camway/motion_limits_t.hpp>
+#include <camway/orientation_t.hpp>
+
+#include "camway/constraints.h"
+
+namespace camway {
+
+std::int8_t to_wire(Objective objective);
+orientation_t to_wire(const Orientation& orientation);
+motion_limits_t to_wire(const MotionLimits& limits);
+
+}  // namespace camway

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "client/correction_wire.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace camway {
+namespace {
+
+std::optional<Correction::Method> method_of(std::int8_t wire) {
+  switch (wire) {
+    case correction_t::NONE:
+      return Correction::Method::kNone;
+    case correction_t::MOVE:
+      return Correction::Method::kMove;
+    case correction_t::TURN:
+      return Correction::Method::kTurn;
+    case correction_t::GO_ROUND:
+      return Correction::Method::kGoRound;
+    case correction_t::SHRINK:
+      return Correction::Method::kShrink;
+    default:
+      return std::nullopt;
+  }
+}
+
+PathMeasures from_wire(const path_measures_t& wire) {
+  PathMeasures measures;
+  measures.length_m = wire.length_m;
+  measures.largest_deviation_m = wire.largest_deviation_m;
+  measures.bending_energy_m2_per_s3 = wire.bending_energy_m2_per_s3;
+  measures.largest_speed_m_per_s = wire.largest_speed_m_per_s;
+  measures.largest_acceleration_m_per_s2 = wire.largest_acceleration_m_per_s2;
+  measures.largest_turn_rate_rad_per_s = wire.largest_turn_rate_rad_per_s;
+  measures.largest_turn_acceleration_rad_per_s2 = wire.largest_turn_acceleration_rad_per_s2;
+  return measures;
+}
+
+KeyframeFault from_wire(const keyframe_fault_t& wire) {
+  KeyframeFault fault;
+  fault.keyframe = wire.keyframe;
+  fault.depth_m = wire.depth_m;
+  if (wire.has_free_pose == 0) return fault;
+  Pose& pose = fault.free_pose.emplace();
+  std::copy(std::begin(wire.free_position_m), std::end(wire.free_position_m),
+            pose.position_m.begin());
+  std::copy(std::begin(wire.free_orientation_wxyz), std::end(wire.free_orientation_wxyz),
+            pose.orientation_wxyz.begin());
+  return fault;
+}
+
+}  // namespace
+
+void read_correction_head(const plan_response_t& page, PlanResponse& response) {
+  if (page.has_measures_before != 0) response.measures_before = from_wire(page.measures_before);
+  if (page.has_measures != 0) response.measures = from_wire(page.measures);
+  response.near_scale = page.near_scale;
+  response.time_scale = page.time_scale;
+  if (page.has_infeasibility == 0) return;
+  response.infeasibility = Infeasibility{page.keyframe_inside, page.keyframe_outside, {}};
+}
+
+std::optional<std::string> append_correction_lists(const plan_response_t& page,
+                                                   PlanResponse& response) {
+  for (const correction_t& wire : page.corrections) {
+    const std::optional<Correction::Method> method = method_of(wire.method);
+    if (!method) return "a correction by method " + std::to_string(wire.method);
+    response.corrections.push_back({wire.t_begin_s, wire.t_end_s, *method, wire.changed_t_begin_s,
+                                    wire.changed_t_end_s, wire.moved_m, wire.turned_rad});
+  }
+  for (const keyframe_fault_t& wire : page.keyframe_faults) {
+    response.keyframe_faults.push_back(from_wire(wire));
+  }
+  if (response.infeasibility) {
+    std::vector<std::int32_t>& triangles = response.infeasibility->triangles;
+    triangles.insert(triangles.end(), page.proof_triangles.begin(), page.proof_triangles.end());
+  }
+  return std::nullopt;
+}
+
+}  // namespace camway

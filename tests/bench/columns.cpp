@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/columns.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace camway::bench {
+
+std::string plain(const nlohmann::json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string as_duration(const nlohmann::json& seconds) { return duration_text(seconds); }
+
+std::string as_ratio(const nlohmann::json& ratio) { return ratio_text(ratio); }
+
+std::string as_number(const nlohmann::json& value) {
+  const double number = value;
+  return std::isfinite(number) ? fmt::format("{:.3g}", number) : "-";
+}
+
+std::string as_tenths(const nlohmann::json& value) {
+  const double number = value;
+  return std::isfinite(number) ? fmt::format("{:.1f}", number) : "-";
+}
+
+}  // namespace camway::bench

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/request_set.h"
+
+/// What the benchmarks' command lines have in common.
+namespace camway::bench {
+
+void add_request_options(CLI::App& app, RequestSource& source);
+void add_rounds_option(CLI::App& app, int& rounds);
+void add_json_option(CLI::App& app, std::string& file);
+
+/// What every document begins with: the name and the machine.
+nlohmann::json document_of(const std::string& benchmark);
+
+/// Writes the document, if a file was named. Returns the exit code.
+int finish(const nlohmann::json& document, const std::string& json_file);
+
+}  // namespace camway::bench

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/plan_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "tools/json_angle.h"
+
+namespace camway::tools {
+namespace {
+
+using correction::Correction;
+using correction::Rung;
+using planning::PlanResult;
+using planning::Status;
+
+/// Of each kind; the response has them all.
+constexpr std::size_t kMostLines = 20;
+constexpr std::size_t kMostObjects = 3;
+
+/// Less than this is rounding, or nothing that a person would see.
+constexpr double kLeastMove_m = 1e-4;
+constexpr double kLeastTurn_deg = 0.01;
+
+/// Two digits, none behind the point from 10 on.
+std::string two_digits(double value) {
+  return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
+/// ", moved 0.12 m, turned 3 degrees", or what of that there is to see.
+std::string extent(const Correction& correction) {
+  std::string text;
+  if (correction.moved_m >= kLeastMove_m)
+    text += ", moved " + two_digits(correction.moved_m) + " m";
+  const double turned_deg = degrees(correction.turned_rad);
+  if (turned_deg >= kLeastTurn_deg) text += ", turned " + two_digits(turned_deg) + " degrees";
+  return text;
+}
+
+std::string deed(const Correction& correction) {
+  const std::string text = extent(correction);
+  switch (correction.rung) {
+    case Rung::kMove:
+      return text.empty() ? "moved" : text.substr(2);
+    case Rung::kTurn:
+      return text.empty() ? "turned" : text.substr(2);
+    case Rung::kGoRound:
+      return "goes round" + text;
+    case Rung::kShrink:
+      return "near distance made smaller" + text;
+    case Rung::kNone:
+      break;
+  }
+  return "not corrected";
+}
+
+/// "2.31-2.65 s", or "2.31 s" where that is all to a hundredth.
+std::string span(const collision::CollisionInterval& interval) {
+  const std::string begin = fmt::format("{:.2f}", interval.t_begin_s);
+  const std::string end = fmt::format("{:.2f}", interval.t_end_s);
+  return begin == end ? begin + " s" : begin + "-" + end + " s";
+}
+
+/// " (edge 2 met sofa_04)", or nothing if nobody saw what collided.
+std::string meeting(const PlanResult& result, std::size_t collision) {
+  if (collision >= result.collisions.size() || collision >= result.collision_names.size())
+    return {};
+  if (!result.collisions[collision].witness) return {};
+  const planning::WitnessNames& names = result.collision_names[collision];
+  return fmt::format(" ({} met {})", names.feature.empty() ? "it" : names.feature,
+                     names.object.empty() ? "the scene" : names.object);
+}
+
+void add_corrections(const PlanResult& result, std::vector<std::string>& lines) {
+  const std::size_t shown = std::min(result.corrections.size(), kMostLines);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Correction& correction = result.corrections[i];
+    lines.push_back(span(correction.interval) + ": " + deed(correction) + meeting(result, i));
+  }
+  if (shown < result.corrections.size()) {
+    lines.push_back(fmt::format("and {} more", result.corrections.size() - shown));
+  }
+}
+
+void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lines) {
+  const bool repaired = result.status != Status::kInvalid;
+  const std::size_t shown = std::min(result.keyframe_faults.size(), kMostLines);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const planning::KeyframeFault& fault = result.keyframe_faults[i];
+    std::string line = fmt::format("keyframe {}: {:.2g} m too deep", fault.keyframe, fault.depth_m);
+    if (fault.free_pose) {
+      const geometry::Vec3& p = fault.free_pose->position;
+      line += fmt::format(", {} [{:.4g}, {:.4g}, {:.4g}]", repaired ? "moved to" : "free at", p.x(),
+                          p.y(), p.z());
+    } else {
+      line += ", no free pose was found near it";
+    }
+    lines.push_back(std::move(line));
+  }
+  if (shown < result.keyframe_faults.size()) {
+    lines.push_back(fmt::format("and {} more keyframes", result.keyframe_faults.size() - shown));
+  }
+}
+
+/// The names of the objects that the triangles belong to, each once, in the order of the mesh.
+std::vector<std::string> objects_of(const std::vector<std::uint32_t>& triangles,
+                                    const scene::Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const scene::MeshObject& object : mesh.objects) {
+    const auto first = std::ranges::lower_bound(triangles, object.first_triangle);
+    const bool has_some =
+        first != triangles.end() && *first - object.first_triangle < object.triangle_count;
+    if (has_some && !object.name.empty() && std::ranges::count(names, object.name) == 0) {
+      names.push_back(object.name);
+    }
+    if (names.size() > kMostObjects) break;
+  }
+  return names;
+}
+
+void add_proof(const PlanResult& result, const scene::Mesh* mesh, std::vector<std::string>& lines) {
+  if (!result.infeasibility) return;
+  const planning::Infeasibility& proof = *result.infeasibility;
+  std::string line = fmt::format(
+      "keyframe {} is inside and keyframe {} outside of a closed surface of {}",
+      proof.keyframe_inside, proof.keyframe_outside, plural(proof.triangles.size(), "triangle"));
+  const auto names =
+      mesh != nullptr ? objects_of(proof.triangles, *mesh) : std::vector<std::string>();
+  for (std::size_t i = 0; i < std::min(names.size(), kMostObjects); ++i) {
+    line += (i == 0 ? ": " : ", ") + names[i];
+  }
+  if (names.size() > kMostObjects) line += ", ...";
+  lines.push_back(std::move(line));
+}
+
+void add_scales(const PlanResult& result, std::vector<std::string>& lines) {
+  if (result.near_scale != 1.0) {
+    lines.push_back(
+        fmt::format("the near distance is {:.3g} of the one asked for", result.near_scale));
+  }
+  if (result.time_scale != 1.0) {
+    lines.push_back(
+        fmt::format("times are stretched by {:.4g} to meet the limits", result.time_scale));
+  }
+}
+
+std::string headline(const PlanResult& result) {
+  if (result.status == Status::kInvalid) return result.message;
+  return fmt::format(
+      "{}: {} before correction, {} inserted, {} remaining, planned in {:.1f} ms, scene loaded in "
+      "{:.1f} ms: {}",
+      planning::to_string(result.status), plural(result.collisions.size(), "collision"),
+      plural(inserted_count(result), "keyframe"),
+      plural(result.remaining_collisions.size(), "collision"), result.timing.total_ms,
+      result.timing.load_scene_ms, result.message);
+}
+
+}  // namespace
+
+std::string plural(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::size_t inserted_count(const PlanResult& result) {
+  return static_cast<std::size_t>(std::count_if(
+      result.keyframes.begin(), result.keyframes.end(), [](const motion::Keyframe& keyframe) {
+        return keyframe.origin == motion::KeyframeOrigin::kInserted;
+      }));
+}
+
+std::string plan_summary(const PlanResult& result, const scene::Mesh* mesh) {
+  std::vector<std::string> lines;
+  add_corrections(result, lines);
+  add_keyframe_faults(result, lines);
+  add_scales(result, lines);
+  add_proof(result, mesh, lines);
+  std::string text = headline(result);
+  for (const std::string& line : lines) text += "\n  " + line;
+  return text;
+}
+
+}  // namespace camway::tools

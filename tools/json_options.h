@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/planning/request.h"
+#include "tools/json_document.h"
+
+namespace camway::tools {
+
+/// Names of objectives, as requests and the command line spell them: "closest", "shortest",
+/// "smoothest", "safest".
+std::optional<correction::Objective> objective_from_string(std::string_view text);
+std::vector<std::string> objective_names();
+
+/// Reads the `options` of a request; whatever is missing has its default.
+///
+///     {"method": "ladder", "deadline_s": s, "clearance": m, "chord_error_m": m,
+///      "interval_tolerance_m": m, "max_inserted_keyframes": n,
+///      "objective": "closest",
+///      "orientation": {"policy": "free", "max_turn_deg": a}   or "keep", likewise, or
+///                     {"policy": "level", "up": [x, y, z]}    of any length, or
+///                     {"policy": "target", "target": [x, y, z], "cone_deg": a},
+///      "limits": {"speed": m/s, "acceleration": m/s², "turn_rate_deg": degrees/s, "retime": true},
+///      "max_shrink": share, "repair_keyframes": true, "seed": n}
+///
+/// Members that do not count with the policy at hand are refused: a wish must not be dropped.
+/// Ranges are `planning::validate`'s.
+planning::PlanOptions read_options(const Field& field);
+
+}  // namespace camway::tools
