@@ -45,8 +45,6 @@ struct MotionLimits {
   /// Whether times may be stretched to meet them; else a path that breaks them is not `ok`.
   bool may_retime = false;
 
-  bool operator==(const MotionLimits&) const = default;
-
   [[nodiscard]] bool any() const {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     return speed_m_per_s < kNone || acceleration_m_per_s2 < kNone || turn_rate_rad_per_s < kNone;

@@ -116,8 +116,9 @@ class Planner {
       if (result_.keyframe_faults.size() == kMostFaults) break;
       if (request_.options.repair_keyframes && free) pose = free->pose;
     }
-    const bool all_repaired = std::ranges::all_of(
-        result_.keyframe_faults, [](const KeyframeFault& fault) { return fault.free_pose; });
+    const bool all_repaired =
+        std::ranges::all_of(result_.keyframe_faults,
+                            [](const KeyframeFault& fault) { return fault.free_pose.has_value(); });
     if (result_.keyframe_faults.empty() || (request_.options.repair_keyframes && all_repaired &&
                                             result_.keyframe_faults.size() < kMostFaults)) {
       return true;

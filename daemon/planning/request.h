@@ -47,7 +47,7 @@ struct PlanOptions {
   double max_shrink = 0.0;
   /// Given keyframes that collide are moved to the nearest free pose instead of being refused.
   bool repair_keyframes = false;
-  std::uint64_t seed = 1;  ///< of the searches for ways round
+  std::uint64_t seed = 1;  ///< of the searches for ways round [Limit: 1 <= value]
 
   bool operator==(const PlanOptions&) const = default;
 };
