@@ -54,6 +54,12 @@ PathFile read_path(const Field& root) {
     file.keyframe_times_s = read_keyframe_times(*keyframes);
   }
   if (const auto digest = root.optional_member("scene_digest")) file.scene_digest = digest->text();
+  if (const auto scale = root.optional_member("near_scale")) {
+    file.near_scale = scale->number();
+    if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
+      scale->fail("must be above 0 and at most 1");
+    }
+  }
   return file;
 }
 

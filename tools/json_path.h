@@ -19,14 +19,16 @@ struct PathFile {
   /// those in `keyframes` that are not marked as inserted. Empty if one of them has no time.
   std::vector<double> keyframe_times_s;
   std::string scene_digest;  ///< of the scene that it was made for; empty if it does not say
+  /// The near distance that it was made for, as a share of the request's. [Limit: 0 < value <= 1]
+  double near_scale = 1.0;
 };
 
 /// Reads the path. `segments` has to be there and every field of a segment has to be known, remarks
 /// apart (`Field::allow_only`): what a stranger's `weights` or `knots` change, we would prove of
 /// another path. Checked here: the form, that each segment is longer than nothing and begins when
 /// the one before ends; the numbers are `planning::find_fault`'s. `keyframes` (with `time` and
-/// `origin`: "given" or "inserted") and `scene_digest` may be left out. All else is ignored, for it
-/// cannot change what is proved.
+/// `origin`: "given" or "inserted"), `scene_digest` and `near_scale` may be left out. All else is
+/// ignored, for it cannot change what is proved.
 Parsed<PathFile> parse_path_file(std::string_view text, std::string_view source);
 
 /// The same from a file; "-" is standard input.

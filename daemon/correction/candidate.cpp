@@ -2,6 +2,7 @@
 #include "daemon/correction/candidate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace camway::correction {
@@ -56,6 +57,24 @@ bool keeps_keyframes(motion::CubicPath& path, const Problem& problem) {
   return true;
 }
 
+/// Whether the camera looks at the target all the time, as far as it did on the original path.
+bool keeps_target(const motion::CubicPath& path, const Span& changed, const Problem& problem,
+                  const OrientationPolicy& policy) {
+  constexpr int kLooks = 64;
+  if (policy.rule != OrientationRule::kTarget) return true;
+  const auto off_rad = [&](const motion::Pose& pose) {
+    const geometry::Vec3 forward_W = pose.orientation * -geometry::Vec3::UnitZ();
+    const geometry::Vec3 to_target_W = policy.target_W - pose.position;
+    return std::atan2(forward_W.cross(to_target_W).norm(), forward_W.dot(to_target_W));
+  };
+  for (int i = 0; i <= kLooks; ++i) {
+    const double time_s = std::lerp(changed.begin_s, changed.end_s, i / double{kLooks});
+    const double before_rad = off_rad(problem.original.pose(time_s));
+    if (off_rad(path.pose(time_s)) > std::max(policy.cone_rad, before_rad)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& path,
@@ -85,7 +104,10 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   const std::optional<Span> changed = span_of(rows, problem);
   if (!changed) return {std::nullopt, problem.interval};
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
-  if (!keeps_keyframes(candidate.path, problem)) return {std::nullopt, problem.interval};
+  if (!keeps_keyframes(candidate.path, problem) ||
+      !keeps_target(candidate.path, *changed, problem, space.policy())) {
+    return {std::nullopt, problem.interval};
+  }
   // The collision to be mended is the likeliest to remain.
   const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
                                      changed->begin_s, changed->end_s);

@@ -17,12 +17,13 @@ enum class Objective : std::uint8_t {
   kSafest,     ///< least distance to the scene
 };
 
-/// What corrections may do to orientations.
+/// What corrections may do to orientations. With any rule but `kFree`, and with a limit of turning,
+/// they do not turn the camera at all: at every time it is oriented as on the interpolated path.
 enum class OrientationRule : std::uint8_t {
   kFree,    ///< turn the camera
-  kKeep,    ///< nothing: at every time the camera is oriented as on the interpolated path
-  kLevel,   ///< turn it, but never tilt its horizon: its x axis stays across `up_W`
-  kTarget,  ///< turn it, but keep looking at a point: within a cone about the view direction
+  kKeep,    ///< nothing
+  kLevel,   ///< never tilt the horizon, the line across `up_W`: as they do not turn, they do not
+  kTarget,  ///< nowhere look further away from a point than a cone allows, or than before
 };
 
 /// Given keyframes are kept in any case; the rule is for what corrections change.
@@ -36,6 +37,10 @@ struct OrientationPolicy {
 
   bool operator==(const OrientationPolicy&) const = default;
 };
+
+inline bool may_turn_in(const OrientationPolicy& policy) {
+  return policy.rule == OrientationRule::kFree && policy.max_turn_rad >= std::numbers::pi;
+}
 
 /// Limits that the path is to meet. Infinity: no limit. [Limit: value > 0]
 struct MotionLimits {

@@ -68,7 +68,8 @@ class Detour {
   std::optional<Candidate> refined(const Guide& guide) {
     motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), kFine.back()};
     const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
-    const std::optional<Offsets> offsets = offsets_to(problem_.path, timed, knots);
+    const std::optional<Offsets> offsets =
+        offsets_to(problem_.path, timed, knots, space_.may_turn());
     if (!offsets) return std::nullopt;
     std::vector<motion::BumpRow> rows = {bumps_for(*offsets, Ends::kFixed)};
     for (int i = 0; i < kMostRefinements && !deadline_.passed(); ++i) {
@@ -78,7 +79,7 @@ class Detour {
       knots.count = 2 * finest_at(rows, at_s);
       if (knots.count > kFinest) return std::nullopt;
       const std::optional<Offsets> rest =
-          offsets_to(motion::with_bumps(problem_.path, rows), timed, knots);
+          offsets_to(motion::with_bumps(problem_.path, rows), timed, knots, space_.may_turn());
       if (!rest) return std::nullopt;
       rows.push_back(part_of(*rest, *tried.collision));
       if (rows.back().bumps.empty()) return std::nullopt;
@@ -110,7 +111,8 @@ class Detour {
   std::optional<Candidate> drawn(const Guide& guide, int count) {
     const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), count};
     const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
-    const std::optional<Offsets> offsets = offsets_to(problem_.path, timed, knots);
+    const std::optional<Offsets> offsets =
+        offsets_to(problem_.path, timed, knots, space_.may_turn());
     if (!offsets) return std::nullopt;
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
       std::optional<Candidate> found = tried(*offsets, ends);

@@ -22,10 +22,11 @@ constexpr double kBallShare = 0.8;
 }  // namespace
 
 FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
-                     const collision::DetectOptions& detect)
+                     const collision::DetectOptions& detect, const OrientationPolicy& policy)
     : obstacles_(obstacles),
       body_(body),
       detect_(detect),
+      policy_(policy),
       probe_(obstacles, body, detect.clearance_m) {
   geometry::Box box;
   for (const Triangle& triangle : body.triangles_C()) box.extend(geometry::bounds(triangle));

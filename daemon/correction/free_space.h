@@ -6,6 +6,7 @@
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
 #include "daemon/collision/probe.h"
+#include "daemon/correction/constraints.h"
 #include "daemon/motion/straight_motion.h"
 
 namespace camway::correction {
@@ -16,7 +17,7 @@ class FreeSpace {
  public:
   /// Refers to all three, which must outlive it.
   FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
-            const collision::DetectOptions& detect);
+            const collision::DetectOptions& detect, const OrientationPolicy& policy = {});
 
   /// Whether the body at `pose` keeps the required clearance and `margin_m` more: proved.
   [[nodiscard]] bool is_free(const motion::Pose& pose, double margin_m);
@@ -57,11 +58,15 @@ class FreeSpace {
   [[nodiscard]] const collision::Obstacles& obstacles() const { return obstacles_; }
   [[nodiscard]] const motion::Body& body() const { return body_; }
   [[nodiscard]] const collision::DetectOptions& detect() const { return detect_; }
+  [[nodiscard]] const OrientationPolicy& policy() const { return policy_; }
+  /// Whether corrections may change orientations.
+  [[nodiscard]] bool may_turn() const { return may_turn_in(policy_); }
 
  private:
   collision::Obstacles obstacles_;
   const motion::Body& body_;
   const collision::DetectOptions& detect_;
+  OrientationPolicy policy_;
   collision::Probe probe_;
   geometry::Vec3 center_C_;
   double ball_radius_m_ = 0.0;

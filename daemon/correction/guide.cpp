@@ -103,16 +103,20 @@ void TimedGuide::choose_shares(const motion::CubicPath& path) {
 }
 
 std::optional<Offsets> offsets_to(const motion::CubicPath& path, const TimedGuide& guide,
-                                  const motion::KnotRow& knots) {
+                                  const motion::KnotRow& knots, bool may_turn) {
   Offsets offsets{knots, 1, {}};
   Vec4 image = path.at(knots.begin_s).image;
   for (int k = 1; k < knots.count; ++k) {
     const CubicPoint old = path.at(knots.knot_s(k));
     const SignedPose wanted = guide.at(knots.knot_s(k));
+    if (!may_turn) {
+      offsets.at.push_back({wanted.position - old.position, Vec4::Zero()});
+      continue;
+    }
     image = motion::image_of(path.reference, wanted.orientation, image);
     offsets.at.push_back({wanted.position - old.position, image * old.image.norm() - old.image});
   }
-  if (image.dot(path.at(knots.end_s).image) <= 0.0) return std::nullopt;
+  if (may_turn && image.dot(path.at(knots.end_s).image) <= 0.0) return std::nullopt;
   return offsets;
 }
 

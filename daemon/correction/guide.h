@@ -53,8 +53,9 @@ class TimedGuide {
 
 /// What has to be added to `path` at the inner knots to be where the guide is. Nothing where the
 /// guide's orientation cannot be lifted to the path's image: it would arrive with the other sign.
+/// Unless `may_turn`, orientations stay those of the path at the same time.
 std::optional<Offsets> offsets_to(const motion::CubicPath& path, const TimedGuide& guide,
-                                  const motion::KnotRow& knots);
+                                  const motion::KnotRow& knots, bool may_turn);
 
 /// What a row of bumps does at the two keyframes.
 enum class Ends {

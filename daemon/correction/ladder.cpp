@@ -36,7 +36,7 @@ class Ladder {
       result_.separation =
           find_separation(mesh_, find_closed_surfaces(mesh_), body_points_W_, kPointRounding_m);
       if (result_.separation) return std::move(result_);
-      correct_all(Search::kTurning);
+      if (space_.may_turn()) correct_all(Search::kTurning);
     }
     result_.timed_out = any_open() && deadline_.passed();
     for (int round = 0; round < kPolishingRounds; ++round) polish();
@@ -119,7 +119,8 @@ class Ladder {
   bool nudge_away(std::size_t index) {
     const Problem problem = this->problem(index);
     return accept(index, Rung::kMove, nudge(problem, NudgeKind::kMove, space_, deadline_)) ||
-           accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline_));
+           (space_.may_turn() &&
+            accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline_)));
   }
 
   // A way round replaces all that lies between the two keyframes.
@@ -234,7 +235,7 @@ LadderResult correct_by_ladder(const scene::Mesh& mesh, const collision::Obstacl
                                const CubicPath& path,
                                const std::vector<CollisionInterval>& collisions,
                                const LadderOptions& options, const collision::Deadline& deadline) {
-  FreeSpace space(obstacles, body, options.detect);
+  FreeSpace space(obstacles, body, options.detect, options.orientation);
   return Ladder(mesh, space, keyframes, path, collisions, options, deadline).run();
 }
 

@@ -18,6 +18,7 @@ namespace camway::correction {
 struct LadderOptions {
   collision::DetectOptions detect;
   Objective objective = Objective::kClosest;
+  OrientationPolicy orientation;
   int max_inserted_keyframes = 200;  ///< for the whole path [Limit: 0 <= value]
   std::uint64_t seed = 1;            ///< of the search for ways round
 };

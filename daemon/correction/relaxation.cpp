@@ -313,6 +313,7 @@ class Relaxation {
   bool improve(int k) {
     if (objective_ == Objective::kSafest && step_away(k)) return true;
     CubicPoint change = wanted_change(k);
+    if (!space_.may_turn()) change.image.setZero();
     for (int i = 0; i <= kHalvings; ++i, change = 0.5 * change) {
       if (moves(k, change)) return true;
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <string>
 #include <utility>
@@ -75,6 +76,7 @@ class Planner {
       certify();
       keep_the_better_path();
       measure();
+      meet_limits();
       conclude();
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
@@ -184,6 +186,7 @@ class Planner {
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     options.seed = request_.options.seed;
     options.objective = request_.options.objective;
+    options.orientation = request_.options.orientation;
     correction::LadderResult corrected = correction::correct_by_ladder(
         mesh_, obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes),
         found, options, deadline_);
@@ -273,6 +276,55 @@ class Planner {
         is_as_interpolated_ ? result_.measures_before : motion::measure(result_.path, before);
   }
 
+  // Slower all the way, by as much as the limits ask for, which leaves the path where it is:
+  // dynamic scaling (Hollerbach 1984, "Dynamic scaling of manipulator trajectories"). Proofs hold
+  // for parameters, so they stay.
+  void meet_limits() {
+    const correction::MotionLimits& limits = request_.options.limits;
+    if (!result_.measures || !limits.any()) return;
+    const motion::PathMeasures& now = *result_.measures;
+    const double factor =
+        std::max({now.largest_speed_m_per_s / limits.speed_m_per_s,
+                  std::sqrt(now.largest_acceleration_m_per_s2 / limits.acceleration_m_per_s2),
+                  now.largest_turn_rate_rad_per_s / limits.turn_rate_rad_per_s});
+    if (!(factor > 1.0)) return;
+    needed_time_scale_ = factor * kLimitMargin;
+    if (limits.may_retime) stretch_times();
+  }
+
+  void stretch_times() {
+    const double begin_s = result_.path.begin_s();
+    const auto stretch = [&](double& time_s) {
+      time_s = begin_s + (time_s - begin_s) * needed_time_scale_;
+    };
+    std::vector<motion::Segment> segments(result_.path.segments().begin(),
+                                          result_.path.segments().end());
+    for (motion::Segment& segment : segments) {
+      stretch(segment.t0_s);
+      stretch(segment.t1_s);
+    }
+    for (Keyframe& keyframe : result_.keyframes) stretch(keyframe.time_s);
+    for (auto* list : {&result_.collisions, &result_.remaining_collisions}) {
+      for (CollisionInterval& interval : *list) stretch_interval(interval, stretch);
+    }
+    for (correction::Correction& correction : result_.corrections) {
+      stretch_interval(correction.interval, stretch);
+      stretch(correction.t_begin_s);
+      stretch(correction.t_end_s);
+    }
+    const motion::Path before = motion::interpolate(given_keyframes());
+    result_.path = motion::Path(std::move(segments));
+    result_.measures = motion::measure(result_.path, before);
+    result_.time_scale = std::exchange(needed_time_scale_, 1.0);
+  }
+
+  template <class Stretch>
+  static void stretch_interval(CollisionInterval& interval, const Stretch& stretch) {
+    stretch(interval.t_begin_s);
+    stretch(interval.t_end_s);
+    if (interval.witness) stretch(interval.witness->time_s);
+  }
+
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
   // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
@@ -289,6 +341,15 @@ class Planner {
           return keyframe.origin == motion::KeyframeOrigin::kInserted;
         }));
     const std::size_t remaining = result_.remaining_collisions.size();
+    if (remaining == 0 && needed_time_scale_ > 1.0) {
+      result_.status = Status::kPartial;
+      result_.certificate = {};
+      result_.message = fmt::format(
+          "options.limits: the path is free, but meets them only {:.3g} times as slowly; allow "
+          "limits.retime, or give later times",
+          needed_time_scale_);
+      return;
+    }
     if (remaining == 0) {
       result_.status = Status::kOk;
       result_.message =
@@ -341,6 +402,8 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
+  // The largest rates are over samples, which may miss a little.
+  static constexpr double kLimitMargin = 1.01;
   // Of the tolerance: what a repaired keyframe keeps, so that a path can leave it.
   static constexpr double kRepairMargin = 10.0;
   // A request of which more keyframes collide has its unit or its axes wrong.
@@ -360,15 +423,47 @@ class Planner {
   std::optional<motion::Body> body_;
   bool is_as_interpolated_ = true;
   bool timed_out_ = false;
+  double needed_time_scale_ = 1.0;  ///< above 1: limits are not met
   PlanResult result_;
 };
+
+// Where nothing else helped, with a smaller and smaller near quadrilateral, as far as the request
+// allows.
+PlanResult shrunk(const scene::Snapshot& snapshot, const PlanRequest& request,
+                  const Deadline& deadline, PlanResult full) {
+  constexpr double kStep = 0.85;
+  const double least = 1.0 - request.options.max_shrink;
+  const double begun_ms = deadline.elapsed_ms();
+  for (double scale = 1.0; scale > least && !deadline.passed();) {
+    scale = std::max(least, kStep * scale);
+    PlanRequest smaller = request;
+    smaller.camera.near_m *= scale;
+    PlanResult result = Planner(snapshot, smaller, deadline).run();
+    if (result.status != Status::kOk) continue;
+    result.near_scale = scale;
+    result.message += fmt::format("; the near distance is {:.3g} m instead of {:.3g} m",
+                                  smaller.camera.near_m, request.camera.near_m);
+    result.corrections = std::move(full.corrections);
+    for (correction::Correction& correction : result.corrections) {
+      if (correction.rung == correction::Rung::kNone) correction.rung = correction::Rung::kShrink;
+    }
+    result.timing.total_ms = full.timing.total_ms + deadline.elapsed_ms() - begun_ms;
+    return result;
+  }
+  return full;
+}
 
 }  // namespace
 
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const Deadline& deadline) {
   try {
-    return Planner(snapshot, request, deadline).run();
+    PlanResult result = Planner(snapshot, request, deadline).run();
+    const bool may_shrink = request.options.max_shrink > 0.0 && !request.body &&
+                            result.status == Status::kPartial &&
+                            !result.remaining_collisions.empty();
+    if (!may_shrink) return result;
+    return shrunk(snapshot, request, deadline, std::move(result));
   } catch (const std::exception& error) {
     // Out of memory, or a mistake of ours: either must not take the caller's process with it.
     PlanResult result;

@@ -127,6 +127,74 @@ TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
   EXPECT_GT(partial, 10);
 }
 
+TEST(Plan, AKeyframeInAClosedBoxIsProvedInfeasible) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-1, -1, 1}, {1, 1, 3});
+  const PlanResult result = plan(*snapshot_of(std::move(mesh)), bulging_tour());
+  EXPECT_EQ(result.status, Status::kInfeasible) << result.message;
+  ASSERT_TRUE(result.infeasibility);
+  EXPECT_EQ(result.infeasibility->keyframe_inside, 0U);
+  EXPECT_EQ(result.infeasibility->triangles.size(), 12U);
+  EXPECT_FALSE(result.certificate.certified);
+  EXPECT_FALSE(result.remaining_collisions.empty());
+}
+
+TEST(Plan, RepairsKeyframesIfAsked) {
+  PlanRequest request = bulging_tour();
+  request.keyframes[1].pose.position = {0.4, 0, 0.05};  // the quadrilateral is inside the column
+  const std::shared_ptr<const Snapshot> snapshot = column_scene();
+  const PlanResult refused = plan(*snapshot, request);
+  EXPECT_EQ(refused.status, Status::kInvalid);
+  ASSERT_EQ(refused.keyframe_faults.size(), 1U);
+  EXPECT_EQ(refused.keyframe_faults[0].keyframe, 1U);
+  ASSERT_TRUE(refused.keyframe_faults[0].free_pose);
+  request.options.repair_keyframes = true;
+  const PlanResult repaired = plan(*snapshot, request);
+  EXPECT_EQ(repaired.status, Status::kOk) << repaired.message;
+  EXPECT_EQ(repaired.path.pose(2.0).position, refused.keyframe_faults[0].free_pose->position);
+}
+
+TEST(Plan, StretchesTimesToMeetLimitsIfAllowed) {
+  PlanRequest request = bulging_tour();
+  request.options.limits.speed_m_per_s = 0.5;
+  const PlanResult refused = plan(*column_scene(), request);
+  EXPECT_EQ(refused.status, Status::kPartial);
+  EXPECT_THAT(refused.message, ::testing::HasSubstr("options.limits"));
+  request.options.limits.may_retime = true;
+  const PlanResult slower = plan(*column_scene(), request);
+  EXPECT_EQ(slower.status, Status::kOk) << slower.message;
+  EXPECT_GT(slower.time_scale, 1.0);
+  EXPECT_LE(slower.measures->largest_speed_m_per_s, 0.5);
+  EXPECT_EQ(slower.path.end_s(), slower.keyframes.back().time_s);
+}
+
+// The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide, and may not turn.
+TEST(Plan, MakesTheCameraSmallerIfNothingElseHelpsAndItMay) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-80, -80, -0.05}, {-0.06, 80, 0.05});
+  testing::add_cuboid(mesh, {0.06, -80, -0.05}, {80, 80, 0.05});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  request.options.orientation.rule = correction::OrientationRule::kKeep;
+  EXPECT_EQ(plan(*snapshot, request).status, Status::kPartial);
+  request.options.max_shrink = 0.6;
+  const PlanResult smaller = plan(*snapshot, request);
+  EXPECT_EQ(smaller.status, Status::kOk) << smaller.message;
+  EXPECT_LT(smaller.near_scale, 1.0);
+  EXPECT_GE(smaller.near_scale, 0.4);
+}
+
+TEST(Plan, CorrectionsTurnNothingWhereTheOrientationIsKept) {
+  PlanRequest request = bulging_tour();
+  request.options.orientation.rule = correction::OrientationRule::kKeep;
+  const PlanResult result = plan(*column_scene(), request);
+  EXPECT_EQ(result.status, Status::kOk) << result.message;
+  for (int i = 0; i <= 100; ++i) {
+    EXPECT_LT(result.path.pose(0.04 * i).orientation.angularDistance(Quat::Identity()), 1e-12);
+  }
+}
+
 TEST(Plan, NotesThatNoKeyframeLiesInTheScene) {
   Mesh hall;
   testing::add_cuboid(hall, {-3, -3, -3}, {3, 3, 3});

@@ -46,15 +46,18 @@ Parsed<CheckInput> read_files(const CheckFlags& flags) {
   if (const auto fault = planning::validate(*request.value)) {
     return failed(flags.request + ": " + describe(*fault));
   }
-  std::string fault;
-  auto body = motion::Body::make(request.value->body.value_or(request.value->camera), fault);
-  if (!body) return failed(flags.request + ": body: " + fault);
   const Parsed<PathFile> response = read_path_file(flags.response);
   if (!response.value) return failed(response.error);
-  return {CheckInput{*request.value, response.value->path, flags.response,
-                     timed_keyframes(*request.value, response.value->keyframe_times_s),
-                     std::move(body), nullptr, response.value->scene_digest},
-          {}};
+  motion::Camera camera = request.value->camera;
+  camera.near_m *= response.value->near_scale;
+  std::string fault;
+  auto body = motion::Body::make(request.value->body.value_or(camera), fault);
+  if (!body) return failed(flags.request + ": body: " + fault);
+  return {
+      CheckInput{*request.value, response.value->path, flags.response,
+                 timed_keyframes(*request.value, response.value->keyframe_times_s), std::move(body),
+                 nullptr, response.value->scene_digest, response.value->near_scale},
+      {}};
 }
 
 Parsed<CheckInput> read_input(const CheckFlags& flags) {

@@ -166,6 +166,12 @@ std::vector<std::string> check_warnings(const CheckInput& input, const PathSearc
   }
   const double body_m = size_m(*input.body);
   const double tolerance_m = input.request.options.interval_tolerance_m;
+  if (input.near_scale < 1.0) {
+    warnings.push_back(fmt::format(
+        "{}: was made for a near distance of {:.4g} m, {:.3g} of the request's; what is said here "
+        "holds for that",
+        input.response_file, input.near_scale * input.request.camera.near_m, input.near_scale));
+  }
   for (std::string& warning : scene::import_warnings(
            input.snapshot->report,
            scene::finest_length_m(tolerance_m, input.request.options.clearance_m))) {

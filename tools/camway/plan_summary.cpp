@@ -64,13 +64,19 @@ std::string span(const collision::CollisionInterval& interval) {
   return begin == end ? begin + " s" : begin + "-" + end + " s";
 }
 
+/// "edge 2", "the inside".
+std::string part_of_body(const std::string& feature) {
+  if (feature.empty()) return "it";
+  return feature == "inside" || feature == "surface" ? "the " + feature : feature;
+}
+
 /// " (edge 2 met sofa_04)", or nothing if nobody saw what collided.
 std::string meeting(const PlanResult& result, std::size_t collision) {
   if (collision >= result.collisions.size() || collision >= result.collision_names.size())
     return {};
   if (!result.collisions[collision].witness) return {};
   const planning::WitnessNames& names = result.collision_names[collision];
-  return fmt::format(" ({} met {})", names.feature.empty() ? "it" : names.feature,
+  return fmt::format(" ({} met {})", part_of_body(names.feature),
                      names.object.empty() ? "the scene" : names.object);
 }
 

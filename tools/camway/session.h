@@ -37,7 +37,7 @@ struct RecordedRequest {
 struct Session {
   LogSummary log;
   std::vector<RecordedRequest> requests;
-  std::uint64_t malformed = 0;   ///< messages on our channels that are not of our types
+  std::uint64_t malformed = 0;  ///< messages on our channels that are not of our types
   /// Of these, messages with another fingerprint: recorded with another version of the wire types.
   std::uint64_t other_version = 0;
   std::uint64_t incomplete = 0;  ///< messages of which a page is missing
