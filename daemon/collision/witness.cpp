@@ -87,6 +87,41 @@ Box grown_bounds(std::span<const Triangle> placed, double by_m) {
   return {box.min() - Vec3::Constant(by_m), box.max() + Vec3::Constant(by_m)};
 }
 
+// What a solid of the body holds: how deep the first vertex of a triangle is inside at the most.
+std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stretch,
+                                      std::span<const Triangle> placed) {
+  const scene::SceneIndex& index = probe.obstacles().index;
+  std::optional<Witness> deepest;
+  if (probe.body().solids_C().empty()) return deepest;
+  index.for_each_touching(grown_bounds(placed, 0.0), [&](std::uint32_t number) {
+    const Vec3 point_W = index.triangle(number)[0];
+    const Vec3 point_C = stretch.R_WC.transpose() * (point_W - stretch.eye_W);
+    for (const motion::Solid& solid : probe.body().solids_C()) {
+      double depth_m = std::numeric_limits<double>::infinity();
+      for (const motion::HalfSpace& face : solid.faces_C)
+        depth_m = std::min(depth_m, face.offset_m - face.normal.dot(point_C));
+      if (!(depth_m > 0.0) || (deepest && depth_m <= deepest->depth_m)) continue;
+      deepest = Witness{0.0, number, 0, depth_m + probe.keep_m(), point_W};
+    }
+    return true;
+  });
+  return deepest;
+}
+
+// The part of the body that is nearest to a point.
+std::uint32_t nearest_part(std::span<const Triangle> placed, const Vec3& point_W) {
+  std::uint32_t nearest = 0;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::uint32_t part = 0; part < placed.size(); ++part) {
+    const double distance_m =
+        geometry::triangle_distance(placed[part], {point_W, point_W, point_W});
+    if (distance_m >= least_m) continue;
+    least_m = distance_m;
+    nearest = part;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
@@ -112,6 +147,11 @@ std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stre
     }
     return true;
   });
+  std::optional<Witness> inside = deepest_inside(probe, stretch, placed);
+  if (inside && (!deepest || inside->depth_m > deepest->depth_m)) {
+    inside->feature = nearest_part(placed, inside->point_W);
+    return inside;
+  }
   if (!deepest) return std::nullopt;
   const Triangle obstacle = index.triangle(deepest->triangle);
   const Vec3 middle = grown_bounds(placed, 0.0).center();

@@ -13,7 +13,8 @@ namespace camway::collision {
 /// Nothing if there is none. The time is left 0.
 ///
 /// The depth of two triangles that cross is the least way along the normal of either that takes
-/// them apart; where they are merely too close, what is missing in distance.
+/// them apart; where they are merely too close, what is missing in distance; of what a solid of the
+/// body holds without touching it, how deep it is inside.
 std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
                                        double beyond_m);
 

@@ -17,7 +17,6 @@ using motion::CubicPoint;
 constexpr int kSamplesAStep = 3;    // between two knots
 constexpr double kMargin = 0.03;    // of the ball's radius, kept at the samples
 constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
-constexpr int kHalvings = 1;        // of a change that would collide
 constexpr int kRounds = 10;         // of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;     // towards the correction it began with
@@ -314,11 +313,8 @@ class Relaxation {
     if (objective_ == Objective::kSafest && step_away(k)) return true;
     CubicPoint change = wanted_change(k);
     if (!space_.may_turn()) change.image.setZero();
-    for (int i = 0; i <= kHalvings; ++i, change = 0.5 * change) {
-      if (moves(k, change)) return true;
-    }
+    if (moves(k, change) || moves(k, 0.5 * change)) return true;
     // Blocked in one direction it may slide in the others.
-    change = 2.0 * change;
     bool moved = moves(k, {geometry::Vec3::Zero(), change.image});
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       CubicPoint part;

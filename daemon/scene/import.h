@@ -43,6 +43,8 @@ struct ImportReport {
   std::uint64_t dropped_bad_index = 0;
   std::uint64_t dropped_points_and_lines = 0;  ///< primitives that are no surface
   std::uint64_t dropped_freeform = 0;          ///< curved surfaces, which no reader knows
+  /// Lines of an OBJ file with a keyword that means nothing: a slip may have been a face.
+  std::uint64_t ignored_statements = 0;
   /// Whether coordinates went through single precision, as assimp keeps them. OBJ, OFF, PLY and STL
   /// files are read in doubles.
   bool single_precision = false;

@@ -14,7 +14,7 @@
 /// The reader of an untrusted file may have been taken over, so the receiver trusts no count.
 namespace camway::scene::import_format {
 
-inline constexpr std::uint64_t kMagic = 0x324D'5941'574D'4143;  // "CAMWAYM2"
+inline constexpr std::uint64_t kMagic = 0x334D'5941'574D'4143;  // "CAMWAYM3"
 inline constexpr int kOutputFd = 3;
 
 /// Exit codes of `camway-import`. Any other is a crash: sanitizers and abort handlers use small
@@ -32,7 +32,8 @@ struct Header {
   std::uint64_t objects = 0;
   std::uint64_t name_bytes = 0;  ///< all names, one after the other
   std::uint64_t dropped_points_and_lines = 0;
-  std::uint64_t dropped_freeform = 0;  ///< curved surfaces that the reader does not know
+  std::uint64_t dropped_freeform = 0;    ///< curved surfaces that the reader does not know
+  std::uint64_t ignored_statements = 0;  ///< that no reader knows
   /// Of how coordinates differ from the numbers in the file: up to `relative_rounding` times their
   /// magnitude and, in file units, `absolute_rounding`.
   double relative_rounding = 0.0;

@@ -177,6 +177,7 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   report.format = printable(record.text);
   report.dropped_points_and_lines = record.header.dropped_points_and_lines;
   report.dropped_freeform = record.header.dropped_freeform;
+  report.ignored_statements = record.header.ignored_statements;
   report.single_precision = record.header.single_precision != 0;
   result.relative_rounding = record.header.relative_rounding;
   result.absolute_rounding = record.header.absolute_rounding;

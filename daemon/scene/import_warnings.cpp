@@ -22,7 +22,7 @@ std::string left_out(const ImportReport& report) {
     std::string_view text;
   };
   const std::array<Reason, 4> reasons = {{
-      {report.dropped_nonfinite, "with a coordinate that is no finite number"},
+      {report.dropped_nonfinite, "with a coordinate that is no usable number"},
       {report.dropped_bad_index, "with a vertex that does not exist"},
       {report.dropped_freeform, "that are free-form surfaces"},
       {report.degenerate_triangles, "of zero area"},
@@ -47,6 +47,10 @@ std::vector<std::string> import_warnings(const ImportReport& report,
   std::vector<std::string> warnings;
   if (const std::string list = left_out(report); !list.empty()) {
     warnings.push_back("the scene is without faces of its file: " + list);
+  }
+  if (report.ignored_statements > 0) {
+    warnings.push_back("lines of its file that begin with an unknown word, and were not read: " +
+                       std::to_string(report.ignored_statements));
   }
   if (resolution_m && report.rounding_m > *resolution_m) {
     warnings.push_back(

@@ -114,6 +114,10 @@ TEST(Bodies, AreSolidThroughAndThrough) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].t_begin_s, 0.0);
     EXPECT_EQ(found[0].t_end_s, 1.0);
+    // The deepest place is next to the middle of the path, a quarter of a metre from the sides.
+    ASSERT_TRUE(found[0].witness);
+    EXPECT_NEAR(found[0].witness->depth_m, 0.3, 0.11);
+    EXPECT_LT(found[0].witness->point_W.norm(), 0.01);
     EXPECT_EQ(path_clearance(index, rest, make(shape), Deadline::never())->lower_bound_m, 0.0);
   }
 }

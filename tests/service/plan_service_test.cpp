@@ -64,7 +64,7 @@ TEST(PlanService, SaysBehindTheMessageWhatTheImportLeftOut) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->message, echo_result(*from_wire(request).request).message +
                                  "; warning: the scene is without faces of its file: 3 with a "
-                                 "coordinate that is no finite number");
+                                 "coordinate that is no usable number");
 }
 
 TEST(PlanService, LongRequestsAndAnswersTravelInPages) {

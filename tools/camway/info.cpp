@@ -52,6 +52,7 @@ OrderedJson import_json(const scene::ImportReport& report) {
   json["note"] = scene::importer_note(report.format);
   json["dropped_points_and_lines"] = report.dropped_points_and_lines;
   json["dropped_freeform"] = report.dropped_freeform;
+  json["ignored_statements"] = report.ignored_statements;
   json["warnings"] = warnings_of(report);
   return json;
 }
@@ -131,9 +132,11 @@ void print_import(const scene::ImportReport& report) {
     print_rounding(report);
   }
   fmt::print("degenerate   {} triangles of zero area, kept out\n", report.degenerate_triangles);
-  fmt::print("dropped      {} not finite, {} with a bad index, {} points and lines, {} free-form\n",
-             report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines,
-             report.dropped_freeform);
+  fmt::print(
+      "dropped      {} not finite, {} with a bad index, {} points and lines, {} free-form, "
+      "{} unknown\n",
+      report.dropped_nonfinite, report.dropped_bad_index, report.dropped_points_and_lines,
+      report.dropped_freeform, report.ignored_statements);
   fmt::print("assumed      {} m per unit, axes {} (see --scale and --up)\n", report.scale,
              to_string(report.up));
   if (const std::string_view note = scene::importer_note(report.format); !note.empty()) {

@@ -43,6 +43,7 @@ class MeshCollector {
   /// Some coordinates were divided by a weight, which is rounded itself.
   void note_weight() { weighted_ = true; }
   void add_freeform_surface() { ++record_.header.dropped_freeform; }
+  void add_ignored_statement() { ++record_.header.ignored_statements; }
 
   /// The record, with one object at least. `relative_rounding`: of reading one number.
   import_format::Record finish(std::string_view format, double relative_rounding);

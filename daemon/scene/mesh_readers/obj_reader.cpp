@@ -148,12 +148,29 @@ class FaceReader {
       mesh_.add_points_and_lines(count_words(line));
     } else if (keyword == "l") {
       mesh_.add_points_and_lines(std::max<std::size_t>(count_words(line), 2) - 1);
-    } else if (keyword == "surf") {
+    } else if (is_one_of(keyword, kFreeform)) {
       mesh_.add_freeform_surface();
+    } else if (!keyword.empty() && !keyword.starts_with('#') && !is_one_of(keyword, kHarmless)) {
+      mesh_.add_ignored_statement();
     }
   }
 
  private:
+  /// What makes a curve or a surface of its own, also of the oldest versions.
+  static constexpr std::array<std::string_view, 7> kFreeform = {"surf", "curv", "bzp", "bsp",
+                                                                "cdc",  "cdp",  "res"};
+  /// What is known, and puts nothing into the scene.
+  static constexpr std::array<std::string_view, 29> kHarmless = {
+      "vt",        "vn",  "vp",    "s",     "mg",       "mtllib",   "maplib", "usemap",
+      "bevel",     "lod", "ctech", "stech", "c_interp", "d_interp", "cstype", "shadow_obj",
+      "trace_obj", "deg", "bmat",  "step",  "parm",     "trim",     "hole",   "scrv",
+      "sp",        "end", "con",   "curv2", "csh"};
+
+  template <std::size_t N>
+  static bool is_one_of(std::string_view word, const std::array<std::string_view, N>& words) {
+    return std::ranges::find(words, word) != words.end();
+  }
+
   void read_face(std::string_view line) {
     corners_.clear();
     while (true) {

@@ -70,6 +70,9 @@ class OffReader {
         return error + " (face " + std::to_string(i) + ")";
       }
     }
+    if (!words_.next().empty()) {
+      return "goes on after the " + std::to_string(header_.faces) + " faces that it says it has";
+    }
     return "";
   }
 

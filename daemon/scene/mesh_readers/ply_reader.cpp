@@ -29,6 +29,7 @@ class TextValues {
     return !word.empty();
   }
   [[nodiscard]] std::size_t bytes_left() const { return rest_.size() + 1; }
+  [[nodiscard]] bool is_at_end() const { return is_blank(rest_); }
 
  private:
   std::string_view rest_;
@@ -51,6 +52,7 @@ class BinaryValues {
     return true;
   }
   [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
+  [[nodiscard]] bool is_at_end() const { return is_blank(rest_); }
 
  private:
   static double number(PlyType type, std::uint64_t bits) {
@@ -119,7 +121,7 @@ class BodyReader {
       met_vertices = met_vertices || is_vertex;
       if (!error.empty()) return error;
     }
-    return "";
+    return values.is_at_end() ? "" : "goes on after the elements that its header promises";
   }
 
   static std::string too_many(const PlyElement& element) {

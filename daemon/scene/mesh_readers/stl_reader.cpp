@@ -38,6 +38,9 @@ std::string read_binary(std::string_view bytes, MeshCollector& mesh) {
            std::to_string(bytes.size()) + " bytes";
   }
   const std::size_t facets = little_endian_word(bytes.substr(80));
+  if (!is_blank(bytes.substr(promised_size(bytes)))) {
+    return "goes on after the " + std::to_string(facets) + " facets that it says it has";
+  }
   mesh.reserve_vertices(3 * facets);
   for (std::size_t i = 0; i < facets; ++i) {
     std::string_view at = bytes.substr(kHeaderBytes + i * kFacetBytes + kNormalBytes);

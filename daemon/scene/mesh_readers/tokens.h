@@ -50,4 +50,8 @@ inline bool equals_ignoring_case(std::string_view text, std::string_view lower) 
   return true;
 }
 
+/// Whether nothing is there but blanks. What else follows the faces that a header promises could be
+/// more of them.
+constexpr bool is_blank(std::string_view rest) { return trimmed(rest).empty(); }
+
 }  // namespace camway::scene::mesh_readers

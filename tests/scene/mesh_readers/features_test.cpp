@@ -82,6 +82,31 @@ TEST(ObjReader, CountsWhatIsNoSurface) {
   EXPECT_THAT(names_of(record), ElementsAre(":0"));
 }
 
+TEST(ObjReader, CountsWhatNoReaderKnows) {
+  const Record record = read(
+      ".obj", obj("# F\nmtllib a.mtl\ns 1\nvn 0 0 1\nF 1 2 3\nf1 2 3\ncall b.obj\nbzp 1 2 3\n"));
+  EXPECT_EQ(record.header.ignored_statements, 3U);
+  EXPECT_EQ(record.header.dropped_freeform, 1U);
+}
+
+// More faces than announced would be lost without a word, and a path through them certified.
+TEST(Headers, MustNotPromiseLessThanThereIs) {
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_mesh(".off", off + " # the end\n\n").refusal, "");
+  EXPECT_THAT(read_mesh(".off", off + "3 0 2 1\n").refusal, HasSubstr("goes on after the 1 faces"));
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_mesh(".ply", ply + " \n").refusal, "");
+  EXPECT_THAT(read_mesh(".ply", ply + "3 0 2 1\n").refusal, HasSubstr("goes on after"));
+  std::string stl(80, ' ');
+  stl += std::string("\1\0\0\0", 4) + std::string(50, '\0');
+  EXPECT_EQ(read_mesh(".stl", stl + std::string(3, '\0')).refusal, "");
+  EXPECT_THAT(read_mesh(".stl", stl + std::string(50, 'x')).refusal,
+              HasSubstr("goes on after the 1 facets"));
+}
+
 TEST(ObjReader, JoinsLinesAndKnowsAllLineEnds) {
   for (const std::string& text :
        {std::string("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3"),
