@@ -27,7 +27,7 @@ TEST(ImportWarnings, CountWhatIsLeftOut) {
   EXPECT_THAT(
       import_warnings(report, std::nullopt),
       ElementsAre("the scene is without faces of its file: 1 with a coordinate that is no "
-                  "finite number, 2 with a vertex that does not exist, 3 that are free-form "
+                  "usable number, 2 with a vertex that does not exist, 3 that are free-form "
                   "surfaces, 4 of zero area"));
   report = {};
   report.dropped_bad_index = 7;

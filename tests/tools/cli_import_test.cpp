@@ -121,7 +121,7 @@ TEST_F(CliImport, WarnsOfWhatIsLeftOut) {
   const std::string scene = folder_.write(
       "holes.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 9\nf 1 1 2\n");
   const std::string expected =
-      "warning: the scene is without faces of its file: 1 with a coordinate that is no finite "
+      "warning: the scene is without faces of its file: 1 with a coordinate that is no usable "
       "number, 1 with a vertex that does not exist, 1 of zero area";
   EXPECT_THAT(check(scene, path_at(0.0)).err, HasSubstr(expected));
   EXPECT_THAT(run_camway({"info", "--scene", scene}).err, HasSubstr(expected));
