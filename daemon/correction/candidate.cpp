@@ -12,7 +12,7 @@ using collision::CollisionInterval;
 namespace {
 
 // A keyframe is kept if the bumps cancel there but for rounding: that of a few sums, relative to
-// the largest of them.
+// the position there and the largest coefficient of a bump.
 constexpr double kCancelled = 64.0 * std::numeric_limits<double>::epsilon();
 
 struct Span {
@@ -37,13 +37,22 @@ std::optional<Span> span_of(const std::vector<motion::BumpRow>& rows, const Prob
 }
 
 /// Whether `path` meets the keyframes as the problem's own path does; removes what rounding left.
-bool keeps_keyframes(motion::CubicPath& path, const Problem& problem) {
+bool keeps_keyframes(motion::CubicPath& path, const std::vector<motion::BumpRow>& rows,
+                     const Problem& problem) {
+  motion::CubicPoint largest;
+  for (const motion::BumpRow& row : rows) {
+    for (const motion::CubicPoint& bump : row.bumps) {
+      largest.position = largest.position.cwiseMax(bump.position.cwiseAbs());
+      largest.image = largest.image.cwiseMax(bump.image.cwiseAbs());
+    }
+  }
   for (const double time_s : problem.keyframes_s) {
     const motion::CubicPoint kept = problem.path.at(time_s);
     const motion::CubicPoint now = path.at(time_s);
-    const double largest_m = kept.position.norm() + 1.0;
-    if (!((now.position - kept.position).norm() <= kCancelled * largest_m)) return false;
-    if (!((now.image - kept.image).norm() <= kCancelled)) return false;
+    const double size_m = kept.position.norm() + largest.position.norm();
+    const double image_size = kept.image.norm() + largest.image.norm();
+    if (!((now.position - kept.position).norm() <= kCancelled * size_m)) return false;
+    if (!((now.image - kept.image).norm() <= kCancelled * image_size)) return false;
     for (motion::CubicPiece& piece : path.pieces) {
       if (piece.t1_s == time_s) {
         piece.position[3] = kept.position;
@@ -104,7 +113,7 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   const std::optional<Span> changed = span_of(rows, problem);
   if (!changed) return {std::nullopt, problem.interval};
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
-  if (!keeps_keyframes(candidate.path, problem) ||
+  if (!keeps_keyframes(candidate.path, candidate.rows, problem) ||
       !keeps_target(candidate.path, *changed, problem, space.policy())) {
     return {std::nullopt, problem.interval};
   }

@@ -248,14 +248,6 @@ class Nudger {
   std::vector<Sample> samples_;
 };
 
-/// Value at `x` knots from its peak of a bump with coefficient 1.
-double bump_value(double x) {
-  const double a = std::abs(x);
-  if (a >= 2.0) return 0.0;
-  if (a >= 1.0) return (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0;
-  return 2.0 / 3.0 - a * a + 0.5 * a * a * a;
-}
-
 CubicPoint scaled(const CubicPoint& point, double factor) {
   return {factor * point.position, factor * point.image};
 }
@@ -267,7 +259,9 @@ BumpRow single(double peak_s, double spacing_s, const CubicPoint& coefficient) {
 // The bump, and one at each keyframe within its support that takes back what it does there. Those
 // are so narrow that they do not reach other keyframes.
 std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spacing_s) const {
-  const auto value = [&](double time_s) { return bump_value((time_s - middle_s_) / spacing_s); };
+  const auto value = [&](double time_s) {
+    return motion::bump_value((time_s - middle_s_) / spacing_s);
+  };
   const std::vector<double>& keyframes_s = problem_.keyframes_s;
   std::vector<double> narrow_s;
   std::vector<BumpRow> rows;
@@ -281,7 +275,7 @@ std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spac
     if (i + 1 < keyframes_s.size())
       room_s = std::min(room_s, 0.5 * (keyframes_s[i + 1] - keyframes_s[i]));
     narrow_s.back() = room_s;
-    peak -= share / motion::kBumpPeak * bump_value((middle_s_ - keyframes_s[i]) / room_s);
+    peak -= share / motion::kBumpPeak * motion::bump_value((middle_s_ - keyframes_s[i]) / room_s);
   }
   if (!(peak > 0.1)) return {};
   rows.push_back(single(middle_s_, spacing_s, scaled(offset, 1.0 / peak)));

@@ -73,9 +73,8 @@ CubicPoint extended(const motion::CubicPath& path, double time_s) {
 
 /// The four bumps that are not zero between two knots, at `v` in [0, 1] of the way.
 std::array<double, 4> weights_at(double v) {
-  const double w = 1.0 - v;
-  return {w * w * w / 6.0, (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0,
-          (3.0 * w * w * w - 6.0 * w * w + 4.0) / 6.0, v * v * v / 6.0};
+  return {motion::bump_value(1.0 + v), motion::bump_value(v), motion::bump_value(1.0 - v),
+          motion::bump_value(2.0 - v)};
 }
 
 class Relaxation {

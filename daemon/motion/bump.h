@@ -41,6 +41,9 @@ struct BumpRow {
 inline constexpr double kBumpPeak = 2.0 / 3.0;
 inline constexpr double kBumpShoulder = 1.0 / 6.0;
 
+/// Value of a bump with coefficient 1, `knots` steps from its peak on either side.
+double bump_value(double knots);
+
 /// `path` with all `rows` added, split at the knots. What lies outside the supports is the same bit
 /// for bit; pieces share their control point at a join bit for bit. A support may reach beyond the
 /// ends of the path, where it is cut off.

@@ -57,6 +57,12 @@ TEST(KnotRow, IsExactAtItsEndsAndIncreasesBeyond) {
   }
 }
 
+TEST(Bump, ValueIsThatOfTheBSpline) {
+  for (int i = -300; i <= 300; ++i) EXPECT_NEAR(bump_value(0.01 * i), b_spline(0.01 * i), 1e-14);
+  EXPECT_EQ(bump_value(0.0), kBumpPeak);
+  EXPECT_EQ(bump_value(-1.0), kBumpShoulder);
+}
+
 TEST(Bump, AddsTheBSplineOfItsCoefficients) {
   Random random(812);
   for (int round = 0; round < 100; ++round) {
