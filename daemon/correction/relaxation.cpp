@@ -9,6 +9,7 @@
 
 #include "daemon/correction/contact_forces.h"
 #include "daemon/correction/contacts.h"
+#include "daemon/correction/orientation_rule.h"
 #include "daemon/correction/smoothing_form.h"
 
 namespace camway::correction {
@@ -18,12 +19,13 @@ namespace {
 using motion::CubicPoint;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr int kSamplesAStep = 2;     // between two knots
-constexpr double kWanted = 0.1;      // gap that is kept where there is room for it
-constexpr double kComfort = 3.0;     // gap that is as good as any to `kSafest`
-constexpr double kFloor = 0.03;      // least gap that a step may leave, ...
-constexpr double kKeptShare = 0.8;   // ... or this share of what there was, where that is less
-constexpr double kFirstTrust = 2.0;  // how far a step may move the body
+constexpr int kSamplesAStep = 2;    // between two knots
+constexpr double kWanted = 0.1;     // gap that is kept where there is room for it
+constexpr double kComfort = 3.0;    // gap that is as good as any to `kSafest`
+constexpr double kFloor = 0.03;     // least gap that a step may leave, ...
+constexpr double kKeptShare = 0.8;  // ... or this share of what there was, where that is less
+constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
+constexpr double kFirstTrust = 2.0;                              // how far a step may move the body
 constexpr double kMostTrust = 4.0;
 constexpr double kLeastTrust = 0.02;
 constexpr double kDistrust = 0.3;
@@ -53,7 +55,9 @@ struct Contact {
 struct Sample {
   StackedPoint path;
   Terms terms;
-  double floor_m = 0.0;  ///< gap that has to remain
+  double floor_m = 0.0;       ///< gap that has to remain
+  motion::Pose interpolated;  ///< what the rule for orientations compares with
+  double rule_floor = 0.0;    ///< that it has to be met by
   /// Where the body was asked about last, and its gap: until it has moved by that, there is no need
   /// to ask again.
   StackedPoint known;
@@ -137,7 +141,10 @@ class Relaxation {
     sample.path = stacked(problem_.path.at(time_s), lever_m_);
     sample.terms = free_.at(time_s);
     if (sample.terms.empty()) return;
+    sample.interpolated = problem_.original.pose(time_s);
     look(sample);
+    const double room = rule_room(space_.policy(), pose(sample.known), sample.interpolated);
+    sample.rule_floor = std::min(kRuleMargin, kKeptShare * std::max(0.0, room));
     sample.floor_m = std::min(kFloor * radius_m_, kKeptShare * std::max(0.0, sample.known_gap_m));
     samples_.push_back(std::move(sample));
   }
@@ -209,12 +216,21 @@ class Relaxation {
 
   /// Asks the scene where what is known does not tell. What is in the way is minded from then on.
   bool is_free(Sample& sample, const StackedPoint& there) {
+    if (!meets_rule(sample, there)) {
+      breaks_rule_ = true;
+      return false;
+    }
     if (distance_m(there, sample.known) + sample.floor_m < sample.known_gap_m) return true;
     const double gap_m = this->gap_m(sample, there);
     if (!(gap_m > sample.floor_m)) return false;
     sample.known = there;
     sample.known_gap_m = gap_m;
     return true;
+  }
+
+  [[nodiscard]] bool meets_rule(const Sample& sample, const StackedPoint& there) const {
+    if (!is_limited(space_.policy())) return true;
+    return rule_room(space_.policy(), pose(there), sample.interpolated) >= sample.rule_floor;
   }
 
   /// Goes towards what is best, as far as the body stays free, and no further than `trust_m`. How
@@ -230,8 +246,13 @@ class Relaxation {
       finds_contacts_ = false;
       for (; trust_m > kLeastTrust * radius_m_; trust_m *= kDistrust) {
         const double moved_m = std::min(whole_m, trust_m);
-        if (goes(whole_m > trust_m ? StackedPoints(trust_m / whole_m * whole) : whole))
-          return moved_m;
+        breaks_rule_ = false;
+        StackedPoints step = whole_m > trust_m ? StackedPoints(trust_m / whole_m * whole) : whole;
+        if (goes(step)) return moved_m;
+        if (finds_contacts_) break;
+        // What may not turn as it would may still move.
+        if (breaks_rule_) step.rightCols<4>().setZero();
+        if (breaks_rule_ && goes(step)) return moved_m;
         if (finds_contacts_) break;
         trust_m = moved_m;
       }
@@ -368,6 +389,7 @@ class Relaxation {
   Eigen::MatrixXd replies_;
   std::vector<ContactRow> rows_;  ///< buffer
   bool finds_contacts_ = false;
+  bool breaks_rule_ = false;
   int& steps_left_;
 };
 
