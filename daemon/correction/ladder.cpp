@@ -221,7 +221,8 @@ class Ladder {
     return true;
   }
 
-  // A bump stands for a keyframe at its peak, unless one is there already, or no path.
+  // A bump stands for a keyframe at its peak, unless one is there already, or no path, or it moves
+  // the body by less than collisions are told apart by.
   void add_keyframes(const motion::BumpRow& row, std::vector<double>& times_s) const {
     const double near_s = 0.5 * row.knots.spacing_s();
     for (std::size_t i = 0; i < row.bumps.size(); ++i) {
@@ -229,6 +230,10 @@ class Ladder {
       const auto next = std::ranges::lower_bound(keyframes_s_, peak_s - near_s);
       const bool is_there = next != keyframes_s_.end() && *next <= peak_s + near_s;
       const bool is_on_path = original_.begin_s() < peak_s && peak_s < original_.end_s();
+      const motion::CubicPoint& bump = row.bumps[i];
+      const double moved_m =
+          bump.position.norm() + 4.0 * space_.body().radius_m() * bump.image.norm();
+      if (moved_m < options_.detect.tolerance_m) continue;
       if (is_on_path && !is_there) times_s.push_back(peak_s);
     }
   }
