@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "daemon/correction/cage_box.h"
 #include "daemon/correction/closed_surfaces.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/mesh.h"
@@ -18,8 +19,7 @@ namespace camway::correction {
 struct Cage {
   std::size_t inside = 0;   ///< index of a point
   std::size_t outside = 0;  ///< index of a point
-  geometry::Box box;
-  double widest_hole_m = 0.0;  ///< bound of the distance of two points of one hole
+  CageBox box;
   /// Of the bars, which are closed surfaces: their triangles that were needed, increasing.
   std::vector<std::uint32_t> triangles;
 };
