@@ -7,6 +7,7 @@
 
 #include "daemon/correction/guide.h"
 #include "daemon/correction/lattice_search.h"
+#include "daemon/correction/orientation_rule.h"
 #include "daemon/correction/relaxation.h"
 #include "daemon/correction/tree_search.h"
 
@@ -25,7 +26,8 @@ constexpr int kFinest = 2048;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
 constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
-constexpr double kLongestStep = 3.0;  // of the ball's radius: between poses of a guide
+constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
+constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
 
 class Detour {
  public:
@@ -45,8 +47,9 @@ class Detour {
   }
 
  private:
-  std::optional<Candidate> follow(const Guide& guide) {
+  std::optional<Candidate> follow(const Guide& guide, Turning turning) {
     if (guide.empty()) return std::nullopt;
+    turning_ = turning;
     // The guide of the lattice keeps away from the scene; a shortened one turns around corners.
     for (const int count : kCoarse) {
       if (std::optional<Candidate> found = drawn(guide, count)) return found;
@@ -68,8 +71,7 @@ class Detour {
   std::optional<Candidate> refined(const Guide& guide) {
     motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), kFine.back()};
     const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
-    const std::optional<Offsets> offsets =
-        offsets_to(problem_.path, timed, knots, space_.may_turn());
+    const std::optional<Offsets> offsets = offsets_on(problem_.path, timed, knots);
     if (!offsets) return std::nullopt;
     std::vector<motion::BumpRow> rows = {bumps_for(*offsets, Ends::kFixed)};
     for (int i = 0; i < kMostRefinements && !deadline_.passed(); ++i) {
@@ -79,12 +81,18 @@ class Detour {
       knots.count = 2 * finest_at(rows, at_s);
       if (knots.count > kFinest) return std::nullopt;
       const std::optional<Offsets> rest =
-          offsets_to(motion::with_bumps(problem_.path, rows), timed, knots, space_.may_turn());
+          offsets_on(motion::with_bumps(problem_.path, rows), timed, knots);
       if (!rest) return std::nullopt;
       rows.push_back(part_of(*rest, *tried.collision));
       if (rows.back().bumps.empty()) return std::nullopt;
     }
     return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Offsets> offsets_on(const motion::CubicPath& path,
+                                                  const TimedGuide& timed,
+                                                  const motion::KnotRow& knots) const {
+    return offsets_to(path, problem_.original, timed, knots, turning_, space_);
   }
 
   [[nodiscard]] static int finest_at(const std::vector<motion::BumpRow>& rows, double time_s) {
@@ -111,8 +119,7 @@ class Detour {
   std::optional<Candidate> drawn(const Guide& guide, int count) {
     const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), count};
     const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
-    const std::optional<Offsets> offsets =
-        offsets_to(problem_.path, timed, knots, space_.may_turn());
+    const std::optional<Offsets> offsets = offsets_on(problem_.path, timed, knots);
     if (!offsets) return std::nullopt;
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
       std::optional<Candidate> found = tried(*offsets, ends);
@@ -151,11 +158,13 @@ class Detour {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
     const std::optional<SignedPose> end = escape(to_, radius_m_);
     if (!begin || !end) return std::nullopt;
+    // The ball has room for every orientation: where there is a rule, the one it was measured by.
+    const Turning turning = is_limited(space_.policy()) ? Turning::kAsPath : Turning::kAsGuide;
     for (const LatticeOptions& options : lattices(radius_m_, center_W(*begin), center_W(*end))) {
       if (deadline_.passed()) return std::nullopt;
       const LatticeResult found = lattice_way(space_, center_W(*begin), center_W(*end), options);
       if (found.way_W.empty()) continue;
-      if (auto candidate = follow(oriented(found.way_W, *begin, *end))) return candidate;
+      if (auto candidate = follow(oriented(found.way_W, *begin, *end), turning)) return candidate;
     }
     return std::nullopt;
   }
@@ -172,9 +181,23 @@ class Detour {
       options.about_W = way_W;
       options.reach_m = 2.0 * radius_m_;
       options.seed = seed_;
-      if (auto found = follow(tree_way(space_, from_, to_, options, deadline_))) return found;
+      options.largest_turn_rad =
+          std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
+      options.interpolated = poses_as_interpolated();
+      const Guide guide = tree_way(space_, from_, to_, options, deadline_);
+      if (auto found = follow(guide, Turning::kAsGuide)) return found;
     }
     return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated() const {
+    std::vector<motion::Pose> poses;
+    for (int i = 0; i <= kPosesAsInterpolated; ++i) {
+      const double share = static_cast<double>(i) / kPosesAsInterpolated;
+      poses.push_back(
+          problem_.original.pose(std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), share)));
+    }
+    return poses;
   }
 
   std::vector<Vec3> way_for_ball(double ball_radius_m) {
@@ -266,6 +289,7 @@ class Detour {
   const std::uint64_t seed_;
   const collision::Deadline& deadline_;
   const double radius_m_;
+  Turning turning_ = Turning::kAsGuide;
   const SignedPose from_;
   const SignedPose to_;
 };
