@@ -79,8 +79,15 @@ void add_rectangle(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const V
 std::vector<Box> open_below(std::vector<Box> bars, double z) {
   std::erase_if(bars,
                 [&](const Box& bar) { return bar.min().z() < z && bar.max().z() < z + 0.05; });
-  for (Box& bar : bars) bar.min().z() = std::max(bar.min().z(), z);
-  return bars;
+  std::vector<Box> result;
+  for (Box& bar : bars) {
+    bar.min().z() = std::max(bar.min().z(), z);
+    // The copy of a bar that two faces share would take the floor below it away, modulo 2.
+    if (std::none_of(result.begin(), result.end(), [&](const Box& b) { return b.isApprox(bar); })) {
+      result.push_back(bar);
+    }
+  }
+  return result;
 }
 
 /// Of what the bars leave of the faces of `box`, the largest diagonal of bounds of a connected
