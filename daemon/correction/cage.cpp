@@ -21,13 +21,14 @@ using geometry::Vec3;
 
 /// Cells across a bar: the outer ones touch its surface, whatever the grid's offset.
 constexpr double kCellsAcrossBar = 5.0;
-/// Of one face, for time and memory: a tenth of a second for all six.
-constexpr double kMaxCells = 1e6;
+/// Of one face, for time and memory: some hundredths of a second for all six.
+constexpr double kMaxCells = 2e5;
 /// Lines along the surfaces of bars, of one axis; more, and there are only those that are evenly
 /// spaced.
 constexpr std::size_t kMaxSurfaceLines = 1000;
-/// Cells and triangles of all boxes that are looked at, and boxes: about half a second.
-constexpr std::size_t kMaxSteps = 50'000'000;
+/// Cells and triangles of all boxes that are looked at, and boxes: a few hundredths of a second, as
+/// most searches are for scenes without a cage.
+constexpr std::size_t kMaxSteps = 4'000'000;
 constexpr int kMaxBoxes = 24;
 /// Points that boxes are looked for around, in each frame.
 constexpr std::size_t kMaxPoints = 64;
@@ -214,14 +215,21 @@ class CageSearch {
                          scene_.margin_m());
       block(face, box, barriers, grids.back(), cage.triangles);
       if (steps_ > kMaxSteps) return std::nullopt;
+      // Too wide whatever the faces beside it are: nothing more to ask.
+      const auto closed = [](int, bool, std::size_t) { return true; };
+      if (!is_narrow(grids.back().widest_hole_m(closed))) return std::nullopt;
     }
     const std::optional<double> widest_m = widest_hole_m(grids);
-    if (!widest_m || !(*widest_m < chord_m_ * (1.0 - kChordRounding))) return std::nullopt;
+    if (!is_narrow(widest_m)) return std::nullopt;
     cage.box.widest_hole_m = *widest_m;
     std::sort(cage.triangles.begin(), cage.triangles.end());
     const auto same = std::unique(cage.triangles.begin(), cage.triangles.end());
     cage.triangles.erase(same, cage.triangles.end());
     return cage;
+  }
+
+  [[nodiscard]] bool is_narrow(const std::optional<double>& hole_m) const {
+    return hole_m && *hole_m < chord_m_ * (1.0 - kChordRounding);
   }
 
   void block(const Face& face, const Box& box, const std::vector<std::size_t>& barriers,
