@@ -16,9 +16,6 @@ using geometry::Triangle;
 using geometry::Vec3;
 using motion::SignedPose;
 
-// The distance of a ball decides how far a search may jump; nearer to the truth is not worth it.
-constexpr double kBallShare = 0.8;
-
 }  // namespace
 
 FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,

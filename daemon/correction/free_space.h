@@ -32,11 +32,13 @@ class FreeSpace {
                                                 const motion::SignedPose& to, double margin_m);
 
   /// How much further than required a ball about `point_W` is from the scene, or `up_to_m` if it is
-  /// that much; below 0 where it collides. The distance of the ball's middle may be told a quarter
-  /// too long, which spares time and makes no ball free that is not. One of radius
-  /// `ball_radius_m()` holds the body in every orientation.
+  /// that much; below 0 where it collides. The sign is right; of the distance of the ball's middle
+  /// only `kBallShare` is sure, which spares time. One of radius `ball_radius_m()` holds the body
+  /// in every orientation.
   [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double radius_m,
                                   double up_to_m) const;
+
+  static constexpr double kBallShare = 0.8;
 
   /// A deepest contact of the body at `pose`, or with what is up to `beyond_m` away.
   [[nodiscard]] std::optional<collision::Witness> contact(const motion::Pose& pose,

@@ -12,6 +12,7 @@ namespace camway::correction {
 namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
+using collision::Deadline;
 using Cell = std::array<int, 3>;
 
 // What is shorter than a tenth of the ball's radius is not looked at, so between two free points
@@ -136,7 +137,7 @@ class Oracle {
 TEST(LatticeWay, StraightThroughTheOpen) {
   const SearchScene scene({});
   const LatticeResult result =
-      lattice_way(scene.space(), {0, 0, 0}, {3, 0.1, 0}, {0.2, 0.25, 1000});
+      lattice_way(scene.space(), {0, 0, 0}, {3, 0.1, 0}, {0.2, 0.25, 1000}, Deadline::never());
   expect_way(scene, result, {0, 0, 0}, {3, 0.1, 0}, 0.2);
   EXPECT_LT(length_m(result.way_W), 3.2);
 }
@@ -149,7 +150,8 @@ TEST(LatticeWay, IsFreeForTheBall) {
   for (int run = 0; run < 12; ++run) {
     const SearchScene scene(scattered_cuboids(random, 14, 0.6));
     const LatticeOptions options{0.12, 0.1 + 0.02 * run, 20000};
-    const LatticeResult result = lattice_way(scene.space(), from_W, to_W, options);
+    const LatticeResult result =
+        lattice_way(scene.space(), from_W, to_W, options, Deadline::never());
     if (result.way_W.empty()) continue;
     ++found;
     expect_way(scene, result, from_W, to_W, options.ball_radius_m);
@@ -167,7 +169,8 @@ TEST(LatticeWay, IsTheBestThatDijkstraFinds) {
     testing::add_cuboid(mesh, {-0.1, -0.3 - 0.05 * run, -0.4}, {0.1, 0.2, 0.3 + 0.05 * run});
     const SearchScene scene(std::move(mesh));
     const LatticeOptions options{0.1, 0.3, 20000};
-    const LatticeResult result = lattice_way(scene.space(), from_W, to_W, options);
+    const LatticeResult result =
+        lattice_way(scene.space(), from_W, to_W, options, Deadline::never());
     expect_way(scene, result, from_W, to_W, options.ball_radius_m);
     Oracle strict(scene, from_W, to_W, options, 0.0);
     Oracle loose(scene, from_W, to_W, options, -kUnseen * options.ball_radius_m);
@@ -184,7 +187,8 @@ TEST(LatticeWay, KeepsItsDistanceWhereThatCostsLittle) {
   const SearchScene scene(wall_with_gap(-0.15, 3.0));
   const Vec3 from_W(0, 0, 1.5);
   const Vec3 to_W(0, 0, -1.5);
-  const LatticeResult result = lattice_way(scene.space(), from_W, to_W, {0.1, 0.2, 20000});
+  const LatticeResult result =
+      lattice_way(scene.space(), from_W, to_W, {0.1, 0.2, 20000}, Deadline::never());
   expect_way(scene, result, from_W, to_W, 0.1);
   double least_m = 1.0;
   for (std::size_t i = 1; i < result.way_W.size(); ++i) {
@@ -193,22 +197,33 @@ TEST(LatticeWay, KeepsItsDistanceWhereThatCostsLittle) {
   EXPECT_GE(least_m, 0.04);
 }
 
-TEST(LatticeWay, NoneWhereAWallCloses) {
+/// About the origin, 2 m wide, of plates of that thickness.
+scene::Mesh closed_room(double thick_m) {
+  const double outer_m = 1.0 + thick_m;
   scene::Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
-      Vec3 min = Vec3::Constant(-1.1);
-      Vec3 max = Vec3::Constant(1.1);
+      Vec3 min = Vec3::Constant(-outer_m);
+      Vec3 max = Vec3::Constant(outer_m);
       (side < 0.0 ? max : min)[axis] = side;
       testing::add_cuboid(mesh, min, max);
     }
   }
-  const SearchScene scene(std::move(mesh));
-  for (const double spacing_m : {0.1, 0.35, 0.8}) {
-    const LatticeResult result =
-        lattice_way(scene.space(), {0, 0, 0}, {3, 0, 0}, {0.1, spacing_m, 20000});
-    EXPECT_TRUE(result.way_W.empty());
-    EXPECT_TRUE(result.exhausted);
+  return mesh;
+}
+
+// However thin the wall is beside the steps, and however small the ball.
+TEST(LatticeWay, NoneWhereAWallCloses) {
+  for (const double thick_m : {0.0, 0.1, 0.3}) {
+    const SearchScene scene(closed_room(thick_m));
+    for (const double radius_m : {0.1, 0.01}) {
+      for (const double spacing_m : {0.1, 0.35, 0.45, 0.55, 0.8}) {
+        const LatticeResult result = lattice_way(scene.space(), {0.02, 0.07, 0}, {3, 0, 0},
+                                                 {radius_m, spacing_m, 20000}, Deadline::never());
+        EXPECT_TRUE(result.way_W.empty());
+        EXPECT_TRUE(result.exhausted) << thick_m << " " << radius_m << " " << spacing_m;
+      }
+    }
   }
 }
 
@@ -216,8 +231,8 @@ TEST(LatticeWay, NoneWhereAWallCloses) {
 TEST(LatticeWay, TellsGapsByTheirWidth) {
   for (const double width_m : {0.3, 0.5}) {
     const SearchScene scene(wall_with_gap(0.8, 0.8 + width_m));
-    const LatticeResult result =
-        lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1}, {0.2, 0.1, 20000});
+    const LatticeResult result = lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1},
+                                             {0.2, 0.1, 20000}, Deadline::never());
     EXPECT_EQ(!result.way_W.empty(), width_m > 0.4);
     // The wall is 30 m high, and nobody went round it.
     EXPECT_FALSE(result.exhausted);
@@ -229,8 +244,18 @@ TEST(LatticeWay, StopsAtItsBound) {
   const LatticeOptions enough{0.2, 0.1, 20000};
   LatticeOptions few = enough;
   few.max_points = 200;
-  EXPECT_FALSE(lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1}, enough).way_W.empty());
-  const LatticeResult result = lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1}, few);
+  EXPECT_FALSE(lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1}, enough, Deadline::never())
+                   .way_W.empty());
+  const LatticeResult result =
+      lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1}, few, Deadline::never());
+  EXPECT_TRUE(result.way_W.empty());
+  EXPECT_FALSE(result.exhausted);
+}
+
+TEST(LatticeWay, StopsAtTheDeadline) {
+  const SearchScene scene(wall_with_gap(20.8, 21.3));
+  const LatticeResult result = lattice_way(scene.space(), {0.05, 0, 1}, {0.05, 0, -1},
+                                           {0.2, 0.1, 2'000'000}, Deadline::after_s(0.0));
   EXPECT_TRUE(result.way_W.empty());
   EXPECT_FALSE(result.exhausted);
 }
@@ -239,8 +264,10 @@ TEST(LatticeWay, IsTheSameEachTime) {
   std::mt19937_64 random = testing::seeded(3);
   const SearchScene scene(scattered_cuboids(random, 14, 0.6));
   const LatticeOptions options{0.1, 0.15, 20000};
-  const LatticeResult a = lattice_way(scene.space(), {-2, 0, 0}, {2, 0, 0}, options);
-  const LatticeResult b = lattice_way(scene.space(), {-2, 0, 0}, {2, 0, 0}, options);
+  const LatticeResult a =
+      lattice_way(scene.space(), {-2, 0, 0}, {2, 0, 0}, options, Deadline::never());
+  const LatticeResult b =
+      lattice_way(scene.space(), {-2, 0, 0}, {2, 0, 0}, options, Deadline::never());
   ASSERT_FALSE(a.way_W.empty());
   EXPECT_EQ(a.way_W, b.way_W);
 }
