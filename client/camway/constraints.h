@@ -21,12 +21,12 @@ struct Orientation {
   enum class Policy {
     kFree,    ///< turn it as needed
     kKeep,    ///< at every time as on the path as interpolated
-    kLevel,   ///< turn it, but never tilt its horizon: its x axis stays across `up`
-    kTarget,  ///< turn it, but keep `target_m` within `cone_rad` of the direction of view
+    kLevel,   ///< turn it, but do not tilt its horizon, the line across `up`, more than it was
+    kTarget,  ///< turn it, but keep `target_m` within `cone_rad` of the view, or as close as it was
   };
 
   Policy policy = Policy::kFree;
-  std::array<double, 3> up{};        ///< of any length; all zero for the daemon's default
+  std::array<double, 3> up{};        ///< of any length; all zero for the default, Y
   std::array<double, 3> target_m{};  ///< in the world frame
   double cone_rad = 0.0;             ///< half angle [Limit: 0 < value <= π; 0 for the default]
   /// Most that the camera may be turned from how it would be on the path as interpolated.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/correction/orientation_rule.h"
+
 namespace camway::correction {
 
 using collision::CollisionInterval;
@@ -66,22 +68,18 @@ bool keeps_keyframes(motion::CubicPath& path, const std::vector<motion::BumpRow>
   return true;
 }
 
-/// Whether the camera looks at the target all the time, as far as it did on the original path.
-bool keeps_target(const motion::CubicPath& path, const Span& changed, const Problem& problem,
-                  const OrientationPolicy& policy) {
-  constexpr int kLooks = 64;
-  if (policy.rule != OrientationRule::kTarget) return true;
-  const auto off_rad = [&](const motion::Pose& pose) {
-    const geometry::Vec3 forward_W = pose.orientation * -geometry::Vec3::UnitZ();
-    const geometry::Vec3 to_target_W = policy.target_W - pose.position;
-    return std::atan2(forward_W.cross(to_target_W).norm(), forward_W.dot(to_target_W));
-  };
-  for (int i = 0; i <= kLooks; ++i) {
-    const double time_s = std::lerp(changed.begin_s, changed.end_s, i / double{kLooks});
-    const double before_rad = off_rad(problem.original.pose(time_s));
-    if (off_rad(path.pose(time_s)) > std::max(policy.cone_rad, before_rad)) return false;
+/// Where the rule for orientations is not met, or not shown to be.
+std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, const Span& changed,
+                                                const Problem& problem, const FreeSpace& space) {
+  if (!space.may_turn()) {
+    for (const motion::BumpRow& row : candidate.rows) {
+      const bool turns = std::ranges::any_of(
+          row.bumps, [](const motion::CubicPoint& bump) { return !bump.image.isZero(0.0); });
+      if (turns) return CollisionInterval{changed.begin_s, changed.end_s};
+    }
   }
-  return true;
+  return first_breach(space.policy(), candidate.path, problem.original, changed.begin_s,
+                      changed.end_s);
 }
 
 }  // namespace
@@ -113,10 +111,10 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   const std::optional<Span> changed = span_of(rows, problem);
   if (!changed) return {std::nullopt, problem.interval};
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
-  if (!keeps_keyframes(candidate.path, candidate.rows, problem) ||
-      !keeps_target(candidate.path, *changed, problem, space.policy())) {
+  if (!keeps_keyframes(candidate.path, candidate.rows, problem))
     return {std::nullopt, problem.interval};
-  }
+  if (auto breach = breach_of_rule(candidate, *changed, problem, space))
+    return {std::nullopt, std::move(breach), true};
   // The collision to be mended is the likeliest to remain.
   const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
                                      changed->begin_s, changed->end_s);

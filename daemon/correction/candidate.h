@@ -41,11 +41,13 @@ std::optional<collision::CollisionInterval> first_new_collision(
     const motion::CubicPath& path, double t_begin_s, double t_end_s, const Problem& problem,
     const FreeSpace& space, const collision::Deadline& deadline);
 
-/// `problem.path` with `rows` added, if it still meets all keyframes and is proved free wherever
-/// they change it.
+/// `problem.path` with `rows` added, if it still meets all keyframes, and is proved to meet the
+/// rule for orientations and to be free wherever they change it.
 struct Attempt {
   std::optional<Candidate> candidate;
-  std::optional<collision::CollisionInterval> collision;  ///< the first, where there is none
+  /// Where there is none: the first collision, or where the rule is broken.
+  std::optional<collision::CollisionInterval> collision;
+  bool breaks_rule = false;
 };
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const collision::Deadline& deadline);

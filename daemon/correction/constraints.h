@@ -17,19 +17,21 @@ enum class Objective : std::uint8_t {
   kSafest,     ///< least distance to the scene
 };
 
-/// What corrections may do to orientations. With any rule but `kFree`, and with a limit of turning,
-/// they do not turn the camera at all: at every time it is oriented as on the interpolated path.
+/// What corrections may do to orientations; `orientation_rule.h` says what exactly. What they
+/// change meets the rule at every time, compared with the interpolated path at the same time.
 enum class OrientationRule : std::uint8_t {
   kFree,    ///< turn the camera
-  kKeep,    ///< nothing
-  kLevel,   ///< never tilt the horizon, the line across `up_W`: as they do not turn, they do not
-  kTarget,  ///< nowhere look further away from a point than a cone allows, or than before
+  kKeep,    ///< nothing: at every time it is oriented as on the interpolated path
+  kLevel,   ///< turn it, but nowhere tilt the horizon, the line across `up_W`, more than it was
+  kTarget,  ///< turn it, but nowhere look further away from a point than a cone allows, or it did
 };
 
-/// Given keyframes are kept in any case; the rule is for what corrections change.
+/// Given keyframes are kept in any case; the rule is for what the ladder's corrections change.
 struct OrientationPolicy {
   OrientationRule rule = OrientationRule::kFree;
-  geometry::Vec3 up_W = geometry::Vec3::UnitZ();     ///< for kLevel; unit length
+  /// For kLevel; unit length. Y by default, as it is up in the camera's own frame: the orientation
+  /// that turns nothing is level.
+  geometry::Vec3 up_W = geometry::Vec3::UnitY();
   geometry::Vec3 target_W = geometry::Vec3::Zero();  ///< for kTarget
   double cone_rad = 0.5;  ///< for kTarget: half angle of the cone [Limit: 0 < value <= pi]
   /// How far the camera may be turned from how it would be on the interpolated path at that time.
@@ -38,8 +40,14 @@ struct OrientationPolicy {
   bool operator==(const OrientationPolicy&) const = default;
 };
 
+/// Whether corrections may change any orientation.
 inline bool may_turn_in(const OrientationPolicy& policy) {
-  return policy.rule == OrientationRule::kFree && policy.max_turn_rad >= std::numbers::pi;
+  return policy.rule != OrientationRule::kKeep && policy.max_turn_rad > 0.0;
+}
+
+/// Whether there is anything that they may not do.
+inline bool is_limited(const OrientationPolicy& policy) {
+  return policy.rule != OrientationRule::kFree || policy.max_turn_rad < std::numbers::pi;
 }
 
 /// Limits that the path is to meet. Infinity: no limit. [Limit: value > 0]

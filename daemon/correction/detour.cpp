@@ -7,6 +7,7 @@
 
 #include "daemon/correction/guide.h"
 #include "daemon/correction/lattice_search.h"
+#include "daemon/correction/orientation_rule.h"
 #include "daemon/correction/relaxation.h"
 #include "daemon/correction/tree_search.h"
 
@@ -18,23 +19,21 @@ using geometry::Vec3;
 using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
-constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32}; // numbers of knots
+constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32};  // numbers of knots
 constexpr std::array<int, 4> kFine = {8, 16, 32, 64};
-constexpr int kMostRefinements = 40; // of parts of a row of bumps
+constexpr int kMostRefinements = 40;  // of parts of a row of bumps
 constexpr int kFinest = 2048;
-constexpr std::array<double, 2> kMargins = {0.25, 0.02}; // of the ball's radius
+constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
-constexpr std::array<double, 3> kBallShares = {0.6, 0.35,
-                                               0.15}; // of the ball's radius
-constexpr double kLongestStep =
-    3.0; // of the ball's radius: between poses of a guide
+constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
+constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
+constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
 
 /// A lattice to be searched.
 struct Level {
-  double spacing; ///< relative to the coarse one
+  double spacing;  ///< relative to the coarse one
   std::size_t max_points;
-  bool
-      is_wide; ///< reaches further than those before it, for ways that are long
+  bool is_wide;  ///< reaches further than those before it, for ways that are long
 };
 constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
                                            {0.5, 16000, false},
@@ -42,199 +41,189 @@ constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
                                            {1.0, 60000, true},
                                            {0.25, 60000, false},
                                            {0.125, 120000, false}}};
-constexpr int kOftenRunOut =
-    2; // lattices in a row from which on wider ones are searched
+constexpr int kOftenRunOut = 2;  // lattices in a row from which on wider ones are searched
 constexpr std::size_t kFinestLevel = kLevels.size() - 1;
 
 class Detour {
-public:
-  Detour(const Problem &problem, Objective objective, FreeSpace &space,
-         std::uint64_t seed, const collision::Deadline &deadline)
-      : problem_(problem), objective_(objective), space_(space), seed_(seed),
-        deadline_(deadline), radius_m_(space.ball_radius_m()),
+ public:
+  Detour(const Problem& problem, Objective objective, FreeSpace& space, std::uint64_t seed,
+         const collision::Deadline& deadline)
+      : problem_(problem),
+        objective_(objective),
+        space_(space),
+        seed_(seed),
+        deadline_(deadline),
+        radius_m_(space.ball_radius_m()),
         from_(signed_pose_at(problem.path, problem.gap_begin_s())),
         to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
 
   std::optional<Candidate> run(Search search) {
-    return search == Search::kWithRoom ? with_ball(0, kFinestLevel - 1)
-                                       : with_turns();
+    if (search == Search::kTurning) return with_turns();
+    return with_ball(0, space_.may_turn() ? kFinestLevel - 1 : kFinestLevel);
   }
 
-private:
-  std::optional<Candidate> follow(const Guide &guide) {
-    if (guide.empty())
-      return std::nullopt;
-    // The guide of the lattice keeps away from the scene; a shortened one turns
-    // around corners.
+ private:
+  std::optional<Candidate> follow(const Guide& guide, Turning turning) {
+    if (guide.empty()) return std::nullopt;
+    turning_ = turning;
+    // The guide of the lattice keeps away from the scene; a shortened one turns around corners.
     for (const int count : kCoarse) {
-      if (std::optional<Candidate> found = drawn(guide, count))
-        return found;
+      if (std::optional<Candidate> found = drawn(guide, count)) return found;
     }
     const Guide fine = divided(guide);
     for (const double margin : kMargins) {
       const Guide direct = shortened(fine, space_, margin * radius_m_);
       for (const int count : kFine) {
-        if (deadline_.passed())
-          return std::nullopt;
-        if (std::optional<Candidate> found = drawn(direct, count))
-          return found;
+        if (deadline_.passed()) return std::nullopt;
+        if (std::optional<Candidate> found = drawn(direct, count)) return found;
       }
-      if (std::optional<Candidate> found = refined(direct))
-        return found;
+      if (std::optional<Candidate> found = refined(direct)) return found;
     }
     return std::nullopt;
   }
 
-  // Where a row of bumps is too coarse for the guide, a finer one is added for
-  // what is missing, next to the collision alone.
-  std::optional<Candidate> refined(const Guide &guide) {
-    motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(),
-                          kFine.back()};
-    const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s,
-                           space_);
-    const std::optional<Offsets> offsets =
-        offsets_to(problem_.path, timed, knots, space_.may_turn());
-    if (!offsets)
-      return std::nullopt;
+  // Where a row of bumps is too coarse for the guide, a finer one is added for what is missing,
+  // next to the collision alone.
+  std::optional<Candidate> refined(const Guide& guide) {
+    motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), kFine.back()};
+    const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
+    const std::optional<Offsets> offsets = offsets_on(problem_.path, timed, knots);
+    if (!offsets) return std::nullopt;
     std::vector<motion::BumpRow> rows = {bumps_for(*offsets, Ends::kFixed)};
     for (int i = 0; i < kMostRefinements && !deadline_.passed(); ++i) {
       Attempt tried = attempt(problem_, rows, space_, deadline_);
-      if (tried.candidate)
-        return std::move(tried.candidate);
-      const double at_s =
-          0.5 * (tried.collision->t_begin_s + tried.collision->t_end_s);
+      if (tried.candidate) return std::move(tried.candidate);
+      const double at_s = 0.5 * (tried.collision->t_begin_s + tried.collision->t_end_s);
       knots.count = 2 * finest_at(rows, at_s);
-      if (knots.count > kFinest)
-        return std::nullopt;
+      if (knots.count > kFinest) return std::nullopt;
       const std::optional<Offsets> rest =
-          offsets_to(motion::with_bumps(problem_.path, rows), timed, knots,
-                     space_.may_turn());
-      if (!rest)
-        return std::nullopt;
+          offsets_on(motion::with_bumps(problem_.path, rows), timed, knots);
+      if (!rest) return std::nullopt;
       rows.push_back(part_of(*rest, *tried.collision));
-      if (rows.back().bumps.empty())
-        return std::nullopt;
+      if (rows.back().bumps.empty()) return std::nullopt;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] static int finest_at(const std::vector<motion::BumpRow> &rows,
-                                     double time_s) {
+  [[nodiscard]] std::optional<Offsets> offsets_on(const motion::CubicPath& path,
+                                                  const TimedGuide& timed,
+                                                  const motion::KnotRow& knots) const {
+    return offsets_to(path, problem_.original, timed, knots, turning_, space_);
+  }
+
+  [[nodiscard]] static int finest_at(const std::vector<motion::BumpRow>& rows, double time_s) {
     int finest = kFine.back();
-    for (const motion::BumpRow &row : rows) {
+    for (const motion::BumpRow& row : rows) {
       if (row.begin_s() < time_s && time_s < row.end_s())
         finest = std::max(finest, row.knots.count);
     }
     return finest;
   }
 
-  [[nodiscard]] static motion::BumpRow
-  part_of(const Offsets &offsets, const collision::CollisionInterval &about) {
-    const motion::KnotRow &knots = offsets.knots;
+  [[nodiscard]] static motion::BumpRow part_of(const Offsets& offsets,
+                                               const collision::CollisionInterval& about) {
+    const motion::KnotRow& knots = offsets.knots;
     const auto knot_before = [&](double time_s) {
-      return static_cast<int>(
-          std::floor((time_s - knots.begin_s) / knots.spacing_s()));
+      return static_cast<int>(std::floor((time_s - knots.begin_s) / knots.spacing_s()));
     };
-    motion::BumpRow row{
-        knots, std::max(2, knot_before(about.t_begin_s) - 2), {}};
+    motion::BumpRow row{knots, std::max(2, knot_before(about.t_begin_s) - 2), {}};
     const int last = std::min(knots.count - 2, knot_before(about.t_end_s) + 3);
-    for (int k = row.first; k <= last; ++k)
-      row.bumps.push_back(offsets(k));
+    for (int k = row.first; k <= last; ++k) row.bumps.push_back(offsets(k));
     return row;
   }
 
-  std::optional<Candidate> drawn(const Guide &guide, int count) {
-    const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(),
-                                count};
-    const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s,
-                           space_);
-    const std::optional<Offsets> offsets =
-        offsets_to(problem_.path, timed, knots, space_.may_turn());
-    if (!offsets)
-      return std::nullopt;
+  std::optional<Candidate> drawn(const Guide& guide, int count) {
+    const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), count};
+    const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
+    const std::optional<Offsets> offsets = offsets_on(problem_.path, timed, knots);
+    if (!offsets) return std::nullopt;
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
       std::optional<Candidate> found = tried(*offsets, ends);
-      if (found)
-        return improved(*offsets, ends, std::move(*found));
+      if (found) return improved(*offsets, ends, std::move(*found));
     }
     return std::nullopt;
   }
 
-  // With half the knots as long as that is free, which is smoother, then
-  // relaxed.
+  // With half the knots as long as that is free, which is smoother, then relaxed.
   Candidate improved(Offsets offsets, Ends ends, Candidate found) {
-    while (offsets.knots.count % 2 == 0 &&
-           offsets.knots.count >= 2 * kCoarse.front()) {
+    while (offsets.knots.count % 2 == 0 && offsets.knots.count >= 2 * kCoarse.front()) {
       Offsets half = with_every_other_knot(offsets);
       std::optional<Candidate> coarser = tried(half, ends);
-      if (!coarser)
-        break;
+      if (!coarser) break;
       offsets = std::move(half);
       found = std::move(*coarser);
     }
-    return relaxed(problem_, {std::move(offsets), std::move(found)}, ends,
-                   objective_, space_, deadline_)
+    return relaxed(problem_, {std::move(offsets), std::move(found)}, ends, objective_, space_,
+                   deadline_)
         .candidate;
   }
 
-  static Offsets with_every_other_knot(const Offsets &offsets) {
+  static Offsets with_every_other_knot(const Offsets& offsets) {
     Offsets half{offsets.knots, offsets.first / 2, {}};
     half.knots.count /= 2;
-    for (int k = half.first; 2 * k <= offsets.last(); ++k)
-      half.at.push_back(offsets(2 * k));
+    for (int k = half.first; 2 * k <= offsets.last(); ++k) half.at.push_back(offsets(2 * k));
     return half;
   }
 
-  std::optional<Candidate> tried(const Offsets &offsets, Ends ends) {
-    return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_)
-        .candidate;
+  std::optional<Candidate> tried(const Offsets& offsets, Ends ends) {
+    return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
-  // Ways on which the body may be turned as it likes. The finest lattice is
-  // searched last of all: what needs it mostly needs turning.
-  std::optional<Candidate> with_ball(std::size_t first_level,
-                                     std::size_t last_level) {
+  // Ways on which the body may be turned as it likes. The finest lattice is searched last of all:
+  // what needs it mostly needs turning.
+  std::optional<Candidate> with_ball(std::size_t first_level, std::size_t last_level) {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
     const std::optional<SignedPose> end = escape(to_, radius_m_);
-    if (!begin || !end)
-      return std::nullopt;
+    if (!begin || !end) return std::nullopt;
+    // The ball has room for every orientation: where there is a rule, the one it was measured by.
+    const Turning turning = is_limited(space_.policy()) ? Turning::kAsPath : Turning::kAsGuide;
     std::optional<Candidate> candidate;
-    for_each_way({radius_m_, center_W(*begin), center_W(*end)}, first_level,
-                 last_level, [&](const std::vector<Vec3> &way_W) {
-                   candidate = follow(oriented(way_W, *begin, *end));
+    for_each_way({radius_m_, center_W(*begin), center_W(*end)}, first_level, last_level,
+                 [&](const std::vector<Vec3>& way_W) {
+                   candidate = follow(oriented(way_W, *begin, *end), turning);
                    return candidate.has_value();
                  });
     return candidate;
   }
 
-  // Ways where the body has to be turned to get through: where a smaller ball
-  // does, trees look for how.
+  // Ways where the body has to be turned to get through: where a smaller ball does, trees look for
+  // how.
   std::optional<Candidate> with_turns() {
     for (const double share : kBallShares) {
-      if (deadline_.passed())
-        return std::nullopt;
+      if (deadline_.passed()) return std::nullopt;
       const std::vector<Vec3> way_W = way_for_ball(share * radius_m_);
-      if (way_W.empty())
-        continue;
+      if (way_W.empty()) continue;
       TreeOptions options;
       options.margin_m = 0.5 * kLeastMargin * radius_m_;
       options.about_W = way_W;
       options.reach_m = 2.0 * radius_m_;
       options.seed = seed_;
-      if (auto found = follow(tree_way(space_, from_, to_, options, deadline_)))
-        return found;
+      options.largest_turn_rad =
+          std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
+      options.interpolated = poses_as_interpolated();
+      const Guide guide = tree_way(space_, from_, to_, options, deadline_);
+      if (auto found = follow(guide, Turning::kAsGuide)) return found;
     }
     return with_ball(kFinestLevel, kFinestLevel);
+  }
+
+  [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated() const {
+    std::vector<motion::Pose> poses;
+    for (int i = 0; i <= kPosesAsInterpolated; ++i) {
+      const double share = static_cast<double>(i) / kPosesAsInterpolated;
+      poses.push_back(
+          problem_.original.pose(std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), share)));
+    }
+    return poses;
   }
 
   std::vector<Vec3> way_for_ball(double ball_radius_m) {
     const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
     const std::optional<SignedPose> end = escape(to_, ball_radius_m);
-    if (!begin || !end)
-      return {};
+    if (!begin || !end) return {};
     std::vector<Vec3> result_W;
-    for_each_way({ball_radius_m, center_W(*begin), center_W(*end)}, 0,
-                 kFinestLevel, [&](const std::vector<Vec3> &way_W) {
+    for_each_way({ball_radius_m, center_W(*begin), center_W(*end)}, 0, kFinestLevel,
+                 [&](const std::vector<Vec3>& way_W) {
                    result_W = {center_W(from_)};
                    result_W.insert(result_W.end(), way_W.begin(), way_W.end());
                    result_W.push_back(center_W(to_));
@@ -249,98 +238,73 @@ private:
     Vec3 to_W;
   };
 
-  // Finer and finer lattices; and where their points ran out before all was
-  // seen that can be reached, wider ones, as the way may be much longer than
-  // its ends are apart. Until `use` of a way succeeds.
+  // Finer and finer lattices; and where their points ran out before all was seen that can be
+  // reached, wider ones, as the way may be much longer than its ends are apart. Until `use` of a
+  // way succeeds.
   template <class Use>
-  void for_each_way(const Ball &ball, std::size_t first_level,
-                    std::size_t last_level, const Use &use) {
-    const double coarse_m =
-        std::max(ball.radius_m, (ball.to_W - ball.from_W).norm() / 8.0);
-    const auto searched = [&](const Level &level, bool from_end) {
-      LatticeResult found = lattice_way(
-          space_, from_end ? ball.to_W : ball.from_W,
-          from_end ? ball.from_W : ball.to_W,
-          {ball.radius_m, level.spacing * coarse_m, level.max_points},
-          deadline_);
-      if (from_end)
-        std::ranges::reverse(found.way_W);
-      return found;
-    };
+  void for_each_way(const Ball& ball, std::size_t first_level, std::size_t last_level,
+                    const Use& use) {
     bool from_end = false;
     int times_run_out = 0;
-    for (std::size_t i = first_level; i <= last_level && !deadline_.passed();
-         ++i) {
-      const Level &level = kLevels[i];
-      if (level.is_wide && times_run_out < kOftenRunOut)
-        continue;
-      const LatticeResult found = searched(level, from_end);
-      if (!found.way_W.empty() && use(found.way_W))
-        return;
-      if (level.is_wide || from_end || !found.way_W.empty() || found.exhausted)
-        continue;
-      if (++times_run_out != kOftenRunOut)
-        continue;
+    for (std::size_t i = first_level; i <= last_level && !deadline_.passed(); ++i) {
+      const Level& level = kLevels[i];
+      if (level.is_wide && times_run_out < kOftenRunOut) continue;
+      const LatticeResult found = searched(ball, level, from_end);
+      if (!found.way_W.empty() && use(found.way_W)) return;
+      if (level.is_wide || from_end || !found.way_W.empty() || found.exhausted) continue;
+      if (++times_run_out != kOftenRunOut) continue;
       // Perhaps less can be reached from the other end: a way, or nothing.
-      const LatticeResult back = searched(level, true);
-      if (!back.way_W.empty() && use(back.way_W))
-        return;
+      const LatticeResult back = searched(ball, level, true);
+      if (!back.way_W.empty() && use(back.way_W)) return;
       from_end = back.exhausted;
-      if (from_end)
-        times_run_out = 0;
+      if (from_end) times_run_out = 0;
     }
   }
 
-  [[nodiscard]] Vec3 center_W(const SignedPose &pose) const {
+  [[nodiscard]] LatticeResult searched(const Ball& ball, const Level& level, bool from_end) const {
+    const double coarse_m = std::max(ball.radius_m, (ball.to_W - ball.from_W).norm() / 8.0);
+    LatticeResult found =
+        lattice_way(space_, from_end ? ball.to_W : ball.from_W, from_end ? ball.from_W : ball.to_W,
+                    {ball.radius_m, level.spacing * coarse_m, level.max_points}, deadline_);
+    if (from_end) std::ranges::reverse(found.way_W);
+    return found;
+  }
+
+  [[nodiscard]] Vec3 center_W(const SignedPose& pose) const {
     return space_.center_W(motion::unsigned_pose(pose));
   }
 
-  /// A pose with the same orientation, reached by a straight motion, where the
-  /// ball is free.
-  std::optional<SignedPose> escape(const SignedPose &pose,
-                                   double ball_radius_m) {
+  /// A pose with the same orientation, reached by a straight motion, where the ball is free.
+  std::optional<SignedPose> escape(const SignedPose& pose, double ball_radius_m) {
     const Vec3 middle_W = center_W(pose);
     const double comfort_m = 0.1 * radius_m_;
-    if (space_.ball_gap_m(middle_W, ball_radius_m, comfort_m) > 0.0)
-      return pose;
+    if (space_.ball_gap_m(middle_W, ball_radius_m, comfort_m) > 0.0) return pose;
     for (const double share : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
       for (int code = 0; code < 27; ++code) {
-        if (code == 13)
-          continue;
+        if (code == 13) continue;
         const Vec3 step =
-            Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized() *
-            (share * radius_m_);
-        if (!(space_.ball_gap_m(middle_W + step, ball_radius_m, comfort_m) >
-              0.0))
-          continue;
+            Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized() * (share * radius_m_);
+        if (!(space_.ball_gap_m(middle_W + step, ball_radius_m, comfort_m) > 0.0)) continue;
         const SignedPose there{pose.position + step, pose.orientation};
-        if (!space_.first_hit(pose, there, 0.0))
-          return there;
+        if (!space_.first_hit(pose, there, 0.0)) return there;
       }
     }
     return std::nullopt;
   }
 
-  /// The camera turns as on the path it had, by the share of the way that it
-  /// has gone.
-  Guide oriented(const std::vector<Vec3> &way_W, const SignedPose &begin,
-                 const SignedPose &end) {
+  /// The camera turns as on the path it had, by the share of the way that it has gone.
+  Guide oriented(const std::vector<Vec3>& way_W, const SignedPose& begin, const SignedPose& end) {
     double length_m = 0.0;
-    for (std::size_t i = 1; i < way_W.size(); ++i)
-      length_m += (way_W[i] - way_W[i - 1]).norm();
+    for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
     Guide guide = {from_};
     double so_far_m = 0.0;
     for (std::size_t i = 0; i < way_W.size(); ++i) {
-      if (i > 0)
-        so_far_m += (way_W[i] - way_W[i - 1]).norm();
+      if (i > 0) so_far_m += (way_W[i] - way_W[i - 1]).norm();
       const double share = length_m > 0.0 ? so_far_m / length_m : 0.0;
       const double time_s =
-          std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(),
-                    std::clamp(share, 0.0, 1.0));
-      const geometry::Vec4 q =
-          signed_pose_at(problem_.path, time_s).orientation;
-      guide.push_back(
-          {space_.pose_around(way_W[i], geometry::from_wxyz(q)).position, q});
+          std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), std::clamp(share, 0.0, 1.0));
+      const geometry::Vec4 q = signed_pose_at(problem_.path, time_s).orientation;
+      guide.push_back({space_.pose_around(way_W[i], geometry::from_wxyz(q)).position, q});
     }
     guide[1] = begin;
     guide.back() = end;
@@ -349,39 +313,37 @@ private:
   }
 
   /// With more poses on long motions, so that parts of them can be left out.
-  Guide divided(const Guide &guide) const {
+  Guide divided(const Guide& guide) const {
     Guide result = {guide.front()};
     for (std::size_t i = 1; i < guide.size(); ++i) {
       const double length_m = space_.distance_m(guide[i - 1], guide[i]);
-      const int parts = std::clamp(
-          static_cast<int>(std::ceil(length_m / (kLongestStep * radius_m_))), 1,
-          64);
+      const int parts =
+          std::clamp(static_cast<int>(std::ceil(length_m / (kLongestStep * radius_m_))), 1, 64);
       for (int k = 1; k < parts; ++k) {
-        result.push_back(motion::between(guide[i - 1], guide[i],
-                                         static_cast<double>(k) / parts));
+        result.push_back(motion::between(guide[i - 1], guide[i], static_cast<double>(k) / parts));
       }
       result.push_back(guide[i]);
     }
     return result;
   }
 
-  const Problem &problem_;
+  const Problem& problem_;
   const Objective objective_;
-  FreeSpace &space_;
+  FreeSpace& space_;
   const std::uint64_t seed_;
-  const collision::Deadline &deadline_;
+  const collision::Deadline& deadline_;
   const double radius_m_;
+  Turning turning_ = Turning::kAsGuide;
   const SignedPose from_;
   const SignedPose to_;
 };
 
-} // namespace
+}  // namespace
 
-std::optional<Candidate> go_round(const Problem &problem, Search search,
-                                  Objective objective, FreeSpace &space,
-                                  std::uint64_t seed,
-                                  const collision::Deadline &deadline) {
+std::optional<Candidate> go_round(const Problem& problem, Search search, Objective objective,
+                                  FreeSpace& space, std::uint64_t seed,
+                                  const collision::Deadline& deadline) {
   return Detour(problem, objective, space, seed, deadline).run(search);
 }
 
-} // namespace camway::correction
+}  // namespace camway::correction

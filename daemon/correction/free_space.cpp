@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "daemon/collision/witness.h"
+#include "daemon/correction/orientation_rule.h"
 #include "daemon/motion/stretch.h"
 
 namespace camway::correction {
@@ -75,6 +76,16 @@ double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_
 
 std::optional<collision::Witness> FreeSpace::contact(const motion::Pose& pose, double beyond_m) {
   return collision::deepest_contact(probe_, motion::standing_at(pose), beyond_m);
+}
+
+SignedPose FreeSpace::allowed(const SignedPose& wanted, const motion::Pose& interpolated) const {
+  if (!is_limited(policy_)) return wanted;
+  const motion::Pose pose = motion::unsigned_pose(wanted);
+  const motion::Pose turned = allowed_pose(policy_, pose, interpolated, center_C_);
+  if (turned.orientation.coeffs() == pose.orientation.coeffs()) return wanted;
+  SignedPose result = motion::signed_pose(turned);
+  if (result.orientation.dot(wanted.orientation) < 0.0) result.orientation *= -1.0;
+  return result;
 }
 
 double FreeSpace::distance_m(const SignedPose& a, const SignedPose& b) const {

@@ -64,6 +64,10 @@ class FreeSpace {
   [[nodiscard]] const OrientationPolicy& policy() const { return policy_; }
   /// Whether corrections may change orientations.
   [[nodiscard]] bool may_turn() const { return may_turn_in(policy_); }
+  /// `wanted`, turned about the middle of the body as far as the rule for orientations asks for; as
+  /// it is, bit for bit, where it is allowed. `interpolated`: the interpolated path at that time.
+  [[nodiscard]] motion::SignedPose allowed(const motion::SignedPose& wanted,
+                                           const motion::Pose& interpolated) const;
 
  private:
   collision::Obstacles obstacles_;

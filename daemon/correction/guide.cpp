@@ -34,6 +34,13 @@ bool is_none(const CubicPoint& offset) {
   return offset.position.isZero(0.0) && offset.image.isZero(0.0);
 }
 
+/// `pose` with the other's orientation, and the middle of the body where it was.
+SignedPose oriented_as(const SignedPose& other, const SignedPose& pose, const FreeSpace& space) {
+  const geometry::Vec3 center_W = space.center_W(motion::unsigned_pose(pose));
+  const geometry::Quat orientation = geometry::from_wxyz(other.orientation);
+  return {space.pose_around(center_W, orientation).position, other.orientation};
+}
+
 }  // namespace
 
 SignedPose signed_pose_at(const motion::CubicPath& path, double time_s) {
@@ -102,21 +109,31 @@ void TimedGuide::choose_shares(const motion::CubicPath& path) {
   }
 }
 
-std::optional<Offsets> offsets_to(const motion::CubicPath& path, const TimedGuide& guide,
-                                  const motion::KnotRow& knots, bool may_turn) {
+std::optional<Offsets> offsets_to(const motion::CubicPath& path,
+                                  const motion::CubicPath& interpolated, const TimedGuide& guide,
+                                  const motion::KnotRow& knots, Turning turning,
+                                  const FreeSpace& space) {
   Offsets offsets{knots, 1, {}};
   Vec4 image = path.at(knots.begin_s).image;
+  bool turns = false;
   for (int k = 1; k < knots.count; ++k) {
-    const CubicPoint old = path.at(knots.knot_s(k));
-    const SignedPose wanted = guide.at(knots.knot_s(k));
-    if (!may_turn) {
-      offsets.at.push_back({wanted.position - old.position, Vec4::Zero()});
-      continue;
+    const double time_s = knots.knot_s(k);
+    const CubicPoint old = path.at(time_s);
+    const SignedPose now = signed_pose_at(path, time_s);
+    SignedPose wanted = guide.at(time_s);
+    if (turning == Turning::kAsPath) wanted = oriented_as(now, wanted, space);
+    wanted = space.allowed(wanted, interpolated.pose(time_s));
+    CubicPoint offset{wanted.position - old.position, Vec4::Zero()};
+    if (wanted.orientation == now.orientation) {
+      image = old.image.normalized();
+    } else {
+      image = motion::image_of(path.reference, wanted.orientation, image);
+      offset.image = image * old.image.norm() - old.image;
+      turns = true;
     }
-    image = motion::image_of(path.reference, wanted.orientation, image);
-    offsets.at.push_back({wanted.position - old.position, image * old.image.norm() - old.image});
+    offsets.at.push_back(offset);
   }
-  if (may_turn && image.dot(path.at(knots.end_s).image) <= 0.0) return std::nullopt;
+  if (turns && image.dot(path.at(knots.end_s).image) <= 0.0) return std::nullopt;
   return offsets;
 }
 

@@ -51,11 +51,19 @@ class TimedGuide {
   std::vector<double> shares_;    ///< of it, at equidistant times
 };
 
-/// What has to be added to `path` at the inner knots to be where the guide is. Nothing where the
-/// guide's orientation cannot be lifted to the path's image: it would arrive with the other sign.
-/// Unless `may_turn`, orientations stay those of the path at the same time.
-std::optional<Offsets> offsets_to(const motion::CubicPath& path, const TimedGuide& guide,
-                                  const motion::KnotRow& knots, bool may_turn);
+/// How a path is oriented that is drawn towards a guide.
+enum class Turning {
+  kAsGuide,
+  kAsPath,  ///< as it was at the same time; the middle of the body is where the guide has it
+};
+
+/// What has to be added to `path` at the inner knots to be where the guide is, turned as far as the
+/// rule for orientations allows, by comparison with `interpolated`. Nothing where the guide's
+/// orientation cannot be lifted to the path's image: it would arrive with the other sign.
+std::optional<Offsets> offsets_to(const motion::CubicPath& path,
+                                  const motion::CubicPath& interpolated, const TimedGuide& guide,
+                                  const motion::KnotRow& knots, Turning turning,
+                                  const FreeSpace& space);
 
 /// What a row of bumps does at the two keyframes.
 enum class Ends {

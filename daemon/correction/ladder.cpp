@@ -40,6 +40,7 @@ class Ladder {
     }
     result_.timed_out = any_open() && deadline_.passed();
     for (int round = 0; round < kPolishingRounds; ++round) polish();
+    for (Correction& correction : result_.corrections) measure(correction);
     std::ranges::sort(result_.inserted_s);
     return std::move(result_);
   }
@@ -166,7 +167,7 @@ class Ladder {
     if (!candidate || !take(*candidate)) return false;
     Correction& correction = result_.corrections[index];
     correction.rung = rung;
-    measure(*candidate, correction);
+    note_changed(*candidate, correction);
     return true;
   }
 
@@ -194,8 +195,7 @@ class Ladder {
     }
   }
 
-  void measure(const Candidate& candidate, Correction& correction) const {
-    constexpr int kSamples = 64;
+  void note_changed(const Candidate& candidate, Correction& correction) const {
     correction.t_begin_s = candidate.rows.front().begin_s();
     correction.t_end_s = candidate.rows.front().end_s();
     for (const motion::BumpRow& row : candidate.rows) {
@@ -204,10 +204,16 @@ class Ladder {
     }
     correction.t_begin_s = std::max(correction.t_begin_s, original_.begin_s());
     correction.t_end_s = std::min(correction.t_end_s, original_.end_s());
+  }
+
+  // On the path as it is in the end.
+  void measure(Correction& correction) const {
+    constexpr int kSamples = 64;
+    if (correction.rung == Rung::kNone) return;
     for (int i = 0; i <= kSamples; ++i) {
       const double time_s =
           std::lerp(correction.t_begin_s, correction.t_end_s, static_cast<double>(i) / kSamples);
-      const motion::Pose now = candidate.path.pose(time_s);
+      const motion::Pose now = result_.path.pose(time_s);
       const motion::Pose before = original_.pose(time_s);
       correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
       correction.turned_rad =

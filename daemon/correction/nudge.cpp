@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "daemon/correction/guide.h"
+#include "daemon/correction/orientation_rule.h"
 #include "daemon/motion/quaternion.h"
 
 namespace camway::correction {
@@ -30,6 +31,7 @@ constexpr double kFarthest = 4.0;         // radii
 constexpr int kHalvings = 2;              // of the last step
 constexpr double kMarginShare = 0.02;  // of the radius: what a pose keeps beside what is required
 constexpr double kLargestTurn_rad = 0.8;
+constexpr double kLargestTurnStep_rad = 0.08;  // turned too far, the body is stuck again
 constexpr double kMoreEachTime = 1.35;
 constexpr int kMostRaises = 3;
 constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
@@ -56,7 +58,9 @@ class Nudger {
         margin_m_(kMarginShare * radius_m_) {
     // Away from the middle less is needed: the ends of a collision are free.
     for (const auto& [place, share] : {std::pair{0.0, 1.0}, {-0.3, 0.8}, {0.3, 0.8}}) {
-      samples_.push_back({signed_pose_at(problem.path, middle_s_ + place * length_s_), share});
+      const double time_s = middle_s_ + place * length_s_;
+      samples_.push_back(
+          {signed_pose_at(problem.path, time_s), problem.original.pose(time_s), share});
     }
   }
 
@@ -71,11 +75,18 @@ class Nudger {
  private:
   struct Sample {
     SignedPose pose;
+    Pose interpolated;
     double share;
   };
 
-  [[nodiscard]] SignedPose nudged(const SignedPose& pose, const Vec3& direction_W,
+  /// As far as the rule for orientations allows; moving too may have to turn the camera.
+  [[nodiscard]] SignedPose nudged(const Sample& sample, const Vec3& direction_W,
                                   double amount) const {
+    return space_.allowed(moved_or_turned(sample.pose, direction_W, amount), sample.interpolated);
+  }
+
+  [[nodiscard]] SignedPose moved_or_turned(const SignedPose& pose, const Vec3& direction_W,
+                                           double amount) const {
     if (kind_ == NudgeKind::kMove) {
       return {pose.position + amount * direction_W, pose.orientation};
     }
@@ -88,7 +99,7 @@ class Nudger {
 
   [[nodiscard]] bool is_enough(const Vec3& direction_W, double amount) {
     return std::ranges::all_of(samples_, [&](const Sample& sample) {
-      const SignedPose pose = nudged(sample.pose, direction_W, sample.share * amount);
+      const SignedPose pose = nudged(sample, direction_W, sample.share * amount);
       return space_.is_free(motion::unsigned_pose(pose), margin_m_);
     });
   }
@@ -101,7 +112,9 @@ class Nudger {
     while (!is_enough(direction_W, above)) {
       if (above >= limit) return std::nullopt;
       below = above;
-      above = std::min(kGrowth * above, limit);
+      double next = kGrowth * above;
+      if (kind_ == NudgeKind::kTurn) next = std::min(next, above + kLargestTurnStep_rad);
+      above = std::min(next, limit);
     }
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (below + above);
@@ -112,15 +125,7 @@ class Nudger {
 
   [[nodiscard]] std::vector<Vec3> directions_W() {
     const Quat orientation = geometry::from_wxyz(samples_[0].pose.orientation);
-    if (kind_ == NudgeKind::kTurn) {
-      std::vector<Vec3> axes;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 direction = orientation * Vec3::Unit(axis);
-        axes.push_back(direction);
-        axes.push_back(-direction);
-      }
-      return axes;
-    }
+    if (kind_ == NudgeKind::kTurn) return axes_W(orientation);
     std::vector<Vec3> directions = contact_directions_W();
     const Vec3 along = way_W();
     const Vec3 across = along.unitOrthogonal();
@@ -129,6 +134,19 @@ class Nudger {
       directions.push_back(Eigen::AngleAxisd(angle_rad, along) * across);
     }
     return directions;
+  }
+
+  /// Those of the camera; where it has to stay level, those that leave it so.
+  [[nodiscard]] std::vector<Vec3> axes_W(const Quat& orientation) const {
+    std::vector<Vec3> axes = {orientation * Vec3::UnitX(), orientation * Vec3::UnitY(),
+                              orientation * Vec3::UnitZ()};
+    if (space_.policy().rule == OrientationRule::kLevel) axes = {axes[0], space_.policy().up_W};
+    std::vector<Vec3> both_ways;
+    for (const Vec3& axis : axes) {
+      both_ways.push_back(axis);
+      both_ways.push_back(-axis);
+    }
+    return both_ways;
   }
 
   /// Where the path goes, at the collision.
@@ -158,7 +176,9 @@ class Nudger {
 
   std::vector<Way> free_ways() {
     std::vector<Way> ways;
-    const double farthest = kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : kLargestTurn_rad;
+    const double largest_turn_rad =
+        std::min(kLargestTurn_rad, kAimedShare * space_.policy().max_turn_rad);
+    const double farthest = kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : largest_turn_rad;
     double limit = farthest;
     for (const Vec3& direction_W : directions_W()) {
       const std::optional<double> amount = least_amount(direction_W, limit);
@@ -197,6 +217,7 @@ class Nudger {
         return reduced(way, amount, i == 0 ? 0.0 : amount / kMoreEachTime, spacing_s,
                        std::move(*tried.candidate));
       }
+      if (tried.breaks_rule) return std::nullopt;
       // Higher helps against the collision that it is for, not against what it runs into.
       const bool is_old = tried.collision->t_begin_s < problem_.interval.t_end_s &&
                           tried.collision->t_end_s > problem_.interval.t_begin_s;
@@ -224,10 +245,10 @@ class Nudger {
 
   [[nodiscard]] std::vector<BumpRow> bump(const Vec3& direction_W, double amount,
                                           double spacing_s) const {
-    const SignedPose wanted = nudged(samples_[0].pose, direction_W, amount);
+    const SignedPose wanted = nudged(samples_[0], direction_W, amount);
     const CubicPoint old = problem_.path.at(middle_s_);
     CubicPoint offset{wanted.position - old.position, Vec4::Zero()};
-    if (kind_ == NudgeKind::kTurn) {
+    if (wanted.orientation != samples_[0].pose.orientation) {
       const Vec4 image = motion::image_of(problem_.path.reference, wanted.orientation, old.image);
       offset.image = image * old.image.norm() - old.image;
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/correction/orientation_rule.h"
+
 namespace camway::correction {
 
 namespace {
@@ -17,7 +19,8 @@ using motion::CubicPoint;
 constexpr int kSamplesAStep = 3;    // between two knots
 constexpr double kMargin = 0.03;    // of the ball's radius, kept at the samples
 constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
-constexpr int kRounds = 10;         // of relaxing, with more samples each time
+constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
+constexpr int kRounds = 10;  // of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;     // towards the correction it began with
 constexpr double kSpread = 1.5;  // of the gap: over how much of it an offset fades out
@@ -154,6 +157,8 @@ class Relaxation {
     std::size_t first;  ///< of the four coefficients
     std::array<double, 4> weights;
     double margin_m;
+    motion::Pose interpolated;  ///< what the rule for orientations compares with
+    double rule_margin = 0.0;   ///< that it is met by
     /// Where the body was asked about last and found free, and how far it was from the scene there:
     /// until it has moved by that, there is no need to ask again.
     motion::SignedPose known{};
@@ -207,7 +212,9 @@ class Relaxation {
   bool is_free_between(int low, int high) {
     return std::ranges::all_of(samples_, [&](const Sample& sample) {
       const bool uses = sample.first + 3 >= slot(low) && sample.first <= slot(high);
-      return !uses || space_.is_free(pose(sample), 0.0);
+      if (!uses) return true;
+      const motion::Pose now = pose(sample);
+      return space_.is_free(now, 0.0) && meets_rule(sample, now);
     });
   }
 
@@ -215,9 +222,9 @@ class Relaxation {
     for (const double share : {0.0, 0.5, 1.0}) {
       const double time_s = std::lerp(collision.t_begin_s, collision.t_end_s, share);
       const int k = knot_before(time_s);
-      const Sample sample{problem_.path.at(time_s), slot(k - 1),
-                          weights_at(place_after_knot(time_s)), 0.0};
-      if (!space_.is_free(pose(sample), 0.0)) return false;
+      const Sample sample = sample_at(time_s, k, place_after_knot(time_s));
+      const motion::Pose now = pose(sample);
+      if (!space_.is_free(now, 0.0) || !meets_rule(sample, now)) return false;
     }
     return true;
   }
@@ -233,10 +240,21 @@ class Relaxation {
     const double time_s = std::lerp(knots_.knot_s(k), knots_.knot_s(k + 1), v);
     if (time_s <= problem_.path.begin_s() || time_s >= problem_.path.end_s()) return;
     if (is_others(time_s)) return;
-    Sample sample{problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0};
+    Sample sample = sample_at(time_s, k, v);
     look(sample);
     sample.margin_m = std::min(kMargin * radius_m_, kKeptShare * std::max(0.0, sample.known_gap_m));
+    const double room = rule_room(space_.policy(), pose(sample), sample.interpolated);
+    sample.rule_margin = std::min(kRuleMargin, kKeptShare * std::max(0.0, room));
     samples_.push_back(sample);
+  }
+
+  [[nodiscard]] Sample sample_at(double time_s, int k, double v) const {
+    return {problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0,
+            problem_.original.pose(time_s)};
+  }
+
+  [[nodiscard]] bool meets_rule(const Sample& sample, const motion::Pose& now) const {
+    return rule_room(space_.policy(), now, sample.interpolated) >= sample.rule_margin;
   }
 
   void look(Sample& sample) {
@@ -246,7 +264,9 @@ class Relaxation {
   }
 
   bool is_free(Sample& sample) {
-    const motion::SignedPose now = motion::signed_pose(pose(sample));
+    const motion::Pose unsigned_now = pose(sample);
+    if (!meets_rule(sample, unsigned_now)) return false;
+    const motion::SignedPose now = motion::signed_pose(unsigned_now);
     // A point at radius ρ moves by 2ρ·sin a where the quaternions are an angle a apart; signs
     // agree, as both are squares of images close to each other.
     const double moved_m =
@@ -359,8 +379,11 @@ class Relaxation {
     const auto least_gap_m = [&] {
       double least_m = std::numeric_limits<double>::infinity();
       for_samples_about(k, [&](Sample& sample) {
-        least_m = std::min(least_m, space_.gap_m(pose(sample), kSafeComfort * radius_m_));
-        return true;
+        const motion::Pose now = pose(sample);
+        least_m = meets_rule(sample, now)
+                      ? std::min(least_m, space_.gap_m(now, kSafeComfort * radius_m_))
+                      : 0.0;
+        return least_m > 0.0;
       });
       return least_m;
     };

@@ -159,8 +159,37 @@ class TreeSearch {
       center_W[axis] += reach_m * (2.0 * uniform() - 1.0);
     const geometry::Quat q = geometry::from_wxyz(straight.orientation);
     const SignedPose pose{center_W - q * space_.center_C(), straight.orientation};
-    if (uniform() < kStraightShare) return pose;
-    return turned(pose, options_.largest_turn_rad * uniform());
+    if (uniform() < kStraightShare) return allowed(pose);
+    return allowed(turned(pose, options_.largest_turn_rad * uniform()));
+  }
+
+  /// Turned as far as the rule for orientations allows.
+  [[nodiscard]] SignedPose allowed(const SignedPose& pose) const {
+    if (!is_limited(space_.policy())) return pose;
+    const std::vector<motion::Pose>& poses = options_.interpolated;
+    const double place = share_near(space_.center_W(motion::unsigned_pose(pose))) *
+                         static_cast<double>(poses.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(place), poses.size() - 2);
+    const double rest = place - static_cast<double>(i);
+    return space_.allowed(pose, {(1.0 - rest) * poses[i].position + rest * poses[i + 1].position,
+                                 poses[i].orientation.slerp(rest, poses[i + 1].orientation)});
+  }
+
+  /// What share of the way is passed at its point nearest to `center_W`.
+  [[nodiscard]] double share_near(const Vec3& center_W) const {
+    double least_m2 = std::numeric_limits<double>::infinity();
+    double share = 0.0;
+    for (std::size_t i = 0; i + 1 < options_.about_W.size(); ++i) {
+      const Vec3 step = options_.about_W[i + 1] - options_.about_W[i];
+      const Vec3 from = center_W - options_.about_W[i];
+      const double length_m2 = step.squaredNorm();
+      const double rest = length_m2 > 0.0 ? std::clamp(from.dot(step) / length_m2, 0.0, 1.0) : 0.0;
+      const double distance_m2 = (from - rest * step).squaredNorm();
+      if (distance_m2 >= least_m2) continue;
+      least_m2 = distance_m2;
+      share = (static_cast<double>(i) + rest) / static_cast<double>(options_.about_W.size() - 1);
+    }
+    return share;
   }
 
   [[nodiscard]] Vec3 along_way_W(double share) const {
@@ -175,7 +204,7 @@ class TreeSearch {
     SignedPose pose = blocked_[which];
     const double size = std::exp2(-3.0 * uniform());
     pose.position += 0.7 * size * space_.ball_radius_m() * normal_vector();
-    return turned(pose, 0.7 * size * std::abs(normal()));
+    return allowed(turned(pose, 0.7 * size * std::abs(normal())));
   }
 
   [[nodiscard]] Guide path_through(std::size_t side, std::size_t node, std::size_t other) const {

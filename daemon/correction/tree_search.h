@@ -15,6 +15,9 @@ struct TreeOptions {
   std::vector<geometry::Vec3> about_W;
   double reach_m = 0.0;           ///< how far from it
   double largest_turn_rad = 1.9;  ///< of samples, from orientations between the two ends
+  /// Of the gap, at equal steps in time [Limit: 2 or more]. The way has no time yet: the rule for
+  /// orientations is applied at the share of the way `about_W`. The path has to meet it afterwards.
+  std::vector<motion::Pose> interpolated;
   std::uint64_t seed = 1;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -327,12 +328,31 @@ class Planner {
 
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
   // what was assumed, and then everything looks free.
-  [[nodiscard]] std::string note() const {
+  [[nodiscard]] std::string note() const { return note_of_bounds() + note_of_tilt(); }
+
+  [[nodiscard]] std::string note_of_bounds() const {
     const bool inside = std::ranges::any_of(result_.keyframes, [&](const Keyframe& keyframe) {
       return obstacles_.index.bounds().contains(keyframe.pose.position);
     });
     if (inside || obstacles_.index.bounds().isEmpty()) return {};
     return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
+  }
+
+  // Fine for who wants it so, but more often another axis is up in the scene.
+  [[nodiscard]] std::string note_of_tilt() const {
+    const correction::OrientationPolicy& policy = request_.options.orientation;
+    if (policy.rule != correction::OrientationRule::kLevel) return {};
+    for (std::size_t i = 0; i < request_.keyframes.size(); ++i) {
+      const geometry::Vec3 across_W =
+          request_.keyframes[i].pose.orientation.normalized() * geometry::Vec3::UnitX();
+      const double tilt_rad =
+          std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
+      if (tilt_rad < kNotableTilt_rad) continue;
+      return fmt::format(
+          "; note: keyframe {} is tilted by {:.0f} degrees, check options.orientation.up", i,
+          tilt_rad * 180.0 / std::numbers::pi);
+    }
+    return {};
   }
 
   void conclude() {
@@ -408,6 +428,9 @@ class Planner {
   static constexpr double kRepairMargin = 10.0;
   // A request of which more keyframes collide has its unit or its axes wrong.
   static constexpr std::size_t kMostFaults = 100;
+
+  // Cameras are seldom rolled by so much: 30 degrees.
+  static constexpr double kNotableTilt_rad = 0.5236;
 
   // For the final check, however little of the deadline is left.
   static constexpr double kFinalCheckBudget_s = 1.0;

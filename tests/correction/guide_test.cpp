@@ -127,12 +127,14 @@ TEST(TimedGuide, OfPosesThatAreAllTheSame) {
 TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
   std::mt19937_64 random = testing::seeded(2);
   const SearchScene scene({});
+  const FreeSpace space = scene.space();
   for (int run = 0; run < 20; ++run) {
     const CubicPath path = some_path();
     const Guide guide = some_guide(random, path, 4, 1.0);
     const KnotRow knots{0.0, 3.0, 8 + run};
     const TimedGuide timed(path, guide, 0.0, 3.0, scene.space());
-    const std::optional<Offsets> offsets = offsets_to(path, timed, knots, true);
+    const std::optional<Offsets> offsets =
+        offsets_to(path, path, timed, knots, Turning::kAsGuide, space);
     ASSERT_TRUE(offsets);
     EXPECT_EQ(offsets->first, 1);
     EXPECT_EQ(offsets->last(), knots.count - 1);
@@ -145,11 +147,16 @@ TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
       EXPECT_LT(pose.orientation.angularDistance(wanted.orientation), 1e-7);
       EXPECT_NEAR(sum.image.norm(), old.image.norm(), kRounding_m);
     }
-    const std::optional<Offsets> moved = offsets_to(path, timed, knots, false);
+    const std::optional<Offsets> moved =
+        offsets_to(path, path, timed, knots, Turning::kAsPath, space);
     ASSERT_TRUE(moved);
     for (int k = 1; k < knots.count; ++k) {
-      EXPECT_EQ((*moved)(k).position, (*offsets)(k).position);
       EXPECT_TRUE((*moved)(k).image.isZero(0.0));
+      // The middle of the body is where the guide has it.
+      const motion::Pose old = path.pose(knots.knot_s(k));
+      const motion::Pose now{old.position + (*moved)(k).position, old.orientation};
+      const motion::Pose wanted = motion::unsigned_pose(timed.at(knots.knot_s(k)));
+      EXPECT_LT((space.center_W(now) - space.center_W(wanted)).norm(), kRounding_m);
     }
   }
 }
@@ -158,6 +165,7 @@ TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
 // other sign, and there is no spline to the old keyframe that turns that way.
 TEST(OffsetsTo, NothingForAGuideThatArrivesWithTheOtherSign) {
   const SearchScene scene({});
+  const FreeSpace space = scene.space();
   const CubicPath path = path_at({0, 0, -2}, Quat::Identity());
   for (const int turns : {0, 2, 4}) {
     Guide guide;
@@ -169,8 +177,10 @@ TEST(OffsetsTo, NothingForAGuideThatArrivesWithTheOtherSign) {
     }
     const TimedGuide timed(path, guide, 0.0, 3.0, scene.space());
     const KnotRow knots{0.0, 3.0, 64};
-    EXPECT_EQ(offsets_to(path, timed, knots, true).has_value(), turns != 2) << turns;
-    EXPECT_TRUE(offsets_to(path, timed, knots, false));
+    EXPECT_EQ(offsets_to(path, path, timed, knots, Turning::kAsGuide, space).has_value(),
+              turns != 2)
+        << turns;
+    EXPECT_TRUE(offsets_to(path, path, timed, knots, Turning::kAsPath, space));
   }
 }
 
@@ -184,7 +194,8 @@ BumpsCase bumps_case(std::mt19937_64& random, int count) {
   const SearchScene scene({});
   const Guide guide = some_guide(random, result.path, 4, 1.0);
   const TimedGuide timed(result.path, guide, 0.0, 3.0, scene.space());
-  result.offsets = *offsets_to(result.path, timed, {0.0, 3.0, count}, true);
+  result.offsets = *offsets_to(result.path, result.path, timed, {0.0, 3.0, count},
+                               Turning::kAsGuide, scene.space());
   return result;
 }
 

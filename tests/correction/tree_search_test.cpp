@@ -18,6 +18,7 @@ SignedPose at(const Vec3& position) { return {position, Vec4::UnitX()}; }
 TreeOptions options_from(const SignedPose& from, const SignedPose& to, std::uint64_t seed) {
   TreeOptions options;
   options.about_W = {from.position, to.position};
+  options.interpolated = {motion::unsigned_pose(from), motion::unsigned_pose(to)};
   options.reach_m = 0.6;
   options.margin_m = kMargin_m;
   options.seed = seed;

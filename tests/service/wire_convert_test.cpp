@@ -77,8 +77,10 @@ TEST(WireConvert, OptionsHaveTheirNumbersWhereTheTypesSayTheyAre) {
 TEST(WireConvert, DirectionsNeedNotBeOfUnitLength) {
   plan_request_t wire = minimal_request();
   wire.orientation.policy = orientation_t::LEVEL;
-  wire.orientation.up[1] = 1e200;
-  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitY());
+  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitY())
+      << "the default";
+  wire.orientation.up[2] = 1e200;
+  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitZ());
   wire.orientation.up[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(from_wire(wire).request->options.orientation.up_W.y()))
       << "for planning::validate to refuse";

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Orientation policies end to end: whatever the status, the path returned keeps to the rule.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "daemon/motion/interpolate.h"
+#include "daemon/planning/plan.h"
+#include "tests/support/orientation_oracle.h"
+#include "tests/support/scenes.h"
+
+namespace camway::planning {
+namespace {
+
+using correction::OrientationPolicy;
+using correction::OrientationRule;
+using geometry::Quat;
+using geometry::Vec3;
+using scene::Mesh;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kFar = 80.0;
+constexpr double kEnough_s = 300.0;  // far from what it takes: no outcome depends on it
+
+std::shared_ptr<const scene::Snapshot> snapshot_of(Mesh mesh) {
+  return scene::make_snapshot("test", std::move(mesh)).snapshot;
+}
+
+// A wall across z with an endless slit, 0.14 wide, at 30° from the x axis.
+std::shared_ptr<const scene::Snapshot> slanted_slit() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-kFar, 0.07, -0.25}, {kFar, kFar, 0.25});
+  testing::add_cuboid(mesh, {-kFar, -kFar, -0.25}, {kFar, -0.07, 0.25});
+  for (Vec3& vertex : mesh.vertices)
+    vertex = Eigen::AngleAxisd(30.0 * kDegree, Vec3::UnitZ()) * vertex;
+  return snapshot_of(std::move(mesh));
+}
+
+// Straight through it; the near quadrilateral is 0.4 wide and 0.1 high.
+PlanRequest through_slit() {
+  PlanRequest request;
+  request.camera = {2.0 * std::atan(1.0), 2.0 * std::atan(0.25), 0.2};
+  request.has_times = true;
+  request.keyframes = {{0.0, {{0, 0, 1.5}, Quat::Identity()}},
+                       {4.0, {{0, 0, -1.5}, Quat::Identity()}}};
+  request.options.deadline_s = kEnough_s;
+  return request;
+}
+
+motion::Path interpolated(const PlanRequest& request) {
+  return motion::interpolate(request.keyframes);
+}
+
+/// By how much the path that was returned breaks the policy, whatever the status.
+double breach_deg(const PlanRequest& request, const PlanResult& result) {
+  return testing::worst_breach_deg(request.options.orientation, result.path, interpolated(request),
+                                   result.path.begin_s(), result.path.end_s(), 2000);
+}
+
+TEST(PlanOrientation, RollsThroughASlitWithinTheLimit) {
+  PlanRequest request = through_slit();
+  request.options.orientation.max_turn_rad = 45.0 * kDegree;
+  const PlanResult result = plan(*slanted_slit(), request);
+  EXPECT_EQ(result.status, Status::kOk) << result.message;
+  EXPECT_TRUE(result.certificate.certified);
+  EXPECT_LE(breach_deg(request, result), testing::kOracleRounding_deg);
+  const double turned_deg = testing::largest_turn_deg(result.path, interpolated(request));
+  EXPECT_GT(turned_deg, 20.0);
+  ASSERT_FALSE(result.corrections.empty());
+  for (const correction::Correction& correction : result.corrections) {
+    EXPECT_NE(correction.rung, correction::Rung::kNone);
+    EXPECT_NEAR(correction.turned_rad / kDegree, turned_deg, 1.0) << "of what is reported";
+  }
+}
+
+TEST(PlanOrientation, IsPartialWhereTheLimitIsTooTight) {
+  PlanRequest request = through_slit();
+  request.options.orientation.max_turn_rad = 10.0 * kDegree;
+  const PlanResult result = plan(*slanted_slit(), request);
+  EXPECT_EQ(result.status, Status::kPartial) << result.message;
+  EXPECT_FALSE(result.certificate.certified);
+  EXPECT_FALSE(result.remaining_collisions.empty());
+  EXPECT_LE(breach_deg(request, result), testing::kOracleRounding_deg);
+}
+
+TEST(PlanOrientation, DoesNotRollALevelCamera) {
+  PlanRequest request = through_slit();
+  request.options.orientation.rule = OrientationRule::kLevel;
+  request.options.orientation.max_turn_rad = 60.0 * kDegree;
+  const PlanResult result = plan(*slanted_slit(), request);
+  EXPECT_EQ(result.status, Status::kPartial) << result.message;
+  EXPECT_LE(breach_deg(request, result), testing::kOracleRounding_deg);
+}
+
+TEST(PlanOrientation, NotesThatKeyframesAreNotLevelByTheAxisThatIsUp) {
+  PlanRequest request = through_slit();
+  request.options.orientation.rule = OrientationRule::kLevel;
+  const auto nothing = snapshot_of(Mesh{});
+  EXPECT_THAT(plan(*nothing, request).message, ::testing::Not(::testing::HasSubstr("tilted")));
+  request.options.orientation.up_W = Vec3(1, 1, 0).normalized();
+  EXPECT_THAT(plan(*nothing, request).message, ::testing::HasSubstr("keyframe 0 is tilted by 45"));
+}
+
+class Requests {
+ public:
+  Requests() : generator_(testing::seeded(77)) {}
+
+  double number(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator_);
+  }
+
+  /// Bars and blocks in a corridor along z.
+  std::shared_ptr<const scene::Snapshot> scene() {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 middle(number(-0.4, 0.4), number(-0.4, 0.4), number(-1.6, 1.6));
+      Vec3 half(number(0.02, 0.15), number(0.02, 0.15), number(0.02, 0.15));
+      if (i % 2 == 0) half[i % 4 == 0 ? 0 : 1] = 3.0;
+      testing::add_cuboid(mesh, middle - half, middle + half);
+    }
+    return snapshot_of(std::move(mesh));
+  }
+
+  PlanRequest request(OrientationRule rule) {
+    PlanRequest request;
+    request.camera = testing::small_camera();
+    request.has_times = true;
+    for (int i = 0; i < 3; ++i) {
+      const Quat q = Eigen::AngleAxisd(number(-0.6, 0.6), Vec3::UnitY()) *
+                     Eigen::AngleAxisd(number(-0.5, 0.5), Vec3::UnitX()) *
+                     Eigen::AngleAxisd(number(-0.1, 0.1), Vec3::UnitZ());
+      request.keyframes.push_back(
+          {3.0 * i, {{number(-0.3, 0.3), number(-0.3, 0.3), 2.0 - 2.0 * i}, q}});
+    }
+    OrientationPolicy& policy = request.options.orientation;
+    policy.rule = rule;
+    policy.target_W = {number(-1, 1), number(-1, 1), -6};
+    policy.cone_rad = number(0.1, 0.5);
+    if (number(0, 1) < 0.5) policy.max_turn_rad = number(0.0, 1.0);
+    request.options.deadline_s = kEnough_s;
+    return request;
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+TEST(PlanOrientation, EveryRuleHoldsOnWhateverIsReturned) {
+  Requests requests;
+  constexpr int kEach = 25;
+  for (const OrientationRule rule : {OrientationRule::kFree, OrientationRule::kKeep,
+                                     OrientationRule::kLevel, OrientationRule::kTarget}) {
+    int corrected = 0;
+    for (int i = 0; i < kEach; ++i) {
+      const auto scene = requests.scene();
+      const PlanRequest request = requests.request(rule);
+      const PlanResult result = plan(*scene, request);
+      if (result.status == Status::kInvalid) continue;
+      EXPECT_LE(breach_deg(request, result), testing::kOracleRounding_deg)
+          << "rule " << static_cast<int>(rule) << ", request " << i;
+      corrected += result.status == Status::kOk && !result.corrections.empty() ? 1 : 0;
+    }
+    EXPECT_GE(corrected, kEach / 4) << "rule " << static_cast<int>(rule);
+    std::printf("rule %d: %d corrected\n", static_cast<int>(rule), corrected);
+  }
+}
+
+}  // namespace
+}  // namespace camway::planning
