@@ -46,10 +46,10 @@ constexpr std::size_t kFinestLevel = kLevels.size() - 1;
 
 class Detour {
  public:
-  Detour(const Problem& problem, Objective objective, FreeSpace& space, std::uint64_t seed,
+  Detour(const Problem& problem, Improvement& improvement, FreeSpace& space, std::uint64_t seed,
          const collision::Deadline& deadline)
       : problem_(problem),
-        objective_(objective),
+        improvement_(improvement),
         space_(space),
         seed_(seed),
         deadline_(deadline),
@@ -153,7 +153,7 @@ class Detour {
       offsets = std::move(half);
       found = std::move(*coarser);
     }
-    return relaxed(problem_, {std::move(offsets), std::move(found)}, ends, objective_, space_,
+    return relaxed(problem_, {std::move(offsets), std::move(found)}, ends, improvement_, space_,
                    deadline_)
         .candidate;
   }
@@ -328,7 +328,7 @@ class Detour {
   }
 
   const Problem& problem_;
-  const Objective objective_;
+  Improvement& improvement_;
   FreeSpace& space_;
   const std::uint64_t seed_;
   const collision::Deadline& deadline_;
@@ -340,10 +340,10 @@ class Detour {
 
 }  // namespace
 
-std::optional<Candidate> go_round(const Problem& problem, Search search, Objective objective,
+std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
                                   FreeSpace& space, std::uint64_t seed,
                                   const collision::Deadline& deadline) {
-  return Detour(problem, objective, space, seed, deadline).run(search);
+  return Detour(problem, improvement, space, seed, deadline).run(search);
 }
 
 }  // namespace camway::correction

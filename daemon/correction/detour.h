@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "daemon/correction/candidate.h"
-#include "daemon/correction/constraints.h"
+#include "daemon/correction/relaxation.h"
 
 namespace camway::correction {
 
@@ -22,7 +22,7 @@ enum class Search : std::uint8_t {
 ///
 /// Nothing if no guide was found within the bounds of the search, or none that the path could
 /// follow.
-std::optional<Candidate> go_round(const Problem& problem, Search search, Objective objective,
+std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
                                   FreeSpace& space, std::uint64_t seed,
                                   const collision::Deadline& deadline);
 

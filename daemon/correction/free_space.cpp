@@ -17,6 +17,8 @@ using geometry::Triangle;
 using geometry::Vec3;
 using motion::SignedPose;
 
+constexpr double kNearestShare = 0.8;
+
 }  // namespace
 
 FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
@@ -37,13 +39,22 @@ FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& 
 }
 
 bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
-  return probe_.look(motion::standing_at(pose), margin_m).free;
+  return probe_.glance(motion::standing_at(pose), margin_m).free;
 }
 
 double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
   constexpr double kExact = 1.0;  // who is just nearer than required must not pass for further
   const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m, kExact);
   return seen.free ? up_to_m : std::min(seen.gap_m, up_to_m);
+}
+
+std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, double up_to_m) {
+  const motion::Stretch standing = motion::standing_at(pose);
+  if (probe_.at_least_m(standing) >= up_to_m) return std::nullopt;
+  std::optional<scene::Nearest> found = obstacles_.index.near(
+      probe_.place(standing), up_to_m + probe_.keep_m(), /*certain_m=*/0.0, kNearestShare);
+  if (found) found->distance_m -= probe_.keep_m();
+  return found;
 }
 
 std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedPose& to,
@@ -72,6 +83,11 @@ double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_
       obstacles_.index.near(point, horizon_m, keep_m, kBallShare);
   if (!nearest) return up_to_m;
   return std::min(up_to_m, nearest->distance_m - keep_m);
+}
+
+bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_m) const {
+  const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
+  return !obstacles_.index.any_within(way, radius_m + detect_.clearance_m);
 }
 
 std::optional<collision::Witness> FreeSpace::contact(const motion::Pose& pose, double beyond_m) {

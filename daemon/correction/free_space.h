@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
@@ -26,6 +27,20 @@ class FreeSpace {
   /// `up_to_m` if it is that much; 0 or less where it collides.
   [[nodiscard]] double gap_m(const motion::Pose& pose, double up_to_m);
 
+  /// What is nearest to the body at `pose`, with how much further than required it is, about;
+  /// nothing where everything is at least `up_to_m` away. What is inside a solid does not count.
+  [[nodiscard]] std::optional<scene::Nearest> nearest(const motion::Pose& pose, double up_to_m);
+  /// A bound of that gap at the cost of a look-up; below 0 where it does not tell.
+  [[nodiscard]] double at_least_m(const motion::Pose& pose) const {
+    return probe_.at_least_m(motion::standing_at(pose));
+  }
+  /// The body's triangles at `pose`; valid until the next question.
+  std::span<const geometry::Triangle> placed(const motion::Pose& pose) {
+    return probe_.place(motion::standing_at(pose));
+  }
+  /// Distance of the body's triangles from the scene at which it collides.
+  [[nodiscard]] double keep_m() const { return probe_.keep_m(); }
+
   /// Where on the straight motion the body comes closer than the required clearance and
   /// `margin_m`; nothing where it proved not to.
   [[nodiscard]] std::optional<double> first_hit(const motion::SignedPose& from,
@@ -39,6 +54,10 @@ class FreeSpace {
                                   double up_to_m) const;
 
   static constexpr double kBallShare = 0.8;
+
+  /// Whether the ball keeps away from the scene, as computed, on the straight way between the two.
+  [[nodiscard]] bool ball_passes(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
+                                 double radius_m) const;
 
   /// A deepest contact of the body at `pose`, or with what is up to `beyond_m` away.
   [[nodiscard]] std::optional<collision::Witness> contact(const motion::Pose& pose,

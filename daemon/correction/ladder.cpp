@@ -28,6 +28,10 @@ class Ladder {
     }
     result_.path = path;
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
+    std::vector<bool> is_hit(keyframes_s_.size() - 1);
+    for (const CollisionInterval& interval : open_) is_hit[gap_of(interval)] = true;
+    improvement_ = {options.objective,
+                    kStepsAGap * static_cast<int>(std::ranges::count(is_hit, true))};
   }
 
   LadderResult run() && {
@@ -39,8 +43,10 @@ class Ladder {
       if (space_.may_turn()) correct_all(Search::kTurning);
     }
     result_.timed_out = any_open() && deadline_.passed();
-    for (int round = 0; round < kPolishingRounds; ++round) polish();
-    for (Correction& correction : result_.corrections) measure(correction);
+    polish();
+    for (Correction& correction : result_.corrections) {
+      if (correction.rung != Rung::kNone) measure(correction);
+    }
     std::ranges::sort(result_.inserted_s);
     return std::move(result_);
   }
@@ -138,7 +144,7 @@ class Ladder {
       return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
     });
     const std::optional<Candidate> found =
-        go_round(problem, search, options_.objective, space_, options_.seed, deadline_);
+        go_round(problem, search, improvement_, space_, options_.seed, deadline_);
     if (!accept(index, Rung::kGoRound, found)) return false;
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = result_.corrections[i].interval;
@@ -148,18 +154,46 @@ class Ladder {
     return true;
   }
 
-  // What one correction left to the next can be better now that all are there.
+  // What one correction left to the next can be better now that all are there; and again where that
+  // changed what is beside it.
   void polish() {
-    for (std::size_t gap = 0; gap + 1 < keyframes_s_.size(); ++gap) {
-      const bool was_changed =
-          std::ranges::any_of(result_.corrections, [&](const Correction& correction) {
-            return correction.rung != Rung::kNone && correction.t_begin_s < keyframes_s_[gap + 1] &&
-                   correction.t_end_s > keyframes_s_[gap];
-          });
-      if (!was_changed || deadline_.passed()) continue;
-      const std::optional<Candidate> better =
-          polished(problem_of_gap(gap), options_.objective, space_, deadline_);
-      if (better) take(*better);
+    std::vector<bool> is_worn(keyframes_s_.size() - 1);
+    for (const Correction& correction : result_.corrections) {
+      if (correction.rung != Rung::kNone)
+        mark_gaps(correction.t_begin_s, correction.t_end_s, is_worn);
+    }
+    for (int round = 0; round < kPolishingRounds; ++round) {
+      for (std::size_t gap = 0; gap < is_worn.size() && !deadline_.passed(); ++gap) {
+        if (!is_worn[gap]) continue;
+        const std::optional<Candidate> better =
+            polished(problem_of_gap(gap), improvement_, space_, deadline_);
+        if (better && take(*better)) {
+          for (const motion::BumpRow& row : better->rows) {
+            mark_gaps(row.begin_s(), row.end_s(), is_worn);
+            widen_corrections(gap, row);
+          }
+        }
+        is_worn[gap] = false;
+      }
+    }
+  }
+
+  // What is polished belongs to the corrections of that gap, or to those that reach into it.
+  void widen_corrections(std::size_t gap, const motion::BumpRow& row) {
+    for (Correction& correction : result_.corrections) {
+      const bool is_here =
+          correction.t_begin_s < keyframes_s_[gap + 1] && correction.t_end_s > keyframes_s_[gap];
+      if (correction.rung == Rung::kNone || !is_here) continue;
+      correction.t_begin_s =
+          std::max(original_.begin_s(), std::min(correction.t_begin_s, row.begin_s()));
+      correction.t_end_s = std::min(original_.end_s(), std::max(correction.t_end_s, row.end_s()));
+    }
+  }
+
+  // Those that have more than an end in common with the stretch of time.
+  void mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const {
+    for (std::size_t gap = 0; gap < gaps.size(); ++gap) {
+      if (begin_s < keyframes_s_[gap + 1] && end_s > keyframes_s_[gap]) gaps[gap] = true;
     }
   }
 
@@ -167,7 +201,14 @@ class Ladder {
     if (!candidate || !take(*candidate)) return false;
     Correction& correction = result_.corrections[index];
     correction.rung = rung;
-    note_changed(*candidate, correction);
+    correction.t_begin_s = original_.end_s();
+    correction.t_end_s = original_.begin_s();
+    for (const motion::BumpRow& row : candidate->rows) {
+      correction.t_begin_s = std::min(correction.t_begin_s, row.begin_s());
+      correction.t_end_s = std::max(correction.t_end_s, row.end_s());
+    }
+    correction.t_begin_s = std::max(correction.t_begin_s, original_.begin_s());
+    correction.t_end_s = std::min(correction.t_end_s, original_.end_s());
     return true;
   }
 
@@ -184,32 +225,21 @@ class Ladder {
     return true;
   }
 
-  // A bump stands for a keyframe at its peak, unless one is there already.
+  // A bump stands for a keyframe at its peak, unless one is there already, or no path.
   void add_keyframes(const motion::BumpRow& row, std::vector<double>& times_s) const {
     const double near_s = 0.5 * row.knots.spacing_s();
     for (std::size_t i = 0; i < row.bumps.size(); ++i) {
       const double peak_s = row.knots.knot_s(row.first + static_cast<int>(i));
       const auto next = std::ranges::lower_bound(keyframes_s_, peak_s - near_s);
       const bool is_there = next != keyframes_s_.end() && *next <= peak_s + near_s;
-      if (!is_there) times_s.push_back(peak_s);
+      const bool is_on_path = original_.begin_s() < peak_s && peak_s < original_.end_s();
+      if (is_on_path && !is_there) times_s.push_back(peak_s);
     }
   }
 
-  void note_changed(const Candidate& candidate, Correction& correction) const {
-    correction.t_begin_s = candidate.rows.front().begin_s();
-    correction.t_end_s = candidate.rows.front().end_s();
-    for (const motion::BumpRow& row : candidate.rows) {
-      correction.t_begin_s = std::min(correction.t_begin_s, row.begin_s());
-      correction.t_end_s = std::max(correction.t_end_s, row.end_s());
-    }
-    correction.t_begin_s = std::max(correction.t_begin_s, original_.begin_s());
-    correction.t_end_s = std::min(correction.t_end_s, original_.end_s());
-  }
-
-  // On the path as it is in the end.
+  // Of the path as it is in the end.
   void measure(Correction& correction) const {
     constexpr int kSamples = 64;
-    if (correction.rung == Rung::kNone) return;
     for (int i = 0; i <= kSamples; ++i) {
       const double time_s =
           std::lerp(correction.t_begin_s, correction.t_end_s, static_cast<double>(i) / kSamples);
@@ -222,6 +252,7 @@ class Ladder {
   }
 
   static constexpr int kPolishingRounds = 2;
+  static constexpr int kStepsAGap = 20;  ///< of improvement, for each gap that a collision is in
   /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
   /// the body: surfaces so close to it prove nothing.
   static constexpr double kPointRounding_m = 1e-6;
@@ -234,6 +265,7 @@ class Ladder {
   std::vector<double> keyframes_s_;
   std::vector<geometry::Vec3> body_points_W_;  ///< at the keyframes
   std::vector<CollisionInterval> open_;        ///< as `result_.corrections`
+  Improvement improvement_;
   LadderResult result_;
 };
 

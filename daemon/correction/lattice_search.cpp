@@ -18,7 +18,7 @@ using Cell = std::array<std::int32_t, 3>;
 
 constexpr std::int32_t kFarthest = (1 << 20) - 1;  // so that a key takes 63 bits
 constexpr double kComfort = 0.5;                   // of the ball: gap from which a way is not near
-constexpr double kShortestStep = 0.1;              // of the ball: what is shorter is not looked at
+constexpr double kHorizon = 0.9;  // of a step: two gaps are more than the longest diagonal
 
 class LatticeSearch {
  public:
@@ -30,7 +30,7 @@ class LatticeSearch {
         options_(options),
         deadline_(deadline),
         comfort_m_(kComfort * options.ball_radius_m),
-        horizon_m_(std::max(2.0 * options.spacing_m, comfort_m_)) {}
+        horizon_m_(std::max(kHorizon * options.spacing_m, comfort_m_)) {}
 
   LatticeResult run() {
     meet({0, 0, 0}, kNone, 0.0);
@@ -79,6 +79,7 @@ class LatticeSearch {
 
   // What is told of a distance is too much to go by: the ball would step through thin walls.
   [[nodiscard]] double sure_gap_m(double gap_m) const {
+    if (gap_m >= horizon_m_) return horizon_m_;  // nothing was met
     const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
     return FreeSpace::kBallShare * (gap_m + keep_m) - keep_m;
   }
@@ -137,13 +138,8 @@ class LatticeSearch {
 
   [[nodiscard]] bool step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W,
                                   double gap_b_m) const {
-    const double length_m = (a_W - b_W).norm();
-    const double sure_m = sure_gap_m(gap_a_m) + sure_gap_m(gap_b_m);
-    if (length_m <= std::max(sure_m, kShortestStep * options_.ball_radius_m)) return true;
-    const Vec3 middle_W = 0.5 * (a_W + b_W);
-    const double middle_m = gap_m(middle_W);
-    return middle_m > 0.0 && step_is_free(a_W, gap_a_m, middle_W, middle_m) &&
-           step_is_free(middle_W, middle_m, b_W, gap_b_m);
+    if ((a_W - b_W).norm() <= sure_gap_m(gap_a_m) + sure_gap_m(gap_b_m)) return true;
+    return space_.ball_passes(a_W, b_W, options_.ball_radius_m);
   }
 
   [[nodiscard]] bool is_goal(std::uint32_t index) const {

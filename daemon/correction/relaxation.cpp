@@ -4,280 +4,172 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <map>
+#include <utility>
 
+#include "daemon/correction/contact_forces.h"
+#include "daemon/correction/contacts.h"
 #include "daemon/correction/orientation_rule.h"
+#include "daemon/correction/smoothing_form.h"
 
 namespace camway::correction {
 
 namespace {
 
-using geometry::Vec4;
 using motion::CubicPoint;
 
-// Chosen by measurement; none changes what is proved.
-constexpr int kSamplesAStep = 3;    // between two knots
-constexpr double kMargin = 0.03;    // of the ball's radius, kept at the samples
-constexpr double kKeptShare = 0.8;  // of the gap, where that is smaller already
+// Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
+constexpr int kSamplesAStep = 2;    // between two knots
+constexpr double kWanted = 0.1;     // gap that is kept where there is room for it
+constexpr double kComfort = 3.0;    // gap that is as good as any to `kSafest`
+constexpr double kFloor = 0.03;     // least gap that a step may leave, ...
+constexpr double kKeptShare = 0.8;  // ... or this share of what there was, where that is less
 constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
-constexpr int kRounds = 10;  // of relaxing, with more samples each time
+constexpr double kFirstTrust = 2.0;                              // how far a step may move the body
+constexpr double kMostTrust = 4.0;
+constexpr double kLeastTrust = 0.02;
+constexpr double kDistrust = 0.3;
+constexpr double kHorizon = 1.0;    // gaps are not measured further, but for `kSafest`
+constexpr double kFarEnough = 0.5;  // of that: then a bound of the gap will do
+constexpr double kSettled = 0.05;   // a step that moves the body less is the last
+constexpr double kWorthIt = 0.03;   // of the objective: what polishing has to promise
+constexpr double kGained = 0.01;    // of the objective: a step that gains less is the last
+constexpr int kMostSteps = 12;
+constexpr int kMostCuts = 3;            // times that a step is looked for again, with more contacts
+constexpr double kForceSettled = 1e-3;  // of where forces move the path
+constexpr std::size_t kMostContacts = 3;  // triangles that a sample keeps in mind
+constexpr int kRounds = 3;                // of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
-constexpr int kRetreats = 3;     // towards the correction it began with
-constexpr double kSpread = 1.5;  // of the gap: over how much of it an offset fades out
-constexpr int kSweeps = 16;
+constexpr int kRetreats = 3;  // towards the correction it began with
 constexpr int kPolishedKnots = 12;
-constexpr double kHorizon = 0.5;      // of the ball's radius: gaps are not measured further
-constexpr double kSafeComfort = 3.0;  // of the ball's radius: a gap that is as good as any
-constexpr double kSafeStep = 0.15;    // of the ball's radius
 
-/// Weights of the squared distance from the original, and of squared first and second differences
-/// of the path's control points.
-struct Weights {
-  double distance;
-  double stretch;
-  double bend;
+/// A contact, and the forces that last kept the path from it: hard where it has to keep away, soft
+/// where it would better.
+struct Contact {
+  ContactRow row;
+  double hard_force = 0.0;
+  double soft_force = 0.0;
 };
 
-Weights weights_of(Objective objective, int count) {
-  switch (objective) {
-    case Objective::kClosest:
-      return {1.0, 0.0, std::pow(kSpread * count, 4.0)};
-    case Objective::kShortest:
-      return {0.0, 1.0, 0.05};
-    case Objective::kSmoothest:
-    case Objective::kSafest:
-      return {0.0, 0.0, 1.0};
-  }
-  return {1.0, 0.0, 1.0};
-}
-
-CubicPoint operator+(const CubicPoint& a, const CubicPoint& b) {
-  return {a.position + b.position, a.image + b.image};
-}
-CubicPoint operator-(const CubicPoint& a, const CubicPoint& b) {
-  return {a.position - b.position, a.image - b.image};
-}
-CubicPoint operator*(double factor, const CubicPoint& a) {
-  return {factor * a.position, factor * a.image};
-}
-
-/// The path, and beyond its ends the straight line that goes on as it does there: a natural end.
-CubicPoint extended(const motion::CubicPath& path, double time_s) {
-  const bool is_before = time_s < path.begin_s();
-  if (!is_before && time_s <= path.end_s()) return path.at(time_s);
-  const motion::CubicPiece& piece = is_before ? path.pieces.front() : path.pieces.back();
-  const std::size_t i = is_before ? 0 : 2;  // the leg of the control polygon at that end
-  const double legs =
-      3.0 / (piece.t1_s - piece.t0_s) * (time_s - (is_before ? piece.t0_s : piece.t1_s));
-  const std::size_t end = is_before ? 0 : 3;
-  return {piece.position[end] + legs * (piece.position[i + 1] - piece.position[i]),
-          piece.image[end] + legs * (piece.image[i + 1] - piece.image[i])};
-}
-
-/// The four bumps that are not zero between two knots, at `v` in [0, 1] of the way.
-std::array<double, 4> weights_at(double v) {
-  return {motion::bump_value(1.0 + v), motion::bump_value(v), motion::bump_value(1.0 - v),
-          motion::bump_value(2.0 - v)};
-}
+/// A time at which the body is asked to be free.
+struct Sample {
+  StackedPoint path;
+  Terms terms;
+  double floor_m = 0.0;       ///< gap that has to remain
+  motion::Pose interpolated;  ///< what the rule for orientations compares with
+  double rule_floor = 0.0;    ///< that it has to be met by
+  /// Where the body was asked about last, and its gap: until it has moved by that, there is no need
+  /// to ask again.
+  StackedPoint known;
+  double known_gap_m = 0.0;
+  std::vector<std::uint32_t> contacts;  ///< triangles that it may run into, the latest last
+  std::vector<Contact> rows;            ///< what they ask for, where the path is now
+  bool has_rows = false;                ///< whether they are up to date
+};
 
 class Relaxation {
  public:
+  /// Does `steps_left` at most, and counts them.
   Relaxation(const Problem& problem, const Offsets& offsets, Ends ends, Objective objective,
-             FreeSpace& space)
+             FreeSpace& space, int& steps_left)
       : problem_(problem),
         space_(space),
-        knots_(offsets.knots),
-        objective_(objective),
-        weights_(weights_of(objective, offsets.knots.count)),
-        radius_m_(space.ball_radius_m()) {
-    choose_range(ends);
-    for (int k = first_ - kOutside; k <= last_ + kOutside; ++k) {
-      path_.push_back(extended(problem.path, knots_.knot_s(k)));
-      original_.push_back(extended(problem.original, knots_.knot_s(k)));
+        radius_m_(space.ball_radius_m()),
+        lever_m_(4.0 * radius_m_),
+        is_safest_(objective == Objective::kSafest),
+        wanted_m_((is_safest_ ? kComfort : kWanted) * radius_m_),
+        horizon_m_((is_safest_ ? kComfort + kHorizon : kHorizon) * radius_m_),
+        free_(problem, offsets.knots, ends),
+        form_(problem, free_, objective, lever_m_),
+        variables_(free_.variables_of(offsets, lever_m_)),
+        steps_left_(steps_left) {
+    const double step_s = offsets.knots.spacing_s();
+    for (int k = free_.first() - 2; k < free_.last() + 2; ++k) {
+      for (int m = 0; m < kSamplesAStep; ++m)
+        add_sample(offsets.knots.knot_s(k) + (m + 0.5) / kSamplesAStep * step_s);
     }
-    begin_with(offsets);
-    sample();
   }
 
-  void begin_with(const Offsets& offsets) {
-    coefficients_.clear();
-    for (int k = first_ - kOutside; k <= last_ + kOutside; ++k)
-      coefficients_.push_back(k >= first_ && k <= last_ ? offsets(k) : CubicPoint{});
-    is_active_.assign(coefficients_.size(), true);
-    hold_keyframes();
+  [[nodiscard]] Offsets offsets() const { return free_.offsets_of(variables_, lever_m_); }
+
+  /// Whether there may be something to gain, as far as the nearest obstacles tell.
+  [[nodiscard]] bool is_worth_it() {
+    if (is_safest_) return true;
+    const double now = form_.value(variables_);
+    return now - form_.value(solved()) > kWorthIt * now;
   }
 
-  /// From now on the body has to be free there too. Takes back what was done about it: as much as
-  /// it takes to be free at all samples again, old and new.
+  void run(const collision::Deadline& deadline) {
+    const double first_value = form_.value(variables_);
+    double trust_m = kFirstTrust * radius_m_;
+    while (steps_left_ > 0 && trust_m > kLeastTrust * radius_m_) {
+      --steps_left_;
+      if (deadline.passed()) return;
+      const double before = form_.value(variables_);
+      const std::optional<double> moved_m = take_step(trust_m);
+      if (!moved_m) return;
+      if (*moved_m == 0.0) continue;
+      if (*moved_m < kSettled * radius_m_) return;
+      const bool was_whole = *moved_m < 0.99 * trust_m;
+      if (was_whole && !is_safest_ && before - form_.value(variables_) < kGained * first_value)
+        return;
+      trust_m = std::min(2.0 * trust_m, kMostTrust * radius_m_);
+    }
+  }
+
+  /// From now on the body has to be free there too. Takes back what was done about it, towards what
+  /// is `free`: as much as it takes to be free at all samples again, old and new.
   void watch(const collision::CollisionInterval& collision, const Offsets& free) {
-    const double middle_s = 0.5 * (collision.t_begin_s + collision.t_end_s);
-    const int middle = knot_before(middle_s);
-    for (int width = 2; width <= 2 * (last_ - first_ + 4); width *= 2) {
-      const int low = std::max(first_, middle - width);
-      const int high = std::min(last_, middle + 1 + width);
-      for (int k = low; k <= high; ++k) coefficient(k) = free(k);
-      hold_keyframes();
-      if (!is_free_between(low, high) || !is_free_on(collision)) continue;
-      for (int k = std::max(first_, low - 3); k <= std::min(last_, high + 3); ++k)
-        is_active_[slot(k)] = true;
-      break;
-    }
-    for (const double share : {0.0, 0.5, 1.0}) {
-      const double time_s = std::lerp(collision.t_begin_s, collision.t_end_s, share);
-      add_sample(knot_before(time_s), place_after_knot(time_s));
-    }
-  }
-
-  [[nodiscard]] Offsets run(const collision::Deadline& deadline) {
-    for (int sweep = 0; sweep < kSweeps && !deadline.passed(); ++sweep) {
-      bool changed = false;
-      for (int i = first_; i <= last_; ++i) {
-        // To and fro, so that nothing drifts to one side.
-        const int k = sweep % 2 == 0 ? i : first_ + last_ - i;
-        if (is_held(k) || !is_active_[slot(k)]) continue;
-        const bool moved = improve(k);
-        is_active_[slot(k)] = moved;
-        changed = changed || moved;
-        // What was blocked may be free to move now.
-        for (int j = std::max(first_, k - 3); moved && j <= std::min(last_, k + 3); ++j)
-          is_active_[slot(j)] = true;
-      }
-      if (!changed) break;
-    }
-    Offsets result{knots_, first_, {}};
-    for (int k = first_; k <= last_; ++k) result.at.push_back(coefficient(k));
-    return result;
+    const StackedPoints known = free_.variables_of(free, lever_m_);
+    const StackedPoints moved = variables_;
+    const std::size_t old = samples_.size();
+    variables_ = known;
+    for (const double share : {0.0, 0.5, 1.0})
+      add_sample(std::lerp(collision.t_begin_s, collision.t_end_s, share));
+    variables_ = moved;
+    // What is in the way there is what has to be minded.
+    for (std::size_t i = old; i < samples_.size(); ++i) is_free(samples_[i], point(samples_[i]));
+    take_back(known, 0.5 * (collision.t_begin_s + collision.t_end_s));
+    for (Sample& sample : samples_) sample.has_rows = false;
   }
 
  private:
-  static constexpr int kOutside = 4;  ///< zeros on either side, for differences
-
-  struct Sample {
-    CubicPoint path;
-    std::size_t first;  ///< of the four coefficients
-    std::array<double, 4> weights;
-    double margin_m;
-    motion::Pose interpolated;  ///< what the rule for orientations compares with
-    double rule_margin = 0.0;   ///< that it is met by
-    /// Where the body was asked about last and found free, and how far it was from the scene there:
-    /// until it has moved by that, there is no need to ask again.
-    motion::SignedPose known{};
-    double known_gap_m = 0.0;
-  };
-
-  /// Which coefficients there are: with free ends also some before the first keyframe and after the
-  /// last, as far as they do not reach the next keyframe, so that the path can swing through.
-  void choose_range(Ends ends) {
-    first_ = 2;
-    last_ = knots_.count - 2;
-    if (ends == Ends::kFixed) return;
-    holds_keyframes_ = true;
-    const double spacing_s = knots_.spacing_s();
-    const auto beyond = [&](bool is_path_end, double room_s) {
-      const int most = knots_.count / 2;
-      if (is_path_end) return 1;
-      return std::clamp(static_cast<int>(room_s / spacing_s) - 2, 0, most);
-    };
-    const std::size_t gap = problem_.gap;
-    const std::vector<double>& times_s = problem_.keyframes_s;
-    first_ = -beyond(gap == 0, gap == 0 ? 0.0 : times_s[gap] - times_s[gap - 1]);
-    const bool is_last = gap + 2 == times_s.size();
-    last_ = knots_.count + beyond(is_last, is_last ? 0.0 : times_s[gap + 2] - times_s[gap + 1]);
-  }
-
-  [[nodiscard]] bool is_held(int k) const {
-    return holds_keyframes_ && (k == 0 || k == knots_.count);
-  }
-  [[nodiscard]] std::size_t slot(int k) const {
-    return static_cast<std::size_t>(k - first_ + kOutside);
-  }
-  CubicPoint& coefficient(int k) { return coefficients_[slot(k)]; }
-  [[nodiscard]] const CubicPoint& coefficient(int k) const { return coefficients_[slot(k)]; }
-
-  void hold_keyframes() {
-    if (!holds_keyframes_) return;
-    for (const int k : {0, knots_.count})
-      coefficient(k) = holding(coefficient(k - 1), coefficient(k + 1));
-  }
-
-  [[nodiscard]] int knot_before(double time_s) const {
-    const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
-    return static_cast<int>(std::clamp(std::floor(place), first_ - 2.0, last_ + 1.0));
-  }
-  [[nodiscard]] double place_after_knot(double time_s) const {
-    const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
-    return std::clamp(place - knot_before(time_s), 0.0, 1.0);
-  }
-
-  bool is_free_between(int low, int high) {
-    return std::ranges::all_of(samples_, [&](const Sample& sample) {
-      const bool uses = sample.first + 3 >= slot(low) && sample.first <= slot(high);
-      if (!uses) return true;
-      const motion::Pose now = pose(sample);
-      return space_.is_free(now, 0.0) && meets_rule(sample, now);
-    });
-  }
-
-  bool is_free_on(const collision::CollisionInterval& collision) {
-    for (const double share : {0.0, 0.5, 1.0}) {
-      const double time_s = std::lerp(collision.t_begin_s, collision.t_end_s, share);
-      const int k = knot_before(time_s);
-      const Sample sample = sample_at(time_s, k, place_after_knot(time_s));
-      const motion::Pose now = pose(sample);
-      if (!space_.is_free(now, 0.0) || !meets_rule(sample, now)) return false;
-    }
-    return true;
-  }
-
-  void sample() {
-    for (int k = first_ - 2; k < last_ + 2; ++k) {
-      for (int m = 0; m < kSamplesAStep; ++m) add_sample(k, (m + 0.5) / kSamplesAStep);
-    }
-  }
-
-  // `v` of the way from knot `k` to the next.
-  void add_sample(int k, double v) {
-    const double time_s = std::lerp(knots_.knot_s(k), knots_.knot_s(k + 1), v);
+  void add_sample(double time_s) {
     if (time_s <= problem_.path.begin_s() || time_s >= problem_.path.end_s()) return;
     if (is_others(time_s)) return;
-    Sample sample = sample_at(time_s, k, v);
+    Sample sample;
+    sample.path = stacked(problem_.path.at(time_s), lever_m_);
+    sample.terms = free_.at(time_s);
+    if (sample.terms.empty()) return;
+    sample.interpolated = problem_.original.pose(time_s);
     look(sample);
-    sample.margin_m = std::min(kMargin * radius_m_, kKeptShare * std::max(0.0, sample.known_gap_m));
-    const double room = rule_room(space_.policy(), pose(sample), sample.interpolated);
-    sample.rule_margin = std::min(kRuleMargin, kKeptShare * std::max(0.0, room));
-    samples_.push_back(sample);
+    const double room = rule_room(space_.policy(), pose(sample.known), sample.interpolated);
+    sample.rule_floor = std::min(kRuleMargin, kKeptShare * std::max(0.0, room));
+    sample.floor_m = std::min(kFloor * radius_m_, kKeptShare * std::max(0.0, sample.known_gap_m));
+    samples_.push_back(std::move(sample));
   }
 
-  [[nodiscard]] Sample sample_at(double time_s, int k, double v) const {
-    return {problem_.path.at(time_s), slot(k - 1), weights_at(v), 0.0,
-            problem_.original.pose(time_s)};
-  }
-
-  [[nodiscard]] bool meets_rule(const Sample& sample, const motion::Pose& now) const {
-    return rule_room(space_.policy(), now, sample.interpolated) >= sample.rule_margin;
-  }
-
-  void look(Sample& sample) {
-    const motion::Pose now = pose(sample);
-    sample.known = motion::signed_pose(now);
-    sample.known_gap_m = space_.gap_m(now, kHorizon * radius_m_);
-  }
-
-  bool is_free(Sample& sample) {
-    const motion::Pose unsigned_now = pose(sample);
-    if (!meets_rule(sample, unsigned_now)) return false;
-    const motion::SignedPose now = motion::signed_pose(unsigned_now);
-    // A point at radius ρ moves by 2ρ·sin a where the quaternions are an angle a apart; signs
-    // agree, as both are squares of images close to each other.
-    const double moved_m =
-        (now.position - sample.known.position).norm() +
-        2.0 * space_.body().radius_m() * (now.orientation - sample.known.orientation).norm();
-    if (moved_m + sample.margin_m < sample.known_gap_m) return true;
-    const double gap_m = space_.gap_m(motion::unsigned_pose(now), kHorizon * radius_m_);
-    if (!(gap_m > sample.margin_m)) return false;
-    sample.known = now;
-    sample.known_gap_m = gap_m;
-    return true;
+  void take_back(const StackedPoints& known, double time_s) {
+    const StackedPoints moved = variables_;
+    Eigen::Index middle = 0;
+    for (const Term& term : free_.at(time_s)) middle = std::max(middle, term.variable);
+    for (const double share : {0.3, 1.0}) {
+      for (Eigen::Index width = 3; width < 2 * free_.size(); width *= 2) {
+        const Eigen::Index low = std::max<Eigen::Index>(0, middle - width);
+        const Eigen::Index count = std::min(free_.size(), middle + width) - low;
+        variables_ = moved;
+        variables_.middleRows(low, count) += share * (known - moved).middleRows(low, count);
+        const bool all_free = std::ranges::all_of(samples_, [&](Sample& sample) {
+          const bool uses = std::ranges::any_of(sample.terms, [&](const Term& term) {
+            return low <= term.variable && term.variable < low + count;
+          });
+          return !uses || is_free(sample, point(sample));
+        });
+        if (all_free) return;
+      }
+    }
+    variables_ = known;
+    for (Sample& sample : samples_) look(sample);
   }
 
   [[nodiscard]] bool is_others(double time_s) const {
@@ -286,155 +178,238 @@ class Relaxation {
     });
   }
 
-  [[nodiscard]] motion::Pose pose(const Sample& sample) const {
-    CubicPoint point = sample.path;
-    for (std::size_t i = 0; i < 4; ++i)
-      point = point + sample.weights[i] * coefficients_[sample.first + i];
-    return motion::pose_of(problem_.path.reference, point);
+  [[nodiscard]] StackedPoint point(const Sample& sample) const {
+    return sample.path + combined(sample.terms, variables_);
   }
 
-  /// How much the coefficient at knot `i` changes when that at `k` does by 1: those at keyframes
-  /// follow.
-  [[nodiscard]] double follows(int i, int k) const {
-    if (i == k) return 1.0;
-    const bool is_next = is_held(i) && (i == k - 1 || i == k + 1);
-    return is_next ? -motion::kBumpShoulder / motion::kBumpPeak : 0.0;
+  [[nodiscard]] motion::Pose pose(const StackedPoint& point) const {
+    return motion::pose_of(problem_.path.reference, unstacked(point, lever_m_));
   }
 
-  [[nodiscard]] bool is_on_path(int k) const {
-    const double time_s = knots_.knot_s(k);
-    return time_s >= problem_.path.begin_s() && time_s <= problem_.path.end_s();
+  [[nodiscard]] static double distance_m(const StackedPoint& a, const StackedPoint& b) {
+    return (a.head<3>() - b.head<3>()).norm() + (a.tail<4>() - b.tail<4>()).norm();
   }
 
-  /// The change of the coefficient that makes the objective least while the others stay.
-  [[nodiscard]] CubicPoint wanted_change(int k) const {
-    const auto value = [&](int i) { return path_[slot(i)] + coefficient(i); };
-    CubicPoint sum;
-    double weight = 0.0;
-    const auto count = [&](double factor, double share, const CubicPoint& term) {
-      sum = sum - (factor * share) * term;
-      weight += factor * share * share;
-    };
-    for (int i = k - 2; i <= k + 2; ++i) {
-      if (!is_on_path(i)) continue;
-      const double here = follows(i, k);
-      const double before = follows(i - 1, k);
-      const double after = follows(i + 1, k);
-      count(weights_.distance, here, value(i) - original_[slot(i)]);
-      count(weights_.stretch, here - before, value(i) - value(i - 1));
-      count(weights_.bend, before - 2.0 * here + after,
-            value(i - 1) - 2.0 * value(i) + value(i + 1));
+  void look(Sample& sample) {
+    sample.known = point(sample);
+    sample.known_gap_m = gap_m(sample, sample.known);
+  }
+
+  /// How far the body is from the scene, or less, and minds what is near.
+  double gap_m(Sample& sample, const StackedPoint& there) {
+    const motion::Pose pose = this->pose(there);
+    const double at_least_m = space_.at_least_m(pose);
+    if (at_least_m > kFarEnough * horizon_m_) return at_least_m;
+    const std::optional<scene::Nearest> nearest = space_.nearest(pose, horizon_m_);
+    if (!nearest) return horizon_m_;
+    mind(sample, nearest->triangle);
+    return nearest->distance_m;
+  }
+
+  void mind(Sample& sample, std::uint32_t triangle) {
+    if (std::ranges::find(sample.contacts, triangle) != sample.contacts.end()) return;
+    finds_contacts_ = true;
+    sample.has_rows = false;
+    sample.contacts.push_back(triangle);
+    if (sample.contacts.size() > kMostContacts) sample.contacts.erase(sample.contacts.begin());
+  }
+
+  /// Asks the scene where what is known does not tell. What is in the way is minded from then on.
+  bool is_free(Sample& sample, const StackedPoint& there) {
+    if (!meets_rule(sample, there)) {
+      breaks_rule_ = true;
+      return false;
     }
-    return (1.0 / weight) * sum;
-  }
-
-  bool improve(int k) {
-    if (objective_ == Objective::kSafest && step_away(k)) return true;
-    CubicPoint change = wanted_change(k);
-    if (!space_.may_turn()) change.image.setZero();
-    if (moves(k, change) || moves(k, 0.5 * change)) return true;
-    // Blocked in one direction it may slide in the others.
-    bool moved = moves(k, {geometry::Vec3::Zero(), change.image});
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      CubicPoint part;
-      part.position[axis] = change.position[axis];
-      moved = moves(k, part) || moved;
-    }
-    return moved;
-  }
-
-  bool moves(int k, const CubicPoint& change) {
-    const double size_m = change.position.norm() + 4.0 * radius_m_ * change.image.norm();
-    if (!(size_m > kSettled * radius_m_)) return false;
-    const CubicPoint old = coefficient(k);
-    set(k, old + change);
-    if (is_free_about(k)) return true;
-    set(k, old);
-    return false;
-  }
-
-  void set(int k, const CubicPoint& value) {
-    coefficient(k) = value;
-    hold_keyframes();
-  }
-
-  template <class Visit>
-  bool for_samples_about(int k, Visit visit) {
-    const int low = is_held(k - 1) ? k - 1 : k;
-    const int high = is_held(k + 1) ? k + 1 : k;
-    for (Sample& sample : samples_) {
-      const bool uses = sample.first + 3 >= slot(low) && sample.first <= slot(high);
-      if (uses && !visit(sample)) return false;
-    }
+    if (distance_m(there, sample.known) + sample.floor_m < sample.known_gap_m) return true;
+    const double gap_m = this->gap_m(sample, there);
+    if (!(gap_m > sample.floor_m)) return false;
+    sample.known = there;
+    sample.known_gap_m = gap_m;
     return true;
   }
 
-  bool is_free_about(int k) {
-    return for_samples_about(k, [&](Sample& sample) { return is_free(sample); });
+  [[nodiscard]] bool meets_rule(const Sample& sample, const StackedPoint& there) const {
+    if (!is_limited(space_.policy())) return true;
+    return rule_room(space_.policy(), pose(there), sample.interpolated) >= sample.rule_floor;
   }
 
-  // A step in the direction, of six, that makes the smallest gap about a knot larger.
-  bool step_away(int k) {
-    const CubicPoint old = coefficient(k);
-    const auto least_gap_m = [&] {
-      double least_m = std::numeric_limits<double>::infinity();
-      for_samples_about(k, [&](Sample& sample) {
-        const motion::Pose now = pose(sample);
-        least_m = meets_rule(sample, now)
-                      ? std::min(least_m, space_.gap_m(now, kSafeComfort * radius_m_))
-                      : 0.0;
-        return least_m > 0.0;
-      });
-      return least_m;
-    };
-    const double before_m = least_gap_m();
-    if (before_m >= kSafeComfort * radius_m_) return false;
-    for (int code = 0; code < 6; ++code) {
-      const double sign = code % 2 == 0 ? 1.0 : -1.0;
-      CubicPoint moved = old;
-      moved.position += sign * kSafeStep * radius_m_ * geometry::Vec3::Unit(code / 2);
-      set(k, moved);
-      if (least_gap_m() > before_m + 0.1 * kSafeStep * radius_m_) return true;
+  /// Goes towards what is best, as far as the body stays free, and no further than `trust_m`. How
+  /// far it moved; nothing if it cannot.
+  std::optional<double> take_step(double& trust_m) {
+    for (int cut = 0; cut < kMostCuts; ++cut) {
+      const StackedPoints whole = solved() - variables_;
+      double whole_m = 0.0;
+      for (const Sample& sample : samples_) {
+        const StackedPoint step = combined(sample.terms, whole);
+        whole_m = std::max(whole_m, step.head<3>().norm() + step.tail<4>().norm());
+      }
+      finds_contacts_ = false;
+      for (; trust_m > kLeastTrust * radius_m_; trust_m *= kDistrust) {
+        const double moved_m = std::min(whole_m, trust_m);
+        breaks_rule_ = false;
+        StackedPoints step = whole_m > trust_m ? StackedPoints(trust_m / whole_m * whole) : whole;
+        if (goes(step)) return moved_m;
+        if (finds_contacts_) break;
+        // What may not turn as it would may still move.
+        if (breaks_rule_) step.rightCols<4>().setZero();
+        if (breaks_rule_ && goes(step)) return moved_m;
+        if (finds_contacts_) break;
+        trust_m = moved_m;
+      }
+      if (!finds_contacts_) return std::nullopt;
     }
-    set(k, old);
-    return false;
+    trust_m *= kDistrust;
+    return 0.0;
   }
 
-  static constexpr double kSettled = 5e-3;  // of the ball's radius: changes below do not matter
+  bool goes(const StackedPoints& change) {
+    bool all_free = true;
+    for (Sample& sample : samples_) {
+      const StackedPoint there = point(sample) + combined(sample.terms, change);
+      all_free = is_free(sample, there) && all_free;
+    }
+    if (!all_free) return false;
+    variables_ += change;
+    for (Sample& sample : samples_) sample.has_rows = false;
+    return true;
+  }
+
+  /// The least of the objective as far as contacts allow, to first order.
+  StackedPoints solved() {
+    StackedPoints result = form_.minimum();
+    if (!space_.may_turn()) result.rightCols<4>().setZero();
+    std::vector<ForcedBound> bounds = contact_bounds();
+    if (bounds.empty()) return result;
+    find_forces(bounds, unforced(result), replies(), kForceSettled * radius_m_);
+    std::map<Eigen::Index, StackedPoint> forces;
+    for (const ForcedBound& bound : bounds) {
+      if (bound.force == 0.0) continue;
+      for (const Term& term : samples_[bound.sample].terms) {
+        auto [force, is_new] = forces.try_emplace(term.variable, StackedPoint::Zero());
+        force->second += term.share * bound.force * bound.direction;
+      }
+    }
+    for (const auto& [variable, force] : forces) {
+      for (Eigen::Index i = 0; i < result.rows(); ++i)
+        result.row(i) += form_.inverse()(i, variable) * force.transpose();
+    }
+    remember(bounds);
+    return result;
+  }
+
+  /// Where the samples are at the objective's minimum.
+  const StackedPoints& unforced(const StackedPoints& minimum) {
+    const auto count = static_cast<Eigen::Index>(samples_.size());
+    const Eigen::Index old = unforced_.rows();
+    if (old == count) return unforced_;
+    unforced_.conservativeResize(count, 7);
+    for (Eigen::Index i = old; i < count; ++i)
+      unforced_.row(i) = combined(samples_[static_cast<std::size_t>(i)].terms, minimum);
+    return unforced_;
+  }
+
+  /// Of each sample to a unit force on each.
+  const Eigen::MatrixXd& replies() {
+    const auto count = static_cast<Eigen::Index>(samples_.size());
+    const Eigen::Index known = replies_.cols();
+    replies_.conservativeResize(count, count);
+    for (Eigen::Index j = known; j < count; ++j) {
+      Eigen::VectorXd reply = Eigen::VectorXd::Zero(free_.size());
+      for (const Term& term : samples_[static_cast<std::size_t>(j)].terms)
+        reply += term.share * form_.inverse().col(term.variable);
+      for (Eigen::Index i = 0; i <= j; ++i) {
+        double sum = 0.0;
+        for (const Term& term : samples_[static_cast<std::size_t>(i)].terms)
+          sum += term.share * reply[term.variable];
+        replies_(i, j) = replies_(j, i) = sum;
+      }
+    }
+    return replies_;
+  }
+
+  std::vector<ForcedBound> contact_bounds() {
+    std::vector<ForcedBound> bounds;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      Sample& sample = samples_[i];
+      if (sample.contacts.empty()) continue;
+      update_rows(sample);
+      const StackedPoint moved = combined(sample.terms, variables_);
+      for (const auto& [row, hard_force, soft_force] : sample.rows) {
+        const double offset_m = row.direction.dot(moved) - row.room_m;
+        // What is wanted, where that is in reach; else not much less than there is, hard, and what
+        // is wanted softly.
+        const bool has_room = row.room_m >= wanted_m_;
+        const double kept_m = has_room ? wanted_m_ : kKeptShare * row.room_m;
+        bounds.push_back(
+            {i, row.direction, offset_m + kept_m, is_safest_ && has_room ? 1.0 : 0.0, hard_force});
+        if (!has_room) bounds.push_back({i, row.direction, offset_m + wanted_m_, 1.0, soft_force});
+      }
+    }
+    return bounds;
+  }
+
+  void remember(const std::vector<ForcedBound>& bounds) {
+    auto bound = bounds.begin();
+    for (Sample& sample : samples_) {
+      for (Contact& contact : sample.rows) {
+        contact.hard_force = (bound++)->force;
+        contact.soft_force = contact.row.room_m >= wanted_m_ ? 0.0 : (bound++)->force;
+      }
+    }
+  }
+
+  void update_rows(Sample& sample) {
+    if (sample.has_rows) return;
+    rows_.clear();
+    add_contact_rows(space_, problem_.path.reference, lever_m_, point(sample), sample.contacts,
+                     horizon_m_ + wanted_m_, rows_);
+    const std::vector<Contact> before = std::exchange(sample.rows, {});
+    for (const ContactRow& row : rows_) {
+      const auto same = std::ranges::find_if(before, [&](const Contact& contact) {
+        return contact.row.triangle == row.triangle && contact.row.vertex == row.vertex;
+      });
+      sample.rows.push_back(same == before.end() ? Contact{row, 0.0, 0.0} : *same);
+      sample.rows.back().row = row;
+    }
+    sample.has_rows = true;
+  }
 
   const Problem& problem_;
   FreeSpace& space_;
-  const motion::KnotRow knots_;
-  const Objective objective_;
-  const Weights weights_;
   const double radius_m_;
-  int first_ = 0;  ///< knots of the first and the last coefficient
-  int last_ = 0;
-  bool holds_keyframes_ = false;
-  std::vector<CubicPoint> coefficients_;
-  std::vector<CubicPoint> path_;      ///< at the same knots
-  std::vector<CubicPoint> original_;  ///< and there
-  std::vector<bool> is_active_;       ///< whether another look at a coefficient may change it
+  const double lever_m_;
+  const bool is_safest_;
+  const double wanted_m_;
+  const double horizon_m_;
+  const FreeCoefficients free_;
+  const SmoothingForm form_;
+  StackedPoints variables_;
   std::vector<Sample> samples_;
+  StackedPoints unforced_{0, 7};
+  Eigen::MatrixXd replies_;
+  std::vector<ContactRow> rows_;  ///< buffer
+  bool finds_contacts_ = false;
+  bool breaks_rule_ = false;
+  int& steps_left_;
 };
 
 Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
   Offsets result = b;
   for (int k = b.first; k <= b.last(); ++k) {
-    result.at[static_cast<std::size_t>(k - b.first)] =
-        (1.0 - share_of_b) * a(k) + share_of_b * b(k);
+    CubicPoint& at = result.at[static_cast<std::size_t>(k - b.first)];
+    const CubicPoint from = a(k);
+    at.position = (1.0 - share_of_b) * from.position + share_of_b * at.position;
+    at.image = (1.0 - share_of_b) * from.image + share_of_b * at.image;
   }
   return result;
 }
 
-}  // namespace
-
-Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Objective objective,
-                FreeSpace& space, const collision::Deadline& deadline) {
-  Relaxation relaxation(problem, free.offsets, ends, objective, space);
+Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
+               FreeSpace& space, const collision::Deadline& deadline) {
   Offsets better = free.offsets;
   for (int i = 0; i < kRounds && !deadline.passed(); ++i) {
-    better = relaxation.run(deadline);
+    relaxation.run(deadline);
+    better = relaxation.offsets();
     Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
     if (tried.candidate) return {better, std::move(*tried.candidate)};
     // Something slips through between the samples: then there is to be one.
@@ -449,10 +424,29 @@ Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Objective objec
   return free;
 }
 
-std::optional<Candidate> polished(const Problem& problem, Objective objective, FreeSpace& space,
-                                  const collision::Deadline& deadline) {
+}  // namespace
+
+Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
+                FreeSpace& space, const collision::Deadline& deadline) {
+  int steps_left = std::min(kMostSteps, improvement.steps_left);
+  if (steps_left == 0) return free;
+  improvement.steps_left -= steps_left;
+  Relaxation relaxation(problem, free.offsets, ends, improvement.objective, space, steps_left);
+  Relaxed better = proved(problem, relaxation, std::move(free), ends, space, deadline);
+  improvement.steps_left += steps_left;
+  return better;
+}
+
+std::optional<Candidate> polished(const Problem& problem, Improvement& improvement,
+                                  FreeSpace& space, const collision::Deadline& deadline) {
+  int steps_left = std::min(kMostSteps, improvement.steps_left);
+  if (steps_left == 0) return std::nullopt;
   const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), kPolishedKnots}, 1, {}};
-  Relaxed better = relaxed(problem, {none, {}}, Ends::kFree, objective, space, deadline);
+  Relaxation relaxation(problem, none, Ends::kFree, improvement.objective, space, steps_left);
+  if (!relaxation.is_worth_it()) return std::nullopt;
+  improvement.steps_left -= steps_left;
+  Relaxed better = proved(problem, relaxation, {none, {}}, Ends::kFree, space, deadline);
+  improvement.steps_left += steps_left;
   if (better.candidate.rows.empty()) return std::nullopt;
   return std::move(better.candidate);
 }

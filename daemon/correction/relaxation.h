@@ -7,27 +7,33 @@
 
 namespace camway::correction {
 
+/// What paths are improved for, and how much effort is left for it: steps, each of which costs
+/// about as much as a hundred questions to the scene.
+struct Improvement {
+  Objective objective = Objective::kClosest;
+  int steps_left = 0;
+};
+
 /// A correction that is proved free: `problem.path` with `bumps_for(offsets, ends)`.
 struct Relaxed {
   Offsets offsets;
   Candidate candidate;
 };
 
-/// Improves a free correction under an objective, and keeps it free: coefficient by coefficient is
-/// moved to where its neighbours and the objective would have it, or as far towards that as the
-/// body stays free at sampled times; the result is proved, and where it is not free it is taken
-/// back step by step, to what it began with in the end. Bounded by a number of passes.
-///
-/// The objectives are quadratic forms of the control points (Farin 2002, section 9.4, for bending):
-/// distances from the original and second differences for `kClosest`, first differences for
-/// `kShortest`, second for `kSmoothest`. For `kSafest` the gaps themselves decide, and second
-/// differences between what is equally far.
-Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Objective objective,
+/// Improves a free correction under an objective (`SmoothingForm`), and keeps it free: steps to
+/// where the objective is least while the body keeps, to first order, out of the scene next to it,
+/// as in sequential convex optimisation (Schulman et al. 2013, "Finding locally optimal,
+/// collision-free trajectories with sequential convex optimization"), no further than it is free at
+/// sampled times. Deviation: what is free to begin with stays free, so contacts bound steps instead
+/// of costing something. The result is proved, and where something slips through between the
+/// samples, it is taken back there, and sampled; in the end to what it began with. For `kSafest`
+/// the gaps themselves count, and bending between what is equally far.
+Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
                 FreeSpace& space, const collision::Deadline& deadline);
 
 /// Improves what lies between the two keyframes of the gap, and a little beyond, of a path that is
 /// free already. Nothing where nothing better was found.
-std::optional<Candidate> polished(const Problem& problem, Objective objective, FreeSpace& space,
-                                  const collision::Deadline& deadline);
+std::optional<Candidate> polished(const Problem& problem, Improvement& improvement,
+                                  FreeSpace& space, const collision::Deadline& deadline);
 
 }  // namespace camway::correction

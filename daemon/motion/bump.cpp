@@ -24,11 +24,6 @@ constexpr std::array<std::array<double, 4>, 4> kBumpPieces = {{
     {1.0 / 6.0, 0.0, 0.0, 0.0},
 }};
 
-struct Span {
-  double t0_s;
-  double t1_s;
-};
-
 /// Where `piece` is cut: its ends, and what knots lie well inside.
 std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> rows) {
   std::vector<double> inner_s;
@@ -36,7 +31,14 @@ std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> row
   for (const BumpRow& row : rows) {
     same_s = std::min(same_s, kSameKnot * row.knots.spacing_s());
     const int last = row.first + static_cast<int>(row.bumps.size()) + 1;
-    for (int k = row.first - 2; k <= last; ++k) {
+    // Only those between: a step more on either side makes up for rounding.
+    const auto steps_to = [&](double time_s) {
+      return static_cast<int>(std::clamp((time_s - row.knots.begin_s) / row.knots.spacing_s(),
+                                         row.first - 3.0, last + 1.0));
+    };
+    const int from = std::max(row.first - 2, steps_to(piece.t0_s) - 1);
+    const int to = std::min(last, steps_to(piece.t1_s) + 2);
+    for (int k = from; k <= to; ++k) {
       const double knot_s = row.knots.knot_s(k);
       if (knot_s - piece.t0_s > same_s && piece.t1_s - knot_s > same_s) inner_s.push_back(knot_s);
     }
@@ -50,33 +52,35 @@ std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> row
   return cuts;
 }
 
-/// Bézier points over `span` of bump `index` of `knots`, or zeros outside its support. The span
-/// lies within one interval of the knots, but for `kSameKnot`.
-std::array<double, 4> bump_points(const KnotRow& knots, int index, const Span& span) {
-  const double middle_s = 0.5 * (span.t0_s + span.t1_s);
-  for (int j = 0; j < 4; ++j) {
-    const double from_s = knots.knot_s(index - 2 + j);
-    const double to_s = knots.knot_s(index - 1 + j);
-    if (middle_s < from_s || middle_s >= to_s) continue;
-    const auto parameter = [&](double time_s) {
-      // Exact at the knots: there the neighbours have to agree, and the ends to be zero.
-      if (time_s == to_s) return 1.0;
-      return std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0);
-    };
-    return bezier::sub_curve(kBumpPieces[static_cast<std::size_t>(j)], parameter(span.t0_s),
-                             parameter(span.t1_s));
-  }
-  return {};
+/// The knot at or before `time_s`, and before the next one.
+int knot_before(const KnotRow& knots, double time_s) {
+  int k = static_cast<int>(std::floor((time_s - knots.begin_s) / knots.spacing_s()));
+  while (knots.knot_s(k) > time_s) --k;
+  while (knots.knot_s(k + 1) <= time_s) ++k;
+  return k;
 }
 
+/// Adds what `row` is on `piece`, which lies between two knots that follow each other, but for
+/// `kSameKnot`.
 void add(CubicPiece& piece, const BumpRow& row) {
-  for (std::size_t i = 0; i < row.bumps.size(); ++i) {
-    const std::array<double, 4> weights =
-        bump_points(row.knots, row.first + static_cast<int>(i), {piece.t0_s, piece.t1_s});
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      if (weights[k] == 0.0) continue;
-      piece.position[k] += weights[k] * row.bumps[i].position;
-      piece.image[k] += weights[k] * row.bumps[i].image;
+  const int before = knot_before(row.knots, 0.5 * (piece.t0_s + piece.t1_s));
+  const double from_s = row.knots.knot_s(before);
+  const double to_s = row.knots.knot_s(before + 1);
+  const auto parameter = [&](double time_s) {
+    // Exact at the knots: there the neighbours have to agree, and the ends to be zero.
+    if (time_s == to_s) return 1.0;
+    return std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0);
+  };
+  const double u0 = parameter(piece.t0_s);
+  const double u1 = parameter(piece.t1_s);
+  const int end = row.first + static_cast<int>(row.bumps.size());
+  for (int k = std::max(row.first, before - 1); k < std::min(end, before + 3); ++k) {
+    const CubicPoint& bump = row.bumps[static_cast<std::size_t>(k - row.first)];
+    const auto part = static_cast<std::size_t>(before - (k - 2));
+    const std::array<double, 4> weights = bezier::sub_curve(kBumpPieces[part], u0, u1);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      piece.position[i] += weights[i] * bump.position;
+      piece.image[i] += weights[i] * bump.image;
     }
   }
 }

@@ -127,6 +127,7 @@ TEST(Ladder, IsLocal) {
   for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));
   const CubicPath before = c.path();
   const LadderResult result = c.corrected();
+  EXPECT_LT(result.corrections.back().t_end_s, c.keyframes.back().time_s - 4.0);
   for (const motion::CubicPiece& piece : before.pieces) {
     if (piece.t0_s < result.corrections.back().t_end_s) continue;
     EXPECT_TRUE(std::ranges::any_of(result.path.pieces, [&](const motion::CubicPiece& other) {

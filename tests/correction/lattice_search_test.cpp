@@ -15,9 +15,8 @@ using namespace testing_search;  // NOLINT: the fixture of this file
 using collision::Deadline;
 using Cell = std::array<int, 3>;
 
-// What is shorter than a tenth of the ball's radius is not looked at, so between two free points
-// the ball may be half of that into the scene.
-constexpr double kUnseen = 0.05;
+// Of the ball's radius: more than distances of a few metres are rounded by.
+constexpr double kRounding = 1e-9;
 
 double length_m(const std::vector<Vec3>& way_W) {
   double sum_m = 0.0;
@@ -41,7 +40,7 @@ void expect_way(const SearchScene& scene, const LatticeResult& result, const Vec
   for (std::size_t i = 1; i < result.way_W.size(); ++i) {
     EXPECT_GT(scene.distance_m(result.way_W[i]), radius_m);
     EXPECT_GE(least_gap_m(scene, result.way_W[i - 1], result.way_W[i], radius_m),
-              -kUnseen * radius_m);
+              -kRounding * radius_m);
   }
 }
 
@@ -105,7 +104,7 @@ class Oracle {
   }
   // As the search is told it: free_space_test has the oracle of that.
   [[nodiscard]] double gap_at_m(const Vec3& point_W) const {
-    const double horizon_m = std::max(2.0 * options_.spacing_m, 0.5 * options_.ball_radius_m);
+    const double horizon_m = std::max(0.9 * options_.spacing_m, 0.5 * options_.ball_radius_m);
     return space_.ball_gap_m(point_W, options_.ball_radius_m, horizon_m);
   }
   double gap_m(const Cell& cell) {
@@ -173,7 +172,7 @@ TEST(LatticeWay, IsTheBestThatDijkstraFinds) {
         lattice_way(scene.space(), from_W, to_W, options, Deadline::never());
     expect_way(scene, result, from_W, to_W, options.ball_radius_m);
     Oracle strict(scene, from_W, to_W, options, 0.0);
-    Oracle loose(scene, from_W, to_W, options, -kUnseen * options.ball_radius_m);
+    Oracle loose(scene, from_W, to_W, options, -kRounding * options.ball_radius_m);
     const double cost_m = strict.cost_of(result.way_W);
     EXPECT_LE(cost_m, strict.cost_m(5) + 1e-9);
     EXPECT_GE(cost_m, loose.cost_m(5) - 1e-9);

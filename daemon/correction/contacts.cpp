@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "daemon/geometry/triangle_distance.h"
+#include "daemon/motion/quaternion.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Triangle;
+using geometry::Vec3;
+using geometry::Vec4;
+using Turns = Eigen::Matrix<double, 3, 4>;
+
+/// Turning vectors (axis times radians) of unit steps of the image, in the world frame.
+Turns turns_of(const Vec4& reference, const Vec4& image) {
+  using motion::quaternion::conjugate;
+  using motion::quaternion::multiply;
+  const Vec4 q = multiply(reference, multiply(image, image)) / image.squaredNorm();
+  Turns turns;
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    const Vec4 unit = Vec4::Unit(k);
+    const Vec4 step = multiply(reference, multiply(image, unit) + multiply(unit, image));
+    // What changes the length of q is real, and no turn.
+    turns.col(k) = 2.0 / image.squaredNorm() * multiply(step, conjugate(q)).tail<3>();
+  }
+  return turns;
+}
+
+}  // namespace
+
+void add_contact_rows(FreeSpace& space, const Vec4& reference, double lever_m,
+                      const StackedPoint& point, std::span<const std::uint32_t> triangles,
+                      double horizon_m, std::vector<ContactRow>& rows) {
+  const motion::CubicPoint cubic = unstacked(point, lever_m);
+  const motion::Pose pose = motion::pose_of(reference, cubic);
+  const Turns turns = space.may_turn() ? turns_of(reference, cubic.image) : Turns(Turns::Zero());
+  const std::span<const Triangle> parts = space.placed(pose);
+  for (const std::uint32_t index : triangles) {
+    const Triangle obstacle = space.obstacles().index.triangle(index);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Triangle& part = parts[k];
+      const geometry::TriangleGap gap =
+          geometry::triangle_gap(obstacle, part, std::numeric_limits<double>::infinity());
+      const double length = gap.direction.norm();
+      if (!(length > 0.0)) continue;
+      const Vec3 away_W = gap.direction / length;
+      double plane_m = -std::numeric_limits<double>::infinity();
+      for (const Vec3& vertex : obstacle) plane_m = std::max(plane_m, away_W.dot(vertex));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& vertex_W = part[i];
+        const double room_m = away_W.dot(vertex_W) - plane_m - space.keep_m();
+        if (room_m > horizon_m) continue;
+        ContactRow row;
+        row.room_m = room_m;
+        row.triangle = index;
+        row.vertex = 3 * k + i;
+        row.direction.head<3>() = away_W;
+        row.direction.tail<4>() =
+            turns.transpose() * (vertex_W - pose.position).cross(away_W) / lever_m;
+        rows.push_back(row);
+      }
+    }
+  }
+}
+
+}  // namespace camway::correction
