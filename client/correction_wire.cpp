@@ -49,6 +49,17 @@ KeyframeFault from_wire(const keyframe_fault_t& wire) {
   return fault;
 }
 
+Cage from_wire(const cage_t& wire) {
+  Cage cage;
+  std::copy(std::begin(wire.orientation_wxyz), std::end(wire.orientation_wxyz),
+            cage.orientation_wxyz.begin());
+  std::copy(std::begin(wire.min_m), std::end(wire.min_m), cage.min_m.begin());
+  std::copy(std::begin(wire.max_m), std::end(wire.max_m), cage.max_m.begin());
+  cage.widest_hole_m = wire.widest_hole_m;
+  cage.shortest_chord_m = wire.shortest_chord_m;
+  return cage;
+}
+
 }  // namespace
 
 void read_correction_head(const plan_response_t& page, PlanResponse& response) {
@@ -58,6 +69,7 @@ void read_correction_head(const plan_response_t& page, PlanResponse& response) {
   response.time_scale = page.time_scale;
   if (page.has_infeasibility == 0) return;
   response.infeasibility = Infeasibility{page.keyframe_inside, page.keyframe_outside, {}};
+  if (page.has_cage != 0) response.infeasibility->cage = from_wire(page.proof_cage);
 }
 
 std::optional<std::string> append_correction_lists(const plan_response_t& page,

@@ -125,7 +125,8 @@ bool same_answer(const plan_response_t& a, const plan_response_t& b) {
          same_bits(a.near_scale, b.near_scale) && same_bits(a.time_scale, b.time_scale) &&
          a.has_measures_before == b.has_measures_before && a.has_measures == b.has_measures &&
          a.has_infeasibility == b.has_infeasibility && a.keyframe_inside == b.keyframe_inside &&
-         a.keyframe_outside == b.keyframe_outside && same_bits(a.total_ms, b.total_ms);
+         a.keyframe_outside == b.keyframe_outside && a.has_cage == b.has_cage &&
+         same_bits(a.total_ms, b.total_ms);
 }
 
 void append_lists(const plan_response_t& page, std::vector<Segment>& segments,

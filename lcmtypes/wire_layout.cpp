@@ -25,6 +25,7 @@ constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + kByte;
 constexpr std::size_t kOrientation = kByte + (3 + 3 + 1) * kDouble + kByte + kDouble;
 constexpr std::size_t kMotionLimits = 3 * kDouble + kByte;
 constexpr std::size_t kMeasures = 7 * kDouble;
+constexpr std::size_t kCage = 12 * kDouble;
 constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble;
 constexpr std::size_t kKeyframeFault = kInt32 + kDouble + kByte + (3 + 4) * kDouble;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
@@ -101,6 +102,8 @@ constexpr std::array kPlanResponse{
     fixed("measures", kMeasures),
     fixed("has_infeasibility", kByte),
     fixed("keyframes_apart", 2 * kInt32),
+    fixed("has_cage", kByte),
+    fixed("proof_cage", kCage),
     fixed("timing", 5 * kDouble),
     list("segments", kSegment),
     list("keyframes", kKeyframe),

@@ -69,10 +69,23 @@ planning::KeyframeFault read_fault(const Field& field) {
   return fault;
 }
 
+correction::CageBox read_cage(const Field& field) {
+  correction::CageBox cage;
+  geometry::Vec4 wxyz;
+  field.member("orientation").numbers(wxyz.data(), 4);
+  cage.orientation = geometry::from_wxyz(wxyz);
+  field.member("min").numbers(cage.box.min().data(), 3);
+  field.member("max").numbers(cage.box.max().data(), 3);
+  cage.widest_hole_m = field.member("widest_hole_m").number();
+  cage.shortest_chord_m = field.member("shortest_chord_m").number();
+  return cage;
+}
+
 planning::Infeasibility read_infeasibility(const Field& field) {
   planning::Infeasibility proof;
   proof.keyframe_inside = read_keyframe_index(field.member("keyframe_inside"));
   proof.keyframe_outside = read_keyframe_index(field.member("keyframe_outside"));
+  if (const auto cage = field.optional_member("cage")) proof.cage = read_cage(*cage);
   const Field triangles = field.member("triangles");
   const std::size_t count = triangles.size();
   for (std::size_t i = 0; i < count && !field.failed(); ++i) {

@@ -210,10 +210,26 @@ void write_keyframe_fault(Writer& w, const planning::KeyframeFault& fault) {
   w.raw("}");
 }
 
+void write_cage(Writer& w, const correction::CageBox& cage) {
+  constexpr std::string_view kWhat = "infeasibility.cage";
+  w.raw("\"cage\": {\"orientation\": ");
+  w.vector(geometry::wxyz(cage.orientation), kWhat);
+  w.raw(", \"min\": ");
+  w.vector(cage.box.min(), kWhat);
+  w.raw(", \"max\": ");
+  w.vector(cage.box.max(), kWhat);
+  w.raw(",\n      \"widest_hole_m\": ");
+  w.number(cage.widest_hole_m, kWhat);
+  w.raw(", \"shortest_chord_m\": ");
+  w.number(cage.shortest_chord_m, kWhat);
+  w.raw("},\n    ");
+}
+
 void write_infeasibility(Writer& w, const planning::Infeasibility& proof) {
   w.raw(",\n  \"infeasibility\": {\"keyframe_inside\": " + std::to_string(proof.keyframe_inside) +
-        ", \"keyframe_outside\": " + std::to_string(proof.keyframe_outside) +
-        ",\n    \"triangles\": [");
+        ", \"keyframe_outside\": " + std::to_string(proof.keyframe_outside) + ",\n    ");
+  if (proof.cage) write_cage(w, *proof.cage);
+  w.raw("\"triangles\": [");
   bool first = true;
   for (const std::uint32_t triangle : proof.triangles) {
     if (!first) w.raw(", ");

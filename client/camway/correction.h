@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -46,12 +47,24 @@ struct KeyframeFault {
   std::optional<Pose> free_pose;  ///< the nearest that was found, if any
 };
 
+/// A box whose faces are closed but for holes that the camera is too large for. Coordinates are in
+/// a frame that has its origin in common with the world's.
+struct Cage {
+  std::array<double, 4> orientation_wxyz = {1, 0, 0, 0};  ///< from that frame into the world
+  std::array<double, 3> min_m = {};
+  std::array<double, 3> max_m = {};
+  double widest_hole_m = 0.0;     ///< no two points of one hole are further apart
+  double shortest_chord_m = 0.0;  ///< of the near quadrilateral, through its centre
+};
+
 /// Why there is no path: a closed surface of the scene with one given keyframe inside and another
-/// outside.
+/// outside, or a cage.
 struct Infeasibility {
   std::int32_t keyframe_inside = 0;
   std::int32_t keyframe_outside = 0;
-  std::vector<std::int32_t> triangles;  ///< the surface, as triangles of the scene, increasing
+  /// The surface, or what closes the cage: triangles of the scene, increasing.
+  std::vector<std::int32_t> triangles;
+  std::optional<Cage> cage = {};
 };
 
 }  // namespace camway

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include "daemon/correction/cage_scene.h"
 #include "daemon/correction/face_grid.h"
 #include "daemon/correction/surface_parity.h"
 #include "daemon/geometry/triangle_distance.h"
@@ -13,130 +16,69 @@ namespace camway::correction {
 namespace {
 
 using geometry::Box;
+using geometry::Triangle;
 using geometry::Vec3;
 
-/// A bar is at least this many times as long as it is thick.
-constexpr double kLeastSlenderness = 3.0;
 /// Cells across a bar: the outer ones touch its surface, whatever the grid's offset.
 constexpr double kCellsAcrossBar = 5.0;
-/// Of one face, for time and memory: a tenth of a second for all six.
-constexpr double kMaxCells = 4e6;
-/// Cells and triangles of all boxes that are looked at, and boxes: about half a second.
-constexpr std::size_t kMaxSteps = 50'000'000;
-constexpr int kMaxBoxes = 8;
-/// A face is the nearest plane with this share of the bars of the plane with the most; tried one
-/// after the other, as behind a cage there may be a larger one, and within it shelves.
-constexpr std::array<double, 3> kShares = {0.7, 0.4, 0.2};
-/// Bars whose middles differ by less than this share of their thickness are in one plane.
-constexpr double kPlaneShare = 0.1;
-/// What the sides of a near quadrilateral may be off by, for rounding, is far below this share.
+/// Of one face, for time and memory: some hundredths of a second for all six.
+constexpr double kMaxCells = 2e5;
+/// Lines along the surfaces of bars, of one axis; more, and there are only those that are evenly
+/// spaced.
+constexpr std::size_t kMaxSurfaceLines = 1000;
+/// Cells and triangles of all boxes that are looked at, and boxes: a few hundredths of a second, as
+/// most searches are for scenes without a cage.
+constexpr std::size_t kMaxSteps = 4'000'000;
+constexpr int kMaxBoxes = 24;
+/// Points that boxes are looked for around, in each frame.
+constexpr std::size_t kMaxPoints = 64;
+/// What the sides of a near quadrilateral may be off by, for rounding, and lengths in a frame that
+/// is turned, is far below this share.
 constexpr double kChordRounding = 1e-9;
 
-struct Bar {
-  std::vector<std::uint32_t> triangles;
-  Box box;
-  double thickness_m = 0.0;
+/// A face of a box: where the coordinate `axis` is smallest or largest.
+struct Face {
+  int axis = 0;
+  bool at_max = false;
+  [[nodiscard]] std::size_t index() const {
+    return 2 * static_cast<std::size_t>(axis) + (at_max ? 1 : 0);
+  }
+  [[nodiscard]] double at(const Box& box) const { return (at_max ? box.max() : box.min())[axis]; }
+  [[nodiscard]] Box of(const Box& box) const {
+    Box face = box;
+    face.min()[axis] = face.max()[axis] = at(box);
+    return face;
+  }
 };
-
-/// The middles of bars that lie in one plane.
-struct Plane {
-  double at = 0.0;
-  std::size_t bars = 0;
-};
+constexpr std::array<Face, 6> kFaces{
+    {{0, false}, {0, true}, {1, false}, {1, true}, {2, false}, {2, true}}};
 
 class CageSearch {
  public:
-  CageSearch(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
-             std::span<const Vec3> centers_W, double shortest_chord_m, double within_m)
-      : mesh_(mesh), centers_(centers_W), chord_m_(shortest_chord_m), within_m_(within_m) {
-    for (const IndexSet& surface : surfaces.surfaces) add_bar(surfaces.complex, surface);
-    for (int axis = 0; axis < 3; ++axis) {
-      planes_[static_cast<std::size_t>(axis)] = planes(axis);
-    }
+  CageSearch(const CageScene& scene, std::span<const Vec3> centers_W, double shortest_chord_m,
+             double within_m, std::size_t& steps)
+      : scene_(scene), chord_m_(shortest_chord_m), steps_(steps) {
+    for (const Vec3& center_W : centers_W) centers_.push_back(scene.in_frame(center_W));
+    within_m_ = within_m + 2.0 * scene.margin_m().norm();
   }
 
   [[nodiscard]] std::optional<Cage> run() {
-    int boxes = 0;
-    for (std::size_t i = 0; i < centers_.size(); ++i) {
-      std::optional<Box> last;
-      for (const double share : kShares) {
-        const std::optional<Box> box = box_around(centers_[i], share);
-        if (!box || (last && last->min() == box->min() && last->max() == box->max()) ||
-            !is_inside(*box, i))
-          continue;
-        last = box;
-        const std::optional<std::size_t> outside = first_outside(*box);
-        if (!outside) continue;
-        if (std::optional<Cage> cage = verified(*box, i, *outside)) return cage;
-        if (++boxes == kMaxBoxes || steps_ > kMaxSteps) return std::nullopt;
+    const CageBoxes boxes(scene_);
+    int tried = 0;
+    for (std::size_t i = 0; i < std::min(centers_.size(), kMaxPoints); ++i) {
+      parities_.assign(scene_.barriers().size(), Parity::kNotAsked);
+      for (const Box& box : boxes.around(centers_[i])) {
+        const std::optional<std::size_t> outside = first_outside(box);
+        if (!outside || !is_inside(box, i)) continue;
+        if (std::optional<Cage> cage = verified(box, i, *outside)) return cage;
+        if (++tried == kMaxBoxes || steps_ > kMaxSteps) return std::nullopt;
       }
     }
     return std::nullopt;
   }
 
  private:
-  void add_bar(const PatchComplex& complex, const IndexSet& surface) {
-    Bar bar;
-    for (const std::uint32_t patch : surface) {
-      for (const std::uint32_t t : complex.patches[patch]) {
-        bar.triangles.push_back(t);
-        bar.box.extend(geometry::bounds(mesh_.triangle(t)));
-      }
-    }
-    Vec3 size = bar.box.sizes();
-    std::sort(size.begin(), size.end());
-    bar.thickness_m = size[0];
-    if (size[0] > 0.0 && size[0] < chord_m_ && size[2] >= kLeastSlenderness * size[0]) {
-      bars_.push_back(std::move(bar));
-    }
-  }
-
-  /// In order of their coordinates.
-  [[nodiscard]] std::vector<Plane> planes(int axis) const {
-    std::vector<std::array<double, 2>> middles;
-    for (const Bar& bar : bars_) {
-      // Not across the bar: no plane of a face.
-      if (bar.box.sizes()[axis] > 2.0 * bar.thickness_m) continue;
-      middles.push_back({bar.box.center()[axis], bar.thickness_m});
-    }
-    std::sort(middles.begin(), middles.end());
-    std::vector<Plane> result;
-    for (const auto& [middle, thickness_m] : middles) {
-      if (result.empty() || middle - result.back().at > kPlaneShare * thickness_m) {
-        result.push_back({.at = middle, .bars = 0});
-      }
-      ++result.back().bars;
-    }
-    return result;
-  }
-
-  /// The nearest plane on either side of `center` with at least this share of the bars of the one
-  /// with the most, along each axis.
-  [[nodiscard]] std::optional<Box> box_around(const Vec3& center, double share) const {
-    Box box;
-    box.min() = center;
-    box.max() = center;
-    for (int axis = 0; axis < 3; ++axis) {
-      std::array<std::size_t, 2> most = {0, 0};
-      const std::vector<Plane>& candidates = planes_[static_cast<std::size_t>(axis)];
-      for (const Plane& plane : candidates) {
-        std::size_t& side = most[plane.at < center[axis] ? 0 : 1];
-        side = std::max(side, plane.bars);
-      }
-      if (most[0] == 0 || most[1] == 0) return std::nullopt;
-      for (const Plane& plane : candidates) {  // the last one below stays
-        if (plane.at < center[axis] && enough(plane, share, most[0])) box.min()[axis] = plane.at;
-      }
-      for (auto plane = candidates.rbegin(); plane != candidates.rend(); ++plane) {
-        if (plane->at > center[axis] && enough(*plane, share, most[1])) box.max()[axis] = plane->at;
-      }
-    }
-    return box;
-  }
-
-  [[nodiscard]] static bool enough(const Plane& plane, double share, std::size_t most) {
-    return static_cast<double>(plane.bars) >= share * static_cast<double>(most);
-  }
+  enum class Parity : std::uint8_t { kNotAsked, kUnknown, kEven, kOdd };
 
   [[nodiscard]] std::optional<std::size_t> first_outside(const Box& box) const {
     for (std::size_t i = 0; i < centers_.size(); ++i) {
@@ -148,6 +90,7 @@ class CageSearch {
     const Vec3 room_m = (centers_[i] - box.min()).cwiseMin(box.max() - centers_[i]);
     return room_m.minCoeff() > margin_m(box, i);
   }
+  /// Beyond one of its sides: nowhere in a ball about the center is the body's center inside.
   [[nodiscard]] bool is_outside(const Box& box, std::size_t i) const {
     const Vec3 room_m = (box.min() - centers_[i]).cwiseMax(centers_[i] - box.max());
     return room_m.maxCoeff() > margin_m(box, i);
@@ -157,78 +100,176 @@ class CageSearch {
     return within_m_ + kChordRounding * (box.sizes().norm() + (centers_[i] - box.min()).norm());
   }
 
-  /// The parity of the body with regard to a bar; nothing where the body is too near to tell.
-  [[nodiscard]] std::optional<bool> parity(const Bar& bar, const Vec3& center) const {
-    const geometry::Triangle point = {center, center, center};
-    for (const std::uint32_t t : bar.triangles) {
-      const geometry::Triangle triangle = mesh_.triangle(t);
+  /// Of the body with regard to a closed surface; unknown where the body is too near to tell.
+  [[nodiscard]] Parity parity(std::size_t barrier, const Vec3& center) {
+    Parity& known = parities_[barrier];
+    if (known == Parity::kNotAsked) known = found_parity(scene_.barriers()[barrier], center);
+    return known;
+  }
+  [[nodiscard]] Parity found_parity(const Barrier& barrier, const Vec3& center) {
+    steps_ += barrier.triangles.size();
+    if (!is_closed(scene_.original(), barrier.triangles)) return Parity::kUnknown;
+    const Triangle point = {center, center, center};
+    for (const std::uint32_t t : barrier.triangles) {
+      const Triangle triangle = scene_.mesh().triangle(t);
       if (!(geometry::triangle_distance(point, triangle) >
             within_m_ + geometry::triangle_distance_error_m(point, triangle))) {
-        return std::nullopt;
+        return Parity::kUnknown;
       }
     }
-    return is_odd(center, mesh_, bar.triangles);
+    const std::optional<bool> odd = is_odd(center, scene_.mesh(), barrier.triangles);
+    if (!odd) return Parity::kUnknown;
+    return *odd ? Parity::kOdd : Parity::kEven;
   }
 
-  [[nodiscard]] static bool meets(const Box& bar, const Box& box, int axis, double at) {
-    Box face = box;
-    face.min()[axis] = at;
-    face.max()[axis] = at;
-    return face.intersects(bar);
-  }
-
-  /// Cells of a size for the thinnest of the bars on any face; 0 if there are too many.
-  [[nodiscard]] double cell_size_m(const Box& box) const {
-    double cell_m = chord_m_;
-    for (const Bar& bar : bars_) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const double at : {box.min()[axis], box.max()[axis]}) {
-          if (meets(bar.box, box, axis, at)) {
-            cell_m = std::min(cell_m, bar.thickness_m / kCellsAcrossBar);
-          }
-        }
-      }
+  /// Closed surfaces with a part of a face on the other side than the body is.
+  [[nodiscard]] std::vector<std::size_t> barriers_at(const Box& box, const Vec3& center) {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < scene_.barriers().size(); ++i) {
+      Box reach = scene_.barriers()[i].box;
+      reach.min() -= 2.0 * scene_.margin_m();
+      reach.max() += 2.0 * scene_.margin_m();
+      const bool meets = std::any_of(kFaces.begin(), kFaces.end(), [&](const Face& face) {
+        return face.of(box).intersects(reach);
+      });
+      if (!meets && !reach.contains(center)) continue;
+      const Parity side = parity(i, center);
+      if (side == Parity::kOdd || (side == Parity::kEven && meets)) result.push_back(i);
+      if (steps_ > kMaxSteps) break;
     }
+    return result;
+  }
+
+  /// Along the surfaces, where they are parallel to the axes; else fine enough for the thinnest.
+  [[nodiscard]] std::array<FaceGrid::Lines, 3> lines(
+      const Box& box, const std::vector<std::size_t>& barriers) const {
     const Vec3 size = box.sizes();
     const double area_m2 = size.prod() / size.minCoeff();
-    return area_m2 / (cell_m * cell_m) <= kMaxCells ? cell_m : 0.0;
+    double cell_m = box.diagonal().norm();
+    std::array<FaceGrid::Lines, 3> result;
+    const auto add = [&](const Vec3& point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!(box.min()[axis] < point[axis] && point[axis] < box.max()[axis])) continue;
+        result[static_cast<std::size_t>(axis)].push_back(point[axis]);
+      }
+    };
+    for (const std::size_t i : barriers) {
+      const Barrier& barrier = scene_.barriers()[i];
+      add(barrier.box.min());
+      add(barrier.box.max());
+      if (!barrier.is_stepped) cell_m = std::min(cell_m, barrier.thickness_m() / kCellsAcrossBar);
+      if (!barrier.is_stepped || barrier.triangles.size() == kTrianglesOfCuboid) continue;
+      for (const std::uint32_t t : barrier.triangles) {
+        for (const Vec3& corner : scene_.mesh().triangle(t)) add(corner);
+      }
+    }
+    cell_m = std::max(cell_m, std::sqrt(area_m2 / kMaxCells));
+    for (int axis = 0; axis < 3; ++axis) {
+      FaceGrid::Lines& along = result[static_cast<std::size_t>(axis)];
+      std::sort(along.begin(), along.end());
+      along.erase(std::unique(along.begin(), along.end()), along.end());
+      if (along.size() > kMaxSurfaceLines) along.clear();
+      const int cells = static_cast<int>(std::ceil(size[axis] / cell_m));
+      for (int i = 1; i < cells; ++i) along.push_back(box.min()[axis] + size[axis] * i / cells);
+      along.push_back(box.min()[axis]);
+      along.push_back(box.max()[axis]);
+      std::sort(along.begin(), along.end());
+      along.erase(std::unique(along.begin(), along.end()), along.end());
+      std::erase_if(along, [&](double x) { return x < box.min()[axis] || x > box.max()[axis]; });
+    }
+    return result;
+  }
+
+  /// In the plane of the face, and meeting it; those of each surface, as a bar stands on a floor.
+  [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> flats_at(const Face& face,
+                                                                             const Box& box) const {
+    const std::vector<FlatTriangle>& flats = scene_.flats(face.axis);
+    const double at = face.at(box);
+    auto flat = std::lower_bound(flats.begin(), flats.end(), at,
+                                 [](const FlatTriangle& a, double b) { return a.at < b; });
+    std::map<std::uint32_t, std::vector<std::uint32_t>> result;
+    for (; flat != flats.end() && flat->at == at; ++flat) {
+      const Box bounds = geometry::bounds(scene_.mesh().triangle(flat->triangle));
+      if (!face.of(box).intersects(bounds)) continue;
+      result[scene_.barrier_of(flat->triangle)].push_back(flat->triangle);
+    }
+    return result;
   }
 
   [[nodiscard]] std::optional<Cage> verified(const Box& box, std::size_t inside,
                                              std::size_t outside) {
-    const double cell_m = cell_size_m(box);
-    if (!(cell_m > 0.0)) return std::nullopt;
-    Cage cage{
-        .inside = inside, .outside = outside, .box = box, .widest_hole_m = 0, .triangles = {}};
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double at : {box.min()[axis], box.max()[axis]}) {
-        FaceGrid face(box, axis, at, cell_m);
-        for (const Bar& bar : bars_) {
-          if (!meets(bar.box, box, axis, at)) continue;
-          const std::optional<bool> odd = parity(bar, centers_[inside]);
-          if (!odd) continue;
-          steps_ += face.block(mesh_, bar.triangles, *odd);
-          if (steps_ > kMaxSteps) return std::nullopt;
-          cage.triangles.insert(cage.triangles.end(), bar.triangles.begin(), bar.triangles.end());
-        }
-        const std::optional<double> hole_m = face.widest_hole_m();
-        if (!hole_m || !(*hole_m < chord_m_ * (1.0 - kChordRounding))) return std::nullopt;
-        cage.widest_hole_m = std::max(cage.widest_hole_m, *hole_m);
-      }
+    const std::vector<std::size_t> barriers = barriers_at(box, centers_[inside]);
+    const std::array<FaceGrid::Lines, 3> along = lines(box, barriers);
+    Cage cage{.inside = inside,
+              .outside = outside,
+              .box = {.box = box,
+                      .orientation = scene_.orientation(),
+                      .widest_hole_m = 0.0,
+                      .shortest_chord_m = chord_m_},
+              .triangles = {}};
+    std::vector<FaceGrid> grids;
+    for (const Face& face : kFaces) {
+      grids.emplace_back(face.axis, face.at(box),
+                         std::array{along[static_cast<std::size_t>((face.axis + 1) % 3)],
+                                    along[static_cast<std::size_t>((face.axis + 2) % 3)]},
+                         scene_.margin_m());
+      block(face, box, barriers, grids.back(), cage.triangles);
+      if (steps_ > kMaxSteps) return std::nullopt;
+      // Too wide whatever the faces beside it are: nothing more to ask.
+      const auto closed = [](int, bool, std::size_t) { return true; };
+      if (!is_narrow(grids.back().widest_hole_m(closed))) return std::nullopt;
     }
+    const std::optional<double> widest_m = widest_hole_m(grids);
+    if (!is_narrow(widest_m)) return std::nullopt;
+    cage.box.widest_hole_m = *widest_m;
     std::sort(cage.triangles.begin(), cage.triangles.end());
-    cage.triangles.erase(std::unique(cage.triangles.begin(), cage.triangles.end()),
-                         cage.triangles.end());
+    const auto same = std::unique(cage.triangles.begin(), cage.triangles.end());
+    cage.triangles.erase(same, cage.triangles.end());
     return cage;
   }
 
-  const scene::Mesh& mesh_;
-  std::span<const Vec3> centers_;
+  [[nodiscard]] bool is_narrow(const std::optional<double>& hole_m) const {
+    return hole_m && *hole_m < chord_m_ * (1.0 - kChordRounding);
+  }
+
+  void block(const Face& face, const Box& box, const std::vector<std::size_t>& barriers,
+             FaceGrid& grid, std::vector<std::uint32_t>& used) {
+    for (const std::size_t i : barriers) {
+      if (steps_ > kMaxSteps) return;
+      const std::vector<std::uint32_t>& triangles = scene_.barriers()[i].triangles;
+      steps_ += grid.block(scene_.mesh(), triangles, parities_[i] == Parity::kOdd);
+      used.insert(used.end(), triangles.begin(), triangles.end());
+    }
+    for (const auto& [name, flats] : flats_at(face, box)) {
+      if (steps_ > kMaxSteps) return;
+      steps_ += grid.block_flat(scene_.mesh(), scene_.original(), flats);
+      used.insert(used.end(), flats.begin(), flats.end());
+    }
+  }
+
+  /// A piece of an edge of the box is blocked where either of the two faces is.
+  [[nodiscard]] static std::optional<double> widest_hole_m(const std::vector<FaceGrid>& grids) {
+    double widest_m = 0.0;
+    for (const Face& face : kFaces) {
+      const std::optional<double> hole_m =
+          grids[face.index()].widest_hole_m([&](int axis, bool at_max, std::size_t index) {
+            const Face beside{axis, at_max};
+            return grids[beside.index()].is_blocked_at_border(face.axis, face.at_max, index);
+          });
+      if (!hole_m) return std::nullopt;
+      widest_m = std::max(widest_m, *hole_m);
+    }
+    return widest_m;
+  }
+
+  static constexpr std::size_t kTrianglesOfCuboid = 12;
+
+  const CageScene& scene_;
+  std::vector<Vec3> centers_;
   double chord_m_;
-  double within_m_;
-  std::vector<Bar> bars_;
-  std::array<std::vector<Plane>, 3> planes_;
-  std::size_t steps_ = 0;
+  double within_m_ = 0.0;
+  std::size_t& steps_;
+  std::vector<Parity> parities_;  ///< by barrier, of the body that is inside
 };
 
 }  // namespace
@@ -236,7 +277,15 @@ class CageSearch {
 std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                               std::span<const Vec3> centers_W, double shortest_chord_m,
                               double within_m) {
-  return CageSearch(mesh, surfaces, centers_W, shortest_chord_m, within_m).run();
+  if (centers_W.size() < 2) return std::nullopt;
+  std::size_t steps = 0;
+  for (const CageScene& scene : cage_scenes(mesh, surfaces, shortest_chord_m)) {
+    if (std::optional<Cage> cage =
+            CageSearch(scene, centers_W, shortest_chord_m, within_m, steps).run()) {
+      return cage;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace camway::correction

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "daemon/correction/cage_box.h"
 #include "daemon/correction/closed_surfaces.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/mesh.h"
@@ -18,27 +19,27 @@ namespace camway::correction {
 struct Cage {
   std::size_t inside = 0;   ///< index of a point
   std::size_t outside = 0;  ///< index of a point
-  geometry::Box box;
-  double widest_hole_m = 0.0;  ///< bound of the distance of two points of one hole
-  /// Of the bars, which are closed surfaces: their triangles that were needed, increasing.
+  CageBox box;
+  /// Of the closed surfaces, and those in the planes of faces, that were looked at, increasing.
   std::vector<std::uint32_t> triangles;
 };
 
-/// Looks for a cage of separate closed bars, parallel to the axes, that the centre of a flat convex
-/// body cannot leave. `centers_W`: where that is at one keyframe after the other, known to
-/// `within_m`. `shortest_chord_m`: of those through the centre; the smaller side of a rectangle
-/// [Limit: 0 < value].
+/// Looks for a cage that the centre of a flat convex body cannot leave: a box parallel to the axes
+/// of the world, or of a frame turned about one of them (`CageScene`). `centers_W`: where the
+/// centre is at one keyframe after the other, known to `within_m`. `shortest_chord_m`: of those
+/// through the centre; the smaller side of a rectangle [Limit: 0 < value].
 ///
-/// Why there is no way out. A body that is outside a bar, which is a closed surface, stays outside.
-/// So on a face of the box it can be only in what no bar fills, and if that nowhere reaches the
-/// face's border, the body never meets an edge of the box. Let its centre be on a face. In the
-/// plane of the face the body is a chord through the centre, or all of it; connected, without a
-/// point on the border, so all of that chord lies in the face, and in one hole. But it is longer
-/// than the hole is wide. So the centre is never on a face, however the body turns.
+/// Why there is no way out. A body that is on one side of a closed surface stays there, and it is
+/// never on a triangle. So on a face of the box it can be only in what neither the other sides of
+/// surfaces nor triangles in its plane fill. If that nowhere reaches the face's border, but where
+/// the face beside it is filled, the body never meets an edge of the box. Let its centre be on a
+/// face. In the plane of the face the body is a chord through the centre, or all of it; connected,
+/// without a point on the border, so all of that chord lies in the face, and in one hole. But it is
+/// longer than the hole is wide. So the centre is never on a face, however the body turns.
 ///
-/// The holes are measured on a grid (`FaceGrid`), rounded to the safe side, so it is never claimed
-/// wrongly, but missed where bars are not parallel to the axes, are not closed surfaces each of its
-/// own, or do not cover the edges of the box. Bounded in time; safe from any thread.
+/// The holes are measured on grids (`FaceGrid`), rounded to the safe side, so it is never claimed
+/// wrongly, but missed where bars are parallel to no such axes, are not closed surfaces, or are
+/// there twice on a floor. Bounded in time; safe from any thread.
 std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                               std::span<const geometry::Vec3> centers_W, double shortest_chord_m,
                               double within_m);

@@ -17,7 +17,7 @@ struct Column {
 class Reduction {
  public:
   Reduction(const std::vector<IndexSet>& seams_of, std::size_t seams, std::uint64_t max_steps)
-      : seams_of_(seams_of), owner_(seams, kNone), max_steps_(max_steps) {}
+      : seams_of_(seams_of), owner_(seams, kNoIndex), max_steps_(max_steps) {}
 
   ReducedPatches run(std::span<const std::uint32_t> order) {
     for (const std::uint32_t patch : order) {
@@ -34,7 +34,7 @@ class Reduction {
  private:
   /// False if the steps are used up.
   bool reduce(Column& column) {
-    while (!column.seams.empty() && owner_[column.seams.back()] != kNone) {
+    while (!column.seams.empty() && owner_[column.seams.back()] != kNoIndex) {
       const Column& other = columns_[owner_[column.seams.back()]];
       steps_ +=
           column.seams.size() + column.patches.size() + other.seams.size() + other.patches.size();
@@ -101,10 +101,10 @@ std::vector<IndexSet> connected_parts(const IndexSet& patches,
     parent[std::max(a, b)] = std::min(a, b);
   }
   std::vector<IndexSet> parts;
-  std::vector<std::uint32_t> part_of(patches.size(), kNone);
+  std::vector<std::uint32_t> part_of(patches.size(), kNoIndex);
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     const std::uint32_t r = root(i);
-    if (part_of[r] == kNone) {
+    if (part_of[r] == kNoIndex) {
       part_of[r] = static_cast<std::uint32_t>(parts.size());
       parts.emplace_back();
     }

@@ -24,7 +24,7 @@ class Ladder {
       : mesh_(mesh), space_(space), options_(options), deadline_(deadline), original_(path) {
     for (const motion::Keyframe& keyframe : keyframes) {
       keyframes_s_.push_back(keyframe.time_s);
-      body_points_W_.push_back(body_point_W(keyframe.pose));
+      keyframe_poses_.push_back(keyframe.pose);
     }
     result_.path = path;
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
@@ -37,9 +37,8 @@ class Ladder {
   LadderResult run() && {
     correct_all(Search::kWithRoom);
     if (any_open() && !deadline_.passed()) {
-      result_.separation =
-          find_separation(mesh_, find_closed_surfaces(mesh_), body_points_W_, kPointRounding_m);
-      if (result_.separation) return std::move(result_);
+      prove_infeasible();
+      if (result_.separation || result_.cage) return std::move(result_);
       if (space_.may_turn()) correct_all(Search::kTurning);
     }
     result_.timed_out = any_open() && deadline_.passed();
@@ -103,10 +102,49 @@ class Ladder {
     return result_.corrections[index].rung == Rung::kNone;
   }
 
-  // A point of the body itself, which no keyframe takes with it but as it turns and moves.
-  [[nodiscard]] geometry::Vec3 body_point_W(const motion::Pose& pose) const {
+  void prove_infeasible() {
+    const ClosedSurfaces surfaces = find_closed_surfaces(mesh_);
+    const double smallest = 1.0 - options_.max_shrink;
+    // A point of the body itself, which the eye is not.
     const geometry::Triangle& part = space_.body().triangles_C().front();
-    return pose.position + pose.orientation * geometry::Vec3((part[0] + part[1] + part[2]) / 3.0);
+    const geometry::Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
+    result_.separation =
+        find_separation(mesh_, surfaces, at_keyframes_W(point_C), kPointRounding_m);
+    if (result_.separation && smallest < 1.0) {
+      const auto way_W = [&](std::size_t keyframe) {
+        const motion::Pose& pose = keyframe_poses_[keyframe];
+        return geometry::LineSegment{placed(pose, point_C), placed(pose, smallest * point_C)};
+      };
+      if (!keeps_clear(*result_.separation, mesh_, way_W(result_.separation->inside),
+                       way_W(result_.separation->outside), kPointRounding_m)) {
+        result_.separation.reset();
+      }
+    }
+    if (!result_.separation && space_.body().is_camera() && !deadline_.passed()) {
+      find_cage_of_camera(surfaces, smallest);
+    }
+  }
+
+  // The near quadrilateral is a rectangle parallel to two axes of the camera frame.
+  void find_cage_of_camera(const ClosedSurfaces& surfaces, double smallest) {
+    geometry::Box rectangle_C;
+    for (const geometry::Triangle& part : space_.body().triangles_C()) {
+      rectangle_C.extend(geometry::bounds(part));
+    }
+    const geometry::Vec3 center_C = rectangle_C.center();
+    const double side_m = rectangle_C.sizes().head<2>().minCoeff();
+    result_.cage = find_cage(mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
+                             kPointRounding_m + (1.0 - smallest) * center_C.norm());
+  }
+
+  [[nodiscard]] std::vector<geometry::Vec3> at_keyframes_W(const geometry::Vec3& point_C) const {
+    std::vector<geometry::Vec3> points_W;
+    for (const motion::Pose& pose : keyframe_poses_) points_W.push_back(placed(pose, point_C));
+    return points_W;
+  }
+
+  static geometry::Vec3 placed(const motion::Pose& pose, const geometry::Vec3& point_C) {
+    return pose.position + pose.orientation * point_C;
   }
 
   [[nodiscard]] bool any_open() const {
@@ -263,8 +301,8 @@ class Ladder {
   const collision::Deadline& deadline_;
   const CubicPath& original_;
   std::vector<double> keyframes_s_;
-  std::vector<geometry::Vec3> body_points_W_;  ///< at the keyframes
-  std::vector<CollisionInterval> open_;        ///< as `result_.corrections`
+  std::vector<motion::Pose> keyframe_poses_;
+  std::vector<CollisionInterval> open_;  ///< as `result_.corrections`
   Improvement improvement_;
   LadderResult result_;
 };

@@ -7,6 +7,7 @@
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
+#include "daemon/correction/cage.h"
 #include "daemon/correction/constraints.h"
 #include "daemon/correction/correction.h"
 #include "daemon/correction/separation.h"
@@ -21,14 +22,18 @@ struct LadderOptions {
   OrientationPolicy orientation;
   int max_inserted_keyframes = 200;  ///< for the whole path [Limit: 0 <= value]
   std::uint64_t seed = 1;            ///< of the search for ways round
+  /// By up to which share the camera may be made smaller, about its eye: there is no path only if
+  /// there is none for any such size. [Limit: 0 <= value < 1]
+  double max_shrink = 0.0;
 };
 
 struct LadderResult {
   motion::CubicPath path;
   std::vector<double> inserted_s;       ///< times of the inserted keyframes, increasing
   std::vector<Correction> corrections;  ///< one for each collision, in order
-  /// A proof that there is no path at all; looked for where the cheap ways fail.
+  /// A proof that there is no path at all, one or the other; looked for where the cheap ways fail.
   std::optional<Separation> separation;
+  std::optional<Cage> cage;
   bool timed_out = false;
 };
 

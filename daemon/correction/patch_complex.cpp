@@ -27,14 +27,14 @@ std::uint64_t hash(const geometry::Vec3& v) {
 /// For each vertex the first one with the same coordinates.
 std::vector<std::uint32_t> equal_vertices(const std::vector<geometry::Vec3>& vertices) {
   const std::size_t slots = std::bit_ceil(2 * vertices.size() + 1);
-  std::vector<std::uint32_t> table(slots, kNone);
+  std::vector<std::uint32_t> table(slots, kNoIndex);
   std::vector<std::uint32_t> first(vertices.size());
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     std::size_t slot = hash(vertices[i]) & (slots - 1);
-    while (table[slot] != kNone && vertices[table[slot]] != vertices[i]) {
+    while (table[slot] != kNoIndex && vertices[table[slot]] != vertices[i]) {
       slot = (slot + 1) & (slots - 1);
     }
-    if (table[slot] == kNone) table[slot] = i;
+    if (table[slot] == kNoIndex) table[slot] = i;
     first[i] = table[slot];
   }
   return first;
@@ -67,7 +67,7 @@ class Builder {
     for (std::size_t t = 0; t < corners_.size(); ++t) {
       const Corners& c = corners_[t];
       if (c[0] == c[1] || c[1] == c[2]) alive_[t] = 0;
-      lowest[t] = alive_[t] != 0 ? c[0] : kNone;
+      lowest[t] = alive_[t] != 0 ? c[0] : kNoIndex;
     }
     Lists at(lowest, vertices_);
     const auto key = [&](std::uint32_t t) { return std::pair(corners_[t][1], corners_[t][2]); };
@@ -90,12 +90,12 @@ class Builder {
   }
 
   void find_edges() {
-    std::vector<std::uint32_t> lower_end(3 * corners_.size(), kNone);
+    std::vector<std::uint32_t> lower_end(3 * corners_.size(), kNoIndex);
     for (std::uint32_t side = 0; side < lower_end.size(); ++side) {
       if (alive_[side / 3] != 0) lower_end[side] = ends(side).first;
     }
     Lists at(lower_end, vertices_);
-    edge_of_.assign(lower_end.size(), kNone);
+    edge_of_.assign(lower_end.size(), kNoIndex);
     std::uint32_t edges = 0;
     for (std::size_t v = 0; v < vertices_; ++v) {
       const std::span<std::uint32_t> list = at[v];
@@ -143,10 +143,10 @@ class Builder {
   }
 
   void join_patches() {
-    patch_of_.assign(corners_.size(), kNone);
+    patch_of_.assign(corners_.size(), kNoIndex);
     std::vector<std::uint32_t> waiting;
     for (std::uint32_t seed = 0; seed < corners_.size(); ++seed) {
-      if (alive_[seed] == 0 || patch_of_[seed] != kNone) continue;
+      if (alive_[seed] == 0 || patch_of_[seed] != kNoIndex) continue;
       patch_of_[seed] = patches_;
       waiting.push_back(seed);
       while (!waiting.empty()) {
@@ -156,7 +156,7 @@ class Builder {
           const std::uint32_t edge = edge_of_[3 * t + k];
           if (alive_at_[edge] != 2) continue;
           for (const std::uint32_t side : sides_of_[edge]) {
-            if (alive_[side / 3] == 0 || patch_of_[side / 3] != kNone) continue;
+            if (alive_[side / 3] == 0 || patch_of_[side / 3] != kNoIndex) continue;
             patch_of_[side / 3] = patches_;
             waiting.push_back(side / 3);
           }

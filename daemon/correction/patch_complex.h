@@ -11,7 +11,7 @@
 
 namespace camway::correction {
 
-inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
 /// Lists of numbers, one after the other in one array.
 class Lists {
@@ -19,16 +19,16 @@ class Lists {
   Lists() = default;
 
   /// Deals the items 0 .. keys.size() - 1 to `lists` lists, each item to the one that its key names
-  /// or, with kNone, to none. Increasing in each list.
+  /// or, with kNoIndex, to none. Increasing in each list.
   Lists(std::span<const std::uint32_t> keys, std::size_t lists) : begin_(lists + 1, 0) {
     for (const std::uint32_t key : keys) {
-      if (key != kNone) ++begin_[key + 1];
+      if (key != kNoIndex) ++begin_[key + 1];
     }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     items_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t item = 0; item < keys.size(); ++item) {
-      if (keys[item] != kNone) items_[next[keys[item]]++] = item;
+      if (keys[item] != kNoIndex) items_[next[keys[item]]++] = item;
     }
   }
 

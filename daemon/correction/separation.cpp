@@ -18,6 +18,16 @@ using geometry::Vec3;
 /// looked for one by one.
 constexpr std::size_t kMaxPointsToLookAround = 8;
 
+bool is_clear(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles,
+              const geometry::LineSegment& segment, double within_m) {
+  const Triangle flat = {segment.from, segment.from, segment.to};
+  return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+    const Triangle triangle = mesh.triangle(t);
+    return geometry::triangle_distance(flat, triangle) >
+           within_m + geometry::triangle_distance_error_m(flat, triangle);
+  });
+}
+
 class Search {
  public:
   Search(const scene::Mesh& mesh, const ClosedSurfaces& surfaces, std::span<const Vec3> points_W,
@@ -131,15 +141,6 @@ class Search {
     return triangles;
   }
 
-  [[nodiscard]] bool is_clear(const std::vector<std::uint32_t>& triangles, const Vec3& p) const {
-    const Triangle point = {p, p, p};
-    return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
-      const Triangle triangle = mesh_.triangle(t);
-      return geometry::triangle_distance(point, triangle) >
-             within_m_ + geometry::triangle_distance_error_m(point, triangle);
-    });
-  }
-
   /// The surface with the first point on either side that is clear of it, checked from scratch.
   [[nodiscard]] std::optional<Separation> proof(const IndexSet& surface) const {
     Separation result;
@@ -155,7 +156,7 @@ class Search {
       const std::optional<bool> odd = is_odd(points_[i], mesh_, result.triangles);
       if (!odd) continue;
       std::optional<std::size_t>& side = *odd ? inside : outside;
-      if (!side && is_clear(result.triangles, points_[i])) side = i;
+      if (!side && is_clear(mesh_, result.triangles, {points_[i], points_[i]}, within_m_)) side = i;
     }
     if (!inside || !outside) return std::nullopt;
     result.inside = *inside;
@@ -176,6 +177,13 @@ std::optional<Separation> find_separation(const scene::Mesh& mesh, const ClosedS
                                           std::span<const Vec3> points_W, double within_m) {
   if (points_W.size() < 2) return std::nullopt;
   return Search(mesh, surfaces, points_W, within_m).run();
+}
+
+bool keeps_clear(const Separation& surface, const scene::Mesh& mesh,
+                 const geometry::LineSegment& inside_W, const geometry::LineSegment& outside_W,
+                 double within_m) {
+  return is_clear(mesh, surface.triangles, inside_W, within_m) &&
+         is_clear(mesh, surface.triangles, outside_W, within_m);
 }
 
 }  // namespace camway::correction

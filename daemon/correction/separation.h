@@ -31,8 +31,8 @@ struct Separation {
 ///
 /// `points_W`: where the same point of the moving body is at one keyframe after the other. For a
 /// camera that is a point of the filled near quadrilateral, not the eye, which is no part of it.
-/// `within_m`: how far from there it may really be, at any of them, for rounding and, where the
-/// camera may shrink, for that; surfaces so near to a point do not count for it. [Limit: >= 0]
+/// `within_m`: how far from there it may really be, at any of them, for rounding; surfaces so near
+/// to a point do not count for it. [Limit: >= 0]
 ///
 /// Where `surfaces.complete`, nothing is found only if no closed surface separates two of the
 /// points, or one of `surfaces.surfaces` that does is too near to them. What is not closed, edge
@@ -43,5 +43,11 @@ struct Separation {
 std::optional<Separation> find_separation(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                                           std::span<const geometry::Vec3> points_W,
                                           double within_m);
+
+/// Whether the surface also separates all points of the one segment, each known to `within_m`, from
+/// all of the other, if it separates some: whether it keeps clear of both.
+bool keeps_clear(const Separation& surface, const scene::Mesh& mesh,
+                 const geometry::LineSegment& inside_W, const geometry::LineSegment& outside_W,
+                 double within_m);
 
 }  // namespace camway::correction

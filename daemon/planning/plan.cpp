@@ -188,6 +188,7 @@ class Planner {
     options.seed = request_.options.seed;
     options.objective = request_.options.objective;
     options.orientation = request_.options.orientation;
+    options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
     correction::LadderResult corrected = correction::correct_by_ladder(
         mesh_, obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes),
         found, options, deadline_);
@@ -197,6 +198,10 @@ class Planner {
       result_.infeasibility =
           Infeasibility{corrected.separation->inside, corrected.separation->outside,
                         std::move(corrected.separation->triangles)};
+    } else if (corrected.cage) {
+      result_.infeasibility =
+          Infeasibility{corrected.cage->inside, corrected.cage->outside,
+                        std::move(corrected.cage->triangles), corrected.cage->box};
     }
     if (corrected.inserted_s.empty()) return;
     is_as_interpolated_ = false;
@@ -408,6 +413,17 @@ class Planner {
 
   [[nodiscard]] std::string why_infeasible() const {
     const Infeasibility& proof = *result_.infeasibility;
+    if (proof.cage) {
+      const geometry::Vec3 center =
+          proof.cage->orientation * geometry::Vec3(proof.cage->box.center());
+      return fmt::format(
+          "there is no path: keyframe {} is inside a cage about ({:.4g}, {:.4g}, {:.4g}) with no "
+          "hole wider than {:.3g} m, keyframe {} outside; the smaller side of the near "
+          "quadrilateral is {:.3g} m{}",
+          proof.keyframe_inside, center.x(), center.y(), center.z(), proof.cage->widest_hole_m,
+          proof.keyframe_outside, proof.cage->shortest_chord_m,
+          request_.options.max_shrink > 0.0 && !request_.body ? " at its smallest" : "");
+    }
     return fmt::format(
         "there is no path: keyframe {} is inside a closed surface of {} triangles of the scene, "
         "keyframe {} outside",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/collision/interval.h"
+#include "daemon/correction/cage_box.h"
 #include "daemon/correction/correction.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/measures.h"
@@ -65,10 +66,15 @@ struct KeyframeFault {
 /// its ends) has an even number of them, and a ray from one keyframe meets an odd number, from the
 /// other an even one. No continuous motion of a connected body gets from one side to the other
 /// without touching it.
+///
+/// Or, with `cage`, a box that the centre of the near quadrilateral is inside of at the one
+/// keyframe and outside at the other, and never on: `correction::find_cage` says why. Then the
+/// triangles are those of what closes the faces of the box but for its holes.
 struct Infeasibility {
   std::size_t keyframe_inside = 0;
   std::size_t keyframe_outside = 0;
   std::vector<std::uint32_t> triangles;  ///< indices into the scene's mesh, increasing
+  std::optional<correction::CageBox> cage = {};
 };
 
 struct PlanResult {

@@ -108,10 +108,35 @@ KeyframeFault fault_of(const keyframe_fault_t& wire) {
   return fault;
 }
 
+cage_t wire_cage(const correction::CageBox& cage) {
+  cage_t wire{};
+  const geometry::Vec4 wxyz = geometry::wxyz(cage.orientation);
+  std::copy_n(wxyz.data(), 4, wire.orientation_wxyz);
+  std::copy_n(cage.box.min().data(), 3, wire.min_m);
+  std::copy_n(cage.box.max().data(), 3, wire.max_m);
+  wire.widest_hole_m = cage.widest_hole_m;
+  wire.shortest_chord_m = cage.shortest_chord_m;
+  return wire;
+}
+
+correction::CageBox cage_of(const cage_t& wire) {
+  correction::CageBox cage;
+  geometry::Vec4 wxyz;
+  std::copy_n(wire.orientation_wxyz, 4, wxyz.data());
+  cage.orientation = geometry::from_wxyz(wxyz);
+  std::copy_n(wire.min_m, 3, cage.box.min().data());
+  std::copy_n(wire.max_m, 3, cage.box.max().data());
+  cage.widest_hole_m = wire.widest_hole_m;
+  cage.shortest_chord_m = wire.shortest_chord_m;
+  return cage;
+}
+
 void put_infeasibility(const planning::Infeasibility& proof, plan_response_t& wire) {
   wire.has_infeasibility = 1;
   wire.keyframe_inside = static_cast<std::int32_t>(proof.keyframe_inside);
   wire.keyframe_outside = static_cast<std::int32_t>(proof.keyframe_outside);
+  wire.has_cage = proof.cage ? 1 : 0;
+  if (proof.cage) wire.proof_cage = wire_cage(*proof.cage);
   wire.proof_triangles.assign(proof.triangles.begin(), proof.triangles.end());
   wire.num_proof_triangles = static_cast<std::int32_t>(wire.proof_triangles.size());
 }
@@ -146,6 +171,7 @@ std::string read_infeasibility(const plan_response_t& wire, PlanResult& result) 
   planning::Infeasibility& proof = result.infeasibility.emplace();
   proof.keyframe_inside = static_cast<std::size_t>(wire.keyframe_inside);
   proof.keyframe_outside = static_cast<std::size_t>(wire.keyframe_outside);
+  if (wire.has_cage != 0) proof.cage = cage_of(wire.proof_cage);
   for (std::size_t i = 0; i < wire.proof_triangles.size(); ++i) {
     const std::int32_t triangle = wire.proof_triangles[i];
     if (triangle < 0) return "proof_triangles[" + std::to_string(i) + "]: is below 0";

@@ -251,6 +251,12 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
     page.has_infeasibility = 1;
     page.keyframe_inside = 3;
     page.keyframe_outside = 1;
+    page.has_cage = 1;
+    page.proof_cage.orientation_wxyz[3] = 1.0;
+    page.proof_cage.min_m[1] = 2.0;
+    page.proof_cage.max_m[2] = 3.0;
+    page.proof_cage.widest_hole_m = 0.0625;
+    page.proof_cage.shortest_chord_m = 0.25;
   }
   correction_t correction{};
   correction.t_end_s = 0.5;
@@ -300,6 +306,13 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   EXPECT_EQ(response.infeasibility->keyframe_inside, 3);
   EXPECT_EQ(response.infeasibility->keyframe_outside, 1);
   EXPECT_EQ(response.infeasibility->triangles, (std::vector<std::int32_t>{2, 4, 6}));
+  ASSERT_TRUE(response.infeasibility->cage);
+  EXPECT_EQ(response.infeasibility->cage->orientation_wxyz,
+            (std::array<double, 4>{0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(response.infeasibility->cage->min_m[1], 2.0);
+  EXPECT_EQ(response.infeasibility->cage->max_m[2], 3.0);
+  EXPECT_EQ(response.infeasibility->cage->widest_hole_m, 0.0625);
+  EXPECT_EQ(response.infeasibility->cage->shortest_chord_m, 0.25);
 }
 
 TEST(PlanCollector, IsNotCompleteWhileAPageIsMissing) {

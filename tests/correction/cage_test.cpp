@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/correction/cage.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "daemon/correction/face_grid.h"
+#include "tests/support/cage_checker.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -18,6 +20,7 @@ namespace {
 
 using geometry::Box;
 using geometry::Vec3;
+using ::testing::HasSubstr;
 
 /// Bars of square section around the faces of a box, `bars` + 1 each way on each face, those on the
 /// edges included.
@@ -53,6 +56,38 @@ scene::Mesh mesh_of(const std::vector<Box>& bars) {
 std::optional<Cage> cage(const scene::Mesh& mesh, const std::vector<Vec3>& centers,
                          double chord_m) {
   return find_cage(mesh, find_closed_surfaces(mesh), centers, chord_m, 1e-9);
+}
+
+/// What the other checker says of it.
+std::string fault_in(const Cage& found, const scene::Mesh& mesh, const std::vector<Vec3>& centers) {
+  return testing::CageChecker(mesh, found.triangles, found.box)
+      .check(centers[found.inside], centers[found.outside]);
+}
+
+void turn_about(scene::Mesh& mesh, std::vector<Vec3>& centers, double angle_rad, const Vec3& axis) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+  for (Vec3& vertex : mesh.vertices) vertex = turn * vertex;
+  for (Vec3& center : centers) center = turn * center;
+}
+
+void add_rectangle(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v) {
+  testing::add_triangle(mesh, corner, corner + u, corner + u + v);
+  testing::add_triangle(mesh, corner, corner + u + v, corner + v);
+}
+
+/// Without the bars on one side of the box; those of the faces beside it end at its plane.
+std::vector<Box> open_below(std::vector<Box> bars, double z) {
+  std::erase_if(bars,
+                [&](const Box& bar) { return bar.min().z() < z && bar.max().z() < z + 0.05; });
+  std::vector<Box> result;
+  for (Box& bar : bars) {
+    bar.min().z() = std::max(bar.min().z(), z);
+    // The copy of a bar that two faces share would take the floor below it away, modulo 2.
+    if (std::none_of(result.begin(), result.end(), [&](const Box& b) { return b.isApprox(bar); })) {
+      result.push_back(bar);
+    }
+  }
+  return result;
 }
 
 /// Of what the bars leave of the faces of `box`, the largest diagonal of bounds of a connected
@@ -131,9 +166,9 @@ TEST(Cage, HoldsWhatIsLargerThanItsHoles) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->inside, 1U);
   EXPECT_EQ(found->outside, 0U);
-  EXPECT_TRUE(found->box.isApprox(kBox));
-  EXPECT_GE(found->widest_hole_m, hole_m);
-  EXPECT_LT(found->widest_hole_m, 0.15);
+  EXPECT_TRUE(found->box.box.isApprox(kBox));
+  EXPECT_GE(found->box.widest_hole_m, hole_m);
+  EXPECT_LT(found->box.widest_hole_m, 0.15);
   EXPECT_FALSE(cage(mesh, {kOutside, kInside}, hole_m)) << "what just fits may pass";
   EXPECT_FALSE(cage(mesh, {kOutside, kInside}, 0.05));
 }
@@ -169,17 +204,24 @@ TEST(Cage, ABarThatIsNotClosedIsNoBar) {
   EXPECT_FALSE(cage(mesh, {kOutside, kInside}, 0.15));
 }
 
+const FaceGrid::BorderIsBlocked kOpenBorder = [](int, bool, std::size_t) { return false; };
+
 TEST(FaceGrid, BlocksTheOtherSideOfASurfaceOnly) {
   scene::Mesh around;
   testing::add_cuboid(around, Vec3(0, 0, 0), Vec3(9, 9, 9));
   std::vector<std::uint32_t> all(12);
   std::iota(all.begin(), all.end(), 0U);
-  FaceGrid outside(kBox, 0, 1.0, 0.1);
+  const std::array<FaceGrid::Lines, 2> lines = {FaceGrid::Lines{2, 2.5, 3},
+                                                FaceGrid::Lines{3, 3.5, 4}};
+  FaceGrid outside(0, 1.0, lines);
   outside.block(around, all, false);
-  EXPECT_EQ(outside.widest_hole_m(), 0.0);
-  FaceGrid inside(kBox, 0, 1.0, 0.1);
+  EXPECT_EQ(outside.widest_hole_m(kOpenBorder), 0.0);
+  FaceGrid inside(0, 1.0, lines);
   inside.block(around, all, true);
-  EXPECT_FALSE(inside.widest_hole_m()) << "the body may be anywhere";
+  EXPECT_FALSE(inside.widest_hole_m(kOpenBorder)) << "the body may be anywhere";
+  FaceGrid beyond(0, 10.0, lines);
+  beyond.block(around, all, true);
+  EXPECT_EQ(beyond.widest_hole_m(kOpenBorder), 0.0);
 }
 
 // The bounds of a bar across a face hold half of the face, and the bar does not.
@@ -198,6 +240,79 @@ TEST(Cage, ASlantedBarFillsNoMoreThanItself) {
   }
   EXPECT_FALSE(cage(mesh, {kOutside, kInside}, 0.15));
   EXPECT_TRUE(cage(mesh, {kOutside, kInside}, 1.4)) << "wider than the whole face";
+}
+
+TEST(Cage, AnotherCheckerAgrees) {
+  std::vector<Box> bars = cage_bars(kBox, {3, 4, 2}, 0.02);
+  const std::vector<Vec3> centers = {kOutside, kInside};
+  const std::optional<Cage> found = cage(mesh_of(bars), centers, 0.7);
+  ASSERT_TRUE(found);
+  const scene::Mesh mesh = mesh_of(bars);
+  EXPECT_EQ(fault_in(*found, mesh, centers), "");
+  EXPECT_THAT(fault_in(*found, mesh, {kInside, kInside}), HasSubstr("outside is in the box"));
+  Cage wrong = *found;
+  wrong.box.shortest_chord_m = 0.5;
+  EXPECT_THAT(fault_in(wrong, mesh, centers), HasSubstr("too wide"));
+  wrong = *found;
+  std::erase(wrong.triangles, 12U);  // leaves a bar open
+  EXPECT_NE(fault_in(wrong, mesh, centers), "");
+}
+
+TEST(Cage, AFloorMakesAFace) {
+  const std::vector<Vec3> centers = {kOutside, kInside};
+  const scene::Mesh bars = mesh_of(open_below(cage_bars(kBox, {3, 3, 3}, 0.02), 3.0));
+  EXPECT_FALSE(cage(bars, centers, 0.5)) << "open below";
+  scene::Mesh mesh = bars;
+  add_rectangle(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  std::optional<Cage> found = cage(mesh, centers, 0.5);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(fault_in(*found, mesh, centers), "");
+  EXPECT_NEAR(found->box.widest_hole_m, std::hypot(1.0 / 3 - 0.02, 1.0 / 3 - 0.01), 1e-9)
+      << "between the floor and the lowest ring, which is half in it";
+  mesh = bars;
+  add_rectangle(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 7.5, 0));
+  EXPECT_FALSE(cage(mesh, centers, 0.5)) << "a floor that ends under the cage";
+  mesh = bars;
+  add_rectangle(mesh, Vec3(-5, -5, 2.99), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  EXPECT_FALSE(cage(mesh, centers, 0.5)) << "a flat thing gets through below";
+}
+
+TEST(Cage, PlatesMakeFaces) {
+  const std::vector<Vec3> centers = {kOutside, kInside};
+  std::vector<Box> bars = open_below(cage_bars(kBox, {3, 3, 3}, 0.02), 3.0);
+  bars.emplace_back(Vec3(0.9, 1.9, 2.97), Vec3(2.1, 3.1, 3.0));
+  scene::Mesh mesh = mesh_of(bars);
+  std::optional<Cage> found = cage(mesh, centers, 0.5);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(fault_in(*found, mesh, centers), "");
+  bars.back().max().y() = 2.5;
+  EXPECT_FALSE(cage(mesh_of(bars), centers, 0.5)) << "a plate for half of the face";
+}
+
+TEST(Cage, StandsAtAnyAngle) {
+  for (const double angle_rad : {0.3, -0.7}) {
+    for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(0, 1, 0)}) {
+      std::vector<Vec3> centers = {kOutside, kInside};
+      scene::Mesh mesh = mesh_of(cage_bars(kBox, {3, 3, 3}, 0.02));
+      turn_about(mesh, centers, angle_rad, axis);
+      const std::optional<Cage> found = cage(mesh, centers, 0.5);
+      ASSERT_TRUE(found) << angle_rad << " about " << axis.transpose();
+      EXPECT_LT(found->box.widest_hole_m, 0.46);
+      EXPECT_FALSE(cage(mesh, centers, 0.44));
+    }
+  }
+}
+
+TEST(Cage, OnATurnedFloor) {
+  std::vector<Vec3> centers = {kOutside, kInside};
+  scene::Mesh mesh = mesh_of(open_below(cage_bars(kBox, {3, 3, 3}, 0.02), 3.0));
+  scene::Mesh open = mesh;
+  add_rectangle(mesh, Vec3(-5, -5, 3), Vec3(9, 0, 0), Vec3(0, 9, 0));
+  std::vector<Vec3> same = centers;
+  turn_about(mesh, centers, 0.4, Vec3::UnitZ());
+  turn_about(open, same, 0.4, Vec3::UnitZ());
+  EXPECT_TRUE(cage(mesh, centers, 0.5));
+  EXPECT_FALSE(cage(open, centers, 0.5));
 }
 
 TEST(Cage, FarFromTheOrigin) {
@@ -236,8 +351,8 @@ TEST(Cage, RandomCagesAgainstAnotherMeasure) {
     if (found) {
       ++found_some;
       ASSERT_TRUE(hole_m) << i;
-      ASSERT_GE(found->widest_hole_m, *hole_m) << i;
-      ASSERT_LT(found->widest_hole_m, chord_m) << i;
+      ASSERT_GE(found->box.widest_hole_m, *hole_m) << i;
+      ASSERT_LT(found->box.widest_hole_m, chord_m) << i;
     } else {
       ++found_none;
       // Two cells on either side, in both directions.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <thread>
@@ -137,6 +138,73 @@ TEST(Plan, AKeyframeInAClosedBoxIsProvedInfeasible) {
   EXPECT_EQ(result.infeasibility->triangles.size(), 12U);
   EXPECT_FALSE(result.certificate.certified);
   EXPECT_FALSE(result.remaining_collisions.empty());
+}
+
+// Bars 2 cm thick around a box of 1.2 m about the first keyframe, 5 cells of 0.24 m each way.
+// Without the bars of the face towards the next keyframe but for its edges, if `is_open`.
+Mesh caged_keyframe(bool is_open) {
+  Mesh mesh;
+  const Vec3 center(0, 0, 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-0.6, 0.6}) {
+      for (const int along : {(axis + 1) % 3, (axis + 2) % 3}) {
+        for (int i = 0; i <= 5; ++i) {
+          Vec3 from = center - Vec3::Constant(0.6);
+          Vec3 to = center + Vec3::Constant(0.6);
+          from[axis] = to[axis] = center[axis] + side;
+          const int across = 3 - axis - along;
+          from[across] = to[across] = center[across] - 0.6 + 0.24 * i;
+          if (is_open && axis == 2 && side < 0.0 && i > 0 && i < 5) continue;
+          testing::add_cuboid(mesh, from - Vec3::Constant(0.01), to + Vec3::Constant(0.01));
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+PlanRequest tour_with_sides(double side_m) {
+  PlanRequest request = bulging_tour();
+  request.camera.near_m = 0.1;
+  request.camera.fov_x_rad = request.camera.fov_y_rad = 2.0 * std::atan(0.5 * side_m / 0.1);
+  return request;
+}
+
+TEST(Plan, ACageWithHolesTooNarrowIsProvedInfeasible) {
+  const auto snapshot = snapshot_of(caged_keyframe(false));
+  PlanRequest request = tour_with_sides(0.4);
+  const PlanResult result = plan(*snapshot, request);
+  ASSERT_EQ(result.status, Status::kInfeasible) << result.message;
+  ASSERT_TRUE(result.infeasibility && result.infeasibility->cage);
+  const correction::CageBox& cage = *result.infeasibility->cage;
+  EXPECT_EQ(result.infeasibility->keyframe_inside, 0U);
+  EXPECT_NEAR(cage.shortest_chord_m, 0.4, 1e-12);
+  EXPECT_NEAR(cage.widest_hole_m, 0.22 * std::sqrt(2.0), 1e-9);
+  EXPECT_TRUE(cage.box.contains(Vec3(0, 0, 1.9)));
+  EXPECT_FALSE(result.certificate.certified);
+  // Its holes are 31 cm wide, so a camera of 30 cm may get through, for all that is proved.
+  request.options.max_shrink = 0.25;
+  request.options.deadline_s = 1.0;
+  EXPECT_NE(plan(*snapshot, request).status, Status::kInfeasible);
+  request.options.max_shrink = 0.1;
+  EXPECT_EQ(plan(*snapshot, request).status, Status::kInfeasible);
+}
+
+TEST(Plan, ACageWithAWayOutIsLeft) {
+  const PlanResult result = plan(*snapshot_of(caged_keyframe(true)), tour_with_sides(0.4));
+  EXPECT_EQ(result.status, Status::kOk) << result.message;
+}
+
+TEST(Plan, ASurfaceThatASmallerCameraIsBeyondIsNoProof) {
+  Mesh mesh;  // holds the near quadrilateral of the first keyframe, and not its eye
+  testing::add_cuboid(mesh, {-1, -1, 1}, {1, 1, 1.95});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  request.camera = {0.5, 0.5, 0.1};
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  EXPECT_EQ(plan(*snapshot, request).status, Status::kInfeasible);
+  request.options.max_shrink = 0.6;
+  EXPECT_NE(plan(*snapshot, request).status, Status::kInfeasible);
 }
 
 TEST(Plan, RepairsKeyframesIfAsked) {

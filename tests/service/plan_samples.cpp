@@ -91,6 +91,13 @@ void add_report(planning::PlanResult& result, Random& random) {
   planning::Infeasibility& proof = result.infeasibility.emplace();
   proof.keyframe_inside = 3;
   proof.keyframe_outside = 1;
+  if (below(random, 2) == 0) {
+    correction::CageBox& cage = proof.cage.emplace();
+    cage.box = geometry::Box(geometry::Vec3(1, 2, 3), geometry::Vec3(4, 6, 8));
+    cage.orientation = keyframe(0.0, random).pose.orientation;
+    cage.widest_hole_m = number(random);
+    cage.shortest_chord_m = number(random);
+  }
   for (std::uint32_t i = 0; i < 60 * result.collisions.size(); ++i)
     proof.triangles.push_back(2 * i);
 }

@@ -119,6 +119,16 @@ correction_t correction(Random& random) {
   return correction;
 }
 
+cage_t cage(Random& random) {
+  cage_t cage{};
+  fill(cage.orientation_wxyz, random);
+  fill(cage.min_m, random);
+  fill(cage.max_m, random);
+  cage.widest_hole_m = number(random);
+  cage.shortest_chord_m = number(random);
+  return cage;
+}
+
 keyframe_fault_t keyframe_fault(Random& random) {
   keyframe_fault_t fault{};
   fault.keyframe = small(random);
@@ -238,6 +248,8 @@ plan_response_t random_message<plan_response_t>(Random& random) {
   message.has_infeasibility = static_cast<std::int8_t>(random());
   message.keyframe_inside = small(random);
   message.keyframe_outside = small(random);
+  message.has_cage = static_cast<std::int8_t>(random());
+  message.proof_cage = cage(random);
   message.num_corrections =
       fill_list(message.corrections, length(random, 100), [&] { return correction(random); });
   message.num_keyframe_faults = fill_list(message.keyframe_faults, length(random, 100),

@@ -210,6 +210,15 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     ASSERT_TRUE(back.result->infeasibility);
     EXPECT_EQ(back.result->infeasibility->keyframe_inside, 3U);
     EXPECT_EQ(back.result->infeasibility->triangles, result.infeasibility->triangles);
+    const auto& cage = result.infeasibility->cage;
+    const auto& cage_back = back.result->infeasibility->cage;
+    ASSERT_EQ(cage_back.has_value(), cage.has_value());
+    if (!cage) continue;
+    EXPECT_EQ(cage_back->box.min(), cage->box.min());
+    EXPECT_EQ(cage_back->box.max(), cage->box.max());
+    EXPECT_EQ(cage_back->orientation.coeffs(), cage->orientation.coeffs());
+    EXPECT_EQ(cage_back->widest_hole_m, cage->widest_hole_m);
+    EXPECT_EQ(cage_back->shortest_chord_m, cage->shortest_chord_m);
   }
 }
 

@@ -165,6 +165,20 @@ TEST(Compare, SeesWhatCorrectionDid) {
             "proof that there is no path");
   EXPECT_EQ(difference_after([](Result& b) { b.infeasibility.reset(); }),
             "proof that there is no path");
+  a.infeasibility->cage = correction::CageBox{};
+  a.infeasibility->cage->box = geometry::Box(geometry::Vec3::Zero(), geometry::Vec3::Ones());
+  const auto cage_difference_after = [&](const auto& edit) {
+    return difference_after([&](Result& b) { edit(b.infeasibility->cage); });
+  };
+  using Cage = std::optional<correction::CageBox>;
+  const std::string other_proof = "proof that there is no path";
+  EXPECT_EQ(cage_difference_after([](Cage&) {}), "");
+  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage.reset(); }), other_proof);
+  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->box.max().y() = 2.0; }), other_proof);
+  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->box.min().z() = -0.0; }), other_proof);
+  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->orientation.x() = 1.0; }), other_proof);
+  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->widest_hole_m = 1.0; }), other_proof);
+  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->shortest_chord_m = 1.0; }), other_proof);
 }
 
 TEST(Compare, MeasuresATurnByTheCornersOfAnyBody) {

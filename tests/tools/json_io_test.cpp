@@ -429,6 +429,35 @@ TEST(JsonResponse, SaysWhyThereIsNoPath) {
     "triangles": [3, 5, 8]})"));
 }
 
+TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
+  planning::PlanResult result;
+  result.status = planning::Status::kInfeasible;
+  correction::CageBox cage{.box = {geometry::Vec3(0, 1, 2), geometry::Vec3(3, 4, 5)},
+                           .orientation = geometry::Quat(0.6, 0, 0, 0.8),
+                           .widest_hole_m = 0.0625,
+                           .shortest_chord_m = 0.25};
+  result.infeasibility = planning::Infeasibility{2, 0, {3, 5, 8}, cage};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"(
+  "infeasibility": {"keyframe_inside": 2, "keyframe_outside": 0,
+    "cage": {"orientation": [0.6, 0.0, 0.0, 0.8], "min": [0.0, 1.0, 2.0], "max": [3.0, 4.0, 5.0],
+      "widest_hole_m": 0.0625, "shortest_chord_m": 0.25},
+    "triangles": [3, 5, 8]})"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  ASSERT_TRUE(read.value->infeasibility && read.value->infeasibility->cage);
+  const correction::CageBox& back = *read.value->infeasibility->cage;
+  EXPECT_EQ(back.box.min(), cage.box.min());
+  EXPECT_EQ(back.box.max(), cage.box.max());
+  EXPECT_EQ(back.orientation.coeffs(), cage.orientation.coeffs());
+  EXPECT_EQ(back.widest_hole_m, 0.0625);
+  EXPECT_EQ(back.shortest_chord_m, 0.25);
+  std::string broken = text;
+  broken.replace(broken.find("widest_hole_m"), 13, "widest");
+  EXPECT_EQ(parse_plan_response(broken, "P.json").error,
+            "P.json: infeasibility.cage.widest_hole_m: is missing");
+}
+
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
   for (const char* key :

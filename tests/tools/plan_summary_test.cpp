@@ -97,6 +97,14 @@ TEST(PlanSummary, NamesTheObjectsOfAProof) {
   result.infeasibility->triangles = {3};
   EXPECT_THAT(plan_summary(result, &mesh), EndsWith("a closed surface of 1 triangle: fin"));
   EXPECT_THAT(plan_summary(result, nullptr), EndsWith("a closed surface of 1 triangle"));
+  correction::CageBox& cage = result.infeasibility->cage.emplace();
+  cage.box = geometry::Box(geometry::Vec3(0, 0, 0), geometry::Vec3(1, 2, 3.5));
+  cage.widest_hole_m = 0.0849;
+  cage.shortest_chord_m = 0.123;
+  EXPECT_THAT(
+      plan_summary(result, &mesh),
+      EndsWith("keyframe 2 is inside and keyframe 0 outside of a cage of 1 x 2 x 3.5 m made "
+               "of 1 triangle, its holes at most 0.0849 m wide and the camera 0.123 m: fin"));
 }
 
 TEST(PlanSummary, SaysWhatIsWrongWithKeyframes) {

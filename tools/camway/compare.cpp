@@ -93,11 +93,19 @@ bool same_fault(const planning::KeyframeFault& a, const planning::KeyframeFault&
                      geometry::wxyz(b.free_pose->orientation));
 }
 
+bool same_cage(const std::optional<correction::CageBox>& a,
+               const std::optional<correction::CageBox>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return same_vector(geometry::wxyz(a->orientation), geometry::wxyz(b->orientation)) &&
+         same_vector(a->box.min(), b->box.min()) && same_vector(a->box.max(), b->box.max()) &&
+         same(a->widest_hole_m, b->widest_hole_m) && same(a->shortest_chord_m, b->shortest_chord_m);
+}
+
 bool same_proof(const std::optional<planning::Infeasibility>& a,
                 const std::optional<planning::Infeasibility>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->keyframe_inside == b->keyframe_inside && a->keyframe_outside == b->keyframe_outside &&
-         a->triangles == b->triangles;
+         a->triangles == b->triangles && same_cage(a->cage, b->cage);
 }
 
 template <typename List, typename Same>

@@ -127,12 +127,24 @@ std::vector<std::string> objects_of(const std::vector<std::uint32_t>& triangles,
   return names;
 }
 
+/// What one keyframe is inside of and another outside.
+std::string what_separates(const planning::Infeasibility& proof) {
+  const std::string triangles = plural(proof.triangles.size(), "triangle");
+  if (!proof.cage) return "a closed surface of " + triangles;
+  const geometry::Vec3 size_m = proof.cage->box.sizes();
+  return fmt::format(
+      "a cage of {:.3g} x {:.3g} x {:.3g} m made of {}, its holes at most {:.3g} m wide and the "
+      "camera {:.3g} m",
+      size_m.x(), size_m.y(), size_m.z(), triangles, proof.cage->widest_hole_m,
+      proof.cage->shortest_chord_m);
+}
+
 void add_proof(const PlanResult& result, const scene::Mesh* mesh, std::vector<std::string>& lines) {
   if (!result.infeasibility) return;
   const planning::Infeasibility& proof = *result.infeasibility;
-  std::string line = fmt::format(
-      "keyframe {} is inside and keyframe {} outside of a closed surface of {}",
-      proof.keyframe_inside, proof.keyframe_outside, plural(proof.triangles.size(), "triangle"));
+  std::string line =
+      fmt::format("keyframe {} is inside and keyframe {} outside of {}", proof.keyframe_inside,
+                  proof.keyframe_outside, what_separates(proof));
   const auto names =
       mesh != nullptr ? objects_of(proof.triangles, *mesh) : std::vector<std::string>();
   for (std::size_t i = 0; i < std::min(names.size(), kMostObjects); ++i) {
