@@ -154,10 +154,13 @@ class Ladder {
   }
 
   void correct_all(Search search) {
+    std::vector<bool> has_no_way(keyframes_s_.size(), false);  // between a keyframe and the next
     for (std::size_t i = 0; i < open_.size() && !deadline_.passed(); ++i) {
       if (!is_open(i)) continue;
       if (search == Search::kWithRoom && nudge_away(i)) continue;
-      replace_gap(i, search);
+      const std::size_t gap = gap_of(open_[i]);
+      // The way round would replace all of the gap: no need to look for it twice.
+      if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
     }
   }
 
@@ -169,7 +172,7 @@ class Ladder {
   }
 
   // A way round replaces all that lies between the two keyframes.
-  void replace_gap(std::size_t index, Search search) {
+  bool replace_gap(std::size_t index, Search search) {
     Problem problem = this->problem(index);
     std::vector<std::size_t> same_gap;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -180,12 +183,13 @@ class Ladder {
     });
     const std::optional<Candidate> found =
         go_round(problem, search, improvement_, space_, options_.seed, deadline_);
-    if (!accept(index, Rung::kGoRound, found)) return;
+    if (!accept(index, Rung::kGoRound, found)) return false;
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = result_.corrections[i].interval;
       result_.corrections[i] = result_.corrections[index];
       result_.corrections[i].interval = interval;
     }
+    return true;
   }
 
   // What one correction left to the next can be better now that all are there; and again where that

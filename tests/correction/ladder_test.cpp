@@ -97,6 +97,19 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
 }
 
+// Less than a metre apart, and 28 m by the only way there is: round the end of a wall in a closed room.
+TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-8.2, -1.4, -2.2}, {8.2, -1.2, 2.2});
+  testing::add_cuboid(mesh, {-8.2, 1.2, -2.2}, {8.2, 1.4, 2.2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, -2.2}, {8.2, 1.2, -2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, 2}, {8.2, 1.2, 2.2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, -2}, {-8, 1.2, 2});
+  testing::add_cuboid(mesh, {8, -1.2, -2}, {8.2, 1.2, 2});
+  testing::add_cuboid(mesh, {-8, -1.2, -0.1}, {7, 1.2, 0.1});
+  expect_corrected(case_with(mesh, {at(0, {-7, 0, 0.4}), at(5, {-7, 0, -0.4})}), {Rung::kGoRound});
+}
+
 TEST(Ladder, LeavesWhatItCannotCorrect) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});

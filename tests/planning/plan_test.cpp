@@ -222,12 +222,25 @@ TEST(Plan, RepairsKeyframesIfAsked) {
   EXPECT_EQ(repaired.path.pose(2.0).position, refused.keyframe_faults[0].free_pose->position);
 }
 
+TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
+  PlanRequest request = bulging_tour();
+  const auto note = ::testing::HasSubstr("options.interval_tolerance_m");
+  EXPECT_THAT(plan(*column_scene(), request).message, ::testing::Not(note));
+  request.camera.near_m = 1e-3;
+  EXPECT_THAT(plan(*column_scene(), request).message, note);
+  request.options.interval_tolerance_m = 1e-5;
+  EXPECT_THAT(plan(*column_scene(), request).message, ::testing::Not(note));
+}
+
 TEST(Plan, StretchesTimesToMeetLimitsIfAllowed) {
   PlanRequest request = bulging_tour();
   request.options.limits.speed_m_per_s = 0.5;
   const PlanResult refused = plan(*column_scene(), request);
   EXPECT_EQ(refused.status, Status::kPartial);
   EXPECT_THAT(refused.message, ::testing::HasSubstr("options.limits"));
+  // What is proved of it stays true.
+  EXPECT_TRUE(refused.certificate.certified);
+  EXPECT_TRUE(refused.remaining_collisions.empty());
   request.options.limits.may_retime = true;
   const PlanResult slower = plan(*column_scene(), request);
   EXPECT_EQ(slower.status, Status::kOk) << slower.message;
@@ -244,6 +257,7 @@ TEST(Plan, MakesTheCameraSmallerIfNothingElseHelpsAndItMay) {
   const auto snapshot = snapshot_of(std::move(mesh));
   PlanRequest request = bulging_tour();
   request.keyframes.erase(request.keyframes.begin() + 1);
+  request.options.deadline_s = 120.0;  // what it does is bounded; a busy machine is no reason
   request.options.orientation.rule = correction::OrientationRule::kKeep;
   EXPECT_EQ(plan(*snapshot, request).status, Status::kPartial);
   request.options.max_shrink = 0.6;
