@@ -280,17 +280,21 @@ class Ladder {
     }
   }
 
-  // Of the path as it is in the end.
+  // Of the path as it is in the end, which bends with its pieces.
   void measure(Correction& correction) const {
-    constexpr int kSamples = 64;
-    for (int i = 0; i <= kSamples; ++i) {
-      const double time_s =
-          std::lerp(correction.t_begin_s, correction.t_end_s, static_cast<double>(i) / kSamples);
-      const motion::Pose now = result_.path.pose(time_s);
-      const motion::Pose before = original_.pose(time_s);
-      correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
-      correction.turned_rad =
-          std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
+    constexpr int kSamples = 16;  // of a piece
+    const CubicPath changed = result_.path.around(correction.t_begin_s, correction.t_end_s);
+    for (const motion::CubicPiece& piece : changed.pieces) {
+      const double begin_s = std::max(piece.t0_s, correction.t_begin_s);
+      const double end_s = std::min(piece.t1_s, correction.t_end_s);
+      for (int i = 0; i <= kSamples; ++i) {
+        const double time_s = std::lerp(begin_s, end_s, static_cast<double>(i) / kSamples);
+        const motion::Pose now = changed.pose(time_s);
+        const motion::Pose before = original_.pose(time_s);
+        correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
+        correction.turned_rad =
+            std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
+      }
     }
   }
 
