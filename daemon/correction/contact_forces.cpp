@@ -29,7 +29,8 @@ class Forces {
     const StackedPoints now = forced();
     bool any = false;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
-      if (is_live_[i]) continue;
+      // No force moves a sample that does not reply.
+      if (is_live_[i] || !(stiffness_[i] > 0.0)) continue;
       const ForcedBound& bound = bounds_[i];
       const double missing_m =
           bound.bound_m - now.row(static_cast<Eigen::Index>(bound.sample)).dot(bound.direction);

@@ -22,7 +22,9 @@ struct ForcedBound {
 
 /// Forces under which a sum of squares is least while the bounds hold: the dual of a quadratic
 /// program, force by force (Hildreth 1957, "A quadratic programming procedure"). Stops where no
-/// force moves a sample by more than `settled_m`, or after a number of sweeps: approximate then.
+/// force moves a sample by more than `settled_m`, or after a number of sweeps: approximate then,
+/// but never worse than the guess. Bounds that no force can help, as their sample does not reply to
+/// one, are left alone.
 ///
 /// `unforced`: where the samples are at the minimum without forces, a row each; `reply`: how far
 /// each sample moves by a unit force on another, symmetric and positive semidefinite.

@@ -29,6 +29,21 @@ constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
 
+/// A lattice to be searched.
+struct Level {
+  double spacing;  ///< relative to the coarse one
+  std::size_t max_points;
+  bool is_wide;  ///< reaches further than those before it, for ways that are long
+};
+constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
+                                           {0.5, 16000, false},
+                                           {2.0, 8000, true},
+                                           {1.0, 60000, true},
+                                           {0.25, 60000, false},
+                                           {0.125, 120000, false}}};
+constexpr int kOftenRunOut = 2;  // lattices in a row from which on wider ones are searched
+constexpr std::size_t kFinestLevel = kLevels.size() - 1;
+
 class Detour {
  public:
   Detour(const Problem& problem, Improvement& improvement, FreeSpace& space, std::uint64_t seed,
@@ -43,7 +58,8 @@ class Detour {
         to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
 
   std::optional<Candidate> run(Search search) {
-    return search == Search::kWithRoom ? with_ball() : with_turns();
+    if (search == Search::kTurning) return with_turns();
+    return with_ball(0, space_.may_turn() ? kFinestLevel - 1 : kFinestLevel);
   }
 
  private:
@@ -153,20 +169,21 @@ class Detour {
     return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
-  // Ways on which the body may be turned as it likes, on finer and finer lattices.
-  std::optional<Candidate> with_ball() {
+  // Ways on which the body may be turned as it likes. The finest lattice is searched last of all:
+  // what needs it mostly needs turning.
+  std::optional<Candidate> with_ball(std::size_t first_level, std::size_t last_level) {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
     const std::optional<SignedPose> end = escape(to_, radius_m_);
     if (!begin || !end) return std::nullopt;
     // The ball has room for every orientation: where there is a rule, the one it was measured by.
     const Turning turning = is_limited(space_.policy()) ? Turning::kAsPath : Turning::kAsGuide;
-    for (const LatticeOptions& options : lattices(radius_m_, center_W(*begin), center_W(*end))) {
-      if (deadline_.passed()) return std::nullopt;
-      const LatticeResult found = lattice_way(space_, center_W(*begin), center_W(*end), options);
-      if (found.way_W.empty()) continue;
-      if (auto candidate = follow(oriented(found.way_W, *begin, *end), turning)) return candidate;
-    }
-    return std::nullopt;
+    std::optional<Candidate> candidate;
+    for_each_way({radius_m_, center_W(*begin), center_W(*end)}, first_level, last_level,
+                 [&](const std::vector<Vec3>& way_W) {
+                   candidate = follow(oriented(way_W, *begin, *end), turning);
+                   return candidate.has_value();
+                 });
+    return candidate;
   }
 
   // Ways where the body has to be turned to get through: where a smaller ball does, trees look for
@@ -187,7 +204,7 @@ class Detour {
       const Guide guide = tree_way(space_, from_, to_, options, deadline_);
       if (auto found = follow(guide, Turning::kAsGuide)) return found;
     }
-    return std::nullopt;
+    return with_ball(kFinestLevel, kFinestLevel);
   }
 
   [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated() const {
@@ -204,26 +221,53 @@ class Detour {
     const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
     const std::optional<SignedPose> end = escape(to_, ball_radius_m);
     if (!begin || !end) return {};
-    for (const LatticeOptions& options :
-         lattices(ball_radius_m, center_W(*begin), center_W(*end))) {
-      if (deadline_.passed()) break;
-      LatticeResult found = lattice_way(space_, center_W(*begin), center_W(*end), options);
-      if (found.way_W.empty()) continue;
-      found.way_W.insert(found.way_W.begin(), center_W(from_));
-      found.way_W.push_back(center_W(to_));
-      return found.way_W;
-    }
-    return {};
+    std::vector<Vec3> result_W;
+    for_each_way({ball_radius_m, center_W(*begin), center_W(*end)}, 0, kFinestLevel,
+                 [&](const std::vector<Vec3>& way_W) {
+                   result_W = {center_W(from_)};
+                   result_W.insert(result_W.end(), way_W.begin(), way_W.end());
+                   result_W.push_back(center_W(to_));
+                   return true;
+                 });
+    return result_W;
   }
 
-  [[nodiscard]] static std::array<LatticeOptions, 4> lattices(double ball_radius_m,
-                                                              const Vec3& from_W,
-                                                              const Vec3& to_W) {
-    const double coarse_m = std::max(ball_radius_m, (to_W - from_W).norm() / 8.0);
-    return {LatticeOptions{ball_radius_m, coarse_m, 4000},
-            LatticeOptions{ball_radius_m, 0.5 * coarse_m, 16000},
-            LatticeOptions{ball_radius_m, 0.25 * coarse_m, 60000},
-            LatticeOptions{ball_radius_m, 0.125 * coarse_m, 120000}};
+  struct Ball {
+    double radius_m;
+    Vec3 from_W;
+    Vec3 to_W;
+  };
+
+  // Finer and finer lattices; and where their points ran out before all was seen that can be
+  // reached, wider ones, as the way may be much longer than its ends are apart. Until `use` of a
+  // way succeeds.
+  template <class Use>
+  void for_each_way(const Ball& ball, std::size_t first_level, std::size_t last_level,
+                    const Use& use) {
+    bool from_end = false;
+    int times_run_out = 0;
+    for (std::size_t i = first_level; i <= last_level && !deadline_.passed(); ++i) {
+      const Level& level = kLevels[i];
+      if (level.is_wide && times_run_out < kOftenRunOut) continue;
+      const LatticeResult found = searched(ball, level, from_end);
+      if (!found.way_W.empty() && use(found.way_W)) return;
+      if (level.is_wide || from_end || !found.way_W.empty() || found.exhausted) continue;
+      if (++times_run_out != kOftenRunOut) continue;
+      // Perhaps less can be reached from the other end: a way, or nothing.
+      const LatticeResult back = searched(ball, level, true);
+      if (!back.way_W.empty() && use(back.way_W)) return;
+      from_end = back.exhausted;
+      if (from_end) times_run_out = 0;
+    }
+  }
+
+  [[nodiscard]] LatticeResult searched(const Ball& ball, const Level& level, bool from_end) const {
+    const double coarse_m = std::max(ball.radius_m, (ball.to_W - ball.from_W).norm() / 8.0);
+    LatticeResult found =
+        lattice_way(space_, from_end ? ball.to_W : ball.from_W, from_end ? ball.from_W : ball.to_W,
+                    {ball.radius_m, level.spacing * coarse_m, level.max_points}, deadline_);
+    if (from_end) std::ranges::reverse(found.way_W);
+    return found;
   }
 
   [[nodiscard]] Vec3 center_W(const SignedPose& pose) const {

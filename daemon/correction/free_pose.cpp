@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/correction/free_pose.h"
 
+#include <algorithm>
+
 namespace camway::correction {
 
 namespace {
@@ -21,19 +23,22 @@ std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& 
     if (code == 13) continue;
     const geometry::Vec3 direction_W =
         geometry::Vec3(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized();
+    const auto is_free = [&](double by_m) {
+      return space.is_free(moved(direction_W, by_m), margin_m);
+    };
     const double limit_m = best ? best->moved_m : kFreePoseReach * radius_m;
     double below_m = 0.0;
-    double above_m = kFirstStep * radius_m;
-    while (above_m < limit_m && !space.is_free(moved(direction_W, above_m), margin_m)) {
+    double above_m = std::min(kFirstStep * radius_m, limit_m);
+    while (above_m < limit_m && !is_free(above_m)) {
       below_m = above_m;
-      above_m *= kGrowth;
+      above_m = std::min(kGrowth * above_m, limit_m);
     }
-    if (above_m >= limit_m) continue;
+    if (above_m >= limit_m && !is_free(limit_m)) continue;
     while (above_m - below_m > kFreePosePrecision * above_m) {
       const double middle_m = 0.5 * (below_m + above_m);
-      (space.is_free(moved(direction_W, middle_m), margin_m) ? above_m : below_m) = middle_m;
+      (is_free(middle_m) ? above_m : below_m) = middle_m;
     }
-    best = FreePose{moved(direction_W, above_m), above_m};
+    if (above_m < limit_m || !best) best = FreePose{moved(direction_W, above_m), above_m};
   }
   return best;
 }

@@ -17,8 +17,6 @@ using geometry::Triangle;
 using geometry::Vec3;
 using motion::SignedPose;
 
-// The distance of a ball decides how far a search may jump; nearer to the truth is not worth it.
-constexpr double kBallShare = 0.8;
 constexpr double kNearestShare = 0.8;
 
 }  // namespace
@@ -45,7 +43,8 @@ bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
 }
 
 double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
-  const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m);
+  constexpr double kExact = 1.0;  // who is just nearer than required must not pass for further
+  const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m, kExact);
   return seen.free ? up_to_m : std::min(seen.gap_m, up_to_m);
 }
 

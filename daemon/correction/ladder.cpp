@@ -154,10 +154,13 @@ class Ladder {
   }
 
   void correct_all(Search search) {
+    std::vector<bool> has_no_way(keyframes_s_.size(), false);  // between a keyframe and the next
     for (std::size_t i = 0; i < open_.size() && !deadline_.passed(); ++i) {
       if (!is_open(i)) continue;
       if (search == Search::kWithRoom && nudge_away(i)) continue;
-      replace_gap(i, search);
+      const std::size_t gap = gap_of(open_[i]);
+      // The way round would replace all of the gap: no need to look for it twice.
+      if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
     }
   }
 
@@ -169,7 +172,7 @@ class Ladder {
   }
 
   // A way round replaces all that lies between the two keyframes.
-  void replace_gap(std::size_t index, Search search) {
+  bool replace_gap(std::size_t index, Search search) {
     Problem problem = this->problem(index);
     std::vector<std::size_t> same_gap;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -180,12 +183,13 @@ class Ladder {
     });
     const std::optional<Candidate> found =
         go_round(problem, search, improvement_, space_, options_.seed, deadline_);
-    if (!accept(index, Rung::kGoRound, found)) return;
+    if (!accept(index, Rung::kGoRound, found)) return false;
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = result_.corrections[i].interval;
       result_.corrections[i] = result_.corrections[index];
       result_.corrections[i].interval = interval;
     }
+    return true;
   }
 
   // What one correction left to the next can be better now that all are there; and again where that
@@ -259,7 +263,8 @@ class Ladder {
     return true;
   }
 
-  // A bump stands for a keyframe at its peak, unless one is there already, or no path.
+  // A bump stands for a keyframe at its peak, unless one is there already, or no path, or it moves
+  // the body by less than collisions are told apart by.
   void add_keyframes(const motion::BumpRow& row, std::vector<double>& times_s) const {
     const double near_s = 0.5 * row.knots.spacing_s();
     for (std::size_t i = 0; i < row.bumps.size(); ++i) {
@@ -267,21 +272,29 @@ class Ladder {
       const auto next = std::ranges::lower_bound(keyframes_s_, peak_s - near_s);
       const bool is_there = next != keyframes_s_.end() && *next <= peak_s + near_s;
       const bool is_on_path = original_.begin_s() < peak_s && peak_s < original_.end_s();
+      const motion::CubicPoint& bump = row.bumps[i];
+      const double moved_m =
+          bump.position.norm() + 4.0 * space_.body().radius_m() * bump.image.norm();
+      if (moved_m < options_.detect.tolerance_m) continue;
       if (is_on_path && !is_there) times_s.push_back(peak_s);
     }
   }
 
-  // Of the path as it is in the end.
+  // Of the path as it is in the end, which bends with its pieces.
   void measure(Correction& correction) const {
-    constexpr int kSamples = 64;
-    for (int i = 0; i <= kSamples; ++i) {
-      const double time_s =
-          std::lerp(correction.t_begin_s, correction.t_end_s, static_cast<double>(i) / kSamples);
-      const motion::Pose now = result_.path.pose(time_s);
-      const motion::Pose before = original_.pose(time_s);
-      correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
-      correction.turned_rad =
-          std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
+    constexpr int kSamples = 16;  // of a piece
+    const CubicPath changed = result_.path.around(correction.t_begin_s, correction.t_end_s);
+    for (const motion::CubicPiece& piece : changed.pieces) {
+      const double begin_s = std::max(piece.t0_s, correction.t_begin_s);
+      const double end_s = std::min(piece.t1_s, correction.t_end_s);
+      for (int i = 0; i <= kSamples; ++i) {
+        const double time_s = std::lerp(begin_s, end_s, static_cast<double>(i) / kSamples);
+        const motion::Pose now = changed.pose(time_s);
+        const motion::Pose before = original_.pose(time_s);
+        correction.moved_m = std::max(correction.moved_m, (now.position - before.position).norm());
+        correction.turned_rad =
+            std::max(correction.turned_rad, now.orientation.angularDistance(before.orientation));
+      }
     }
   }
 

@@ -23,11 +23,12 @@ constexpr double kHorizon = 0.9;  // of a step: two gaps are more than the longe
 class LatticeSearch {
  public:
   LatticeSearch(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
-                const LatticeOptions& options)
+                const LatticeOptions& options, const collision::Deadline& deadline)
       : space_(space),
         from_W_(from_W),
         to_W_(to_W),
         options_(options),
+        deadline_(deadline),
         comfort_m_(kComfort * options.ball_radius_m),
         horizon_m_(std::max(kHorizon * options.spacing_m, comfort_m_)) {}
 
@@ -43,7 +44,7 @@ class LatticeSearch {
         result.way_W = way(best.point);
         return result;
       }
-      if (points_.size() >= options_.max_points) return result;
+      if (points_.size() >= options_.max_points || is_late()) return result;
       expand(best.point);
     }
     result.exhausted = true;
@@ -69,8 +70,18 @@ class LatticeSearch {
     }
   };
 
+  // The clock is not asked at every point.
+  bool is_late() { return (++settled_ % 64 == 0) && deadline_.passed(); }
+
   [[nodiscard]] double gap_m(const Vec3& point_W) const {
     return space_.ball_gap_m(point_W, options_.ball_radius_m, horizon_m_);
+  }
+
+  // What is told of a distance is too much to go by: the ball would step through thin walls.
+  [[nodiscard]] double sure_gap_m(double gap_m) const {
+    if (gap_m >= horizon_m_) return horizon_m_;  // nothing was met
+    const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
+    return FreeSpace::kBallShare * (gap_m + keep_m) - keep_m;
   }
 
   [[nodiscard]] Vec3 place_W(const Cell& cell) const {
@@ -127,7 +138,7 @@ class LatticeSearch {
 
   [[nodiscard]] bool step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W,
                                   double gap_b_m) const {
-    if ((a_W - b_W).norm() <= gap_a_m + gap_b_m) return true;
+    if ((a_W - b_W).norm() <= sure_gap_m(gap_a_m) + sure_gap_m(gap_b_m)) return true;
     return space_.ball_passes(a_W, b_W, options_.ball_radius_m);
   }
 
@@ -152,18 +163,20 @@ class LatticeSearch {
   const Vec3 from_W_;
   const Vec3 to_W_;
   const LatticeOptions& options_;
+  const collision::Deadline& deadline_;
   const double comfort_m_;
   const double horizon_m_;
   std::vector<Point> points_;
   std::unordered_map<std::uint64_t, std::uint32_t> known_;  ///< looked up, never gone through
   std::priority_queue<Waiting> queue_;
+  std::size_t settled_ = 0;
 };
 
 }  // namespace
 
 LatticeResult lattice_way(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
-                          const LatticeOptions& options) {
-  return LatticeSearch(space, from_W, to_W, options).run();
+                          const LatticeOptions& options, const collision::Deadline& deadline) {
+  return LatticeSearch(space, from_W, to_W, options, deadline).run();
 }
 
 }  // namespace camway::correction

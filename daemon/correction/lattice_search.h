@@ -30,9 +30,10 @@ struct LatticeResult {
 /// scene makes a step count for up to twice its length.
 ///
 /// Between points the distance is looked at until the ball is shown to pass, or in steps that are
-/// small beside it: a guide, not a proof. Deterministic.
+/// small beside it: a guide, not a proof. Deterministic, unless the deadline strikes.
 /// Precondition: the ball is free at both ends.
 LatticeResult lattice_way(const FreeSpace& space, const geometry::Vec3& from_W,
-                          const geometry::Vec3& to_W, const LatticeOptions& options);
+                          const geometry::Vec3& to_W, const LatticeOptions& options,
+                          const collision::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -102,9 +102,8 @@ class Relaxation {
   void run(const collision::Deadline& deadline) {
     const double first_value = form_.value(variables_);
     double trust_m = kFirstTrust * radius_m_;
-    while (steps_left_ > 0 && trust_m > kLeastTrust * radius_m_) {
+    while (steps_left_ > 0 && trust_m > kLeastTrust * radius_m_ && !deadline.passed()) {
       --steps_left_;
-      if (deadline.passed()) return;
       const double before = form_.value(variables_);
       const std::optional<double> moved_m = take_step(trust_m);
       if (!moved_m) return;
@@ -234,7 +233,7 @@ class Relaxation {
   }
 
   /// Goes towards what is best, as far as the body stays free, and no further than `trust_m`. How
-  /// far it moved; nothing if it cannot.
+  /// far it moved; nothing if it cannot, or is there; 0 if it has to begin again with less trust.
   std::optional<double> take_step(double& trust_m) {
     for (int cut = 0; cut < kMostCuts; ++cut) {
       const StackedPoints whole = solved() - variables_;
@@ -243,6 +242,7 @@ class Relaxation {
         const StackedPoint step = combined(sample.terms, whole);
         whole_m = std::max(whole_m, step.head<3>().norm() + step.tail<4>().norm());
       }
+      if (whole_m == 0.0) return std::nullopt;
       finds_contacts_ = false;
       for (; trust_m > kLeastTrust * radius_m_; trust_m *= kDistrust) {
         const double moved_m = std::min(whole_m, trust_m);
@@ -442,10 +442,11 @@ std::optional<Candidate> polished(const Problem& problem, Improvement& improveme
   int steps_left = std::min(kMostSteps, improvement.steps_left);
   if (steps_left == 0) return std::nullopt;
   const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), kPolishedKnots}, 1, {}};
-  Relaxation relaxation(problem, none, Ends::kFree, improvement.objective, space, steps_left);
+  const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
+  Relaxation relaxation(problem, none, ends, improvement.objective, space, steps_left);
   if (!relaxation.is_worth_it()) return std::nullopt;
   improvement.steps_left -= steps_left;
-  Relaxed better = proved(problem, relaxation, {none, {}}, Ends::kFree, space, deadline);
+  Relaxed better = proved(problem, relaxation, {none, {}}, ends, space, deadline);
   improvement.steps_left += steps_left;
   if (better.candidate.rows.empty()) return std::nullopt;
   return std::move(better.candidate);

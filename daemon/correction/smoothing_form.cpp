@@ -12,6 +12,7 @@ namespace {
 
 using motion::CubicPoint;
 
+constexpr int kBumpReach = 2;    // knots from a bump's peak to the end of its support
 constexpr double kSpread = 1.5;  // of the gap: over how much of it an offset fades out
 
 /// Weights of the squared distance from the original, and of squared first and second differences
@@ -48,20 +49,35 @@ CubicPoint extended(const motion::CubicPath& path, double time_s) {
           piece.image[end] + legs * (piece.image[i + 1] - piece.image[i])};
 }
 
+/// How many knots beyond a keyframe, to one side, a bump may have its peak at without reaching the
+/// next keyframe; 0 also where not even one at the keyframe itself keeps away.
+int knots_beyond(const motion::KnotRow& knots, int keyframe, int side, double next_s) {
+  const auto reaches = [&](int beyond) {
+    const double end_s = knots.knot_s(keyframe + side * (beyond + kBumpReach));
+    return side < 0 ? end_s < next_s : end_s > next_s;
+  };
+  int beyond = 0;
+  while (beyond < knots.count / 2 && !reaches(beyond + 1)) ++beyond;
+  return beyond;
+}
+
 }  // namespace
+
+bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots) {
+  const std::size_t gap = problem.gap;
+  const std::vector<double>& times_s = problem.keyframes_s;
+  return (gap == 0 || knots.knot_s(-kBumpReach) >= times_s[gap - 1]) &&
+         (gap + 2 == times_s.size() || knots.knot_s(knots.count + kBumpReach) <= times_s[gap + 2]);
+}
 
 FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends)
     : knots_(knots), first_(2), last_(knots.count - 2), holds_keyframes_(ends == Ends::kFree) {
   if (holds_keyframes_) {
-    const double spacing_s = knots.spacing_s();
-    const auto beyond = [&](double room_s) {
-      return std::clamp(static_cast<int>(room_s / spacing_s) - 2, 0, knots.count / 2);
-    };
     const std::size_t gap = problem.gap;
     const std::vector<double>& times_s = problem.keyframes_s;
     const bool is_last = gap + 2 == times_s.size();
-    first_ = gap == 0 ? -1 : -beyond(times_s[gap] - times_s[gap - 1]);
-    last_ = knots.count + (is_last ? 1 : beyond(times_s[gap + 2] - times_s[gap + 1]));
+    first_ = gap == 0 ? -1 : -knots_beyond(knots, 0, -1, times_s[gap - 1]);
+    last_ = knots.count + (is_last ? 1 : knots_beyond(knots, knots.count, 1, times_s[gap + 2]));
   }
   for (int k = first_; k <= last_; ++k) size_ += is_held(k) ? 0 : 1;
 }
@@ -73,7 +89,7 @@ Eigen::Index FreeCoefficients::variable(int k) const {
 }
 
 void FreeCoefficients::add(int k, double factor, Terms& terms) const {
-  if (k < first_ || k > last_) return;
+  if (k < first_ || k > last_ || factor == 0.0) return;
   if (is_held(k)) {
     const double share = -factor * motion::kBumpShoulder / motion::kBumpPeak;
     add(k - 1, share, terms);

@@ -33,9 +33,14 @@ struct Term {
 };
 using Terms = std::vector<Term>;
 
+/// Whether a row of bumps on these knots can have free ends: what keeps the two keyframes of the
+/// gap reaches two knots beyond, and must not reach the keyframes there.
+bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots);
+
 /// Which coefficients of a row of bumps a correction is free to choose. With free ends also some
 /// before the first keyframe and after the last, as far as they do not reach the next keyframe, so
-/// that the path can swing through; those at the two keyframes follow from their neighbours.
+/// that the path can swing through; those at the two keyframes follow from their neighbours. Other
+/// keyframes are kept where free ends fit.
 class FreeCoefficients {
  public:
   FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends);

@@ -44,9 +44,10 @@ inline constexpr double kBumpShoulder = 1.0 / 6.0;
 /// Value of a bump with coefficient 1, `knots` steps from its peak on either side.
 double bump_value(double knots);
 
-/// `path` with all `rows` added, split at the knots. What lies outside the supports is the same bit
-/// for bit; pieces share their control point at a join bit for bit. A support may reach beyond the
-/// ends of the path, where it is cut off.
+/// `path` with all `rows` added, split at the knots. Pieces outside the supports are the same bit
+/// for bit, and what of a piece that is cut lies outside, but for rounding; pieces share their
+/// control point at a join bit for bit. A support may reach beyond the ends of the path, where it
+/// is cut off.
 CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows);
 
 /// Knots that are closer than this share of the shortest spacing become one. It changes a bump's

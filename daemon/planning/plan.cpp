@@ -333,7 +333,21 @@ class Planner {
 
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
   // what was assumed, and then everything looks free.
-  [[nodiscard]] std::string note() const { return note_of_bounds() + note_of_tilt(); }
+  [[nodiscard]] std::string note() const {
+    return note_of_bounds() + note_of_tilt() + note_of_tolerance();
+  }
+
+  // What cannot be told from a collision at the tolerance counts as one, and for a tiny body that
+  // can be every gap it would fit through.
+  [[nodiscard]] std::string note_of_tolerance() const {
+    const double size_m = 2.0 * correction::FreeSpace(obstacles_, *body_, detect_).ball_radius_m();
+    if (!(size_m < kLeastTolerances * detect_.tolerance_m)) return {};
+    return fmt::format(
+        "; note: the body is {:.2g} m large, and options.interval_tolerance_m of {:.2g} m is "
+        "coarse "
+        "for that",
+        size_m, detect_.tolerance_m);
+  }
 
   [[nodiscard]] std::string note_of_bounds() const {
     const bool inside = std::ranges::any_of(result_.keyframes, [&](const Keyframe& keyframe) {
@@ -367,8 +381,8 @@ class Planner {
         }));
     const std::size_t remaining = result_.remaining_collisions.size();
     if (remaining == 0 && needed_time_scale_ > 1.0) {
+      // It is proved free, and the certificate says so; it is not what was asked for.
       result_.status = Status::kPartial;
-      result_.certificate = {};
       result_.message = fmt::format(
           "options.limits: the path is free, but meets them only {:.3g} times as slowly; allow "
           "limits.retime, or give later times",
@@ -438,6 +452,8 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
+  // A body that is fewer tolerances large is told so.
+  static constexpr double kLeastTolerances = 10.0;
   // The largest rates are over samples, which may miss a little.
   static constexpr double kLimitMargin = 1.01;
   // Of the tolerance: what a repaired keyframe keeps, so that a path can leave it.

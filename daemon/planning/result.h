@@ -17,8 +17,8 @@
 namespace camway::planning {
 
 enum class Status {
-  kOk,             ///< the path is proved free of collision; see the certificate
-  kPartial,        ///< a path, but with the remaining collisions listed
+  kOk,       ///< the path is proved free of collision; see the certificate
+  kPartial,  ///< a path, but with the remaining collisions listed; or free, but beyond the limits
   kInfeasible,     ///< no path exists, and that was proved
   kTimeout,        ///< the deadline came first; the best path so far with its remaining collisions
   kInvalid,        ///< the request cannot be planned; the message says which part of it
@@ -29,7 +29,8 @@ enum class Status {
 std::string_view to_string(Status status);
 std::optional<Status> status_from_string(std::string_view text);
 
-/// What is proved about the returned segments, exactly as sent.
+/// What is proved about the returned segments, exactly as sent. With `kOk` always; with `kPartial`
+/// only where nothing but limits of the motion is not met.
 struct Certificate {
   bool certified = false;
   double clearance_lower_bound_m = 0.0;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
+#include "daemon/collision/near_quad.h"
 #include "daemon/correction/free_space.h"
 #include "daemon/motion/interpolate.h"
 #include "tests/support/scenes.h"
@@ -11,9 +15,9 @@ namespace camway::correction {
 namespace {
 
 using collision::CollisionInterval;
+using collision::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
-using collision::Deadline;
 using motion::CubicPath;
 using motion::Keyframe;
 using scene::Mesh;
@@ -97,6 +101,20 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
 }
 
+// Less than a metre apart, and 28 m by the only way there is: round the end of a wall in a closed
+// room.
+TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-8.2, -1.4, -2.2}, {8.2, -1.2, 2.2});
+  testing::add_cuboid(mesh, {-8.2, 1.2, -2.2}, {8.2, 1.4, 2.2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, -2.2}, {8.2, 1.2, -2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, 2}, {8.2, 1.2, 2.2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, -2}, {-8, 1.2, 2});
+  testing::add_cuboid(mesh, {8, -1.2, -2}, {8.2, 1.2, 2});
+  testing::add_cuboid(mesh, {-8, -1.2, -0.1}, {7, 1.2, 0.1});
+  expect_corrected(case_with(mesh, {at(0, {-7, 0, 0.4}), at(5, {-7, 0, -0.4})}), {Rung::kGoRound});
+}
+
 TEST(Ladder, LeavesWhatItCannotCorrect) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
@@ -143,6 +161,102 @@ TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
   std::string error;
   c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)}, error);
   expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+}
+
+// A tour through clutter, with several collisions in neighbouring gaps.
+Case cluttered_tour(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  for (;;) {
+    std::vector<Keyframe> keyframes;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 eye(place(random), place(random), place(random));
+      keyframes.push_back({1.5 * i, {eye, testing::random_rotation(random)}});
+    }
+    Case c = case_with(testing::scattered_triangles(random, 25, 0.3), std::move(keyframes));
+    const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
+    const bool all_free = std::ranges::none_of(c.keyframes, [&](const Keyframe& keyframe) {
+      return collision::collides(c.index, corners_C, keyframe.pose);
+    });
+    if (all_free && c.collisions(c.path()).size() >= 2) return c;
+  }
+}
+
+bool covers(const Correction& correction, double time_s) {
+  return correction.rung != Rung::kNone && correction.t_begin_s <= time_s &&
+         time_s <= correction.t_end_s;
+}
+
+// What corrections say of themselves, compared with the path that is returned, at many times.
+TEST(Ladder, TellsWhatBecameOfThePath) {
+  std::mt19937_64 random = testing::seeded(4501);
+  int corrected = 0;
+  constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
+                                      Objective::kSmoothest, Objective::kSafest};
+  for (int run = 0; run < 12; ++run) {
+    Case c = cluttered_tour(random);
+    c.options.objective = kObjectives[static_cast<std::size_t>(run) % kObjectives.size()];
+    const CubicPath before = c.path();
+    const LadderResult result = c.corrected();
+    expect_keyframes_kept(c, result.path);
+    constexpr int kTimes = 20000;
+    std::vector<double> moved_m(result.corrections.size());
+    std::vector<double> turned_rad(result.corrections.size());
+    for (int i = 0; i <= kTimes; ++i) {
+      const double time_s = std::lerp(before.begin_s(), before.end_s(), i / double{kTimes});
+      const motion::Pose was = before.pose(time_s);
+      const motion::Pose is = result.path.pose(time_s);
+      bool is_covered = false;
+      for (std::size_t k = 0; k < result.corrections.size(); ++k) {
+        if (!covers(result.corrections[k], time_s)) continue;
+        is_covered = true;
+        moved_m[k] = std::max(moved_m[k], (is.position - was.position).norm());
+        turned_rad[k] = std::max(turned_rad[k], is.orientation.angularDistance(was.orientation));
+      }
+      if (is_covered) continue;
+      // The rest of a piece that was cut differs by rounding.
+      constexpr double kRounding = 1e-14;
+      ASSERT_LT((is.position - was.position).norm(), kRounding) << run << " at " << time_s;
+      ASSERT_LT((is.orientation.coeffs() - was.orientation.coeffs()).norm(), kRounding) << run;
+    }
+    for (std::size_t k = 0; k < result.corrections.size(); ++k) {
+      const Correction& correction = result.corrections[k];
+      if (correction.rung == Rung::kNone) continue;
+      ++corrected;
+      EXPECT_LE(before.begin_s(), correction.t_begin_s);
+      EXPECT_LT(correction.t_begin_s, correction.t_end_s);
+      EXPECT_LE(correction.t_end_s, before.end_s());
+      // Both are of samples.
+      EXPECT_NEAR(correction.moved_m, moved_m[k], 0.02 * moved_m[k]) << run;
+      EXPECT_NEAR(correction.turned_rad, turned_rad[k], 0.02 * turned_rad[k] + 1e-7) << run;
+      EXPECT_GT(moved_m[k] + turned_rad[k], 0.0);
+      // The collision that it is for is within it.
+      EXPECT_LT(correction.t_begin_s, correction.interval.t_end_s);
+      EXPECT_GT(correction.t_end_s, correction.interval.t_begin_s);
+    }
+  }
+  EXPECT_GT(corrected, 12);
+}
+
+TEST(Ladder, InsertsKeyframesWithinThePathAndBesideThoseGiven) {
+  std::mt19937_64 random = testing::seeded(4502);
+  int inserted = 0;
+  for (int run = 0; run < 8; ++run) {
+    const Case c = cluttered_tour(random);
+    const LadderResult result = c.corrected();
+    EXPECT_LE(result.inserted_s.size(), static_cast<std::size_t>(c.options.max_inserted_keyframes));
+    double last_s = result.path.begin_s();
+    for (const double time_s : result.inserted_s) {
+      EXPECT_LT(last_s, time_s) << "in order, each once, and after the begin";
+      last_s = time_s;
+      EXPECT_LT(time_s, result.path.end_s());
+      EXPECT_TRUE(std::ranges::any_of(result.corrections, [&](const Correction& correction) {
+        return covers(correction, time_s);
+      }));
+      for (const Keyframe& keyframe : c.keyframes) EXPECT_NE(time_s, keyframe.time_s);
+      ++inserted;
+    }
+  }
+  EXPECT_GT(inserted, 20);
 }
 
 }  // namespace

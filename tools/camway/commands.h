@@ -27,6 +27,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code);
 void add_info_command(CLI::App& app, ExitCode& exit_code);
 void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
 void add_replay_command(CLI::App& app, ExitCode& exit_code);
+void add_draw_command(CLI::App& app, ExitCode& exit_code);
 
 /// `camway: message` on standard error.
 void print_error(std::string_view message);

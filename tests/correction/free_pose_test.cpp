@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/free_pose.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/correction/search_scene.h"
+
+namespace camway::correction {
+namespace {
+
+using namespace testing_search;  // NOLINT: the fixture of this file
+
+constexpr double kRadius_m = 0.2;
+constexpr double kMargin_m = 0.01;
+// A result is within 5 % of the least move in its direction.
+constexpr double kPrecise = 1.0 / (1.0 - kFreePosePrecision);
+// Any direction is within 27.6 degrees of one of the 26: the angle from the point equidistant to
+// (1, 0, 0), (1, 1, 0) and (1, 1, 1). To get as far as 1 in it takes 1 / cos of that.
+constexpr double kOffDirection = 1.129;
+
+motion::Pose at(const Vec3& position) { return {position, Quat::Identity()}; }
+
+void add_rectangle(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v) {
+  testing::add_triangle(mesh, corner, corner + u, corner + u + v);
+  testing::add_triangle(mesh, corner, corner + u + v, corner + v);
+}
+
+void expect_free(const SearchScene& scene, const motion::Pose& from, const FreePose& found) {
+  EXPECT_GE(scene.distance_m(found.pose), kMargin_m);
+  EXPECT_EQ(found.pose.orientation.coeffs(), from.orientation.coeffs());
+  EXPECT_NEAR((found.pose.position - from.position).norm(), found.moved_m, 1e-12);
+}
+
+// A sphere that is `depth` into a wall has to move by that, and the margin.
+TEST(NearestFreePose, OffAWallOfAnyTilt) {
+  std::mt19937_64 random = testing::seeded(1);
+  std::uniform_real_distribution<double> share(0.05, 1.0);
+  for (int run = 0; run < 100; ++run) {
+    const Quat tilt = testing::random_rotation(random);
+    scene::Mesh mesh;
+    add_rectangle(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0), tilt * Vec3(0, 100, 0));
+    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    FreeSpace space = scene.space();
+    const double depth_m = share(random) * kRadius_m;
+    const motion::Pose pose = at(tilt * Vec3(0, 0, kRadius_m - depth_m));
+    const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m);
+    ASSERT_TRUE(found);
+    expect_free(scene, pose, *found);
+    const double least_m = depth_m + kMargin_m;
+    EXPECT_GE(found->moved_m, least_m - 1e-12);
+    EXPECT_LE(found->moved_m, kPrecise * kOffDirection * least_m);
+  }
+}
+
+// Out of a corner of two or three walls the way is the diagonal.
+TEST(NearestFreePose, OutOfACorner) {
+  for (const int walls : {1, 2, 3}) {
+    scene::Mesh mesh;
+    for (int axis = 0; axis < walls; ++axis) {
+      const Vec3 u = Vec3::Unit((axis + 1) % 3);
+      const Vec3 v = Vec3::Unit((axis + 2) % 3);
+      add_rectangle(mesh, -50.0 * (u + v), 100.0 * u, 100.0 * v);
+    }
+    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    FreeSpace space = scene.space();
+    for (const double gap : {0.1, 0.5, 0.9}) {
+      const motion::Pose pose = at(gap * kRadius_m * Vec3::Ones());
+      const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m);
+      ASSERT_TRUE(found);
+      expect_free(scene, pose, *found);
+      const double least_m = std::sqrt(walls) * ((1.0 - gap) * kRadius_m + kMargin_m);
+      EXPECT_GE(found->moved_m, least_m - 1e-12);
+      EXPECT_LE(found->moved_m, kPrecise * least_m);
+    }
+  }
+}
+
+TEST(NearestFreePose, KeepsTheClearanceToo) {
+  scene::Mesh mesh;
+  add_rectangle(mesh, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  SearchScene scene(std::move(mesh), sphere(kRadius_m));
+  scene.detect.clearance_m = 0.3;
+  FreeSpace space = scene.space();
+  const motion::Pose pose = at({0, 0, 0.4});
+  const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m);
+  ASSERT_TRUE(found);
+  EXPECT_GE(scene.distance_m(found->pose), 0.3 + kMargin_m);
+  EXPECT_LE(found->moved_m, kPrecise * (0.1 + kMargin_m));
+}
+
+// Plates without an end stand closer than the sphere is wide, as far as they go.
+TEST(NearestFreePose, NothingWhereTheBodyIsBuriedBeyondReach) {
+  for (const double reach : {0.6, 1.3}) {
+    const double end_m = reach * kFreePoseReach * kRadius_m;
+    scene::Mesh mesh;
+    for (double x_m = -end_m; x_m <= end_m; x_m += kRadius_m)
+      add_rectangle(mesh, {x_m, -50, -50}, {0, 100, 0}, {0, 0, 100});
+    const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+    FreeSpace space = scene.space();
+    const std::optional<FreePose> found = nearest_free_pose(space, at(Vec3::Zero()), kMargin_m);
+    EXPECT_EQ(found.has_value(), reach < 1.0);
+    if (found) expect_free(scene, at(Vec3::Zero()), *found);
+  }
+}
+
+TEST(NearestFreePose, IsFreeWhateverTheScene) {
+  std::mt19937_64 random = testing::seeded(2);
+  const SearchScene scene(scattered_cuboids(random, 20, 0.6));
+  FreeSpace space = scene.space();
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  int colliding = 0;
+  for (int run = 0; run < 300; ++run) {
+    const double x = place(random);
+    const double y = place(random);
+    const double z = place(random);
+    const motion::Pose pose{{x, y, z}, testing::random_rotation(random)};
+    if (scene.distance_m(pose) > 0.0) continue;
+    ++colliding;
+    const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m);
+    ASSERT_TRUE(found);
+    expect_free(scene, pose, *found);
+  }
+  EXPECT_GT(colliding, 30);
+}
+
+}  // namespace
+}  // namespace camway::correction
