@@ -163,7 +163,7 @@ class CageSearch {
         for (const Vec3& corner : scene_.mesh().triangle(t)) add(corner);
       }
     }
-    cell_m = std::max(cell_m, std::sqrt(area_m2 / kMaxCells));
+    cell_m = std::max({cell_m, std::sqrt(area_m2 / kMaxCells), size.maxCoeff() / kMaxCells});
     for (int axis = 0; axis < 3; ++axis) {
       FaceGrid::Lines& along = result[static_cast<std::size_t>(axis)];
       std::sort(along.begin(), along.end());
@@ -200,6 +200,9 @@ class CageSearch {
                                              std::size_t outside) {
     const std::vector<std::size_t> barriers = barriers_at(box, centers_[inside]);
     const std::array<FaceGrid::Lines, 3> along = lines(box, barriers);
+    // Both sides of a face may have many lines: surfaces' on one, and it is long on the other.
+    for (std::size_t k = 0; k < 3; ++k) steps_ += 2 * along[k].size() * along[(k + 1) % 3].size();
+    if (steps_ > kMaxSteps) return std::nullopt;
     Cage cage{.inside = inside,
               .outside = outside,
               .box = {.box = box,

@@ -37,9 +37,16 @@ struct Cage {
 /// without a point on the border, so all of that chord lies in the face, and in one hole. But it is
 /// longer than the hole is wide. So the centre is never on a face, however the body turns.
 ///
-/// The holes are measured on grids (`FaceGrid`), rounded to the safe side, so it is never claimed
-/// wrongly, but missed where bars are parallel to no such axes, are not closed surfaces, or are
-/// there twice on a floor. Bounded in time; safe from any thread.
+/// What is rounded falls to the safe side. A turned frame is exactly a rotation and a scaling by 1
+/// but for a few roundings, which `kChordRounding` covers, like those of the body's sides. Where
+/// its vertices are only `margin_m` is known of; moved from there to where they are exactly, no
+/// triangle meets what it is not marked to touch (`FaceGrid`), nor the centre inside, which is
+/// further than that from all of a surface whose sides are told: so sides are what they are for
+/// exact vertices. Both centres are off the box by more than they are unknown. Widths are rounded
+/// up.
+///
+/// So a cage is never claimed wrongly, but missed where bars are parallel to no such axes, are not
+/// closed surfaces, or are there twice on a floor. Bounded in time; safe from any thread.
 std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                               std::span<const geometry::Vec3> centers_W, double shortest_chord_m,
                               double within_m);

@@ -18,6 +18,12 @@ namespace camway::correction {
 /// A rectangle parallel to two axes, cut into cells by lines, and where a body cannot be: it may be
 /// on neither a closed surface nor its other side, nor on a triangle. Conservative: a cell that is
 /// called blocked holds no point where the body can be, its border included; rounding is included.
+///
+/// A part of the face that is connected, over pieces of lines too, and touched by no triangle is on
+/// one side of the surface, that of any point in it, which is told exactly. If that is not the
+/// body's side, the body is not on the border of the part either: near it, all would be on its
+/// side. Touched is all that the hull of a section's corners reaches when each is moved by the
+/// bound of its rounding and by the margin, and so by any triangle with corners within the margin.
 class FaceGrid {
  public:
   /// Coordinates of lines, increasing; the first and the last are borders of the face.
@@ -31,6 +37,10 @@ class FaceGrid {
            const geometry::Vec3& margin_m = geometry::Vec3::Zero());
 
   [[nodiscard]] std::size_t cells() const { return blocked_.size(); }
+  /// The cell between the lines `u` and `u` + 1, and `v` and `v` + 1.
+  [[nodiscard]] bool is_blocked(std::size_t u, std::size_t v) const {
+    return blocked_[cell(u, v)] != 0;
+  }
 
   /// Blocks the cells of which every inner point is on the other side of the closed surface made of
   /// `triangles` than the body is. `body_is_odd`: the parity at any point of the body. Returns how

@@ -315,6 +315,16 @@ TEST(Cage, OnATurnedFloor) {
   EXPECT_FALSE(cage(open, centers, 0.5));
 }
 
+// Of a face that is long one way and has many lines the other way.
+TEST(Cage, LongAndNarrowIsNoMatterOfMemory) {
+  const Box box(Vec3(0, 0, 0), Vec3(2e7, 1, 1));
+  scene::Mesh mesh = mesh_of(cage_bars(box, {4, 200, 200}, 0.001));
+  for (Vec3& vertex : mesh.vertices) {
+    if (vertex.x() < 0.1 && vertex.y() > 1.0) vertex.y() += 0.5 * vertex.z();  // one is slanted
+  }
+  EXPECT_FALSE(cage(mesh, {box.center(), kOutside + Vec3(0, 9, 0)}, 0.15));
+}
+
 TEST(Cage, FarFromTheOrigin) {
   const Vec3 far(1e5, -3e5, 2e5);
   const Box box(kBox.min() + far, kBox.max() + far);

@@ -145,9 +145,12 @@ TEST(Plan, AKeyframeInAClosedBoxIsProvedInfeasible) {
   EXPECT_FALSE(result.remaining_collisions.empty());
 }
 
-// Bars 2 cm thick around a box of 1.2 m about the first keyframe, 5 cells of 0.24 m each way.
-// Without the bars of the face towards the next keyframe but for its edges, if `is_open`.
-Mesh caged_keyframe(bool is_open) {
+enum class Way { kNone, kOneBarGone, kFaceOpen };
+
+// Bars 2 cm thick around a box of 1.2 m about the first keyframe, 5 cells of 0.24 m each way. On
+// the face towards the next keyframe, one bar is gone, which leaves holes of 0.22 m by 0.46 m, or
+// all but those on its edges.
+Mesh caged_keyframe(Way way) {
   Mesh mesh;
   const Vec3 center(0, 0, 2);
   for (int axis = 0; axis < 3; ++axis) {
@@ -159,7 +162,9 @@ Mesh caged_keyframe(bool is_open) {
           from[axis] = to[axis] = center[axis] + side;
           const int across = 3 - axis - along;
           from[across] = to[across] = center[across] - 0.6 + 0.24 * i;
-          if (is_open && axis == 2 && side < 0.0 && i > 0 && i < 5) continue;
+          const bool is_front = axis == 2 && side < 0.0;
+          if (is_front && way == Way::kFaceOpen && i > 0 && i < 5) continue;
+          if (is_front && way == Way::kOneBarGone && along == 0 && i == 3) continue;
           testing::add_cuboid(mesh, from - Vec3::Constant(0.01), to + Vec3::Constant(0.01));
         }
       }
@@ -176,7 +181,7 @@ PlanRequest tour_with_sides(double side_m) {
 }
 
 TEST(Plan, ACageWithHolesTooNarrowIsProvedInfeasible) {
-  const auto snapshot = snapshot_of(caged_keyframe(false));
+  const auto snapshot = snapshot_of(caged_keyframe(Way::kNone));
   PlanRequest request = tour_with_sides(0.4);
   const PlanResult result = planned(*snapshot, request);
   ASSERT_EQ(result.status, Status::kInfeasible) << result.message;
@@ -196,8 +201,25 @@ TEST(Plan, ACageWithHolesTooNarrowIsProvedInfeasible) {
 }
 
 TEST(Plan, ACageWithAWayOutIsLeft) {
-  const PlanResult result = planned(*snapshot_of(caged_keyframe(true)), tour_with_sides(0.4));
+  const PlanResult result =
+      planned(*snapshot_of(caged_keyframe(Way::kFaceOpen)), tour_with_sides(0.4));
   EXPECT_EQ(result.status, Status::kOk) << result.message;
+}
+
+// Sideways, so that a camera of 0.34 m passes a hole of 0.22 m by 0.46 m, if it keeps off the bar
+// above; and no hole of a whole cage.
+TEST(Plan, AMissingBarIsAWayOutOfACage) {
+  PlanRequest request = tour_with_sides(0.34);
+  request.keyframes.clear();
+  for (const double z : {2.0, 0.4, -2.0}) {
+    request.keyframes.push_back(
+        {2.0 - z, {{-0.1, 0.22, z}, testing::looking_along(Vec3::UnitX())}});
+  }
+  const auto closed = snapshot_of(caged_keyframe(Way::kNone));
+  EXPECT_EQ(planned(*closed, request).status, Status::kInfeasible);
+  const PlanResult out = planned(*snapshot_of(caged_keyframe(Way::kOneBarGone)), request);
+  EXPECT_EQ(out.status, Status::kOk) << out.message;
+  EXPECT_FALSE(out.collisions.empty());
 }
 
 TEST(Plan, ASurfaceThatASmallerCameraIsBeyondIsNoProof) {

@@ -21,6 +21,8 @@
 /// From those, and where the centre is, alone; shares nothing with the code that finds cages: all
 /// in fractions, in a frame that is turned exactly, piece by piece of faces cut at every vertex,
 /// each decided for itself; holes are wide as their corners are apart, not as their bounds are.
+/// What is told of solids parallel to the frame is exact, in union too; slanted ones fill only the
+/// pieces that they fill as a whole.
 namespace camway::testing {
 
 class CageChecker {
@@ -31,12 +33,7 @@ class CageChecker {
   CageChecker(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles,
               const correction::CageBox& cage)
       : cage_(cage) {
-    const geometry::Quat& q = cage.orientation;
-    turn_ = {Number(q.w()), -Number(q.x()), -Number(q.y()), -Number(q.z())};
-    for (int k = 0; k < 3; ++k) {
-      low_[index(k)] = Number(cage.box.min()[k]);
-      high_[index(k)] = Number(cage.box.max()[k]);
-    }
+    set_frame(cage.orientation);
     std::map<Point, std::size_t> points;
     std::set<std::set<std::size_t>> known;
     for (const std::uint32_t t : triangles) {
@@ -51,6 +48,39 @@ class CageChecker {
     points_.resize(points.size());
     for (const auto& [point, i] : points) points_[i] = point;
     find_solids();
+  }
+
+  /// What the scene is made of, by who made it: closed surfaces, and triangles that do not overlap.
+  struct Parts {
+    std::vector<std::vector<std::uint32_t>> solids;
+    std::vector<std::uint32_t> flats;
+  };
+  /// In the frame that `turn` turns into the world's, of any length, instead of the cage's, which
+  /// is rounded.
+  CageChecker(const scene::Mesh& mesh, const Parts& parts, const correction::CageBox& cage,
+              const geometry::Quat& turn)
+      : cage_(cage) {
+    set_frame(turn);
+    std::map<Point, std::size_t> points;
+    const auto add = [&](std::uint32_t t, std::size_t part) {
+      std::array<std::size_t, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point p = seen(mesh.vertices.at(mesh.triangles.at(t)[k]));
+        corners[k] = points.emplace(p, points.size()).first->second;
+      }
+      triangles_.push_back(corners);
+      part_of_.push_back(part);
+      return triangles_.size() - 1;
+    };
+    for (const std::vector<std::uint32_t>& triangles : parts.solids) {
+      Solid solid;
+      for (const std::uint32_t t : triangles) solid.triangles.push_back(add(t, solids_.size()));
+      solids_.push_back(std::move(solid));
+    }
+    for (const std::uint32_t t : parts.flats) add(t, solids_.size());
+    points_.resize(points.size());
+    for (const auto& [point, i] : points) points_[i] = point;
+    for (Solid& solid : solids_) measure(solid);
   }
 
   /// Empty if the centre gets from neither of the two points to the other; else what is wrong.
@@ -74,7 +104,8 @@ class CageChecker {
   using Edge = std::pair<std::size_t, std::size_t>;
   struct Solid {
     std::vector<std::size_t> triangles;
-    Point low, high;  ///< bounds
+    Point low, high;         ///< bounds
+    bool is_cuboid = false;  ///< parallel to the frame
     bool holds_body = false;
   };
   using Flat = std::array<Number, 2>;
@@ -82,6 +113,14 @@ class CageChecker {
   struct Face {
     Cells covered;
   };
+
+  void set_frame(const geometry::Quat& q) {
+    turn_ = {Number(q.w()), -Number(q.x()), -Number(q.y()), -Number(q.z())};
+    for (int k = 0; k < 3; ++k) {
+      low_[index(k)] = Number(cage_.box.min()[k]);
+      high_[index(k)] = Number(cage_.box.max()[k]);
+    }
+  }
 
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
@@ -136,17 +175,32 @@ class CageChecker {
       if (!open.contains(root(t))) solids[root(t)].triangles.push_back(t);
     }
     for (auto& [name, solid] : solids) {
-      solid.low = solid.high = points_[triangles_[solid.triangles.front()][0]];
-      for (const std::size_t t : solid.triangles) {
-        for (const std::size_t p : triangles_[t]) {
-          for (std::size_t k = 0; k < 3; ++k) {
-            solid.low[k] = std::min(solid.low[k], points_[p][k]);
-            solid.high[k] = std::max(solid.high[k], points_[p][k]);
-          }
-        }
-      }
+      measure(solid);
       solids_.push_back(std::move(solid));
     }
+  }
+
+  void measure(Solid& solid) const {
+    solid.low = solid.high = points_[triangles_[solid.triangles.front()][0]];
+    std::set<std::size_t> corners;
+    for (const std::size_t t : solid.triangles) {
+      for (const std::size_t p : triangles_[t]) {
+        corners.insert(p);
+        for (std::size_t k = 0; k < 3; ++k) {
+          solid.low[k] = std::min(solid.low[k], points_[p][k]);
+          solid.high[k] = std::max(solid.high[k], points_[p][k]);
+        }
+      }
+    }
+    // Closed, and with no corner but those of its bounds: it is their surface.
+    solid.is_cuboid = solid.triangles.size() == 12 && corners.size() == 8 &&
+                      std::all_of(corners.begin(), corners.end(), [&](std::size_t p) {
+                        for (std::size_t k = 0; k < 3; ++k) {
+                          const Number& x = points_[p][k];
+                          if (x != solid.low[k] && x != solid.high[k]) return false;
+                        }
+                        return true;
+                      });
   }
 
   void cut(std::size_t axis) {
@@ -209,6 +263,7 @@ class CageChecker {
         is_beside = is_beside || middle[k] < solid.low[k] || middle[k] > solid.high[k];
       }
       if (is_beside && !solid.holds_body) continue;
+      if (solid.is_cuboid && !solid.holds_body) return true;  // cells end at all its sides
       const bool passes =
           std::any_of(solid.triangles.begin(), solid.triangles.end(),
                       [&](std::size_t t) { return meets_inside(t, axis, at, cell); });
