@@ -99,6 +99,13 @@ class Relaxation {
     return now - form_.value(solved()) > kWorthIt * now;
   }
 
+  /// Keeping away from what is near may cost more than all else gains. What `kSafest` gains is
+  /// gaps, of which the form does not know.
+  [[nodiscard]] bool is_no_worse(const Offsets& now, const Offsets& before) const {
+    return is_safest_ || form_.value(free_.variables_of(now, lever_m_)) <=
+                             form_.value(free_.variables_of(before, lever_m_));
+  }
+
   void run(const collision::Deadline& deadline) {
     const double first_value = form_.value(variables_);
     double trust_m = kFirstTrust * radius_m_;
@@ -411,7 +418,10 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
     relaxation.run(deadline);
     better = relaxation.offsets();
     Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
-    if (tried.candidate) return {better, std::move(*tried.candidate)};
+    if (tried.candidate) {
+      if (!relaxation.is_no_worse(better, free.offsets)) return free;
+      return {better, std::move(*tried.candidate)};
+    }
     // Something slips through between the samples: then there is to be one.
     relaxation.watch(*tried.collision, free.offsets);
   }
@@ -419,7 +429,8 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
   for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
     const Offsets between = mixed(free.offsets, better, share);
     Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
-    if (tried.candidate) return {between, std::move(*tried.candidate)};
+    if (tried.candidate && relaxation.is_no_worse(between, free.offsets))
+      return {between, std::move(*tried.candidate)};
   }
   return free;
 }

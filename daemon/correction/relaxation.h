@@ -26,8 +26,9 @@ struct Relaxed {
 /// collision-free trajectories with sequential convex optimization"), no further than it is free at
 /// sampled times. Deviation: what is free to begin with stays free, so contacts bound steps instead
 /// of costing something. The result is proved, and where something slips through between the
-/// samples, it is taken back there, and sampled; in the end to what it began with. For `kSafest`
-/// the gaps themselves count, and bending between what is equally far.
+/// samples, it is taken back there, and sampled; in the end to what it began with, and so where it
+/// came out worse. For `kSafest` the gaps themselves count, and bending between what is equally
+/// far.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
                 FreeSpace& space, const collision::Deadline& deadline);
 
