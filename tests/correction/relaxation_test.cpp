@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "daemon/collision/near_quad.h"
+#include "daemon/correction/orientation_rule.h"
 #include "daemon/correction/smoothing_form.h"
 #include "daemon/motion/measures.h"
 #include "tests/support/gap_problems.h"
@@ -114,8 +115,9 @@ struct Swing {
   std::optional<Relaxed> free;
 };
 
-Swing random_swing(Draw& draw) {
+Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
   Swing swing;
+  swing.c.policy.max_turn_rad = max_turn_rad;
   while (!swing.free) {
     Case& c = swing.c;
     c.mesh = testing::scattered_triangles(draw.generator(), 25, 0.4);
@@ -135,7 +137,8 @@ Swing random_swing(Draw& draw) {
     });
     const int count = 8 << draw.integer(0, 2);
     Offsets offsets = lifted(c.problem, count, draw.vector(1.5));
-    for (motion::CubicPoint& point : offsets.at) point.image = draw.image(0.1);
+    for (motion::CubicPoint& point : offsets.at)
+      point.image = draw.image(0.1 * std::min(1.0, max_turn_rad));
     swing.free = correction_with(c, offsets, swing.ends);
   }
   return swing;
@@ -385,6 +388,49 @@ TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
         << run;
   }
   EXPECT_GT(found, kRuns / 2);
+}
+
+TEST(Relaxation, GetsFarWhereTurningIsLimited) {
+  Draw draw(4408);
+  int better = 0;
+  constexpr int kRuns = 60;
+  for (int run = 0; run < kRuns; ++run) {
+    Swing swing = random_swing(draw, 0.15);
+    const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, Objective::kSmoothest);
+    const CubicPath& path = result.candidate.path;
+    for (int i = 0; i <= 500; ++i) {
+      const double time_s = std::lerp(path.begin_s(), path.end_s(), i / 500.0);
+      ASSERT_GE(rule_room(swing.c.policy, path.pose(time_s), swing.c.problem.original.pose(time_s)),
+                -1e-9)
+          << run;
+    }
+    const double before = swing.c.value(swing.free->offsets, swing.ends, Objective::kSmoothest);
+    const double after = swing.c.value(result.offsets, swing.ends, Objective::kSmoothest);
+    better += after < 0.5 * before ? 1 : 0;
+  }
+  // Those whose steps break the rule are refused as a whole, and retreat.
+  EXPECT_GT(better, kRuns * 9 / 10);
+}
+
+// The objective's minimum is a hundredth of the ball's radius above a block that is too far away to
+// be known where it begins; one step would take it there.
+TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
+  Case c;
+  c.policy.rule = OrientationRule::kKeep;
+  const double radius_m = c.space().ball_radius_m();
+  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m - 0.01 * radius_m, 0.3});
+  c.build();
+  c.problem = testing::problem_of_gap({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
+  const std::optional<Relaxed> free =
+      correction_with(c, lifted(c.problem, 8, {0, 1.5 * radius_m, 0}), Ends::kFree);
+  ASSERT_TRUE(free);
+  const Relaxed result = relaxed_fully(c, *free, Ends::kFree, Objective::kSmoothest, 1);
+  const auto gap_m = [&](const Relaxed& of) {
+    return least_gap_m(c, of.candidate.path, 0.0, 8.0, 4000);
+  };
+  EXPECT_LT(gap_m(result), gap_m(*free) - 0.1 * radius_m);
+  EXPECT_GT(gap_m(result), 0.02 * radius_m);
 }
 
 // The next keyframe is so close that what keeps the one before it would reach it.
