@@ -236,6 +236,49 @@ TEST(FaceGrid, BlocksNothingBesideASolid) {
   EXPECT_GT(blocked[1], 1000);
 }
 
+// One cell with a corner on a side of the section but for a few steps of rounding, otherwise
+// inside: blocked only where all of it is.
+TEST(FaceGrid, RoundsToTheSafeSide) {
+  Random random(33);
+  int blocked = 0;
+  int cut = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    Case c = random.solid();
+    c.margin_m = Vec3::Zero();
+    const Polygon section = c.section(std::vector<Vec3>(c.mesh.vertices.size(), Vec3::Zero()));
+    if (section.size() < 3) continue;
+    const auto side =
+        static_cast<std::size_t>(random.within(0, 0.999 * static_cast<double>(section.size())));
+    const Flat& a = section[side];
+    const Flat& b = section[(side + 1) % section.size()];
+    const double ax = a[0].convert_to<double>();
+    const double ay = a[1].convert_to<double>();
+    const double v = std::lerp(ay, b[1].convert_to<double>(), random.within(0.3, 0.7));
+    if (std::abs(b[1].convert_to<double>() - ay) < 0.1) continue;
+    const Number x = a[0] + (b[0] - a[0]) * ((Number(v) - a[1]) / (b[1] - a[1]));
+    double line = x.convert_to<double>();
+    const double step = random.one_of(2) ? 1e9 : -1e9;
+    for (int i = random.one_of(2) ? 1 : 0; i > 0; --i) line = std::nextafter(line, step);
+    // Counter-clockwise: what is inside lies left of an upward side's way, and the other way round.
+    const double inward = b[1] > a[1] ? -1e-3 : 1e-3;
+    const double recedes =
+        (b[0].convert_to<double>() - ax) * inward * (b[1] > a[1] ? 1.0 : -1.0) > 0.0 ? -1e-3 : 1e-3;
+    c.lines = {FaceGrid::Lines{std::min(line, line + inward), std::max(line, line + inward)},
+               FaceGrid::Lines{std::min(v, v + recedes), std::max(v, v + recedes)}};
+    FaceGrid grid(c.axis, c.at, c.lines);
+    grid.block(c.mesh, c.triangles, false);
+    const Polygon cell = c.cell(0, 0);
+    const bool is_inside =
+        std::all_of(cell.begin(), cell.end(), [&](const Flat& p) { return holds(section, p); });
+    cut += is_inside ? 0 : 1;
+    if (!grid.is_blocked(0, 0)) continue;
+    ++blocked;
+    ASSERT_TRUE(is_inside) << trial;
+  }
+  std::printf("%d blocked, %d cut\n", blocked, cut);
+  EXPECT_GT(cut, 200);
+}
+
 // Triangles in the plane of the face that share edges, overlap, and are there twice: each point of
 // a blocked cell is on one of them.
 TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
