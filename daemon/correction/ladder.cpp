@@ -299,7 +299,7 @@ class Ladder {
   }
 
   static constexpr int kPolishingRounds = 2;
-  static constexpr int kStepsAGap = 20;  ///< of improvement, for each gap that a collision is in
+  static constexpr int kStepsAGap = 12;  ///< of improvement, for each gap that a collision is in
   /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
   /// the body: surfaces so close to it prove nothing.
   static constexpr double kPointRounding_m = 1e-6;

@@ -24,7 +24,6 @@ using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
 constexpr int kFan = 8;                   // directions across the way
-constexpr int kMostAttempts = 2;          // directions of which bumps are made
 constexpr double kLeastStepShare = 0.06;  // of the radius: the first amount that is tried
 constexpr double kGrowth = 2.0;           // from one amount to the next
 constexpr double kFarthest = 4.0;         // radii
@@ -35,8 +34,7 @@ constexpr double kLargestTurnStep_rad = 0.08;  // turned too far, the body is st
 constexpr double kMoreEachTime = 1.35;
 constexpr int kMostRaises = 3;
 constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
-constexpr int kMostWidths = 3;
-constexpr int kReductions = 3;
+constexpr int kMostWidths = 2;
 
 /// A direction to nudge to: of the move, or the axis of the turn.
 struct Way {
@@ -65,11 +63,9 @@ class Nudger {
   }
 
   std::optional<Candidate> run() {
-    const std::vector<Way> ways = free_ways();
-    for (std::size_t i = 0; i < ways.size() && i < kMostAttempts && !deadline_.passed(); ++i) {
-      if (std::optional<Candidate> found = with_way(ways[i])) return found;
-    }
-    return std::nullopt;
+    const std::optional<Way> way = shortest_way();
+    if (!way) return std::nullopt;
+    return with_way(*way);
   }
 
  private:
@@ -174,21 +170,18 @@ class Nudger {
     return directions;
   }
 
-  std::vector<Way> free_ways() {
-    std::vector<Way> ways;
+  /// The shortest one that frees the samples.
+  std::optional<Way> shortest_way() {
     const double largest_turn_rad =
         std::min(kLargestTurn_rad, kAimedShare * space_.policy().max_turn_rad);
     const double farthest = kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : largest_turn_rad;
-    double limit = farthest;
+    std::optional<Way> best;
     for (const Vec3& direction_W : directions_W()) {
-      const std::optional<double> amount = least_amount(direction_W, limit);
-      if (!amount) continue;
-      ways.push_back({direction_W, *amount});
-      // Ways that are much longer than the shortest are not worth measuring.
-      limit = std::min(limit, 2.5 * *amount);
+      const std::optional<double> amount =
+          least_amount(direction_W, best ? best->amount : farthest);
+      if (amount && (!best || *amount < best->amount)) best = Way{direction_W, *amount};
     }
-    std::ranges::stable_sort(ways, {}, &Way::amount);
-    return ways;
+    return best;
   }
 
   std::optional<Candidate> with_way(const Way& way) {
@@ -213,34 +206,13 @@ class Nudger {
     for (int i = 0; i < kMostRaises; ++i, amount *= kMoreEachTime) {
       Attempt tried =
           attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
-      if (tried.candidate) {
-        return reduced(way, amount, i == 0 ? 0.0 : amount / kMoreEachTime, spacing_s,
-                       std::move(*tried.candidate));
-      }
-      if (tried.breaks_rule) return std::nullopt;
+      if (tried.candidate) return std::move(tried.candidate);
       // Higher helps against the collision that it is for, not against what it runs into.
       const bool is_old = tried.collision->t_begin_s < problem_.interval.t_end_s &&
                           tried.collision->t_end_s > problem_.interval.t_begin_s;
       if (!is_old) return std::nullopt;
     }
     return std::nullopt;
-  }
-
-  Candidate reduced(const Way& way, double enough, double too_little, double spacing_s,
-                    Candidate best) {
-    if (too_little == 0.0) return best;  // that amount was measured
-    for (int i = 0; i < kReductions; ++i) {
-      const double amount = 0.5 * (enough + too_little);
-      Attempt tried =
-          attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
-      if (tried.candidate) {
-        enough = amount;
-        best = std::move(*tried.candidate);
-      } else {
-        too_little = amount;
-      }
-    }
-    return best;
   }
 
   [[nodiscard]] std::vector<BumpRow> bump(const Vec3& direction_W, double amount,
