@@ -18,7 +18,7 @@ namespace camway::scene {
 
 /// What a store holds at most, so that who may change scenes cannot take all memory.
 struct SceneStoreLimits {
-  std::size_t scenes = 64;
+  std::size_t scenes = 4096;
   std::size_t objects = 4096;            ///< of one scene
   std::uint64_t triangles = 20'000'000;  ///< of all scenes together
   SceneHistory::Limits history;          ///< of each scene
