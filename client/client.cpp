@@ -4,6 +4,8 @@
 #include <atomic>
 #include <utility>
 
+#include "client/ask_scene.h"
+#include "client/scene_wire.h"
 #include "client/session.h"
 
 namespace camway {
@@ -25,6 +27,15 @@ class InCall {
   std::atomic<bool>& busy_;
   bool alone_;
 };
+
+scene_request_t request_for(std::int8_t operation, const std::string& scene,
+                            const std::string& object = {}) {
+  scene_request_t request{};
+  request.operation = operation;
+  request.scene = scene;
+  request.object = object;
+  return request;
+}
 
 }  // namespace
 
@@ -63,6 +74,57 @@ PlanResponse Client::plan(const PlanRequest& request) {
 
 OccupancyAnswer Client::occupancy(const OccupancyBatch& batch) {
   return impl_->guarded<OccupancyAnswer>([&] { return ask_occupancy(impl_->session, batch); });
+}
+
+SceneAnswer Client::load_scene(const std::string& scene, const SceneMesh& mesh,
+                               double occupancy_resolution_m) {
+  return impl_->guarded<SceneAnswer>([&] {
+    scene_request_t request = request_for(scene_request_t::LOAD, scene);
+    request.occupancy_resolution_m = occupancy_resolution_m;
+    const Bytes upload = put_mesh(mesh, request);
+    return ask_scene(impl_->session, std::move(request), upload);
+  });
+}
+
+SceneAnswer Client::unload_scene(const std::string& scene) {
+  return impl_->guarded<SceneAnswer>(
+      [&] { return ask_scene(impl_->session, request_for(scene_request_t::UNLOAD, scene)); });
+}
+
+SceneAnswer Client::list_scenes() {
+  return impl_->guarded<SceneAnswer>(
+      [&] { return ask_scene_list(impl_->session, request_for(scene_request_t::LIST, "")); });
+}
+
+SceneAnswer Client::describe_scene(const std::string& scene) {
+  return impl_->guarded<SceneAnswer>([&] {
+    return ask_scene_list(impl_->session, request_for(scene_request_t::DESCRIBE, scene));
+  });
+}
+
+SceneAnswer Client::put_object(const std::string& scene, const std::string& object,
+                               const SceneShape& shape, const Pose& pose) {
+  return impl_->guarded<SceneAnswer>([&] {
+    scene_request_t request = request_for(scene_request_t::PUT, scene, object);
+    const Bytes upload = put_shape(shape, request);
+    put_pose(pose, request);
+    return ask_scene(impl_->session, std::move(request), upload);
+  });
+}
+
+SceneAnswer Client::move_object(const std::string& scene, const std::string& object,
+                                const Pose& pose) {
+  return impl_->guarded<SceneAnswer>([&] {
+    scene_request_t request = request_for(scene_request_t::MOVE, scene, object);
+    put_pose(pose, request);
+    return ask_scene(impl_->session, std::move(request));
+  });
+}
+
+SceneAnswer Client::remove_object(const std::string& scene, const std::string& object) {
+  return impl_->guarded<SceneAnswer>([&] {
+    return ask_scene(impl_->session, request_for(scene_request_t::REMOVE, scene, object));
+  });
 }
 
 DaemonStatus Client::status(double timeout_s) {

@@ -12,6 +12,7 @@
 
 #include <camway/status_t.hpp>
 
+#include "client/scene_wire.h"
 #include "client/text.h"
 #include "lcmtypes/wire_check.h"
 
@@ -19,6 +20,7 @@ namespace camway {
 namespace {
 
 constexpr int kResponseQueue = 2 * wire::kMaxResponsePages;  // an answer may come twice at once
+constexpr int kSceneQueue = 30;
 constexpr int kStatusQueue = 16;
 
 std::string random_client_id() {
@@ -45,18 +47,6 @@ std::string fault_in(const ClientOptions& options) {
   if (!(options.backoff >= 1.0)) return "ClientOptions.backoff: must not be below 1";
   if (options.retries < 0) return "ClientOptions.retries: must not be negative";
   return {};
-}
-
-SceneInfo from_wire(const scene_info_t& wire) {
-  SceneInfo scene;
-  scene.name = wire.name;
-  scene.revision = wire.revision;
-  scene.digest = wire.digest;
-  scene.num_triangles = wire.num_triangles;
-  std::copy(std::begin(wire.bounds_min_m), std::end(wire.bounds_min_m), scene.bounds_min_m.begin());
-  std::copy(std::begin(wire.bounds_max_m), std::end(wire.bounds_max_m), scene.bounds_max_m.begin());
-  scene.occupancy_resolution_m = wire.occupancy_resolution_m;
-  return scene;
 }
 
 DaemonStatus from_wire(const status_t& wire) {
@@ -96,6 +86,14 @@ void Session::listen() {
   link_.listen(channels_.occupancy_response(options_.client_id), kResponseQueue,
                [this](std::span<const std::uint8_t> bytes) {
                  if (occupancy_receiver_) occupancy_receiver_(bytes);
+               });
+  link_.listen(channels_.scene_response(options_.client_id), kSceneQueue,
+               [this](std::span<const std::uint8_t> bytes) {
+                 if (scene_receiver_) scene_receiver_(bytes);
+               });
+  link_.listen(channels_.upload_status(options_.client_id), kSceneQueue,
+               [this](std::span<const std::uint8_t> bytes) {
+                 if (upload_receiver_) upload_receiver_(bytes);
                });
   link_.listen(channels_.status(), kStatusQueue,
                [this](std::span<const std::uint8_t> bytes) { take_heartbeat(bytes); });

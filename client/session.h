@@ -42,9 +42,11 @@ class Session {
   Status error_status() const { return error_status_; }
 
   using Receiver = std::function<void(std::span<const std::uint8_t>)>;
-  /// Who takes the answers on the two response channels from now on; must not throw.
+  /// Who takes the answers on the response channels from now on; must not throw.
   void receive_plan_with(Receiver receiver) { plan_receiver_ = std::move(receiver); }
   void receive_occupancy_with(Receiver receiver) { occupancy_receiver_ = std::move(receiver); }
+  void receive_scene_with(Receiver receiver) { scene_receiver_ = std::move(receiver); }
+  void receive_upload_with(Receiver receiver) { upload_receiver_ = std::move(receiver); }
 
   /// A number this client id never used: from the clock, so that it holds across restarts too.
   std::int64_t new_request_id();
@@ -77,6 +79,8 @@ class Session {
   Signs signs_;
   Receiver plan_receiver_;
   Receiver occupancy_receiver_;
+  Receiver scene_receiver_;
+  Receiver upload_receiver_;
   std::optional<DaemonStatus> heartbeat_;
 };
 

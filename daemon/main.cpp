@@ -29,7 +29,7 @@ int run(int argc, char** argv) {
 
   // A stop signal while scenes are being read ends the process at once: nobody was promised
   // anything.
-  scene::SceneStore scenes;
+  scene::SceneStore scenes(parsed.options->store);
   if (!service::load_scenes(*parsed.options, scenes, *log)) return kExitBadInput;
   service::block_stop_signals();
   return service::serve(*parsed.options, scenes, log);

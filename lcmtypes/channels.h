@@ -56,6 +56,14 @@ struct Channels {
   [[nodiscard]] std::string occupancy_response(std::string_view client_id) const {
     return (prefix + "_OCCUPANCY_RESPONSE_").append(client_id);
   }
+  [[nodiscard]] std::string scene_request() const { return prefix + "_SCENE_REQUEST"; }
+  [[nodiscard]] std::string scene_response(std::string_view client_id) const {
+    return (prefix + "_SCENE_RESPONSE_").append(client_id);
+  }
+  [[nodiscard]] std::string upload() const { return prefix + "_UPLOAD"; }
+  [[nodiscard]] std::string upload_status(std::string_view client_id) const {
+    return (prefix + "_UPLOAD_STATUS_").append(client_id);
+  }
   [[nodiscard]] std::string status() const { return prefix + "_STATUS"; }
   [[nodiscard]] std::string error() const { return prefix + "_ERROR"; }
 };

@@ -8,7 +8,11 @@
 #include <camway/occupancy_response_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_request_t.hpp>
+#include <camway/scene_response_t.hpp>
 #include <camway/status_t.hpp>
+#include <camway/upload_page_t.hpp>
+#include <camway/upload_status_t.hpp>
 
 #include "lcmtypes/channels.h"
 
@@ -149,6 +153,69 @@ constexpr std::array kSceneInfo{
     fixed("bounds_m", 6 * kDouble),   fixed("occupancy_resolution_m", kDouble),
 };
 
+constexpr std::array kSceneObject{
+    text("name", kMaxObjectNameBytes), text("kind", kMaxKindBytes), text("digest", kMaxDigestBytes),
+    fixed("num_triangles", kInt64),    fixed("pose", 7 * kDouble),  fixed("bounds_m", 6 * kDouble),
+};
+
+constexpr std::array kSceneRequest{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("operation", kByte),
+    text("scene", kMaxSceneNameBytes),
+    text("object", kMaxObjectNameBytes),
+    text("file", kMaxFileNameBytes),
+    fixed("upload", 2 * kInt64),
+    text("upload_format", kMaxFormatBytes),
+    fixed("scale", kDouble),
+    fixed("up", kByte),
+    fixed("occupancy_resolution_m", kDouble),
+    fixed("kind", kByte),
+    fixed("shape", 7 * kDouble),
+    fixed("pose", 7 * kDouble),
+    fixed("first", kInt32),
+};
+
+constexpr std::array kSceneResponse{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("status", kInt32),
+    text("message", kMaxTextBytes),
+    text("scene.name", kMaxSceneNameBytes),
+    fixed("scene.revision", kInt64),
+    text("scene.digest", kMaxDigestBytes),
+    fixed("scene.num_triangles", kInt64),
+    fixed("scene.bounds_m", 6 * kDouble),
+    fixed("scene.occupancy_resolution_m", kDouble),
+    fixed("first", kInt32),
+    fixed("total", kInt32),
+    list_of("scenes", kSceneInfo),
+    list_of("objects", kSceneObject),
+};
+
+constexpr std::array kUploadPage{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("upload", 2 * kInt64),
+    fixed("page", kInt32),
+    fixed("page_checksum", kInt64),
+    list("bytes", kByte),
+};
+
+constexpr std::array kUploadStatus{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("status", kInt32),
+    text("message", kMaxTextBytes),
+    fixed("upload", 2 * kInt64),
+    fixed("total_missing", kInt32),
+    list("missing", kInt32),
+};
+
 constexpr std::array kStatus{
     fixed("utime", kInt64),           text("version", kMaxVersionBytes),
     fixed("uptime_s", kDouble),       fixed("num_workers", kInt32),
@@ -181,6 +248,22 @@ Layout layout_of<occupancy_request_t>() {
 template <>
 Layout layout_of<occupancy_response_t>() {
   return {"occupancy_response_t", occupancy_response_t::getHash(), kOccupancyResponse};
+}
+template <>
+Layout layout_of<scene_request_t>() {
+  return {"scene_request_t", scene_request_t::getHash(), kSceneRequest};
+}
+template <>
+Layout layout_of<scene_response_t>() {
+  return {"scene_response_t", scene_response_t::getHash(), kSceneResponse};
+}
+template <>
+Layout layout_of<upload_page_t>() {
+  return {"upload_page_t", upload_page_t::getHash(), kUploadPage};
+}
+template <>
+Layout layout_of<upload_status_t>() {
+  return {"upload_status_t", upload_status_t::getHash(), kUploadStatus};
 }
 template <>
 Layout layout_of<status_t>() {

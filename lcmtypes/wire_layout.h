@@ -12,7 +12,11 @@ class occupancy_request_t;
 class occupancy_response_t;
 class plan_request_t;
 class plan_response_t;
+class scene_request_t;
+class scene_response_t;
 class status_t;
+class upload_page_t;
+class upload_status_t;
 }  // namespace camway
 
 namespace camway::wire {
@@ -29,6 +33,15 @@ inline constexpr std::size_t kMaxFeatureBytes = 32;
 inline constexpr std::size_t kMaxTextBytes = 1024;
 inline constexpr std::size_t kMaxDigestBytes = 128;
 inline constexpr std::size_t kMaxVersionBytes = 256;
+
+/// Limits of requests about scenes.
+inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< of an object that is put into a scene
+inline constexpr std::size_t kMaxFileNameBytes = 512;
+inline constexpr std::size_t kMaxFormatBytes = 8;
+inline constexpr std::size_t kMaxKindBytes = 32;
+/// Every page of an upload has so many bytes but the last.
+inline constexpr std::size_t kUploadPageBytes = 48'000;
+inline constexpr std::size_t kMaxMissingPages = 4096;
 
 /// Limits of a body, so that it fits page 0 of a request.
 inline constexpr std::size_t kMaxBodyPoints = 512;
@@ -71,6 +84,14 @@ template <>
 Layout layout_of<occupancy_request_t>();
 template <>
 Layout layout_of<occupancy_response_t>();
+template <>
+Layout layout_of<scene_request_t>();
+template <>
+Layout layout_of<scene_response_t>();
+template <>
+Layout layout_of<upload_page_t>();
+template <>
+Layout layout_of<upload_status_t>();
 template <>
 Layout layout_of<status_t>();
 template <>

@@ -11,6 +11,7 @@
 #include "camway/occupancy.h"
 #include "camway/path.h"
 #include "camway/plan.h"
+#include "camway/scene.h"
 #include "camway/status.h"
 
 namespace camway {
@@ -28,17 +29,6 @@ struct ClientOptions {
   double backoff = 1.5;        ///< each further try waits so many times longer [Limit: >= 1]
   double max_try_timeout_s = 5.0;  ///< but never longer than this
   int retries = 4;                 ///< repetitions without a sign of life before the call gives up
-};
-
-/// A scene that the daemon holds.
-struct SceneInfo {
-  std::string name;
-  std::int64_t revision = 0;
-  std::string digest;
-  std::int64_t num_triangles = 0;
-  std::array<double, 3> bounds_min_m{};
-  std::array<double, 3> bounds_max_m{};
-  double occupancy_resolution_m = 0.0;  ///< 0: no occupancy map
 };
 
 /// The daemon's heartbeat.
@@ -107,6 +97,22 @@ class Client {
 
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);
+
+  /// Makes a scene of one mesh, or replaces the one of that name; of nothing if `mesh` names
+  /// neither a file nor bytes. The resolution of its occupancy map is for its life, 0 for no map.
+  SceneAnswer load_scene(const std::string& scene, const SceneMesh& mesh,
+                         double occupancy_resolution_m = 0.0);
+  SceneAnswer unload_scene(const std::string& scene);
+  SceneAnswer list_scenes();
+  /// All objects of a scene.
+  SceneAnswer describe_scene(const std::string& scene);
+
+  /// Adds an object to a scene, or replaces the one of that name. Each change makes a new revision;
+  /// plans that have begun keep theirs.
+  SceneAnswer put_object(const std::string& scene, const std::string& object,
+                         const SceneShape& shape, const Pose& pose = {});
+  SceneAnswer move_object(const std::string& scene, const std::string& object, const Pose& pose);
+  SceneAnswer remove_object(const std::string& scene, const std::string& object);
 
   /// Waits for the daemon's next heartbeat; there is one each second.
   DaemonStatus status(double timeout_s = 3.0);

@@ -17,6 +17,7 @@ enum class Status {
   kOverloaded = 7,     ///< the daemon's queue stayed full until the call's deadline
   kMalformed = 8,      ///< the daemon could not read the request: client and daemon do not match
   kNoMap = 9,          ///< the scene was loaded without an occupancy map
+  kLimit = 10,         ///< (scenes) it would break a limit that the daemon keeps
 
   kNoDaemon = 100,         ///< nobody answered, and no daemon was heard
   kNoAnswer = 101,         ///< a daemon was heard, but its answer did not come, or not all of it

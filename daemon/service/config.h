@@ -7,6 +7,8 @@
 
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/fair_queue.h"
+#include "daemon/service/scene_roots.h"
+#include "daemon/service/uploads.h"
 #include "daemon/service/wire_convert.h"
 #include "daemon/service/wire_pages.h"
 
@@ -27,6 +29,9 @@ struct ServiceConfig {
   /// Messages that may wait in LCM between two turns of the loop, for each kind of request. Large
   /// enough for the longest request in pages; the loop only checks and queues, so it drains fast.
   int subscription_capacity = 1024;
+  SceneRoots scene_roots;     ///< of files that clients may name; `--scene-root`
+  Uploads::Limits uploads;    ///< `--max-upload-mb`
+  FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};

@@ -33,8 +33,32 @@ int default_workers() {
 /// What CLI11 fills in, as text where we parse ourselves.
 struct Raw {
   std::vector<std::string> scenes;
+  std::vector<std::filesystem::path> scene_roots;
+  std::int64_t max_upload_mb = 256;
   std::string log_level = "info";
 };
+
+/// What clients may do to the scenes.
+void declare_changes(CLI::App& app, Raw& raw, DaemonOptions& options) {
+  app.add_option("--scene-root", raw.scene_roots,
+                 "A folder below which clients may have scene files read; may be given several "
+                 "times. None: they can upload only")
+      ->type_name("FOLDER")
+      ->take_all();
+  app.add_option("--max-upload-mb", raw.max_upload_mb,
+                 "Largest upload of a client; all together twice that")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  app.add_option("--max-scenes", options.store.scenes, "Scenes held at the same time")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  app.add_option("--max-objects", options.store.objects, "Objects of a scene")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--max-triangles", options.store.triangles, "Triangles of all scenes together")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{4'000'000'000}))
+      ->capture_default_str();
+}
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.set_version_flag("--version", std::string("camwayd ") + kVersion + " (" + kBuild + ")");
@@ -44,8 +68,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "turns axes; occupancy: edge of a voxel of the occupancy map in metres, no map "
                  "without it")
       ->type_name(kSceneArgumentForm)
-      ->required()
       ->take_all();
+  declare_changes(app, raw, options);
   app.add_option("--prefix", options.service.prefix, "Channels begin with this")
       ->capture_default_str();
   app.add_option("--url", options.lcm_url,
@@ -83,6 +107,11 @@ std::string resolve(const Raw& raw, DaemonOptions& options) {
     }
     options.scenes.push_back(std::move(*parsed.scene));
   }
+  std::string fault;
+  options.service.scene_roots = SceneRoots::make(raw.scene_roots, fault);
+  if (!fault.empty()) return "--scene-root: " + fault;
+  options.service.uploads.bytes = raw.max_upload_mb << 20;
+  options.service.uploads.total_bytes = 2 * options.service.uploads.bytes;
   options.log_level = spdlog::level::from_str(raw.log_level);
   return options.service.fault();
 }

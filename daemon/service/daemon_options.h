@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/scene/scene_store.h"
 #include "daemon/service/config.h"
 #include "daemon/service/scene_argument.h"
 
@@ -20,6 +21,7 @@ struct DaemonOptions {
   std::vector<SceneArgument> scenes;
   std::string lcm_url;  ///< `--url`, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
   spdlog::level::level_enum log_level = spdlog::level::info;
+  scene::SceneStoreLimits store;
   ServiceConfig service;
 };
 

@@ -65,12 +65,15 @@ bool load_scenes(const DaemonOptions& options, scene::SceneStore& store, spdlog:
       return false;
     }
     log_scene(*loaded.snapshot, scene, log);
-    store.put(std::move(loaded.snapshot));
+    if (const scene::StoreResult put = store.put(std::move(loaded.snapshot)); !put.snapshot) {
+      log.error("{}", put.error);
+      return false;
+    }
   }
   return true;
 }
 
-int serve(const DaemonOptions& options, const scene::SceneStore& scenes,
+int serve(const DaemonOptions& options, scene::SceneStore& scenes,
           const std::shared_ptr<spdlog::logger>& log) {
   const OpenedTransport opened = open_lcm_transport(options.lcm_url);
   if (!opened.transport) {

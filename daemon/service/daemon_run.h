@@ -18,7 +18,7 @@ bool load_scenes(const DaemonOptions& options, scene::SceneStore& store, spdlog:
 /// return at all if planning had to be abandoned at the drain limit, for then its threads cannot be
 /// joined: the process ends there, with code 0. Precondition: `block_stop_signals` was called
 /// before any other thread began.
-int serve(const DaemonOptions& options, const scene::SceneStore& scenes,
+int serve(const DaemonOptions& options, scene::SceneStore& scenes,
           const std::shared_ptr<spdlog::logger>& log);
 
 }  // namespace camway::service

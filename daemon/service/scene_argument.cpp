@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kOptionNames{"scale", "up", "occupancy"};
 
-bool is_scene_name(std::string_view name) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  return !name.empty() && name.size() <= wire::kMaxSceneNameBytes &&
-         std::all_of(name.begin(), name.end(), allowed);
-}
-
 std::optional<double> positive_number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -75,6 +66,15 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
 }
 
 }  // namespace
+
+bool is_scene_name(std::string_view name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !name.empty() && name.size() <= wire::kMaxSceneNameBytes &&
+         std::all_of(name.begin(), name.end(), allowed);
+}
 
 ParsedSceneArgument parse_scene_argument(std::string_view text) {
   const auto fail = [&](const std::string& reason) -> ParsedSceneArgument {

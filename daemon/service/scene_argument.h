@@ -23,6 +23,9 @@ struct ParsedSceneArgument {
   std::string error;
 };
 
+/// Whether `text` may name a scene: of [A-Za-z0-9_.-], at most `wire::kMaxSceneNameBytes` long.
+bool is_scene_name(std::string_view text);
+
 /// One line for `--help`.
 inline constexpr char kSceneArgumentForm[] =
     "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,occupancy=RESOLUTION_M]";

@@ -21,15 +21,19 @@ std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration du
 
 }  // namespace
 
-Service::Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
+Service::Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config,
                  Planner planner, std::shared_ptr<spdlog::logger> log)
     : transport_(transport),
       core_(transport, scenes, std::move(config), std::move(log)),
       plans_(core_, std::move(planner)),
-      occupancy_(core_) {}
+      occupancy_(core_),
+      scenes_(core_, scenes) {}
 
-// Jobs use the plan service, which would go before the workers in `core_` if nothing were done.
-Service::~Service() { core_.workers.stop(); }
+// Jobs use the services, which would go before the workers in `core_` if nothing were done.
+Service::~Service() {
+  scenes_.stop();
+  core_.workers.stop();
+}
 
 RunOutcome Service::run() {
   if (!subscribe()) return RunOutcome::kNotSubscribed;
@@ -50,16 +54,16 @@ void Service::request_stop() noexcept {
 }
 
 bool Service::subscribe() {
-  const std::string plan = core_.channels.plan_request();
-  const std::string occupancy = core_.channels.occupancy_request();
-  const int capacity = core_.config.subscription_capacity;
-  return transport_.subscribe(
-             plan, capacity,
-             guarded([this](std::span<const std::uint8_t> m) { plans_.on_message(m); }, plan)) &&
-         transport_.subscribe(
-             occupancy, capacity,
-             guarded([this](std::span<const std::uint8_t> m) { occupancy_.on_message(m); },
-                     occupancy));
+  using Message = std::span<const std::uint8_t>;
+  const auto take = [this](const std::string& channel, std::function<void(Message)> handler) {
+    return transport_.subscribe(channel, core_.config.subscription_capacity,
+                                guarded(std::move(handler), channel));
+  };
+  const wire::Channels& channels = core_.channels;
+  return take(channels.plan_request(), [this](Message m) { plans_.on_message(m); }) &&
+         take(channels.occupancy_request(), [this](Message m) { occupancy_.on_message(m); }) &&
+         take(channels.scene_request(), [this](Message m) { scenes_.on_request(m); }) &&
+         take(channels.upload(), [this](Message m) { scenes_.on_upload(m); });
 }
 
 // One round: finished answers go out, messages come in.
@@ -81,6 +85,7 @@ RunOutcome Service::drain() {
   core_.log->info("stopping: {} requests are being planned, {} that wait are refused",
                   core_.workers.running(), waiting.size());
   for (const Job& job : waiting) job.abandon(Refusal::kStopping);
+  scenes_.close();
   const Clock::time_point limit = Clock::now() + core_.config.drain_limit;
   while (!idle()) {
     const Clock::time_point now = Clock::now();
@@ -97,7 +102,8 @@ RunOutcome Service::drain() {
 
 bool Service::idle() const {
   // In this order: a worker leaves its answer in the mailbox before it counts as idle.
-  return core_.workers.running() == 0 && core_.mailbox.empty() && core_.outbox.empty();
+  return core_.workers.running() == 0 && scenes_.idle() && core_.mailbox.empty() &&
+         core_.outbox.empty();
 }
 
 void Service::heartbeat(Clock::time_point now) {

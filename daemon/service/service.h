@@ -10,6 +10,7 @@
 #include "daemon/service/core.h"
 #include "daemon/service/occupancy_service.h"
 #include "daemon/service/plan_service.h"
+#include "daemon/service/scene_service.h"
 #include "daemon/service/transport.h"
 
 namespace camway::service {
@@ -27,8 +28,8 @@ enum class RunOutcome {
 class Service {
  public:
   /// `transport` and `scenes` must outlive the service. Precondition: `config.fault()` is empty.
-  Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
-          Planner planner, std::shared_ptr<spdlog::logger> log);
+  Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config, Planner planner,
+          std::shared_ptr<spdlog::logger> log);
   /// Waits for what is still being planned, which it does not answer any more.
   ~Service();
   Service(const Service&) = delete;
@@ -57,6 +58,7 @@ class Service {
   Core core_;
   PlanService plans_;
   OccupancyService occupancy_;
+  SceneService scenes_;
   const Clock::time_point started_ = Clock::now();
   Clock::time_point next_heartbeat_ = started_;
   std::atomic<bool> stop_ = false;

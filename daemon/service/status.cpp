@@ -1,31 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/status.h"
 
-#include <algorithm>
-
-#include "daemon/scene/occupancy_mirror.h"
+#include "daemon/service/scene_work.h"
 #include "daemon/service/version.h"
-#include "daemon/service/wire_convert.h"
 
 namespace camway::service {
-namespace {
-
-scene_info_t info_of(const scene::Snapshot& snapshot) {
-  scene_info_t info{};
-  info.name = clipped(snapshot.name, wire::kMaxSceneNameBytes);
-  info.revision = static_cast<std::int64_t>(snapshot.revision);
-  info.digest = clipped(snapshot.digest, wire::kMaxDigestBytes);
-  info.num_triangles = static_cast<std::int64_t>(snapshot.index.size());
-  if (!snapshot.index.bounds().isEmpty()) {
-    std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
-    std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);
-  }
-  if (snapshot.occupancy) info.occupancy_resolution_m = snapshot.occupancy->resolution_m();
-  return info;
-}
-
-}  // namespace
-
 status_t make_status(const Core& core, std::chrono::duration<double> uptime) {
   status_t status{};
   status.utime = utime_now();
@@ -43,7 +22,7 @@ status_t make_status(const Core& core, std::chrono::duration<double> uptime) {
   status.total_scenes = static_cast<std::int32_t>(scenes.size());
   std::size_t size = static_cast<std::size_t>(status.getEncodedSize());
   for (const std::shared_ptr<const scene::Snapshot>& snapshot : scenes) {
-    scene_info_t info = info_of(*snapshot);
+    scene_info_t info = scene_info_of(*snapshot);
     size += static_cast<std::size_t>(info._getEncodedSizeNoHash());
     if (size > wire::kMaxMessageBytes) break;
     status.scenes.push_back(std::move(info));

@@ -12,8 +12,12 @@
 
 #include "client/plan_wire.h"
 #include "daemon/planning/request.h"
+#include "daemon/scene/scene_store.h"
+#include "daemon/scene/shape_mesh.h"
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/occupancy_answer.h"
+#include "daemon/service/scene_work.h"
+#include "daemon/service/uploads.h"
 #include "daemon/service/wire_convert.h"
 #include "daemon/service/wire_pages.h"
 #include "lcmtypes/wire_check.h"
@@ -53,6 +57,25 @@ void exercise(const plan_request_t& message) {
   if (converted.request) static_cast<void>(planning::validate(*converted.request));
 }
 
+/// On a scene of one box. No files are read, for there are neither roots nor uploads.
+void exercise(const scene_request_t& message) {
+  // Round shapes of a fine chord error would take long, and nothing else.
+  if (message.kind == scene_request_t::SPHERE || message.kind == scene_request_t::CYLINDER) return;
+  scene::SceneStore scenes;
+  scenes.put(scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh).snapshot);
+  const scene_response_t answer = service::perform(message, nullptr, {}, scenes);
+  require(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
+          "a refusal has a reason");
+}
+
+void exercise(const upload_page_t& message) {
+  service::Uploads::Limits limits;
+  limits.bytes = 100'000;
+  service::Uploads uploads(limits);
+  static_cast<void>(uploads.take(message, {}));
+  require(uploads.bytes() <= limits.bytes, "uploads keep within their limits");
+}
+
 /// As `camway replay` reads it from a log, and as a client does.
 void exercise(const plan_response_t& message, std::span<const std::uint8_t> bytes) {
   const service::ConvertedResult converted = service::from_wire(message);
@@ -72,6 +95,14 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
   }
   if (const auto batch = decoded<occupancy_request_t>(bytes)) {
     static_cast<void>(service::batch_fault(*batch));
+    ++right;
+  }
+  if (const auto request = decoded<scene_request_t>(bytes)) {
+    exercise(*request);
+    ++right;
+  }
+  if (const auto page = decoded<upload_page_t>(bytes)) {
+    exercise(*page);
     ++right;
   }
   if (const auto answer = decoded<plan_response_t>(bytes)) {

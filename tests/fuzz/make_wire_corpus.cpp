@@ -9,6 +9,8 @@
 #include <camway/occupancy_request_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_request_t.hpp>
+#include <camway/upload_page_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/service/random_messages.h"
@@ -44,5 +46,7 @@ int main(int argc, char** argv) {
   write_messages<camway::plan_request_t>(folder, random);
   write_messages<camway::occupancy_request_t>(folder, random);
   write_messages<camway::plan_response_t>(folder, random);
+  write_messages<camway::scene_request_t>(folder, random);
+  write_messages<camway::upload_page_t>(folder, random);
   return 0;
 }

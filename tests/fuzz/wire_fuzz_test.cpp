@@ -6,6 +6,8 @@
 #include <camway/occupancy_request_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_request_t.hpp>
+#include <camway/upload_page_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/fuzz/exercise_message.h"
@@ -16,7 +18,8 @@ namespace {
 
 template <class Message>
 class WireFuzz : public ::testing::Test {};
-using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t>;
+using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t,
+                                   scene_request_t, upload_page_t>;
 TYPED_TEST_SUITE(WireFuzz, Exercised);
 
 TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {

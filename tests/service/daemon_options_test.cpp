@@ -52,7 +52,8 @@ TEST(DaemonOptions, ReadsEveryFlag) {
 
 TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
   const std::vector<std::pair<std::vector<const char*>, std::string>> table{
-      {{}, "--scene"},
+      {{"--scene-root", "/nonexistent/folder"}, "/nonexistent/folder"},
+      {{"--max-upload-mb", "0"}, "--max-upload-mb"},
       {{"--scene", "office.obj"}, "must be NAME=FILE"},
       {{"--scene", "a=b,scale=x"}, "scale=x"},
       {{"--scene", "a=b", "--scene", "a=c"}, "'a' is given twice"},

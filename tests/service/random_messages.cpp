@@ -171,6 +171,31 @@ body_t body(Random& random) {
   return body;
 }
 
+scene_info_t scene_info(Random& random) {
+  scene_info_t info{};
+  info.name = text(random, wire::kMaxSceneNameBytes);
+  info.revision = integer(random);
+  info.digest = text(random, wire::kMaxDigestBytes);
+  info.num_triangles = integer(random);
+  fill(info.bounds_min_m, random);
+  fill(info.bounds_max_m, random);
+  info.occupancy_resolution_m = number(random);
+  return info;
+}
+
+scene_object_t scene_object(Random& random) {
+  scene_object_t object{};
+  object.name = text(random, wire::kMaxObjectNameBytes);
+  object.kind = text(random, wire::kMaxKindBytes);
+  object.digest = text(random, wire::kMaxDigestBytes);
+  object.num_triangles = integer(random);
+  fill(object.position_m, random);
+  fill(object.orientation_wxyz, random);
+  fill(object.bounds_min_m, random);
+  fill(object.bounds_max_m, random);
+  return object;
+}
+
 }  // namespace
 
 std::size_t below(Random& random, std::size_t below) { return random() % below; }
@@ -297,6 +322,83 @@ occupancy_response_t random_message<occupancy_response_t>(Random& random) {
 }
 
 template <>
+scene_request_t random_message<scene_request_t>(Random& random) {
+  scene_request_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.operation = static_cast<std::int8_t>(below(random, 9));
+  message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.object = text(random, wire::kMaxObjectNameBytes);
+  message.file = text(random, wire::kMaxFileNameBytes);
+  message.upload_bytes = integer(random);
+  message.upload_checksum = integer(random);
+  message.upload_format = text(random, wire::kMaxFormatBytes);
+  message.scale = number(random);
+  message.up = static_cast<std::int8_t>(below(random, 4));
+  message.occupancy_resolution_m = number(random);
+  message.kind = static_cast<std::int8_t>(below(random, 6));
+  fill(message.size_m, random);
+  message.radius_m = number(random);
+  message.height_m = number(random);
+  message.chord_error_m = number(random);
+  message.cell_m = number(random);
+  fill(message.position_m, random);
+  fill(message.orientation_wxyz, random);
+  message.first = small(random);
+  return message;
+}
+
+template <>
+scene_response_t random_message<scene_response_t>(Random& random) {
+  scene_response_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.status = static_cast<std::int32_t>(below(random, 12));
+  message.message = text(random, wire::kMaxTextBytes);
+  message.scene = scene_info(random);
+  message.first = small(random);
+  message.total = small(random);
+  message.num_scenes =
+      fill_list(message.scenes, length(random, 80), [&] { return scene_info(random); });
+  message.num_objects =
+      fill_list(message.objects, length(random, 80), [&] { return scene_object(random); });
+  return message;
+}
+
+template <>
+upload_page_t random_message<upload_page_t>(Random& random) {
+  upload_page_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.total_bytes = static_cast<std::int64_t>(below(random, 200'000));
+  message.checksum = integer(random);
+  message.page = static_cast<std::int32_t>(below(random, 5)) - 1;
+  message.page_checksum = integer(random);
+  message.num_bytes = fill_list(message.bytes, length(random, wire::kUploadPageBytes),
+                                [&] { return static_cast<std::uint8_t>(random()); });
+  return message;
+}
+
+template <>
+upload_status_t random_message<upload_status_t>(Random& random) {
+  upload_status_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.status = static_cast<std::int32_t>(below(random, 12));
+  message.message = text(random, wire::kMaxTextBytes);
+  message.total_bytes = integer(random);
+  message.checksum = integer(random);
+  message.total_missing = small(random);
+  message.num_missing = fill_list(message.missing, length(random, wire::kMaxMissingPages),
+                                  [&] { return small(random); });
+  return message;
+}
+
+template <>
 status_t random_message<status_t>(Random& random) {
   status_t message{};
   message.utime = integer(random);
@@ -310,17 +412,8 @@ status_t random_message<status_t>(Random& random) {
   message.overloaded_requests = integer(random);
   message.malformed_messages = integer(random);
   message.total_scenes = small(random);
-  message.num_scenes = fill_list(message.scenes, length(random, 100), [&] {
-    scene_info_t info{};
-    info.name = text(random, wire::kMaxSceneNameBytes);
-    info.revision = integer(random);
-    info.digest = text(random, wire::kMaxDigestBytes);
-    info.num_triangles = integer(random);
-    fill(info.bounds_min_m, random);
-    fill(info.bounds_max_m, random);
-    info.occupancy_resolution_m = number(random);
-    return info;
-  });
+  message.num_scenes =
+      fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });
   return message;
 }
 

@@ -9,7 +9,11 @@
 #include <camway/occupancy_response_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_request_t.hpp>
+#include <camway/scene_response_t.hpp>
 #include <camway/status_t.hpp>
+#include <camway/upload_page_t.hpp>
+#include <camway/upload_status_t.hpp>
 
 /// Messages that are right on the wire but otherwise arbitrary: every string length and list length
 /// within the limits is possible, numbers are any bits, NaN among them.
@@ -33,6 +37,14 @@ template <>
 occupancy_request_t random_message<occupancy_request_t>(Random& random);
 template <>
 occupancy_response_t random_message<occupancy_response_t>(Random& random);
+template <>
+scene_request_t random_message<scene_request_t>(Random& random);
+template <>
+scene_response_t random_message<scene_response_t>(Random& random);
+template <>
+upload_page_t random_message<upload_page_t>(Random& random);
+template <>
+upload_status_t random_message<upload_status_t>(Random& random);
 template <>
 status_t random_message<status_t>(Random& random);
 template <>

@@ -28,6 +28,7 @@ void add_info_command(CLI::App& app, ExitCode& exit_code);
 void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
 void add_load_command(CLI::App& app, ExitCode& exit_code);
 void add_replay_command(CLI::App& app, ExitCode& exit_code);
+void add_scene_command(CLI::App& app, ExitCode& exit_code);
 void add_draw_command(CLI::App& app, ExitCode& exit_code);
 
 /// `camway: message` on standard error.

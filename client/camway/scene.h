@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "camway/path.h"
+#include "camway/status.h"
+
+namespace camway {
+
+/// A scene that the daemon holds.
+struct SceneInfo {
+  std::string name;
+  std::int64_t revision = 0;  ///< increases with every change
+  std::string digest;         ///< of the triangles; equal content, equal digest
+  std::int64_t num_triangles = 0;
+  std::array<double, 3> bounds_min_m{};
+  std::array<double, 3> bounds_max_m{};
+  double occupancy_resolution_m = 0.0;  ///< 0: no occupancy map
+};
+
+/// An object of a scene.
+struct SceneObject {
+  std::string name;
+  std::string kind;  ///< "mesh", "box", "sphere", "cylinder", "point cloud"
+  std::string digest;
+  std::int64_t num_triangles = 0;
+  Pose pose;  ///< of the object's own frame in the world
+  std::array<double, 3> bounds_min_m{};
+  std::array<double, 3> bounds_max_m{};
+};
+
+/// A mesh that is a file in any format that Camway reads: one that the daemon finds below its scene
+/// roots, or bytes that are uploaded.
+struct SceneMesh {
+  std::string file;                 ///< relative to a scene root of the daemon; empty for bytes
+  std::vector<std::uint8_t> bytes;  ///< the content of a file
+  std::string format;  ///< extension that says the format of `bytes`: "obj", "ply", ...
+  double scale = 1.0;  ///< file units to metres
+  enum class Up { kAsInFile = 0, kZToY = 1, kYToZ = 2 } up = Up::kAsInFile;
+};
+
+/// About the object's origin.
+struct SceneBox {
+  std::array<double, 3> size_m{};
+};
+/// Enclosed by triangles that stand out by the chord error at most, by default a hundredth of the
+/// radius.
+struct SceneSphere {
+  double radius_m = 0.0;
+  double chord_error_m = 0.0;
+};
+/// Likewise, about the axis z and the middle of its height.
+struct SceneCylinder {
+  double radius_m = 0.0;
+  double height_m = 0.0;
+  double chord_error_m = 0.0;
+};
+/// Cubes of a grid that hold a point are solid.
+struct ScenePoints {
+  std::vector<std::array<double, 3>> points_m;
+  double cell_m = 0.0;
+};
+using SceneShape = std::variant<SceneMesh, SceneBox, SceneSphere, SceneCylinder, ScenePoints>;
+
+/// What a call about scenes came to.
+struct SceneAnswer {
+  Status status = Status::kNoAnswer;
+  std::string error;  ///< what failed and what to do about it; empty when `ok()`
+
+  bool ok() const { return status == Status::kOk; }
+
+  std::string message;               ///< warnings about a file; empty when there is nothing to say
+  SceneInfo scene;                   ///< as it is now, after the change; not of `list_scenes`
+  std::vector<SceneInfo> scenes;     ///< of `list_scenes`, in order of name
+  std::vector<SceneObject> objects;  ///< of `describe_scene`, in order; else the one that changed
+};
+
+}  // namespace camway

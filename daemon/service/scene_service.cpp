@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/scene_service.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <exception>
+#include <utility>
+
+#include "lcmtypes/wire_check.h"
+
+namespace camway::service {
+namespace {
+
+/// Of all but when it was sent.
+RequestDigest digest_of(scene_request_t request) {
+  request.utime = 0;
+  const Bytes bytes = wire::encode(request);
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return {hash.high64, hash.low64};
+}
+
+/// The answer, whatever happens.
+scene_response_t answer_of(const scene_request_t& request, const UploadedBytes& upload,
+                           const SceneRoots& roots, scene::SceneStore& scenes) {
+  try {
+    return perform(request, upload, roots, scenes);
+  } catch (const std::exception& exception) {
+    return plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
+                              std::string("internal error: ") + exception.what());
+  }
+}
+
+const char* name_of(std::int8_t operation) {
+  switch (operation) {
+    case scene_request_t::LOAD:
+      return "load";
+    case scene_request_t::UNLOAD:
+      return "unload";
+    case scene_request_t::LIST:
+      return "list";
+    case scene_request_t::DESCRIBE:
+      return "describe";
+    case scene_request_t::PUT:
+      return "put";
+    case scene_request_t::MOVE:
+      return "move";
+    case scene_request_t::REMOVE:
+      return "remove";
+    default:
+      return "unknown";
+  }
+}
+
+}  // namespace
+
+SceneService::SceneService(Core& core, scene::SceneStore& scenes)
+    : core_(core),
+      scenes_(scenes),
+      roots_(core.config.scene_roots),
+      uploads_(core.config.uploads),
+      thread_(1, core.config.changes) {}
+
+void SceneService::on_request(std::span<const std::uint8_t> message) {
+  wire::Decoded<scene_request_t> decoded = wire::decode<scene_request_t>(message);
+  if (!decoded.message) {
+    refuse_malformed(message, decoded.fault.text("scene_request_t"));
+    return;
+  }
+  if (!wire::is_client_id(decoded.message->client_id)) {
+    refuse_malformed(message, "scene_request_t.client_id: is not of [A-Za-z0-9_-]{1,32}");
+    return;
+  }
+  // No scene or object of ours has a name with control characters, so nothing is lost.
+  decoded.message->scene = wire::printable(decoded.message->scene);
+  decoded.message->object = wire::printable(decoded.message->object);
+  const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
+  if (only_looks(*request)) {
+    finish(*request, answer_of(*request, nullptr, roots_, scenes_));
+    return;
+  }
+  const RequestKey key{request->client_id, request->request_id};
+  const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(*request));
+  switch (found.known) {
+    case AnswerCache::Known::kRunning:
+      ++core_.counters.repeated;
+      return;
+    case AnswerCache::Known::kAnswered:
+      ++core_.counters.repeated;
+      core_.outbox.add(core_.channels.scene_response(key.client_id), found.pages);
+      return;
+    case AnswerCache::Known::kConflict:
+      send(plain_scene_answer(
+          *request, scene_response_t::STATUS_INVALID,
+          fmt::format("request_id: {} was used before for another request", key.request_id)));
+      return;
+    case AnswerCache::Known::kNew:
+      begin(request);
+      return;
+  }
+}
+
+void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) {
+  const UploadedBytes upload =
+      uploads_.find({request->client_id, request->upload_bytes, request->upload_checksum});
+  Job work;
+  work.client = request->client_id;
+  work.run = [this, request, upload] {
+    auto answer = std::make_shared<scene_response_t>(answer_of(*request, upload, roots_, scenes_));
+    core_.mailbox.post([this, request, answer] { finish(*request, std::move(*answer)); });
+  };
+  work.abandon = [this, request](Refusal why) { refuse(*request, why); };
+  if (std::optional<FairQueue::Refused> refused = thread_.submit(std::move(work))) {
+    refused->job.abandon(refused->why);
+  }
+}
+
+void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
+  core_.log->info("scene {} client={} request={} scene={} object={} status={} revision={}: {}",
+                  name_of(request.operation), request.client_id, request.request_id, request.scene,
+                  request.object, answer.status, answer.scene.revision, answer.message);
+  Pages pages = send(std::move(answer));
+  if (!only_looks(request)) {
+    cache_.finish({request.client_id, request.request_id}, std::move(pages));
+  }
+}
+
+Pages SceneService::send(scene_response_t answer) {
+  answer.utime = utime_now();
+  const std::string channel = core_.channels.scene_response(answer.client_id);
+  auto pages = std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer));
+  if (core_.outbox.add(channel, pages)) ++core_.counters.answered;
+  return pages;
+}
+
+void SceneService::refuse(const scene_request_t& request, Refusal why) {
+  cache_.forget({request.client_id, request.request_id});
+  ++core_.counters.overloaded;
+  const std::string_view message = why == Refusal::kStopping
+                                       ? "the daemon is stopping"
+                                       : "too many changes of scenes wait; send it again later";
+  core_.overload_warnings.warn(
+      fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
+  send(plain_scene_answer(request, scene_response_t::STATUS_OVERLOADED, message));
+}
+
+void SceneService::refuse_malformed(std::span<const std::uint8_t> message,
+                                    std::string_view reason) {
+  core_.note_malformed(core_.channels.scene_request(), message.size(), reason);
+  const std::optional<wire::Sender> sender =
+      wire::peek_sender(wire::layout_of<scene_request_t>(), message);
+  if (!sender) {
+    core_.report_unanswerable(core_.channels.scene_request(), message, reason);
+    return;
+  }
+  scene_request_t request{};
+  request.client_id = sender->client_id;
+  request.request_id = sender->request_id;
+  send(plain_scene_answer(request, scene_response_t::STATUS_MALFORMED, reason));
+}
+
+void SceneService::on_upload(std::span<const std::uint8_t> message) {
+  const wire::Decoded<upload_page_t> decoded = wire::decode<upload_page_t>(message);
+  std::string reason;
+  if (!decoded.message) {
+    reason = decoded.fault.text("upload_page_t");
+  } else if (!wire::is_client_id(decoded.message->client_id)) {
+    reason = "upload_page_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
+  }
+  if (!reason.empty()) {
+    core_.note_malformed(core_.channels.upload(), message.size(), reason);
+    core_.report_unanswerable(core_.channels.upload(), message, reason);
+    return;
+  }
+  Uploads::Taken taken = uploads_.take(*decoded.message, Uploads::Clock::now());
+  if (!taken.answer) return;
+  taken.status.utime = utime_now();
+  taken.status.message = clipped(taken.status.message, wire::kMaxTextBytes);
+  core_.outbox.add(core_.channels.upload_status(taken.status.client_id),
+                   std::make_shared<const std::vector<Bytes>>(1, wire::encode(taken.status)));
+}
+
+void SceneService::close() {
+  for (const Job& job : thread_.close()) job.abandon(Refusal::kStopping);
+}
+
+}  // namespace camway::service

@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/scene_work.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include "daemon/planning/request.h"
+#include "daemon/scene/import_warnings.h"
+#include "daemon/scene/shape_mesh.h"
+#include "daemon/service/scene_argument.h"
+#include "daemon/service/wire_convert.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/wire_layout.h"
+
+namespace camway::service {
+namespace {
+
+using geometry::Vec3;
+using scene::SceneChange;
+using Request = scene_request_t;
+using Answer = scene_response_t;
+
+/// A file of our own that goes when this does.
+class TemporaryFile {
+ public:
+  /// The name ends with `.extension`, which tells the importer the format.
+  TemporaryFile(const std::vector<std::uint8_t>& bytes, const std::string& extension) {
+    std::error_code failed;
+    std::string name =
+        (std::filesystem::temp_directory_path(failed) / ("camway_upload_XXXXXX." + extension))
+            .string();
+    const int file = mkstemps(name.data(), static_cast<int>(extension.size()) + 1);
+    if (file < 0) return;
+    path_ = name;
+    std::ofstream out(path_, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()),
+              static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    close(file);
+    is_good_ = static_cast<bool>(out);
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  /// Whether all bytes are in it.
+  [[nodiscard]] bool is_good() const { return is_good_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool is_good_ = false;
+};
+
+/// What came of reading or making something, or what is wrong.
+template <class Value>
+struct Made {
+  std::optional<Value> value;
+  std::string error;
+};
+
+struct MeshAndReport {
+  scene::Mesh mesh;
+  scene::ImportReport report;
+};
+
+Vec3 vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+
+bool is_extension(std::string_view text) {
+  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, is_plain);
+}
+
+Made<scene::ImportOptions> import_options(const Request& request) {
+  scene::ImportOptions options;
+  if (request.scale != 0.0) options.scale = request.scale;
+  if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
+    return {std::nullopt, "scale: must be a number above 0"};
+  }
+  switch (request.up) {
+    case Request::UP_AS_IN_FILE:
+      break;
+    case Request::UP_Z_TO_Y:
+      options.up = scene::UpAxis::kZToY;
+      break;
+    case Request::UP_Y_TO_Z:
+      options.up = scene::UpAxis::kYToZ;
+      break;
+    default:
+      return {std::nullopt, fmt::format("up: {} is unknown", request.up)};
+  }
+  return {options, {}};
+}
+
+Made<MeshAndReport> imported(const std::filesystem::path& file, const std::string& shown,
+                             const scene::ImportOptions& options) {
+  scene::ImportResult result = scene::import_mesh(file, options);
+  if (result.mesh) return {MeshAndReport{std::move(*result.mesh), std::move(result.report)}, {}};
+  // Where the daemon keeps things is nobody's business: the name is that of the request.
+  std::string error = std::move(result.error);
+  if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
+    error.replace(at, file.string().size(), shown);
+  }
+  return {std::nullopt, std::move(error)};
+}
+
+Made<MeshAndReport> read_mesh(const Request& request, const UploadedBytes& upload,
+                              const SceneRoots& roots) {
+  const Made<scene::ImportOptions> options = import_options(request);
+  if (!options.value) return {std::nullopt, options.error};
+  if (request.upload_bytes == 0) {
+    const RootedFile rooted = roots.resolve(request.file);
+    if (!rooted.error.empty()) return {std::nullopt, rooted.error};
+    return imported(rooted.file, wire::printable(request.file), *options.value);
+  }
+  if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
+  if (!is_extension(request.upload_format)) {
+    return {std::nullopt, "upload_format: must be a file name extension of [a-z0-9]{1,8}"};
+  }
+  const TemporaryFile file(*upload, request.upload_format);
+  if (!file.is_good()) return {std::nullopt, "upload: the daemon has no room for the file"};
+  return imported(file.path(), "upload." + request.upload_format, *options.value);
+}
+
+/// Doubles of an upload of points; empty, with an error, if its size is not that of any.
+Made<std::vector<Vec3>> read_points(const UploadedBytes& upload) {
+  static_assert(std::endian::native == std::endian::little, "as uploads are");
+  constexpr std::size_t kPointBytes = 3 * sizeof(double);
+  if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
+  if (upload->size() % kPointBytes != 0) {
+    return {std::nullopt, "upload: its size is no multiple of 24, the bytes of a point"};
+  }
+  std::vector<Vec3> points(upload->size() / kPointBytes);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::memcpy(points[i].data(), upload->data() + i * kPointBytes, kPointBytes);
+  }
+  return {std::move(points), {}};
+}
+
+Made<MeshAndReport> of_shape(scene::ShapeMesh shape, scene::ObjectKind kind) {
+  if (!shape.mesh) return {std::nullopt, std::move(shape.error)};
+  scene::ImportReport report = scene::report_of(*shape.mesh, scene::to_string(kind));
+  return {MeshAndReport{std::move(*shape.mesh), std::move(report)}, {}};
+}
+
+std::optional<scene::ObjectKind> kind_of(const Request& request) {
+  switch (request.kind) {
+    case Request::MESH:
+      return scene::ObjectKind::kMesh;
+    case Request::BOX:
+      return scene::ObjectKind::kBox;
+    case Request::SPHERE:
+      return scene::ObjectKind::kSphere;
+    case Request::CYLINDER:
+      return scene::ObjectKind::kCylinder;
+    case Request::POINTS:
+      return scene::ObjectKind::kPointCloud;
+    default:
+      return std::nullopt;
+  }
+}
+
+Made<MeshAndReport> make_mesh(const Request& request, scene::ObjectKind kind,
+                              const UploadedBytes& upload, const SceneRoots& roots) {
+  constexpr double kDefaultChordShare = 0.01;
+  const double chord_error_m =
+      request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;
+  switch (kind) {
+    case scene::ObjectKind::kMesh:
+      return read_mesh(request, upload, roots);
+    case scene::ObjectKind::kBox:
+      return of_shape(scene::box_mesh(vec3(request.size_m)), kind);
+    case scene::ObjectKind::kSphere:
+      return of_shape(scene::sphere_mesh(request.radius_m, chord_error_m), kind);
+    case scene::ObjectKind::kCylinder:
+      return of_shape(scene::cylinder_mesh(request.radius_m, request.height_m, chord_error_m),
+                      kind);
+    case scene::ObjectKind::kPointCloud: {
+      const Made<std::vector<Vec3>> points = read_points(upload);
+      if (!points.value) return {std::nullopt, points.error};
+      return of_shape(scene::cloud_mesh(*points.value, request.cell_m), kind);
+    }
+  }
+  return {std::nullopt, "kind: is unknown"};
+}
+
+Made<scene::Placement> placement_of(const Request& request) {
+  geometry::Quat orientation(request.orientation_wxyz[0], request.orientation_wxyz[1],
+                             request.orientation_wxyz[2], request.orientation_wxyz[3]);
+  if (orientation.coeffs().isZero(0.0)) orientation = geometry::Quat::Identity();
+  Made<scene::Placement> made;
+  const scene::Placement placement =
+      scene::Placement::make(vec3(request.position_m), orientation, made.error);
+  if (made.error.empty()) made.value = placement;
+  return made;
+}
+
+scene_object_t object_on_wire(const scene::SceneObject& object) {
+  scene_object_t wire{};
+  wire.name = clipped(object.name, wire::kMaxObjectNameBytes);
+  wire.kind = scene::to_string(object.source->kind);
+  wire.digest = object.digest;
+  wire.num_triangles = static_cast<std::int64_t>(object.placed->mesh->triangles.size());
+  std::copy_n(object.placement.position_W().data(), 3, wire.position_m);
+  std::copy_n(geometry::wxyz(object.placement.orientation_WO()).data(), 4, wire.orientation_wxyz);
+  if (const geometry::Box& bounds = object.placed->tree.bounds(); !bounds.isEmpty()) {
+    std::copy_n(bounds.min().data(), 3, wire.bounds_min_m);
+    std::copy_n(bounds.max().data(), 3, wire.bounds_max_m);
+  }
+  return wire;
+}
+
+/// Appends what fits a message, from element `first` on.
+template <class Elements, class List, class Convert>
+std::int32_t put_list(const Elements& elements, std::int32_t first, const Convert& convert,
+                      const Answer& answer, List& list) {
+  auto size = static_cast<std::size_t>(answer.getEncodedSize());
+  for (std::size_t i = static_cast<std::size_t>(std::max(first, 0)); i < elements.size(); ++i) {
+    auto element = convert(*elements[i]);
+    size += static_cast<std::size_t>(element._getEncodedSizeNoHash());
+    if (size > wire::kMaxMessageBytes) break;
+    list.push_back(std::move(element));
+  }
+  return static_cast<std::int32_t>(list.size());
+}
+
+std::int32_t status_of(scene::StoreFault fault) {
+  switch (fault) {
+    case scene::StoreFault::kNone:
+      return Answer::STATUS_OK;
+    case scene::StoreFault::kUnknownScene:
+      return Answer::STATUS_UNKNOWN_SCENE;
+    case scene::StoreFault::kInvalid:
+      return Answer::STATUS_INVALID;
+    case scene::StoreFault::kLimit:
+      return Answer::STATUS_LIMIT;
+  }
+  return Answer::STATUS_INTERNAL_ERROR;
+}
+
+std::string warnings_of(const scene::ImportReport& report) {
+  std::string text;
+  for (const std::string& warning :
+       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+    text += (text.empty() ? "warning: " : "; warning: ") + warning;
+  }
+  return text;
+}
+
+/// One request on its way.
+class Work {
+ public:
+  Work(const Request& request, const UploadedBytes& upload, const SceneRoots& roots,
+       scene::SceneStore& scenes)
+      : request_(request), upload_(upload), roots_(roots), scenes_(scenes) {}
+
+  Answer run() {
+    switch (request_.operation) {
+      case Request::LOAD:
+        return load();
+      case Request::UNLOAD:
+        return unload();
+      case Request::LIST:
+        return list();
+      case Request::DESCRIBE:
+        return describe();
+      case Request::PUT:
+        return put();
+      case Request::MOVE:
+        return move();
+      case Request::REMOVE:
+        return change({SceneChange::Kind::kRemove, request_.object, nullptr, {}}, "");
+      default:
+        return invalid(fmt::format("operation: {} is unknown", request_.operation));
+    }
+  }
+
+ private:
+  [[nodiscard]] Answer invalid(std::string_view reason) const {
+    return plain_scene_answer(request_, Answer::STATUS_INVALID, reason);
+  }
+
+  [[nodiscard]] Answer unknown() const {
+    return plain_scene_answer(
+        request_, Answer::STATUS_UNKNOWN_SCENE,
+        fmt::format("scene: '{}' is unknown; {}", request_.scene, scenes_.summary()));
+  }
+
+  /// What the store made of a change.
+  [[nodiscard]] Answer answer_to(const scene::StoreResult& result, std::string_view message) const {
+    Answer answer = plain_scene_answer(request_, status_of(result.fault),
+                                       result.snapshot ? message : result.error);
+    if (!result.snapshot) return answer;
+    answer.scene = scene_info_of(*result.snapshot);
+    answer.total = static_cast<std::int32_t>(result.snapshot->objects.size());
+    if (const scene::SceneObject* object = result.snapshot->find(request_.object)) {
+      answer.objects = {object_on_wire(*object)};
+      answer.num_objects = 1;
+    }
+    return answer;
+  }
+
+  Answer load() {
+    if (!is_scene_name(request_.scene)) return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
+    scene::ObjectOptions options;
+    if (request_.occupancy_resolution_m != 0.0) {
+      options.occupancy_resolution_m = request_.occupancy_resolution_m;
+    }
+    if (request_.file.empty() && request_.upload_bytes == 0) {
+      if (options.occupancy_resolution_m &&
+          !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
+        return invalid("occupancy_resolution_m: must be from 1e-9 to 1e9 m");
+      }
+      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
+    }
+    Made<MeshAndReport> made = read_mesh(request_, upload_, roots_);
+    if (!made.value) return invalid(made.error);
+    const std::string warnings = warnings_of(made.value->report);
+    scene::ObjectResult placed = scene::place_object(
+        request_.scene,
+        scene::make_source(scene::ObjectKind::kMesh, std::move(made.value->mesh),
+                           std::move(made.value->report), options),
+        {}, options);
+    if (!placed.object) return invalid(placed.error);
+    return answer_to(
+        scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options)),
+        warnings);
+  }
+
+  Answer unload() {
+    if (!scenes_.remove(request_.scene)) return unknown();
+    return plain_scene_answer(request_, Answer::STATUS_OK, "");
+  }
+
+  Answer list() {
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    const auto scenes = scenes_.list();
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(scenes.size());
+    answer.num_scenes = put_list(scenes, request_.first, scene_info_of, answer, answer.scenes);
+    return answer;
+  }
+
+  Answer describe() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*snapshot);
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(snapshot->objects.size());
+    answer.num_objects =
+        put_list(snapshot->objects, request_.first, object_on_wire, answer, answer.objects);
+    return answer;
+  }
+
+  Answer put() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    if (!is_scene_name(request_.object) || request_.object.size() > wire::kMaxPutNameBytes) {
+      return invalid("object: must be of [A-Za-z0-9_.-]{1,64}");
+    }
+    const std::optional<scene::ObjectKind> kind = kind_of(request_);
+    if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
+    const Made<scene::Placement> placement = placement_of(request_);
+    if (!placement.value) return invalid(placement.error);
+    Made<MeshAndReport> made = make_mesh(request_, *kind, upload_, roots_);
+    if (!made.value) return invalid(made.error);
+    const std::string warnings = warnings_of(made.value->report);
+    const auto source = scene::make_source(*kind, std::move(made.value->mesh),
+                                           std::move(made.value->report), snapshot->options);
+    return change({SceneChange::Kind::kPut, request_.object, source, *placement.value}, warnings);
+  }
+
+  Answer move() {
+    const Made<scene::Placement> placement = placement_of(request_);
+    if (!placement.value) return invalid(placement.error);
+    return change({SceneChange::Kind::kMove, request_.object, nullptr, *placement.value}, "");
+  }
+
+  Answer change(SceneChange change, std::string_view message) {
+    return answer_to(scenes_.change(request_.scene, std::move(change)), message);
+  }
+
+  const Request& request_;
+  const UploadedBytes& upload_;
+  const SceneRoots& roots_;
+  scene::SceneStore& scenes_;
+};
+
+}  // namespace
+
+scene_info_t scene_info_of(const scene::Snapshot& snapshot) {
+  scene_info_t info{};
+  info.name = clipped(snapshot.name, wire::kMaxSceneNameBytes);
+  info.revision = static_cast<std::int64_t>(snapshot.revision);
+  info.digest = clipped(snapshot.digest, wire::kMaxDigestBytes);
+  info.num_triangles = static_cast<std::int64_t>(snapshot.index.size());
+  if (!snapshot.index.bounds().isEmpty()) {
+    std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
+    std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);
+  }
+  if (snapshot.occupancy) info.occupancy_resolution_m = snapshot.occupancy->resolution_m();
+  return info;
+}
+
+scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t status,
+                                    std::string_view message) {
+  scene_response_t answer{};
+  answer.client_id = request.client_id;
+  answer.request_id = request.request_id;
+  answer.status = status;
+  answer.message = clipped(message, wire::kMaxTextBytes);
+  return answer;
+}
+
+bool only_looks(const scene_request_t& request) {
+  return request.operation == scene_request_t::LIST ||
+         request.operation == scene_request_t::DESCRIBE;
+}
+
+scene_response_t perform(const scene_request_t& request, const UploadedBytes& upload,
+                         const SceneRoots& roots, scene::SceneStore& scenes) {
+  return Work(request, upload, roots, scenes).run();
+}
+
+}  // namespace camway::service

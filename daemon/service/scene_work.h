@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include <camway/scene_info_t.hpp>
+#include <camway/scene_request_t.hpp>
+#include <camway/scene_response_t.hpp>
+
+#include "daemon/scene/scene_store.h"
+#include "daemon/service/scene_roots.h"
+#include "daemon/service/uploads.h"
+
+namespace camway::service {
+
+/// What a scene is on the wire.
+scene_info_t scene_info_of(const scene::Snapshot& snapshot);
+
+/// An answer with nothing in it but ids, status and message.
+scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t status,
+                                    std::string_view message);
+
+/// Whether the operation only looks: then it may be done again at any time.
+bool only_looks(const scene_request_t& request);
+
+/// Does what a request asks for and says how it went; a file or an upload is read by the import
+/// process. `upload` is the one that the request names, null if it is not there. `utime` is left 0.
+/// For a thread that has time: a file may take as long as its import may.
+scene_response_t perform(const scene_request_t& request, const UploadedBytes& upload,
+                         const SceneRoots& roots, scene::SceneStore& scenes);
+
+}  // namespace camway::service

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/uploads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lcmtypes/checksum.h"
+#include "lcmtypes/wire_layout.h"
+
+namespace camway::service {
+namespace {
+
+constexpr auto kPage = static_cast<std::int64_t>(wire::kUploadPageBytes);
+
+std::int64_t pages_of(std::int64_t total_bytes) { return (total_bytes + kPage - 1) / kPage; }
+
+}  // namespace
+
+std::string Uploads::fault_of(const upload_page_t& page) const {
+  if (page.total_bytes < 1) return "total_bytes: must be at least 1";
+  const std::int64_t pages = pages_of(page.total_bytes);
+  if (page.num_bytes == 0) return {};
+  if (page.page < 0 || page.page >= pages) {
+    return fmt::format("page: {} is not one of {}", page.page, pages);
+  }
+  const std::int64_t expected = std::min(kPage, page.total_bytes - page.page * kPage);
+  if (page.num_bytes != expected) {
+    return fmt::format("num_bytes: page {} has {} bytes, not {}", page.page, expected,
+                       page.num_bytes);
+  }
+  if (wire::crc64(page.bytes.data(), page.bytes.size()) != page.page_checksum) {
+    return fmt::format("page_checksum: is not that of the bytes of page {}", page.page);
+  }
+  return {};
+}
+
+Uploads::Taken Uploads::take(const upload_page_t& page, Clock::time_point now) {
+  Taken taken{.answer = true, .status = {}};
+  taken.status.client_id = page.client_id;
+  taken.status.request_id = page.request_id;
+  taken.status.total_bytes = page.total_bytes;
+  taken.status.checksum = page.checksum;
+  const auto refuse = [&](std::int32_t status, std::string message) {
+    taken.status.status = status;
+    taken.status.message = std::move(message);
+    return taken;
+  };
+  if (std::string fault = fault_of(page); !fault.empty()) {
+    return refuse(upload_status_t::STATUS_INVALID, std::move(fault));
+  }
+  if (page.total_bytes > limits_.bytes) {
+    return refuse(upload_status_t::STATUS_LIMIT,
+                  fmt::format("total_bytes: {} are more than the {} that an upload may have",
+                              page.total_bytes, limits_.bytes));
+  }
+  const UploadKey key{page.client_id, page.total_bytes, page.checksum};
+  Upload& upload = find_or_begin(key, now);
+  const auto number = static_cast<std::size_t>(page.page);
+  const bool is_new = page.num_bytes > 0 && !upload.has_page[number];
+  if (is_new) {
+    std::ranges::copy(page.bytes, upload.bytes->begin() + page.page * kPage);
+    upload.has_page[number] = true;
+    --upload.missing;
+    if (upload.missing == 0 &&
+        wire::crc64(upload.bytes->data(), upload.bytes->size()) != page.checksum) {
+      forget(uploads_.find(key));
+      return refuse(upload_status_t::STATUS_INVALID,
+                    "checksum: is not that of the pages together; send all of them again");
+    }
+  }
+  taken.answer = page.num_bytes == 0 || (is_new && upload.missing == 0);
+  report(upload, taken.status);
+  return taken;
+}
+
+void Uploads::report(const Upload& upload, upload_status_t& status) {
+  status.total_missing = static_cast<std::int32_t>(upload.missing);
+  for (std::size_t i = 0; i < upload.has_page.size(); ++i) {
+    if (status.missing.size() == wire::kMaxMissingPages) break;
+    if (!upload.has_page[i]) status.missing.push_back(static_cast<std::int32_t>(i));
+  }
+  status.num_missing = static_cast<std::int32_t>(status.missing.size());
+}
+
+Uploads::Upload& Uploads::find_or_begin(const UploadKey& key, Clock::time_point now) {
+  auto found = uploads_.find(key);
+  if (found == uploads_.end()) {
+    make_room(key.total_bytes, now);
+    const auto pages = static_cast<std::size_t>(pages_of(key.total_bytes));
+    found = uploads_.try_emplace(key).first;
+    found->second.bytes =
+        std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(key.total_bytes));
+    found->second.has_page.resize(pages);
+    found->second.missing = pages;
+    bytes_ += key.total_bytes;
+  }
+  found->second.touched = now;
+  return found->second;
+}
+
+void Uploads::forget(Map::iterator upload) {
+  bytes_ -= upload->first.total_bytes;
+  uploads_.erase(upload);
+}
+
+void Uploads::make_room(std::int64_t bytes, Clock::time_point now) {
+  for (auto upload = uploads_.begin(); upload != uploads_.end();) {
+    const auto next = std::next(upload);
+    if (now - upload->second.touched > limits_.idle) forget(upload);
+    upload = next;
+  }
+  while (!uploads_.empty() &&
+         (uploads_.size() >= limits_.uploads || bytes_ + bytes > limits_.total_bytes)) {
+    forget(std::ranges::min_element(
+        uploads_, {}, [](const Map::value_type& each) { return each.second.touched; }));
+  }
+}
+
+UploadedBytes Uploads::find(const UploadKey& key) const {
+  const auto found = uploads_.find(key);
+  return found != uploads_.end() && found->second.missing == 0 ? found->second.bytes : nullptr;
+}
+
+}  // namespace camway::service

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <camway/upload_page_t.hpp>
+#include <camway/upload_status_t.hpp>
+
+namespace camway::service {
+
+/// What was uploaded, complete. Shared, so that it may go from the store while it is read.
+using UploadedBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+/// What names an upload: who sent it, and what it is. So sending again what was interrupted goes on
+/// where it stopped, whoever was started anew on the client's side.
+struct UploadKey {
+  std::string client_id;
+  std::int64_t total_bytes = 0;
+  std::int64_t checksum = 0;
+
+  auto operator<=>(const UploadKey&) const = default;  // NOLINT(modernize-use-nullptr)
+};
+
+/// Puts uploads together from their pages, which come in any order and any number of times. What
+/// was not touched for the longest makes room for what is new. For one thread.
+class Uploads {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  struct Limits {
+    std::size_t uploads = 16;                            ///< begun or complete
+    std::int64_t bytes = std::int64_t{256} << 20;        ///< of one upload
+    std::int64_t total_bytes = std::int64_t{512} << 20;  ///< of all
+    std::chrono::seconds idle{600};                      ///< then it is forgotten
+  };
+
+  explicit Uploads(const Limits& limits) : limits_(limits) {}
+
+  /// Takes a page. Whether to answer it, and with what: see `upload_status_t`.
+  /// Precondition: the client id is right.
+  struct Taken {
+    bool answer = false;
+    upload_status_t status;
+  };
+  Taken take(const upload_page_t& page, Clock::time_point now);
+
+  /// The complete upload, or null.
+  [[nodiscard]] UploadedBytes find(const UploadKey& key) const;
+
+  /// Of all uploads.
+  [[nodiscard]] std::int64_t bytes() const { return bytes_; }
+
+ private:
+  struct Upload {
+    std::shared_ptr<std::vector<std::uint8_t>> bytes;
+    std::vector<bool> has_page;
+    std::size_t missing = 0;
+    Clock::time_point touched;
+  };
+  using Map = std::map<UploadKey, Upload>;
+
+  [[nodiscard]] std::string fault_of(const upload_page_t& page) const;
+  Upload& find_or_begin(const UploadKey& key, Clock::time_point now);
+  void forget(Map::iterator upload);
+  void make_room(std::int64_t bytes, Clock::time_point now);
+  static void report(const Upload& upload, upload_status_t& status);
+
+  Limits limits_;
+  Map uploads_;
+  std::int64_t bytes_ = 0;
+};
+
+}  // namespace camway::service

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/integration/fixture.h"
+
+namespace camway::integration {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kCube[] =
+    "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 4\nv 4 0 4\nv 4 4 4\nv 0 4 4\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+Pose at(double x, double y, double z) {
+  Pose pose;
+  pose.position_m = {x, y, z};
+  return pose;
+}
+
+/// Straight along x at y = 2, z = 10.
+PlanRequest flight(const std::string& scene) {
+  PlanRequest request;
+  request.scene = scene;
+  request.keyframes.resize(2);
+  request.keyframes[0].position_m = {-5, 2, 10};
+  request.keyframes[1].position_m = {15, 2, 10};
+  return request;
+}
+
+class SceneTest : public IntegrationTest {
+ protected:
+  void SetUp() override {
+    IntegrationTest::SetUp();
+    if (HasFatalFailure()) return;
+    std::filesystem::create_directory(file("root"));
+    std::ofstream(file("root/cube.obj")) << kCube;
+    std::ofstream(file("outside.obj")) << kCube;
+    std::filesystem::create_symlink(file("outside.obj"), file("root/link.obj"));
+    start_daemon_with_scenes({}, {"--scene-root", file("root")});
+  }
+};
+
+TEST_F(SceneTest, PlansAroundWhatIsMoved) {
+  Client client(patient());
+  SceneMesh mesh;
+  mesh.file = "cube.obj";
+  const SceneAnswer loaded = client.load_scene("world", mesh, 0.25);
+  ASSERT_TRUE(loaded.ok()) << loaded.error;
+  const PlanResponse free = client.plan(flight("world"));
+  ASSERT_TRUE(free.ok()) << free.error;
+  EXPECT_TRUE(free.collisions.empty());
+  EXPECT_EQ(free.scene_digest, loaded.scene.digest);
+
+  const SceneAnswer put = client.put_object("world", "crate", SceneBox{{1, 3, 1}}, at(5, 2, 20));
+  ASSERT_TRUE(put.ok()) << put.error;
+  const SceneAnswer moved = client.move_object("world", "crate", at(5, 2, 10));
+  ASSERT_TRUE(moved.ok()) << moved.error;
+  EXPECT_EQ(moved.scene.revision, put.scene.revision + 1);
+  const PlanResponse round = client.plan(flight("world"));
+  ASSERT_TRUE(round.ok()) << round.error;
+  EXPECT_FALSE(round.collisions.empty());
+  EXPECT_EQ(round.scene_digest, moved.scene.digest);
+  EXPECT_EQ(round.scene_revision, moved.scene.revision);
+
+  OccupancyBatch batch;
+  batch.scene = "world";
+  batch.points_m = {{5.4, 2, 10}, {5.4, 2, 20}, {2, 2, 0}};
+  const OccupancyAnswer occupied = client.occupancy(batch);
+  ASSERT_TRUE(occupied.ok()) << occupied.error;
+  EXPECT_EQ(occupied.points_occupied, (std::vector<bool>{true, false, true}));
+
+  ASSERT_TRUE(client.remove_object("world", "crate").ok());
+  const SceneAnswer described = client.describe_scene("world");
+  ASSERT_EQ(described.objects.size(), 1U);
+  EXPECT_EQ(described.objects[0].name, "world");
+  EXPECT_EQ(described.scene.digest, loaded.scene.digest) << "all is as it was";
+}
+
+TEST_F(SceneTest, ReadsNothingOutsideItsRoots) {
+  Client client(patient());
+  for (const std::string& name :
+       {std::string("link.obj"), std::string("../outside.obj"), file("outside.obj")}) {
+    SceneMesh mesh;
+    mesh.file = name;
+    const SceneAnswer answer = client.load_scene("world", mesh);
+    EXPECT_EQ(answer.status, Status::kInvalid);
+    EXPECT_THAT(answer.error, HasSubstr(name));
+  }
+  EXPECT_TRUE(client.list_scenes().scenes.empty());
+}
+
+TEST_F(SceneTest, TakesALargeUploadAndGoesOnAfterAnInterruption) {
+  std::ostringstream text;  // some 3 MB
+  for (int i = 0; i < 40'000; ++i) {
+    text << "v " << i << " 0 0\nv " << i << " 1 0\nv " << i << " 0 1\nf -3 -2 -1\n";
+  }
+  const std::string bytes = text.str();
+  SceneMesh mesh;
+  mesh.bytes.assign(bytes.begin(), bytes.end());
+  mesh.format = "obj";
+  ClientOptions hasty = patient();
+  hasty.client_id = "uploader";
+  hasty.deadline_s = 0.02;
+  Client(hasty).load_scene("comb", mesh);  // most likely ends in the middle
+  ClientOptions options = patient();
+  options.client_id = "uploader";
+  const SceneAnswer answer = Client(options).load_scene("comb", mesh);
+  ASSERT_TRUE(answer.ok()) << answer.error;
+  EXPECT_EQ(answer.scene.num_triangles, 40'000);
+}
+
+}  // namespace
+}  // namespace camway::integration

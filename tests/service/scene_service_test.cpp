@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/scene_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "lcmtypes/checksum.h"
+#include "tests/service/running_service.h"
+
+namespace camway::service {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::RunningService;
+
+scene_request_t request_for(std::int64_t id, std::int8_t operation, const std::string& scene,
+                            const std::string& object = "") {
+  scene_request_t request{};
+  request.client_id = "tester";
+  request.request_id = id;
+  request.operation = operation;
+  request.scene = scene;
+  request.object = object;
+  return request;
+}
+
+scene_request_t put_box(std::int64_t id, const std::string& scene, const std::string& object,
+                        double side_m = 1.0) {
+  scene_request_t request = request_for(id, scene_request_t::PUT, scene, object);
+  request.kind = scene_request_t::BOX;
+  for (double& side : request.size_m) side = side_m;
+  return request;
+}
+
+class SceneServiceTest : public ::testing::Test {
+ protected:
+  /// Sends `message` and waits for the next message on `answers`.
+  template <class Answer>
+  Answer ask_on(const std::string& channel, const Bytes& message, const std::string& answers) {
+    const std::size_t before = running_.transport.published_on(answers).size();
+    running_.send_on(channel, message);
+    const auto bytes = running_.transport.message_on(answers, before);
+    if (!bytes) {
+      ADD_FAILURE() << "no answer";
+      return Answer{};
+    }
+    const auto decoded = wire::decode<Answer>(*bytes);
+    EXPECT_TRUE(decoded.message) << decoded.fault.text("answer");
+    return decoded.message.value_or(Answer{});
+  }
+
+  scene_response_t ask(const scene_request_t& request) {
+    return ask_on<scene_response_t>(running_.channels.scene_request(), wire::encode(request),
+                                    running_.channels.scene_response(request.client_id));
+  }
+
+  upload_status_t send_page(const upload_page_t& page) {
+    return ask_on<upload_status_t>(running_.channels.upload(), wire::encode(page),
+                                   running_.channels.upload_status(page.client_id));
+  }
+
+  /// Uploads all of it, which has to fit a page, and names it in `request`.
+  void upload(const Bytes& bytes, scene_request_t& request) {
+    upload_page_t page{};
+    page.client_id = request.client_id;
+    page.total_bytes = request.upload_bytes = static_cast<std::int64_t>(bytes.size());
+    page.checksum = request.upload_checksum = wire::crc64(bytes.data(), bytes.size());
+    page.page_checksum = page.checksum;
+    page.num_bytes = static_cast<std::int32_t>(bytes.size());
+    page.bytes = bytes;
+    EXPECT_EQ(send_page(page).total_missing, 0);
+  }
+
+  RunningService running_;
+};
+
+TEST_F(SceneServiceTest, MakesChangesAndEndsAScene) {
+  scene_request_t load = request_for(1, scene_request_t::LOAD, "hall-2");
+  load.occupancy_resolution_m = 0.25;
+  const scene_response_t loaded = ask(load);
+  ASSERT_EQ(loaded.status, scene_response_t::STATUS_OK) << loaded.message;
+  EXPECT_EQ(loaded.scene.name, "hall-2");
+  EXPECT_EQ(loaded.scene.occupancy_resolution_m, 0.25);
+
+  const scene_response_t put = ask(put_box(2, "hall-2", "crate"));
+  ASSERT_EQ(put.status, scene_response_t::STATUS_OK) << put.message;
+  EXPECT_EQ(put.scene.revision, loaded.scene.revision + 1);
+  EXPECT_NE(put.scene.digest, loaded.scene.digest);
+  EXPECT_EQ(put.scene.num_triangles, 12);
+  ASSERT_EQ(put.objects.size(), 1U);
+  EXPECT_EQ(put.objects[0].kind, "box");
+  EXPECT_EQ(put.objects[0].digest, put.scene.digest) << "the only object";
+
+  scene_request_t move = request_for(3, scene_request_t::MOVE, "hall-2", "crate");
+  move.position_m[0] = 5.0;
+  const scene_response_t moved = ask(move);
+  ASSERT_EQ(moved.status, scene_response_t::STATUS_OK) << moved.message;
+  EXPECT_EQ(moved.scene.bounds_min_m[0], 4.5);
+  EXPECT_EQ(moved.objects[0].position_m[0], 5.0);
+  EXPECT_TRUE(running_.scenes.find("hall-2")->occupancy->occupied_at({4.6, 0.45, 0.45}));
+
+  const scene_response_t removed = ask(request_for(4, scene_request_t::REMOVE, "hall-2", "crate"));
+  EXPECT_EQ(removed.scene.digest, loaded.scene.digest);
+  EXPECT_EQ(removed.scene.revision, moved.scene.revision + 1);
+  EXPECT_EQ(ask(request_for(5, scene_request_t::UNLOAD, "hall-2")).status,
+            scene_response_t::STATUS_OK);
+  EXPECT_EQ(running_.scenes.find("hall-2"), nullptr);
+  const scene_response_t gone = ask(request_for(6, scene_request_t::UNLOAD, "hall-2"));
+  EXPECT_EQ(gone.status, scene_response_t::STATUS_UNKNOWN_SCENE);
+  EXPECT_THAT(gone.message, HasSubstr("'hall-2'"));
+}
+
+TEST_F(SceneServiceTest, MakesAChangeOnce) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "s")));
+  const scene_request_t put = put_box(2, "s", "crate");
+  const scene_response_t first = ask(put);
+  const scene_response_t again = ask(put);
+  EXPECT_EQ(wire::encode(first), wire::encode(again));
+  EXPECT_EQ(running_.scenes.find("s")->revision, 2U);
+  const scene_response_t conflict = ask(put_box(2, "s", "crate", 2.0));
+  EXPECT_EQ(conflict.status, scene_response_t::STATUS_INVALID);
+  EXPECT_THAT(conflict.message, HasSubstr("request_id"));
+}
+
+TEST_F(SceneServiceTest, ListsWhatFitsAMessage) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "s")));
+  for (int i = 0; i < 400; ++i) {
+    const std::string name = "object-with-a-name-of-some-length-" + std::to_string(1000 + i);
+    ASSERT_EQ(ask(put_box(10 + i, "s", name)).status, scene_response_t::STATUS_OK);
+  }
+  std::vector<std::string> names;
+  while (names.size() < 400) {
+    scene_request_t describe = request_for(2, scene_request_t::DESCRIBE, "s");
+    describe.first = static_cast<std::int32_t>(names.size());
+    const scene_response_t answer = ask(describe);
+    ASSERT_EQ(answer.total, 400);
+    ASSERT_FALSE(answer.objects.empty());
+    for (const scene_object_t& object : answer.objects) names.push_back(object.name);
+  }
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  EXPECT_EQ(names.size(), 400U);
+  const scene_response_t list = ask(request_for(3, scene_request_t::LIST, ""));
+  EXPECT_EQ(list.total, 3);
+  EXPECT_EQ(list.scenes.back().name, "s");
+}
+
+TEST_F(SceneServiceTest, LoadsWhatIsUploaded) {
+  const std::string text = "OFF\n4 1 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n4 0 1 2 3\n";
+  scene_request_t load = request_for(1, scene_request_t::LOAD, "square");
+  load.upload_format = "off";
+  load.scale = 0.5;
+  upload(Bytes(text.begin(), text.end()), load);
+  const scene_response_t loaded = ask(load);
+  ASSERT_EQ(loaded.status, scene_response_t::STATUS_OK) << loaded.message;
+  EXPECT_EQ(loaded.scene.num_triangles, 2);
+  EXPECT_EQ(loaded.scene.bounds_max_m[0], 1.0);
+
+  scene_request_t points = request_for(2, scene_request_t::PUT, "square", "dust");
+  points.kind = scene_request_t::POINTS;
+  points.cell_m = 0.5;
+  const double coordinates[] = {0.1, 0.1, 5.1, 0.6, 0.1, 5.1};
+  Bytes bytes(sizeof coordinates);
+  std::memcpy(bytes.data(), coordinates, sizeof coordinates);
+  upload(bytes, points);
+  const scene_response_t put = ask(points);
+  ASSERT_EQ(put.status, scene_response_t::STATUS_OK) << put.message;
+  EXPECT_EQ(put.scene.num_triangles, 2 + 2 * 10);
+  EXPECT_EQ(put.objects[0].kind, "point cloud");
+}
+
+TEST_F(SceneServiceTest, SaysWhatIsWrongWithARequest) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "s")));
+  std::int64_t id = 100;
+  const auto refusal = [&](scene_request_t request) {
+    request.request_id = ++id;
+    const scene_response_t answer = ask(request);
+    EXPECT_EQ(answer.status, scene_response_t::STATUS_INVALID);
+    return answer.message;
+  };
+  EXPECT_THAT(refusal(request_for(0, 99, "s")), HasSubstr("operation: 99"));
+  EXPECT_THAT(refusal(request_for(0, scene_request_t::LOAD, "a/b")), HasSubstr("scene:"));
+  EXPECT_THAT(refusal(put_box(0, "s", "")), HasSubstr("object:"));
+  EXPECT_THAT(refusal(put_box(0, "s", std::string(65, 'x'))), HasSubstr("object:"));
+  EXPECT_THAT(refusal(put_box(0, "s", "crate", -1.0)), HasSubstr("size_m"));
+  scene_request_t request = put_box(0, "s", "crate");
+  request.kind = 77;
+  EXPECT_THAT(refusal(request), HasSubstr("kind: 77"));
+  request = put_box(0, "s", "crate");
+  request.position_m[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal(request), HasSubstr("pose"));
+  request = request_for(0, scene_request_t::PUT, "s", "mesh");
+  request.file = "a.obj";
+  EXPECT_THAT(refusal(request), HasSubstr("no scene roots"));
+  request.upload_bytes = 10;
+  EXPECT_THAT(refusal(request), HasSubstr("upload"));
+  request.scale = -1.0;
+  EXPECT_THAT(refusal(request), HasSubstr("scale"));
+  request.scale = 1.0;
+  request.up = 9;
+  EXPECT_THAT(refusal(request), HasSubstr("up: 9"));
+  EXPECT_THAT(refusal(request_for(0, scene_request_t::MOVE, "s", "none")), HasSubstr("'none'"));
+  request = request_for(0, scene_request_t::PUT, "s", "ball");
+  request.kind = scene_request_t::SPHERE;
+  EXPECT_THAT(refusal(request), HasSubstr("radius_m"));
+  EXPECT_EQ(running_.scenes.find("s")->revision, 1U);
+}
+
+TEST_F(SceneServiceTest, AnswersWhatItCannotRead) {
+  Bytes bytes = wire::encode(put_box(5, "s", "crate"));
+  bytes.pop_back();
+  const scene_response_t answer = ask_on<scene_response_t>(
+      running_.channels.scene_request(), bytes, running_.channels.scene_response("tester"));
+  EXPECT_EQ(answer.status, scene_response_t::STATUS_MALFORMED);
+  EXPECT_EQ(answer.request_id, 5);
+}
+
+TEST_F(SceneServiceTest, PlanningKeepsTheSceneItBeganWith) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "s")));
+  running_.planner.hold();
+  plan_request_t plan = testing::request_with(9);
+  plan.scene = "s";
+  running_.send(plan);
+  ASSERT_TRUE(running_.planner.wait_for_calls(1));
+  ASSERT_EQ(ask(put_box(2, "s", "crate")).scene.revision, 2);
+  running_.planner.release();
+  const auto answer = running_.answer_to(plan);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->scene_revision, 1);
+}
+
+}  // namespace
+}  // namespace camway::service

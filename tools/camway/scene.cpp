@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "client/camway/client.h"
+#include "tools/camway/commands.h"
+
+namespace camway::tools {
+namespace {
+
+/// What the subcommands of `camway scene` share, and what they are told.
+struct SceneCommandFlags {
+  std::string url;
+  std::string prefix = "CAMWAY";
+  std::string scene;
+  std::string object;
+  std::string file;         ///< below a root of the daemon
+  std::string upload_file;  ///< here
+  double scale = 1.0;
+  SceneMesh::Up up = SceneMesh::Up::kAsInFile;
+  double occupancy_m = 0.0;
+  std::vector<double> box_m;
+  std::vector<double> cylinder_m;
+  std::optional<double> sphere_m;
+  double chord_error_m = 0.0;
+  std::vector<double> position_m{0.0, 0.0, 0.0};
+  std::vector<double> orientation_wxyz{1.0, 0.0, 0.0, 0.0};
+};
+
+using Flags = std::shared_ptr<SceneCommandFlags>;
+
+/// A wrong request is the caller's; that nobody answers is neither his fault nor an answer.
+ExitCode exit_code_of(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return ExitCode::kSuccess;
+    case Status::kInvalid:
+    case Status::kUnknownScene:
+    case Status::kLimit:
+      return ExitCode::kInvalidInput;
+    default:
+      return ExitCode::kOurFault;
+  }
+}
+
+void print_scene(const SceneInfo& scene) {
+  fmt::print(
+      "{} revision {}: {} triangles, [{:.3f}, {:.3f}, {:.3f}] to [{:.3f}, {:.3f}, {:.3f}] "
+      "m, {}, digest {}\n",
+      scene.name, scene.revision, scene.num_triangles, scene.bounds_min_m[0], scene.bounds_min_m[1],
+      scene.bounds_min_m[2], scene.bounds_max_m[0], scene.bounds_max_m[1], scene.bounds_max_m[2],
+      scene.occupancy_resolution_m > 0.0
+          ? fmt::format("voxels of {} m", scene.occupancy_resolution_m)
+          : "no occupancy map",
+      scene.digest);
+}
+
+void print_object(const SceneObject& object) {
+  const Pose& pose = object.pose;
+  fmt::print(
+      "  {}: {}, {} triangles, at [{:.6g}, {:.6g}, {:.6g}] m, turned [{:.6g}, {:.6g}, "
+      "{:.6g}, {:.6g}], digest {}\n",
+      object.name, object.kind, object.num_triangles, pose.position_m[0], pose.position_m[1],
+      pose.position_m[2], pose.orientation_wxyz[0], pose.orientation_wxyz[1],
+      pose.orientation_wxyz[2], pose.orientation_wxyz[3], object.digest);
+}
+
+ExitCode print_answer(const SceneAnswer& answer) {
+  if (!answer.ok()) {
+    print_error(answer.error);
+    return exit_code_of(answer.status);
+  }
+  if (!answer.message.empty()) print_error(answer.message);
+  if (!answer.scene.name.empty()) print_scene(answer.scene);
+  for (const SceneInfo& scene : answer.scenes) print_scene(scene);
+  for (const SceneObject& object : answer.objects) print_object(object);
+  return ExitCode::kSuccess;
+}
+
+/// The bytes of a file and its extension.
+bool read_upload(const std::string& file, SceneMesh& mesh) {
+  std::ifstream in(file, std::ios::binary);
+  mesh.bytes.assign(std::istreambuf_iterator<char>(in), {});
+  if (!in.is_open() || in.bad()) {
+    print_error("cannot read '" + file + "'");
+    return false;
+  }
+  if (mesh.bytes.empty()) {
+    print_error("'" + file + "' is empty");
+    return false;
+  }
+  const std::size_t dot = file.rfind('.');
+  mesh.format = dot == std::string::npos ? "" : file.substr(dot + 1);
+  for (char& c : mesh.format) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return true;
+}
+
+/// The mesh that the flags name; nothing, and said why, if its file cannot be read.
+std::optional<SceneMesh> mesh_of(const SceneCommandFlags& flags) {
+  SceneMesh mesh;
+  mesh.file = flags.file;
+  mesh.scale = flags.scale;
+  mesh.up = flags.up;
+  if (!flags.upload_file.empty() && !read_upload(flags.upload_file, mesh)) return std::nullopt;
+  return mesh;
+}
+
+std::optional<SceneShape> shape_of(const SceneCommandFlags& flags) {
+  if (!flags.box_m.empty()) return SceneBox{{flags.box_m[0], flags.box_m[1], flags.box_m[2]}};
+  if (flags.sphere_m) return SceneSphere{*flags.sphere_m, flags.chord_error_m};
+  if (!flags.cylinder_m.empty()) {
+    return SceneCylinder{flags.cylinder_m[0], flags.cylinder_m[1], flags.chord_error_m};
+  }
+  if (flags.file.empty() && flags.upload_file.empty()) {
+    print_error("one of --file, --upload, --box, --sphere and --cylinder says what to add");
+    return std::nullopt;
+  }
+  if (std::optional<SceneMesh> mesh = mesh_of(flags)) return *std::move(mesh);
+  return std::nullopt;
+}
+
+Pose pose_of(const SceneCommandFlags& flags) {
+  Pose pose;
+  std::copy_n(flags.position_m.begin(), 3, pose.position_m.begin());
+  std::copy_n(flags.orientation_wxyz.begin(), 4, pose.orientation_wxyz.begin());
+  return pose;
+}
+
+/// Opens a client and lets `call` ask with it.
+template <class Call>
+ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
+  ClientOptions options;
+  options.url = flags.url;
+  options.prefix = flags.prefix;
+  Client client(options);
+  if (!client.good()) {
+    print_error(client.error());
+    return ExitCode::kOurFault;
+  }
+  return print_answer(call(client));
+}
+
+ExitCode run_load(const SceneCommandFlags& flags) {
+  const std::optional<SceneMesh> mesh = mesh_of(flags);
+  if (!mesh) return ExitCode::kInvalidInput;
+  return with_client(flags, [&](Client& client) {
+    return client.load_scene(flags.scene, *mesh, flags.occupancy_m);
+  });
+}
+
+ExitCode run_add(const SceneCommandFlags& flags) {
+  const std::optional<SceneShape> shape = shape_of(flags);
+  if (!shape) return ExitCode::kInvalidInput;
+  return with_client(flags, [&](Client& client) {
+    return client.put_object(flags.scene, flags.object, *shape, pose_of(flags));
+  });
+}
+
+CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, const char* help) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->add_option("--url", flags->url, "LCM network [LCM_DEFAULT_URL]");
+  command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
+  return command;
+}
+
+void add_scene_name(CLI::App& command, const Flags& flags) {
+  command.add_option("SCENE", flags->scene, "Name of the scene in the daemon")->required();
+}
+
+void add_object_name(CLI::App& command, const Flags& flags) {
+  command.add_option("OBJECT", flags->object, "Name of the object in the scene")->required();
+}
+
+void add_mesh_flags(CLI::App& command, const Flags& flags) {
+  static const std::map<std::string, SceneMesh::Up> kUpAxes{
+      {"as-in-file", SceneMesh::Up::kAsInFile},
+      {"z-to-y", SceneMesh::Up::kZToY},
+      {"y-to-z", SceneMesh::Up::kYToZ}};
+  CLI::Option* file =
+      command
+          .add_option("--file", flags->file,
+                      "Mesh file that the daemon reads, below one of its --scene-root folders")
+          ->type_name("FILE");
+  command.add_option("--upload", flags->upload_file, "Mesh file here, sent to the daemon")
+      ->type_name("FILE")
+      ->excludes(file);
+  command.add_option("--scale", flags->scale, "Metres per unit of the file")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--up", flags->up, "Turn the axes: z-to-y or y-to-z [as-in-file]")
+      ->transform(CLI::CheckedTransformer(kUpAxes).description("as-in-file|z-to-y|y-to-z"))
+      ->type_name("AXES");
+}
+
+void add_pose_flags(CLI::App& command, const Flags& flags) {
+  command.add_option("--position", flags->position_m, "Of the object's origin, metres")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->allow_extra_args(false);
+  command.add_option("--orientation", flags->orientation_wxyz, "Turns the object's axes")
+      ->type_name("W,X,Y,Z")
+      ->delimiter(',')
+      ->expected(4)
+      ->allow_extra_args(false);
+}
+
+void add_shape_flags(CLI::App& command, const Flags& flags) {
+  command.add_option("--box", flags->box_m, "A box of this size about its origin, metres")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  command.add_option("--sphere", flags->sphere_m, "A sphere of this radius")->type_name("RADIUS");
+  command
+      .add_option("--cylinder", flags->cylinder_m,
+                  "A cylinder of this radius and height along z, about its middle")
+      ->type_name("RADIUS,HEIGHT")
+      ->delimiter(',')
+      ->expected(2);
+  command.add_option("--chord-error", flags->chord_error_m,
+                     "How far the triangles about a sphere or cylinder may stand out, metres [a "
+                     "hundredth of the radius]");
+}
+
+void add_load(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
+  CLI::App* command =
+      add_command(parent, flags, "load", "Load a scene from a file, or make one without objects");
+  add_scene_name(*command, flags);
+  add_mesh_flags(*command, flags);
+  command->add_option("--occupancy", flags->occupancy_m,
+                      "Edge of a voxel of its occupancy map, metres [no map]");
+  command->callback([flags, &exit_code] { exit_code = run_load(*flags); });
+}
+
+void add_changes(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
+  CLI::App* add =
+      add_command(parent, flags, "add", "Add an object, or replace the one of its name");
+  add_scene_name(*add, flags);
+  add_object_name(*add, flags);
+  add_mesh_flags(*add, flags);
+  add_shape_flags(*add, flags);
+  add_pose_flags(*add, flags);
+  add->callback([flags, &exit_code] { exit_code = run_add(*flags); });
+
+  CLI::App* move = add_command(parent, flags, "move", "Put an object elsewhere");
+  add_scene_name(*move, flags);
+  add_object_name(*move, flags);
+  add_pose_flags(*move, flags);
+  move->callback([flags, &exit_code] {
+    exit_code = with_client(*flags, [&](Client& client) {
+      return client.move_object(flags->scene, flags->object, pose_of(*flags));
+    });
+  });
+
+  CLI::App* remove = add_command(parent, flags, "remove", "Take an object out of a scene");
+  add_scene_name(*remove, flags);
+  add_object_name(*remove, flags);
+  remove->callback([flags, &exit_code] {
+    exit_code = with_client(
+        *flags, [&](Client& client) { return client.remove_object(flags->scene, flags->object); });
+  });
+}
+
+void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
+  CLI::App* list = add_command(parent, flags, "list", "List the daemon's scenes");
+  list->callback([flags, &exit_code] {
+    exit_code = with_client(*flags, [](Client& client) { return client.list_scenes(); });
+  });
+
+  CLI::App* describe = add_command(parent, flags, "describe", "List the objects of a scene");
+  add_scene_name(*describe, flags);
+  describe->callback([flags, &exit_code] {
+    exit_code =
+        with_client(*flags, [&](Client& client) { return client.describe_scene(flags->scene); });
+  });
+
+  CLI::App* unload = add_command(parent, flags, "unload", "Let the daemon forget a scene");
+  add_scene_name(*unload, flags);
+  unload->callback([flags, &exit_code] {
+    exit_code =
+        with_client(*flags, [&](Client& client) { return client.unload_scene(flags->scene); });
+  });
+}
+
+}  // namespace
+
+void add_scene_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* scene = app.add_subcommand("scene",
+                                       "Look at the scenes of a running daemon and change "
+                                       "them, over LCM");
+  scene->require_subcommand(1);
+  scene->footer(
+      exit_code_help("") +
+      "\nWrite --position=-1,2,3 if the first number is negative."
+      "\nExample: camway scene load hall --upload hall.obj && camway scene add hall crate "
+      "--box 1,1,1 --position 4,0.5,2 && camway scene move hall crate --position 5,0.5,2");
+  const auto flags = std::make_shared<SceneCommandFlags>();
+  add_load(*scene, flags, exit_code);
+  add_changes(*scene, flags, exit_code);
+  add_looks(*scene, flags, exit_code);
+}
+
+}  // namespace camway::tools
