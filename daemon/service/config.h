@@ -15,11 +15,12 @@
 namespace camway::service {
 
 inline constexpr std::size_t kMaxQueueCapacity = 100'000;
+inline constexpr int kMaxWorkers = 256;
 
 /// How the service behaves. Every default works.
 struct ServiceConfig {
   std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
-  int workers = 1;                ///< `--workers` [Limit: 1 <= value <= 256]
+  int workers = 1;                ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
   /// Requests that wait for a worker; `--queue`, `--client-queue`
   /// [Limit: 1 <= value <= kMaxQueueCapacity]
   FairQueue::Limits queue;
@@ -29,8 +30,8 @@ struct ServiceConfig {
   /// Messages that may wait in LCM between two turns of the loop, for each kind of request. Large
   /// enough for the longest request in pages; the loop only checks and queues, so it drains fast.
   int subscription_capacity = 1024;
-  SceneRoots scene_roots;     ///< of files that clients may name; `--scene-root`
-  Uploads::Limits uploads;    ///< `--max-upload-mb`
+  SceneRoots scene_roots;     ///< of files that clients may name; `scenes.roots`
+  Uploads::Limits uploads;    ///< `scenes.uploads` and others
   FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]

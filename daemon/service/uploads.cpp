@@ -49,7 +49,7 @@ Uploads::Taken Uploads::take(const upload_page_t& page, Clock::time_point now) {
   if (std::string fault = fault_of(page); !fault.empty()) {
     return refuse(upload_status_t::STATUS_INVALID, std::move(fault));
   }
-  if (page.total_bytes > limits_.bytes) {
+  if (static_cast<std::size_t>(page.total_bytes) > limits_.bytes) {
     return refuse(upload_status_t::STATUS_LIMIT,
                   fmt::format("total_bytes: {} are more than the {} that an upload may have",
                               page.total_bytes, limits_.bytes));
@@ -86,25 +86,25 @@ void Uploads::report(const Upload& upload, upload_status_t& status) {
 Uploads::Upload& Uploads::find_or_begin(const UploadKey& key, Clock::time_point now) {
   auto found = uploads_.find(key);
   if (found == uploads_.end()) {
-    make_room(key.total_bytes, now);
+    const auto size = static_cast<std::size_t>(key.total_bytes);
     const auto pages = static_cast<std::size_t>(pages_of(key.total_bytes));
+    make_room(size, now);
     found = uploads_.try_emplace(key).first;
-    found->second.bytes =
-        std::make_shared<std::vector<std::uint8_t>>(static_cast<std::size_t>(key.total_bytes));
+    found->second.bytes = std::make_shared<std::vector<std::uint8_t>>(size);
     found->second.has_page.resize(pages);
     found->second.missing = pages;
-    bytes_ += key.total_bytes;
+    bytes_ += size;
   }
   found->second.touched = now;
   return found->second;
 }
 
 void Uploads::forget(Map::iterator upload) {
-  bytes_ -= upload->first.total_bytes;
+  bytes_ -= static_cast<std::size_t>(upload->first.total_bytes);
   uploads_.erase(upload);
 }
 
-void Uploads::make_room(std::int64_t bytes, Clock::time_point now) {
+void Uploads::make_room(std::size_t bytes, Clock::time_point now) {
   for (auto upload = uploads_.begin(); upload != uploads_.end();) {
     const auto next = std::next(upload);
     if (now - upload->second.touched > limits_.idle) forget(upload);

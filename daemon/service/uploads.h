@@ -35,10 +35,10 @@ class Uploads {
   using Clock = std::chrono::steady_clock;
 
   struct Limits {
-    std::size_t uploads = 16;                            ///< begun or complete
-    std::int64_t bytes = std::int64_t{256} << 20;        ///< of one upload
-    std::int64_t total_bytes = std::int64_t{512} << 20;  ///< of all
-    std::chrono::seconds idle{600};                      ///< then it is forgotten
+    std::size_t uploads = 16;                          ///< begun or complete
+    std::size_t bytes = std::size_t{256} << 20;        ///< of one upload
+    std::size_t total_bytes = std::size_t{512} << 20;  ///< of all
+    std::chrono::seconds idle{600};                    ///< then it is forgotten
   };
 
   explicit Uploads(const Limits& limits) : limits_(limits) {}
@@ -55,7 +55,7 @@ class Uploads {
   [[nodiscard]] UploadedBytes find(const UploadKey& key) const;
 
   /// Of all uploads.
-  [[nodiscard]] std::int64_t bytes() const { return bytes_; }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
   struct Upload {
@@ -69,12 +69,12 @@ class Uploads {
   [[nodiscard]] std::string fault_of(const upload_page_t& page) const;
   Upload& find_or_begin(const UploadKey& key, Clock::time_point now);
   void forget(Map::iterator upload);
-  void make_room(std::int64_t bytes, Clock::time_point now);
+  void make_room(std::size_t bytes, Clock::time_point now);
   static void report(const Upload& upload, upload_status_t& status);
 
   Limits limits_;
   Map uploads_;
-  std::int64_t bytes_ = 0;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace camway::service

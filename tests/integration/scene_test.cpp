@@ -42,7 +42,7 @@ class SceneTest : public IntegrationTest {
     std::ofstream(file("root/cube.obj")) << kCube;
     std::ofstream(file("outside.obj")) << kCube;
     std::filesystem::create_symlink(file("outside.obj"), file("root/link.obj"));
-    start_daemon_with_scenes({}, {"--scene-root", file("root")});
+    start_daemon_with_scenes({}, {"--scene-roots", file("root")});
   }
 };
 

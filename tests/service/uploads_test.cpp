@@ -122,7 +122,7 @@ TEST(Uploads, RefusesPagesThatAreWrong) {
     page.total_bytes = size;
     EXPECT_THAT(refusal(page), HasSubstr("total_bytes"));
   }
-  EXPECT_EQ(uploads.bytes(), 0) << "what is refused takes no room";
+  EXPECT_EQ(uploads.bytes(), 0U) << "what is refused takes no room";
 }
 
 TEST(Uploads, StartsAnewWhenTheWholeIsNotWhatWasSaid) {
@@ -137,7 +137,7 @@ TEST(Uploads, StartsAnewWhenTheWholeIsNotWhatWasSaid) {
   const Uploads::Taken taken = uploads.take(with_wrong_sum(1), kNow);
   EXPECT_TRUE(taken.answer);
   EXPECT_THAT(taken.status.message, HasSubstr("checksum"));
-  EXPECT_EQ(uploads.bytes(), 0);
+  EXPECT_EQ(uploads.bytes(), 0U);
 }
 
 TEST(Uploads, KeepsWithinItsLimits) {
@@ -164,9 +164,9 @@ TEST(Uploads, KeepsWithinItsLimits) {
   EXPECT_TRUE(uploads.find(key_of(first)));
   EXPECT_FALSE(uploads.find(key_of(second))) << "not touched for the longest";
   for (unsigned i = 0; i < 10; ++i) static_cast<void>(take(some_bytes(1 + i, 20 + i), 4));
-  EXPECT_LE(uploads.bytes(), 3 * 10);
+  EXPECT_LE(uploads.bytes(), 3U * 10);
   static_cast<void>(take(some_bytes(5, 40), 100));
-  EXPECT_EQ(uploads.bytes(), 5) << "the idle ones are forgotten";
+  EXPECT_EQ(uploads.bytes(), 5U) << "the idle ones are forgotten";
 }
 
 }  // namespace

@@ -187,7 +187,7 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
   CLI::Option* file =
       command
           .add_option("--file", flags->file,
-                      "Mesh file that the daemon reads, below one of its --scene-root folders")
+                      "Mesh file that the daemon reads, below one of its --scene-roots")
           ->type_name("FILE");
   command.add_option("--upload", flags->upload_file, "Mesh file here, sent to the daemon")
       ->type_name("FILE")
