@@ -292,7 +292,7 @@ TEST(Service, SaysWhenTheTransportFails) {
 TEST(Service, SaysWhenNothingCanBeSubscribed) {
   testing::FakeTransport transport;
   transport.fail_subscribe();
-  const scene::SceneStore scenes;
+  scene::SceneStore scenes;
   Service service(
       transport, scenes, {},
       [](const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&) {
