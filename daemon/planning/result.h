@@ -99,7 +99,8 @@ struct PlanResult {
   /// The near distance that the proof is for, as a share of the one asked for; below 1 only if
   /// `PlanOptions::max_shrink` allowed it.
   double near_scale = 1.0;
-  /// The times of `path` are those asked for, stretched by this, to meet limits.
+  /// How many times as long `path` takes as was asked for, to meet limits. It is slower where it
+  /// has to be, or all the way (`planning/limits.h`); every time of the result is a new one.
   double time_scale = 1.0;
   std::vector<KeyframeFault> keyframe_faults;  ///< for kInvalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible

@@ -133,7 +133,7 @@ TEST(PlanSummary, SaysWhatWasScaled) {
   result.time_scale = 1.25;
   EXPECT_THAT(plan_summary(result, nullptr),
               EndsWith("\n  the near distance is 0.8 of the one asked for"
-                       "\n  times are stretched by 1.25 to meet the limits"));
+                       "\n  to meet the limits it takes 1.25 times as long"));
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ void add_scales(const PlanResult& result, std::vector<std::string>& lines) {
   }
   if (result.time_scale != 1.0) {
     lines.push_back(
-        fmt::format("times are stretched by {:.4g} to meet the limits", result.time_scale));
+        fmt::format("to meet the limits it takes {:.4g} times as long", result.time_scale));
   }
 }
 
