@@ -79,6 +79,7 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.camera.fov_y_rad = request.camera.fov_y_rad;
   wire.camera.near_m = request.camera.near_m;
   wire.method = request.method;
+  wire.priority = static_cast<std::int8_t>(request.priority);
   wire.deadline_s = request.deadline_s;
   wire.chord_error_m = request.chord_error_m;
   wire.interval_tolerance_m = request.interval_tolerance_m;

@@ -59,6 +59,7 @@ constexpr std::array kPlanRequest{
     list("body.points_m", 3 * kDouble),
     list("body.triangles", 3 * kInt32),
     text("method", kMaxMethodBytes),
+    fixed("priority", kByte),
     fixed("deadline_s", kDouble),
     fixed("chord_error_m", kDouble),
     fixed("interval_tolerance_m", kDouble),

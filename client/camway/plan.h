@@ -32,6 +32,11 @@ struct Keyframe {
   bool inserted = false;  ///< in answers: put in by the daemon to avoid a collision
 };
 
+/// Which of the requests that wait goes first. A client's time counts four times for requests of
+/// low priority, a quarter for those of high priority: beside a client that says normal, one that
+/// says high gets four times as much planned.
+enum class Priority { kLow = -1, kNormal = 0, kHigh = 1 };
+
 /// A question for a path. Zero or empty options stand for the daemon's defaults.
 struct PlanRequest {
   std::string scene;  ///< name of a scene that the daemon holds [Limit: 128 bytes]
@@ -41,8 +46,9 @@ struct PlanRequest {
   std::vector<Keyframe> keyframes;
   bool has_times = false;  ///< whether `keyframes[i].time_s` count; else they are derived
 
-  std::string method;                 ///< "ladder", "keyframe_insertion" or empty
-  double deadline_s = 0.0;            ///< for planning alone
+  std::string method;  ///< "ladder", "keyframe_insertion" or empty
+  Priority priority = Priority::kNormal;
+  double deadline_s = 0.0;            ///< from the daemon's receipt on, waiting included
   double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
   double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
   double clearance_m = 0.0;  ///< how far the body has to stay from the scene [Limit: 0 <= value]

@@ -34,12 +34,12 @@ Turns turns_of(const Vec4& reference, const Vec4& image) {
 
 }  // namespace
 
-void add_contact_rows(FreeSpace& space, const Vec4& reference, double lever_m,
+void add_contact_rows(FreeSpace& space, bool may_turn, const Vec4& reference, double lever_m,
                       const StackedPoint& point, std::span<const std::uint32_t> triangles,
                       double horizon_m, std::vector<ContactRow>& rows) {
   const motion::CubicPoint cubic = unstacked(point, lever_m);
   const motion::Pose pose = motion::pose_of(reference, cubic);
-  const Turns turns = space.may_turn() ? turns_of(reference, cubic.image) : Turns(Turns::Zero());
+  const Turns turns = may_turn ? turns_of(reference, cubic.image) : Turns(Turns::Zero());
   const std::span<const Triangle> parts = space.placed(pose);
   for (const std::uint32_t index : triangles) {
     const Triangle obstacle = space.obstacles().index.triangle(index);

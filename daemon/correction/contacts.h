@@ -22,8 +22,9 @@ struct ContactRow {
 /// Adds the rows of what `triangle` asks of the body: for each triangle of the body, the plane
 /// across the shortest line between the two, and those vertices that a step of `horizon_m` could
 /// bring to it. `point` is where the body is, and free of the triangle.
-void add_contact_rows(FreeSpace& space, const geometry::Vec4& reference, double lever_m,
-                      const StackedPoint& point, std::span<const std::uint32_t> triangles,
-                      double horizon_m, std::vector<ContactRow>& rows);
+void add_contact_rows(FreeSpace& space, bool may_turn, const geometry::Vec4& reference,
+                      double lever_m, const StackedPoint& point,
+                      std::span<const std::uint32_t> triangles, double horizon_m,
+                      std::vector<ContactRow>& rows);
 
 }  // namespace camway::correction

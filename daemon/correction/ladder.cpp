@@ -2,11 +2,13 @@
 #include "daemon/correction/ladder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "daemon/correction/detour.h"
 #include "daemon/correction/nudge.h"
+#include "daemon/correction/objective_cost.h"
 #include "daemon/correction/relaxation.h"
 
 namespace camway::correction {
@@ -30,8 +32,9 @@ class Ladder {
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
     std::vector<bool> is_hit(keyframes_s_.size() - 1);
     for (const CollisionInterval& interval : open_) is_hit[gap_of(interval)] = true;
-    improvement_ = {options.objective,
-                    kStepsAGap * static_cast<int>(std::ranges::count(is_hit, true))};
+    const auto gaps_hit = static_cast<int>(std::ranges::count(is_hit, true));
+    improvement_ = {Objective::kClosest, kStepsAGap * gaps_hit};
+    pursuit_ = {options.objective, kPursuitStepsAGap * gaps_hit, false};
   }
 
   LadderResult run() && {
@@ -43,6 +46,7 @@ class Ladder {
     }
     result_.timed_out = any_open() && deadline_.passed();
     polish();
+    if (options_.objective != Objective::kClosest) pursue_objective();
     for (Correction& correction : result_.corrections) {
       if (correction.rung != Rung::kNone) measure(correction);
     }
@@ -195,16 +199,12 @@ class Ladder {
   // What one correction left to the next can be better now that all are there; and again where that
   // changed what is beside it.
   void polish() {
-    std::vector<bool> is_worn(keyframes_s_.size() - 1);
-    for (const Correction& correction : result_.corrections) {
-      if (correction.rung != Rung::kNone)
-        mark_gaps(correction.t_begin_s, correction.t_end_s, is_worn);
-    }
+    std::vector<bool> is_worn = corrected_gaps();
     for (int round = 0; round < kPolishingRounds; ++round) {
       for (std::size_t gap = 0; gap < is_worn.size() && !deadline_.passed(); ++gap) {
         if (!is_worn[gap]) continue;
         const std::optional<Candidate> better =
-            polished(problem_of_gap(gap), improvement_, space_, deadline_);
+            polished(problem_of_gap(gap), kPolishedKnots, improvement_, space_, deadline_);
         if (better && take(*better)) {
           for (const motion::BumpRow& row : better->rows) {
             mark_gaps(row.begin_s(), row.end_s(), is_worn);
@@ -214,6 +214,36 @@ class Ladder {
         is_worn[gap] = false;
       }
     }
+  }
+
+  [[nodiscard]] std::vector<bool> corrected_gaps() const {
+    std::vector<bool> gaps(keyframes_s_.size() - 1);
+    for (const Correction& correction : result_.corrections) {
+      if (correction.rung != Rung::kNone) mark_gaps(correction.t_begin_s, correction.t_end_s, gaps);
+    }
+    return gaps;
+  }
+
+  // Every objective begins with the closest path, and only what is better by its own measure is
+  // taken: so none ends with less of it than others have.
+  void pursue_objective() {
+    const std::vector<bool> gaps = corrected_gaps();
+    for (const int knots : kPursuitKnots) {
+      for (std::size_t gap = 0; gap < gaps.size() && !deadline_.passed(); ++gap) {
+        if (gaps[gap]) pursue_objective(gap, knots);
+      }
+    }
+  }
+
+  void pursue_objective(std::size_t gap, int knots) {
+    const Problem problem = problem_of_gap(gap);
+    const std::optional<Candidate> other = polished(problem, knots, pursuit_, space_, deadline_);
+    if (!other) return;
+    const auto cost = [&](const CubicPath& path) {
+      return objective_cost(options_.objective, path, problem.original, space_);
+    };
+    if (!is_better(cost(other->path), cost(problem.path)) || !take(*other)) return;
+    for (const motion::BumpRow& row : other->rows) widen_corrections(gap, row);
   }
 
   // What is polished belongs to the corrections of that gap, or to those that reach into it.
@@ -300,6 +330,9 @@ class Ladder {
 
   static constexpr int kPolishingRounds = 2;
   static constexpr int kStepsAGap = 12;  ///< of improvement, for each gap that a collision is in
+  static constexpr int kPolishedKnots = 12;
+  static constexpr int kPursuitStepsAGap = 40;
+  static constexpr std::array<int, 3> kPursuitKnots = {12, 24, 48};
   /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
   /// the body: surfaces so close to it prove nothing.
   static constexpr double kPointRounding_m = 1e-6;
@@ -313,6 +346,7 @@ class Ladder {
   std::vector<motion::Pose> keyframe_poses_;
   std::vector<CollisionInterval> open_;  ///< as `result_.corrections`
   Improvement improvement_;
+  Improvement pursuit_;  ///< of another objective than the closest
   LadderResult result_;
 };
 

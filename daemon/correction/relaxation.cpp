@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
-#include "daemon/correction/contact_forces.h"
-#include "daemon/correction/contacts.h"
+#include "daemon/correction/contact_bounds.h"
+#include "daemon/correction/objective_cost.h"
 #include "daemon/correction/orientation_rule.h"
 #include "daemon/correction/smoothing_form.h"
 
@@ -19,11 +20,10 @@ namespace {
 using motion::CubicPoint;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr int kSamplesAStep = 2;    // between two knots
-constexpr double kWanted = 0.1;     // gap that is kept where there is room for it
-constexpr double kComfort = 3.0;    // gap that is as good as any to `kSafest`
-constexpr double kFloor = 0.03;     // least gap that a step may leave, ...
-constexpr double kKeptShare = 0.8;  // ... or this share of what there was, where that is less
+constexpr int kSamplesAStep = 2;     // between two knots
+constexpr double kFloor = 0.03;      // least gap that a step may leave, ...
+constexpr double kKeptShare = 0.8;   // ... or this share of what there was, where that is less
+constexpr double kLeastKept = 0.98;  // of the least gap, by `kSafest`
 constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
 constexpr double kFirstTrust = 2.0;                              // how far a step may move the body
 constexpr double kMostTrust = 4.0;
@@ -41,15 +41,6 @@ constexpr std::size_t kMostContacts = 3;  // triangles that a sample keeps in mi
 constexpr int kRounds = 3;                // of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
 constexpr int kRetreats = 3;  // towards the correction it began with
-constexpr int kPolishedKnots = 12;
-
-/// A contact, and the forces that last kept the path from it: hard where it has to keep away, soft
-/// where it would better.
-struct Contact {
-  ContactRow row;
-  double hard_force = 0.0;
-  double soft_force = 0.0;
-};
 
 /// A time at which the body is asked to be free.
 struct Sample {
@@ -70,17 +61,18 @@ struct Sample {
 class Relaxation {
  public:
   /// Does `steps_left` at most, and counts them.
-  Relaxation(const Problem& problem, const Offsets& offsets, Ends ends, Objective objective,
-             FreeSpace& space, int& steps_left)
+  Relaxation(const Problem& problem, const Offsets& offsets, Ends ends,
+             const Improvement& improvement, FreeSpace& space, int& steps_left)
       : problem_(problem),
         space_(space),
         radius_m_(space.ball_radius_m()),
         lever_m_(4.0 * radius_m_),
-        is_safest_(objective == Objective::kSafest),
-        wanted_m_((is_safest_ ? kComfort : kWanted) * radius_m_),
+        is_safest_(improvement.objective == Objective::kSafest),
+        may_turn_(space.may_turn() && improvement.may_turn),
+        bounds_(improvement.objective, radius_m_),
         horizon_m_((is_safest_ ? kComfort + kHorizon : kHorizon) * radius_m_),
         free_(problem, offsets.knots, ends),
-        form_(problem, free_, objective, lever_m_),
+        form_(problem, free_, improvement.objective, lever_m_),
         variables_(free_.variables_of(offsets, lever_m_)),
         steps_left_(steps_left) {
     const double step_s = offsets.knots.spacing_s();
@@ -88,6 +80,7 @@ class Relaxation {
       for (int m = 0; m < kSamplesAStep; ++m)
         add_sample(offsets.knots.knot_s(k) + (m + 0.5) / kSamplesAStep * step_s);
     }
+    if (is_safest_) keep_least_gap();
   }
 
   [[nodiscard]] Offsets offsets() const { return free_.offsets_of(variables_, lever_m_); }
@@ -153,6 +146,16 @@ class Relaxation {
     sample.rule_floor = std::min(kRuleMargin, kKeptShare * std::max(0.0, room));
     sample.floor_m = std::min(kFloor * radius_m_, kKeptShare * std::max(0.0, sample.known_gap_m));
     samples_.push_back(std::move(sample));
+  }
+
+  /// `kSafest` may come nearer somewhere, but nowhere nearer than it was where it was nearest.
+  void keep_least_gap() {
+    double least_m = bounds_.wanted_m();
+    for (const Sample& sample : samples_)
+      least_m = std::min(least_m, std::max(0.0, sample.known_gap_m));
+    for (Sample& sample : samples_)
+      sample.floor_m = std::min(kLeastKept * least_m, sample.known_gap_m);
+    bounds_.keep(least_m);
   }
 
   void take_back(const StackedPoints& known, double time_s) {
@@ -284,8 +287,9 @@ class Relaxation {
   /// The least of the objective as far as contacts allow, to first order.
   StackedPoints solved() {
     StackedPoints result = form_.minimum();
-    if (!space_.may_turn()) result.rightCols<4>().setZero();
-    std::vector<ForcedBound> bounds = contact_bounds();
+    if (!may_turn_) result.rightCols<4>() = variables_.rightCols<4>();
+    find_bounds();
+    const std::span<ForcedBound> bounds = bounds_.bounds();
     if (bounds.empty()) return result;
     find_forces(bounds, unforced(result), replies(), kForceSettled * radius_m_);
     std::map<Eigen::Index, StackedPoint> forces;
@@ -300,7 +304,7 @@ class Relaxation {
       for (Eigen::Index i = 0; i < result.rows(); ++i)
         result.row(i) += form_.inverse()(i, variable) * force.transpose();
     }
-    remember(bounds);
+    bounds_.remember();
     return result;
   }
 
@@ -334,42 +338,22 @@ class Relaxation {
     return replies_;
   }
 
-  std::vector<ForcedBound> contact_bounds() {
-    std::vector<ForcedBound> bounds;
+  void find_bounds() {
+    bounds_.clear();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       Sample& sample = samples_[i];
       if (sample.contacts.empty()) continue;
       update_rows(sample);
-      const StackedPoint moved = combined(sample.terms, variables_);
-      for (const auto& [row, hard_force, soft_force] : sample.rows) {
-        const double offset_m = row.direction.dot(moved) - row.room_m;
-        // What is wanted, where that is in reach; else not much less than there is, hard, and what
-        // is wanted softly.
-        const bool has_room = row.room_m >= wanted_m_;
-        const double kept_m = has_room ? wanted_m_ : kKeptShare * row.room_m;
-        bounds.push_back(
-            {i, row.direction, offset_m + kept_m, is_safest_ && has_room ? 1.0 : 0.0, hard_force});
-        if (!has_room) bounds.push_back({i, row.direction, offset_m + wanted_m_, 1.0, soft_force});
-      }
-    }
-    return bounds;
-  }
-
-  void remember(const std::vector<ForcedBound>& bounds) {
-    auto bound = bounds.begin();
-    for (Sample& sample : samples_) {
-      for (Contact& contact : sample.rows) {
-        contact.hard_force = (bound++)->force;
-        contact.soft_force = contact.row.room_m >= wanted_m_ ? 0.0 : (bound++)->force;
-      }
+      const auto place = static_cast<Eigen::Index>(i);
+      bounds_.add(i, combined(sample.terms, variables_), replies()(place, place), sample.rows);
     }
   }
 
   void update_rows(Sample& sample) {
     if (sample.has_rows) return;
     rows_.clear();
-    add_contact_rows(space_, problem_.path.reference, lever_m_, point(sample), sample.contacts,
-                     horizon_m_ + wanted_m_, rows_);
+    add_contact_rows(space_, may_turn_, problem_.path.reference, lever_m_, point(sample),
+                     sample.contacts, horizon_m_ + bounds_.wanted_m(), rows_);
     const std::vector<Contact> before = std::exchange(sample.rows, {});
     for (const ContactRow& row : rows_) {
       const auto same = std::ranges::find_if(before, [&](const Contact& contact) {
@@ -386,7 +370,8 @@ class Relaxation {
   const double radius_m_;
   const double lever_m_;
   const bool is_safest_;
-  const double wanted_m_;
+  const bool may_turn_;
+  ContactBounds bounds_;
   const double horizon_m_;
   const FreeCoefficients free_;
   const SmoothingForm form_;
@@ -442,19 +427,19 @@ Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& im
   int steps_left = std::min(kMostSteps, improvement.steps_left);
   if (steps_left == 0) return free;
   improvement.steps_left -= steps_left;
-  Relaxation relaxation(problem, free.offsets, ends, improvement.objective, space, steps_left);
+  Relaxation relaxation(problem, free.offsets, ends, improvement, space, steps_left);
   Relaxed better = proved(problem, relaxation, std::move(free), ends, space, deadline);
   improvement.steps_left += steps_left;
   return better;
 }
 
-std::optional<Candidate> polished(const Problem& problem, Improvement& improvement,
+std::optional<Candidate> polished(const Problem& problem, int knots, Improvement& improvement,
                                   FreeSpace& space, const collision::Deadline& deadline) {
   int steps_left = std::min(kMostSteps, improvement.steps_left);
   if (steps_left == 0) return std::nullopt;
-  const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), kPolishedKnots}, 1, {}};
+  const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), knots}, 1, {}};
   const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
-  Relaxation relaxation(problem, none, ends, improvement.objective, space, steps_left);
+  Relaxation relaxation(problem, none, ends, improvement, space, steps_left);
   if (!relaxation.is_worth_it()) return std::nullopt;
   improvement.steps_left -= steps_left;
   Relaxed better = proved(problem, relaxation, {none, {}}, ends, space, deadline);

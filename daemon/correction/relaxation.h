@@ -12,6 +12,7 @@ namespace camway::correction {
 struct Improvement {
   Objective objective = Objective::kClosest;
   int steps_left = 0;
+  bool may_turn = true;  ///< else orientations stay as they are, whatever the request allows
 };
 
 /// A correction that is proved free: `problem.path` with `bumps_for(offsets, ends)`.
@@ -27,14 +28,14 @@ struct Relaxed {
 /// sampled times. Deviation: what is free to begin with stays free, so contacts bound steps instead
 /// of costing something. The result is proved, and where something slips through between the
 /// samples, it is taken back there, and sampled; in the end to what it began with, and so where it
-/// came out worse. For `kSafest` the gaps themselves count, and bending between what is equally
-/// far.
+/// came out worse. For `kSafest` missing gaps cost something besides (`ContactBounds`).
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
                 FreeSpace& space, const collision::Deadline& deadline);
 
 /// Improves what lies between the two keyframes of the gap, and a little beyond, of a path that is
-/// free already. Nothing where nothing better was found.
-std::optional<Candidate> polished(const Problem& problem, Improvement& improvement,
+/// free already, by a row of bumps on that many knots. Nothing where nothing better was found.
+/// [Limit: knots >= 4]
+std::optional<Candidate> polished(const Problem& problem, int knots, Improvement& improvement,
                                   FreeSpace& space, const collision::Deadline& deadline);
 
 }  // namespace camway::correction

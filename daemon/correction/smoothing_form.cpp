@@ -12,8 +12,10 @@ namespace {
 
 using motion::CubicPoint;
 
-constexpr int kBumpReach = 2;    // knots from a bump's peak to the end of its support
-constexpr double kSpread = 1.5;  // of the gap: over how much of it an offset fades out
+constexpr int kBumpReach = 2;      // knots from a bump's peak to the end of its support
+constexpr double kSpread = 1.5;    // of the gap: over how much of it an offset fades out
+constexpr double kSwerve = 0.2;   // the same for `kSafest`, by a weight that outweighs distances
+constexpr double kRounding = 0.1;  // of the gap: how wide `kShortest` turns about a corner
 
 /// Weights of the squared distance from the original, and of squared first and second differences
 /// of the path's control points.
@@ -27,10 +29,11 @@ Weights weights_of(Objective objective, int count) {
   switch (objective) {
     case Objective::kClosest:
       return {1.0, 0.0, std::pow(kSpread * count, 4.0)};
-    case Objective::kShortest:
-      return {0.0, 1.0, 0.05};
-    case Objective::kSmoothest:
     case Objective::kSafest:
+      return {1.0, 0.0, std::pow(kSwerve * count, 4.0)};
+    case Objective::kShortest:
+      return {0.0, 1.0, std::pow(kRounding * count, 2.0)};
+    case Objective::kSmoothest:
       return {0.0, 0.0, 1.0};
   }
   return {1.0, 0.0, 1.0};

@@ -79,7 +79,8 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
 
 /// An objective as a sum of squares, linear in the free coefficients (Farin 2002, section 9.4, for
 /// bending): distances of control points from the original and their second differences for
-/// `kClosest`, first differences for `kShortest`, second for `kSmoothest` and `kSafest`.
+/// `kClosest`, and for `kSafest`, which wants gaps besides; first differences, and a little of the
+/// second, for `kShortest`; second for `kSmoothest`.
 class SmoothingForm {
  public:
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,

@@ -21,14 +21,8 @@ bool BodySearch::Candidates::was_met(std::uint32_t triangle) {
 }
 
 BodySearch::BodySearch(std::span<const Triangle> hull, std::size_t of_part, const Box& box,
-                       const Mesh& mesh, double error_m)
-    : hull_(hull),
-      of_part_(of_part),
-      mesh_(mesh),
-      sides_(box),
-      box_(hull),
-      oblique_(box_),
-      error_m_(error_m) {}
+                       double error_m)
+    : hull_(hull), of_part_(of_part), sides_(box), box_(hull), oblique_(box_), error_m_(error_m) {}
 
 // A distance asked may be `error_m_` below the true one, and a bound `error_m_` above it.
 void BodySearch::shrink_to(double reach_m) {
@@ -45,7 +39,7 @@ Box BodySearch::bounds_of(std::size_t part) const {
 void BodySearch::consider(std::uint32_t triangle) {
   if (!candidates_) candidates_.emplace();
   if (candidates_->was_met(triangle)) return;
-  const double squared_m2 = box_.axes_bound_m2(mesh_.triangle(triangle));
+  const double squared_m2 = box_.axes_bound_m2(part_->triangle(triangle));
   if (cannot_win(squared_m2, triangle)) return;
   if (candidates_->waiting_count == candidates_->waiting.size()) settle();
   candidates_->waiting[candidates_->waiting_count++] = {squared_m2, triangle};
@@ -65,7 +59,7 @@ void BodySearch::settle() {
 }
 
 void BodySearch::ask(std::uint32_t index) {
-  const Triangle triangle = mesh_.triangle(index);
+  const Triangle triangle = part_->triangle(index);
   if (cannot_win(box_.plane_bound_m2(triangle), index)) return;
   if (parts() == 1) {
     ask_pair(0, triangle, index);

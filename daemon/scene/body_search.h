@@ -30,7 +30,12 @@ class BodySearch {
   }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
+  /// From now on triangles of this part are considered. Precondition: the list is empty, as it is
+  /// after `settle`. The part must outlive this.
+  void enter(const IndexedPart& part) { part_ = &part; }
+
   /// Puts a triangle on the list of those to be asked, unless it is surely of no interest.
+  /// Precondition: it lies in the part that was entered.
   void consider(std::uint32_t triangle);
 
   /// Asks those on the list, the most promising first.
@@ -41,9 +46,9 @@ class BodySearch {
 
   /// `hull`: of each part of the body `of_part` triangles, in turn, between which it stays; `box`
   /// is around them. `error_m`: bound of the rounding of distances. Preconditions: the body is not
-  /// empty and finite, and outlives this, as `mesh` does.
+  /// empty and finite, and outlives this.
   BodySearch(std::span<const geometry::Triangle> hull, std::size_t of_part,
-             const geometry::Box& box, const Mesh& mesh, double error_m);
+             const geometry::Box& box, double error_m);
   virtual ~BodySearch() = default;
 
   /// From now on only what is not surely further than `reach_m` is asked.
@@ -93,7 +98,7 @@ class BodySearch {
 
   std::span<const geometry::Triangle> hull_;
   std::size_t of_part_;
-  const Mesh& mesh_;
+  const IndexedPart* part_ = nullptr;
   BoxSides sides_;
   geometry::OrientedBox box_;
   ObliqueSides oblique_;

@@ -10,9 +10,9 @@ namespace camway::scene {
 using geometry::Triangle;
 
 DistanceSearch::DistanceSearch(std::span<const Triangle> body, const geometry::Box& body_box,
-                               const Mesh& mesh, double cutoff_m, double error_m, Goal goal,
-                               double certain_m, double share)
-    : BodySearch(body, 1, body_box, mesh, error_m),
+                               double cutoff_m, double error_m, DistanceGoal goal, double certain_m,
+                               double share)
+    : BodySearch(body, 1, body_box, error_m),
       body_(body),
       goal_(goal),
       certain_m_(certain_m),
@@ -32,12 +32,13 @@ void DistanceSearch::ask_pair(std::size_t part, const Triangle& triangle, std::u
   const bool is_tie = distance_m == best_.distance_m && best_.triangle != kNone;
   if (!(distance_m < best_.distance_m || (is_tie && index < best_.triangle))) return;
   best_ = {distance_m, index};
-  limit_m_ = goal_ != Goal::kNear      ? distance_m
-             : distance_m < certain_m_ ? share_ * distance_m
-                                       : std::max(share_ * distance_m, certain_m_);
+  limit_m_ = goal_ != DistanceGoal::kNear ? distance_m
+             : distance_m < certain_m_    ? share_ * distance_m
+                                          : std::max(share_ * distance_m, certain_m_);
   shrink_to(limit_m_);
   if (distance_m == 0.0) found_touch(index);
-  if (goal_ == Goal::kAny || (distance_m == 0.0 && (goal_ == Goal::kNear || index == 0))) finish();
+  const bool touch_will_do = goal_ == DistanceGoal::kNear || index == 0;
+  if (goal_ == DistanceGoal::kAny || (distance_m == 0.0 && touch_will_do)) finish();
 }
 
 }  // namespace camway::scene

@@ -9,15 +9,9 @@ namespace camway::scene {
 /// asked.
 class DistanceSearch : public BodySearch {
  public:
-  enum class Goal {
-    kNearest,
-    kNear,  ///< once one is found, only what is nearer than `share` of it or `certain_m`
-    kAny,
-  };
-
   /// Arguments as those of `BodySearch`.
   DistanceSearch(std::span<const geometry::Triangle> body, const geometry::Box& body_box,
-                 const Mesh& mesh, double cutoff_m, double error_m, Goal goal, double certain_m,
+                 double cutoff_m, double error_m, DistanceGoal goal, double certain_m,
                  double share);
 
   [[nodiscard]] std::optional<Nearest> result() const;
@@ -26,7 +20,7 @@ class DistanceSearch : public BodySearch {
   void ask_pair(std::size_t part, const geometry::Triangle& triangle, std::uint32_t index) final;
 
   std::span<const geometry::Triangle> body_;
-  Goal goal_;
+  DistanceGoal goal_;
   double certain_m_;
   double share_;
   double limit_m_;  ///< what is further is of no interest

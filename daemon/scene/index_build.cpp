@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "daemon/scene/index_dealer.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/scene/index_tree.h"
 
 namespace camway::scene {
 
@@ -222,29 +222,28 @@ std::unique_ptr<IndexDealer> make_dealer(const Mesh& mesh, const Box& bounds,
   return make_octree_dealer(mesh, bounds, options);
 }
 
-std::uint64_t mesh_bytes(const Mesh& mesh) {
-  return mesh.vertices.size() * sizeof(geometry::Vec3) +
-         mesh.triangles.size() * sizeof(mesh.triangles[0]);
-}
-
 unsigned threads_for(const IndexOptions& options) {
   const unsigned wanted =
       options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
   return std::clamp(wanted, 1U, kMaxIndexThreads);
 }
 
-IndexPart everything(const Mesh& mesh, const IndexOptions& options, unsigned threads) {
+IndexPart all_of(std::vector<IndexEntry> entries, const IndexOptions& options) {
   IndexPart all;
-  all.entries.resize(mesh.triangles.size());
-  for_ranges(threads, all.entries.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      all.entries[i] =
-          IndexEntry(geometry::bounds(mesh.triangle(i)), static_cast<std::uint32_t>(i));
-    }
-  });
+  all.entries = std::move(entries);
   all.box = bounds_of(all.entries);
   all.budget = std::max(1.0, options.max_duplication) * static_cast<double>(all.entries.size());
   return all;
+}
+
+std::vector<IndexEntry> entries_of(const Mesh& mesh, unsigned threads) {
+  std::vector<IndexEntry> entries(mesh.triangles.size());
+  for_ranges(threads, entries.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      entries[i] = IndexEntry(geometry::bounds(mesh.triangle(i)), static_cast<std::uint32_t>(i));
+    }
+  });
+  return entries;
 }
 
 }  // namespace
@@ -252,25 +251,25 @@ IndexPart everything(const Mesh& mesh, const IndexOptions& options, unsigned thr
 /// Puts chunks one after the other, in the order in which one thread would have come upon them.
 class IndexAssembler {
  public:
-  IndexAssembler(SceneIndex& index, Chunk& root) : index_(index) {
+  IndexAssembler(IndexTree& tree, Chunk& root) : tree_(tree) {
     place(root);
-    index_.nodes_.resize(nodes_);
-    index_.leaf_begin_.resize(leaves_ + std::size_t{1});
-    index_.references_.resize(references_);
-    index_.boxes_.resize((references_ + kNodeWidth - 1) / kNodeWidth);
-    index_.statistics_.depth = depth_;
+    tree_.nodes_.resize(nodes_);
+    tree_.leaf_begin_.resize(leaves_ + std::size_t{1});
+    tree_.references_.resize(references_);
+    tree_.boxes_.resize((references_ + kNodeWidth - 1) / kNodeWidth);
+    tree_.depth_ = depth_;
   }
 
   void fill(unsigned threads) {
     const Chunk& root = *chunks_.front();
-    index_.nodes_[0] = moved(root, root.root);
+    tree_.nodes_[0] = moved(root, root.root);
     std::atomic<std::size_t> next = 0;
     run_on_threads(std::min(threads, static_cast<unsigned>(chunks_.size())), [&] {
       for (std::size_t i = next.fetch_add(1); i < chunks_.size(); i = next.fetch_add(1)) {
         copy(*chunks_[i]);
       }
     });
-    index_.leaf_begin_.back() = references_;
+    tree_.leaf_begin_.back() = references_;
   }
 
  private:
@@ -295,24 +294,24 @@ class IndexAssembler {
   /// Chunks write to places of their own, so this may run for all at once.
   void copy(const Chunk& chunk) {
     for (std::size_t i = 0; i < chunk.nodes.size(); ++i) {
-      index_.nodes_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
+      tree_.nodes_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
     }
     for (const Chunk::Link& link : chunk.links) {
-      index_.nodes_[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
+      tree_.nodes_[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
     }
     std::uint32_t begin = 0;
     for (std::size_t i = 0; i < chunk.leaf_ends.size(); ++i) {
-      index_.leaf_begin_[chunk.first_leaf + i] = chunk.first_reference + begin;
+      tree_.leaf_begin_[chunk.first_leaf + i] = chunk.first_reference + begin;
       begin = chunk.leaf_ends[i];
     }
     for (std::size_t i = 0; i < chunk.references.size(); ++i) {
       const std::size_t at = chunk.first_reference + i;
-      index_.references_[at] = chunk.references[i];
-      set_box(index_.boxes_[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
+      tree_.references_[at] = chunk.references[i];
+      set_box(tree_.boxes_[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
     }
   }
 
-  SceneIndex& index_;
+  IndexTree& tree_;
   std::vector<Chunk*> chunks_;
   std::uint32_t nodes_ = 1;  ///< the root stands before all others
   std::uint32_t leaves_ = 0;
@@ -320,43 +319,58 @@ class IndexAssembler {
   std::uint32_t depth_ = 0;
 };
 
-SceneIndex SceneIndex::build(std::shared_ptr<const Mesh> mesh, const IndexOptions& options) {
-  assert(mesh && options.threshold >= 1 && options.max_depth <= kMaxIndexDepth);
-  SceneIndex index;
-  index.mesh_ = std::move(mesh);
-  if (index.mesh_->triangles.empty()) return index;
+namespace {
+
+IndexTree assembled(const IndexDealer& dealer, IndexPart all, unsigned threads, IndexTree tree) {
+  const std::unique_ptr<Chunk> root = ChunkBuilder(dealer).build(std::move(all), threads);
+  IndexAssembler(tree, *root).fill(threads);
+  return tree;
+}
+
+}  // namespace
+
+IndexTree IndexTree::of_triangles(const Mesh& mesh, const IndexOptions& options) {
+  assert(options.threshold >= 1 && options.max_depth <= kMaxIndexDepth);
+  IndexTree tree;
+  if (mesh.triangles.empty()) return tree;
   const unsigned threads = threads_for(options);
-  IndexPart all = everything(*index.mesh_, options, threads);
-  index.bounds_ = all.box;
-  {
-    const std::unique_ptr<IndexDealer> dealer = make_dealer(*index.mesh_, index.bounds_, options);
-    const std::unique_ptr<Chunk> root = ChunkBuilder(*dealer).build(std::move(all), threads);
-    IndexAssembler(index, *root).fill(threads);
+  IndexPart all = all_of(entries_of(mesh, threads), options);
+  tree.bounds_ = all.box;
+  const std::unique_ptr<IndexDealer> dealer = make_dealer(mesh, all.box, options);
+  return assembled(*dealer, std::move(all), threads, std::move(tree));
+}
+
+IndexTree IndexTree::of_boxes(std::span<const Box> boxes) {
+  IndexTree tree;
+  if (boxes.empty()) return tree;
+  std::vector<IndexEntry> entries;
+  entries.reserve(boxes.size());
+  for (const Box& box : boxes) {
+    entries.emplace_back(box, static_cast<std::uint32_t>(entries.size()));
   }
-  index.count();
-  return index;
+  const IndexOptions options{.decomposition = Decomposition::kBvh, .threshold = 1, .threads = 1};
+  IndexPart all = all_of(std::move(entries), options);
+  tree.bounds_ = all.box;
+  return assembled(*make_bvh_dealer(options), std::move(all), 1, std::move(tree));
 }
 
-SceneIndex SceneIndex::build(const Mesh& mesh, const IndexOptions& options) {
-  SceneIndex index = build(std::make_shared<const Mesh>(mesh), options);
-  index.statistics_.memory_bytes += mesh_bytes(mesh);
-  return index;
+std::shared_ptr<const IndexedMesh> IndexedMesh::build(std::shared_ptr<const Mesh> mesh,
+                                                      const IndexOptions& options) {
+  assert(mesh);
+  auto indexed = std::make_shared<IndexedMesh>();
+  indexed->tree = IndexTree::of_triangles(*mesh, options);
+  indexed->mesh = std::move(mesh);
+  return indexed;
 }
 
-bool SceneIndex::has_same_tree_as(const SceneIndex& other) const {
+std::uint64_t IndexTree::memory_bytes() const {
+  return nodes_.size() * sizeof(IndexNode) + boxes_.size() * sizeof(ByteBoxes) +
+         (references_.size() + leaf_begin_.size()) * sizeof(std::uint32_t);
+}
+
+bool IndexTree::is_same_as(const IndexTree& other) const {
   return nodes_ == other.nodes_ && leaf_begin_ == other.leaf_begin_ &&
          references_ == other.references_ && boxes_ == other.boxes_;
-}
-
-void SceneIndex::count() {
-  IndexStatistics& s = statistics_;
-  s.nodes = nodes_.size() + leaf_begin_.size() - 1;
-  s.leaves = leaf_begin_.size() - 1;
-  s.triangles = size();
-  s.references = references_.size();
-  s.duplication = static_cast<double>(s.references) / static_cast<double>(s.triangles);
-  s.memory_bytes = nodes_.size() * sizeof(IndexNode) + boxes_.size() * sizeof(ByteBoxes) +
-                   (references_.size() + leaf_begin_.size()) * sizeof(std::uint32_t);
 }
 
 }  // namespace camway::scene

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "daemon/geometry/types.h"
+#include "daemon/scene/index_tree.h"
 #include "daemon/scene/mesh.h"
-#include "daemon/scene/scene_index.h"
 
 /// How the index is built: one builder for all decompositions, and a dealer for each.
 namespace camway::scene {

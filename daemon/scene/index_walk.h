@@ -6,9 +6,15 @@
 #include <limits>
 
 #include "daemon/scene/box_gaps.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/scene/index_tree.h"
 
 namespace camway::scene {
+
+/// What to add to the numbers in a tree, where there are several.
+struct IndexOffsets {
+  std::uint32_t entry = 0;
+  std::uint32_t leaf = 0;
+};
 
 /// The one walk of all queries: depth first, nearer children first, through what is not beyond a
 /// reach that the query may shrink as it goes. A query has
@@ -22,44 +28,47 @@ namespace camway::scene {
 ///     bool is_done() const                    whether to stop
 class IndexWalk {
  public:
-  explicit IndexWalk(const SceneIndex& index) : index_(index) {}
+  explicit IndexWalk(const IndexTree& tree, const IndexOffsets& offsets = {})
+      : tree_(tree), offsets_(offsets) {}
 
   /// A leaf, and what in it is of interest.
   class Leaf {
    public:
-    Leaf(const SceneIndex& index, std::uint32_t parent, std::uint32_t leaf)
-        : index_(index), parent_(parent), leaf_(leaf) {}
+    Leaf(const IndexTree& tree, const IndexOffsets& offsets, std::uint32_t parent,
+         std::uint32_t leaf)
+        : tree_(tree), offsets_(offsets), parent_(parent), leaf_(leaf) {}
 
-    [[nodiscard]] std::uint32_t id() const { return leaf_; }
+    [[nodiscard]] std::uint32_t id() const { return offsets_.leaf + leaf_; }
 
-    /// Calls `visit(triangle)` for those whose boxes are within reach, until `visit` returns false.
+    /// Calls `visit(entry)` for those whose boxes are within reach, until `visit` returns false.
     template <class Query, class Visit>
     void for_each(const Query& query, const Visit& visit) const {
-      const std::uint32_t begin = index_.leaf_begin_[leaf_];
-      const std::uint32_t end = index_.leaf_begin_[leaf_ + 1];
+      const std::uint32_t begin = tree_.leaf_begin_[leaf_];
+      const std::uint32_t end = tree_.leaf_begin_[leaf_ + 1];
       BoxGaps gaps;
       for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
-        look(query, index_.nodes_[parent_].frame, index_.boxes_[first / kNodeWidth], gaps);
+        look(query, tree_.nodes_[parent_].frame, tree_.boxes_[first / kNodeWidth], gaps);
         // Eight boxes may belong to two leaves.
         unsigned near = gaps.near;
         if (first < begin) near &= 0xFFU << (begin - first);
         if (end - first < kNodeWidth) near &= (1U << (end - first)) - 1U;
         for (; near != 0; near &= near - 1U) {
           const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-          if (!visit(index_.references_[first + i])) return;
+          if (!visit(offsets_.entry + tree_.references_[first + i])) return;
         }
       }
     }
 
    private:
-    const SceneIndex& index_;
+    const IndexTree& tree_;
+    const IndexOffsets& offsets_;
     std::uint32_t parent_;
     std::uint32_t leaf_;
   };
 
   template <class Query>
   void run(Query& query) {
-    if (index_.nodes_.empty()) return;
+    if (tree_.nodes_.empty()) return;
     push({0.0, 0, kNode});
     while (size_ > 0) {
       const Waiting top = stack_[--size_];
@@ -67,7 +76,7 @@ class IndexWalk {
       if (top.leaf == kNode) {
         push_children(query, top.node);
       } else {
-        query.leaf(Leaf(index_, top.node, top.leaf));
+        query.leaf(Leaf(tree_, offsets_, top.node, top.leaf));
         if (query.is_done()) return;
       }
     }
@@ -98,7 +107,7 @@ class IndexWalk {
 
   template <class Query>
   void push_children(const Query& query, std::uint32_t at) {
-    const IndexNode& node = index_.nodes_[at];
+    const IndexNode& node = tree_.nodes_[at];
     BoxGaps gaps;
     look(query, node.frame, node.boxes, gaps);
     const std::size_t begin = size_;
@@ -118,7 +127,8 @@ class IndexWalk {
     }
   }
 
-  const SceneIndex& index_;
+  const IndexTree& tree_;
+  IndexOffsets offsets_;
   std::size_t size_ = 0;
   std::array<Waiting, kStackSize> stack_;
 };

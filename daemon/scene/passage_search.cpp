@@ -22,9 +22,8 @@ constexpr double kStraight = 0.3;
 
 }  // namespace
 
-PassageSearch::PassageSearch(const MovingBody& body, const geometry::Box& ends_box,
-                             const Mesh& mesh, double error_m)
-    : BodySearch(body.ends, 2, ends_box, mesh, error_m), body_(body), nearest_{kInfinity, kNone} {
+PassageSearch::PassageSearch(const MovingBody& body, const geometry::Box& ends_box, double error_m)
+    : BodySearch(body.ends, 2, ends_box, error_m), body_(body), nearest_{kInfinity, kNone} {
   shrink_to(body.bend_m + body.keep_m);
 }
 

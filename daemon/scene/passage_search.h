@@ -10,8 +10,7 @@ namespace camway::scene {
 class PassageSearch : public BodySearch {
  public:
   /// Arguments as those of `BodySearch`; `ends_box` is around both ends.
-  PassageSearch(const MovingBody& body, const geometry::Box& ends_box, const Mesh& mesh,
-                double error_m);
+  PassageSearch(const MovingBody& body, const geometry::Box& ends_box, double error_m);
 
   [[nodiscard]] Passage passage() const;
 

@@ -1,53 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 #include "daemon/geometry/types.h"
-#include "daemon/scene/index_node.h"
+#include "daemon/scene/index_tree.h"
 #include "daemon/scene/mesh.h"
 
 namespace camway::scene {
 
-/// How the triangles are dealt to the nodes of the tree. Queries give the same answers with all.
-enum class Decomposition : std::uint8_t {
-  kOctree,  ///< space into octants; a triangle goes to every octant that it lies in
-  kKdTree,  ///< space by a plane, at the least surface area; a triangle goes to every side
-  kBvh,     ///< triangles into two groups, at the least surface area; boxes may overlap
-};
-
-/// When a node splits, what bounds the tree whatever the input, and who builds it.
-struct IndexOptions {
-  Decomposition decomposition = Decomposition::kOctree;
-  std::uint32_t threshold =
-      16;  ///< a leaf with more triangles than this splits [Limit: value >= 1]
-  std::uint32_t max_depth = 16;  ///< levels below the root [Limit: value <= kMaxIndexDepth]
-  /// Largest number of triangle entries in leaves per triangle of the mesh; a node whose split
-  /// would pass its share of that stays a leaf. [Limit: value >= 1]
-  double max_duplication = 8.0;
-  /// Threads that build; 0 for as many as the machine has. Never more than kMaxIndexThreads, and
-  /// without any influence on the result.
-  unsigned threads = 0;
-};
-
-inline constexpr std::uint32_t kMaxIndexDepth = 20;
-inline constexpr unsigned kMaxIndexThreads = 8;
-
 struct IndexStatistics {
-  std::uint64_t nodes = 0;   ///< inner nodes and leaves; octants without a triangle are not stored
+  std::uint64_t nodes = 0;   ///< inner nodes and leaves of all trees
   std::uint64_t leaves = 0;  ///< each holds at least one triangle
   std::uint32_t depth = 0;
   std::uint64_t triangles = 0;
   std::uint64_t references = 0;    ///< triangle entries in leaves, duplicates included
   double duplication = 0.0;        ///< references / triangles
-  std::uint64_t memory_bytes = 0;  ///< of the index, without a mesh that it shares
+  std::uint64_t memory_bytes = 0;  ///< of the trees, without meshes that it shares
 
   bool operator==(const IndexStatistics&) const = default;
 };
@@ -62,6 +41,13 @@ struct SegmentHit {
 struct Nearest {
   double distance_m = 0.0;
   std::uint32_t triangle = 0;
+};
+
+/// What a search by distance ends with.
+enum class DistanceGoal : std::uint8_t {
+  kNearest,
+  kNear,  ///< once one is found, only what is nearer than `share` of it or `certain_m`
+  kAny,
 };
 
 /// A body on a short way. What it refers to must outlive it.
@@ -90,13 +76,23 @@ struct Passage {
   double ahead = 0.0;
 };
 
-/// A spatial decomposition of the scene (Ptacek & Johnstone 2006, section 3, for the octree). One
-/// structure for all decompositions: a tree of wide nodes in flat arrays, with boxes of a byte per
-/// side. Each node keeps the box that its triangles really fill, so that empty space is skipped at
-/// once. Bounded in depth and in duplication: what cannot be told apart by splitting (a fan of
-/// triangles at one vertex) stays in one leaf.
+/// A mesh in a scene, and how its triangles and leaves are numbered there.
+struct IndexedPart {
+  std::shared_ptr<const IndexedMesh> indexed;
+  std::uint32_t first_triangle = 0;
+  std::uint32_t first_leaf = 0;
+
+  /// Triangle `index` of the scene. Precondition: it lies in this part.
+  [[nodiscard]] geometry::Triangle triangle(std::uint32_t index) const {
+    return indexed->mesh->triangle(index - first_triangle);
+  }
+};
+
+/// The triangles of a scene, found by where they are, on two levels: a tree for each mesh, and one
+/// over the boxes of the meshes. So a scene in which one mesh changes shares the trees of all
+/// others with what it was before. Triangles are numbered through, mesh after mesh.
 ///
-/// What a query answers does not depend on the tree: it is what asking every triangle in turn with
+/// What a query answers does not depend on the trees: it is what asking every triangle in turn with
 /// the kernels of daemon/geometry would answer, bit for bit; only `near` and `any_within` are free
 /// to choose. Who asks with a coordinate that is not finite, or beyond
 /// geometry::kLargestCoordinate_m, is told that triangle 0 is at distance 0: never that the space
@@ -108,20 +104,25 @@ class SceneIndex {
   /// No triangles; every query answers nothing.
   SceneIndex() = default;
 
-  /// Shares the mesh. The result depends on the mesh and the options only, not on the threads.
-  /// Preconditions: not null; coordinates are below geometry::kLargestCoordinate_m.
+  /// Of one mesh, which it shares. The result depends on the mesh and the options only, not on the
+  /// threads. Preconditions: not null; coordinates are below geometry::kLargestCoordinate_m.
   static SceneIndex build(std::shared_ptr<const Mesh> mesh, const IndexOptions& options = {});
 
   /// The same with a copy of `mesh`, which then counts as memory of the index.
   static SceneIndex build(const Mesh& mesh, const IndexOptions& options = {});
 
+  /// Of several meshes, which it shares, in their order. Costs what there are meshes, whatever is
+  /// in them. Preconditions: none is null; together they have fewer than 2^32 triangles.
+  static SceneIndex of(std::span<const std::shared_ptr<const IndexedMesh>> meshes);
+
   [[nodiscard]] const IndexStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const geometry::Box& bounds() const { return bounds_; }
   /// Number of triangles.
-  [[nodiscard]] std::size_t size() const { return mesh_ ? mesh_->triangles.size() : 0; }
-  /// Triangle `index` of the mesh. [Limit: index < size()]
+  [[nodiscard]] std::size_t size() const { return statistics_.triangles; }
+  /// Triangle `index` of the scene. [Limit: index < size()]
   [[nodiscard]] geometry::Triangle triangle(std::size_t index) const {
-    return mesh_->triangle(index);
+    const auto number = static_cast<std::uint32_t>(index);
+    return part_of(number).triangle(number);
   }
 
   /// Index of a scene triangle that `triangle` touches, or nothing. Touching counts, without any
@@ -187,26 +188,40 @@ class SceneIndex {
   /// Conservative: a scene triangle that it touches is in one of them. Allocates in `out` only.
   void leaves_touching(const geometry::Triangle& triangle, std::vector<std::uint32_t>& out) const;
 
-  /// Whether the two have equal arrays, bit for bit: then they answer everything alike.
-  [[nodiscard]] bool has_same_tree_as(const SceneIndex& other) const;
+  /// Whether the two have equal trees, bit for bit: then they answer everything alike.
+  [[nodiscard]] bool has_same_trees_as(const SceneIndex& other) const;
 
-  /// Indices of the scene triangles of a leaf, increasing. [Limit: leaf < statistics().leaves]
-  [[nodiscard]] std::span<const std::uint32_t> leaf_triangles(std::uint32_t leaf) const;
+  /// The scene triangles of a leaf, increasing. [Limit: leaf < statistics().leaves]
+  [[nodiscard]] auto leaf_triangles(std::uint32_t leaf) const {
+    const auto after = std::ranges::upper_bound(parts_, leaf, {}, &IndexedPart::first_leaf);
+    const IndexedPart& part = *std::prev(after);
+    return part.indexed->tree.leaf(leaf - part.first_leaf) |
+           std::views::transform(
+               [first = part.first_triangle](std::uint32_t triangle) { return first + triangle; });
+  }
 
  private:
-  friend class IndexAssembler;
-  friend class IndexWalk;
+  /// Runs `query` through the trees of all parts that it is interested in.
+  template <class Query>
+  void run(Query& query) const;
 
-  void count();  ///< fills statistics_ but for the depth
+  [[nodiscard]] const IndexedPart& part_of(std::uint32_t triangle) const {
+    if (parts_.size() == 1) return parts_.front();
+    return *std::prev(std::ranges::upper_bound(parts_, triangle, {}, &IndexedPart::first_triangle));
+  }
+
+  void add(const std::shared_ptr<const IndexedMesh>& mesh);
   bool visit_touching(const geometry::Box& box, bool (*visit)(void*, std::uint32_t),
                       void* context) const;
+  template <class Visit>
+  void visit_leaves(const geometry::Triangle& triangle, const Visit& visit) const;
+  [[nodiscard]] std::optional<Nearest> search(std::span<const geometry::Triangle> body,
+                                              double cutoff_m, DistanceGoal goal,
+                                              double certain_m = 0.0, double share = 1.0) const;
 
-  std::shared_ptr<const Mesh> mesh_;
+  std::vector<IndexedPart> parts_;  ///< those with triangles
+  IndexTree top_;                   ///< over `parts_`, where there are several
   geometry::Box bounds_;
-  std::vector<IndexNode> nodes_;           ///< the root first
-  std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
-  std::vector<std::uint32_t> references_;
-  std::vector<ByteBoxes> boxes_;  ///< of references_, eight at a time, in the frame of the parent
   IndexStatistics statistics_;
 };
 

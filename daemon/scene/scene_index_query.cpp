@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -78,27 +80,24 @@ class TouchQuery {
     return geometry::triangle_touches_box(triangle_, node.frame.box_of(get_box(node.boxes, slot)));
   }
 
+  void enter(const IndexedPart& part) { part_ = &part; }
+  [[nodiscard]] Triangle triangle(std::uint32_t index) const { return part_->triangle(index); }
+
   void leaf(const IndexWalk::Leaf& leaf) { is_done_ = !visit_(*this, leaf); }
 
  private:
   const Triangle& triangle_;
   BoxSides sides_;
   const Visit& visit_;
+  const IndexedPart* part_ = nullptr;
   bool is_done_ = false;
 };
-
-/// Calls `visit(query, leaf)` for every leaf that `triangle` touches until it returns false.
-template <class Visit>
-void visit_leaves(const SceneIndex& index, const Triangle& triangle, const Visit& visit) {
-  TouchQuery<Visit> query(triangle, visit);
-  IndexWalk(index).run(query);
-}
 
 /// For the walk: everything that meets a box.
 class BoxQuery {
  public:
-  BoxQuery(const Box& box, const Mesh& mesh, bool (*visit)(void*, std::uint32_t), void* context)
-      : box_(box), sides_(box), mesh_(mesh), visit_(visit), context_(context) {}
+  BoxQuery(const Box& box, bool (*visit)(void*, std::uint32_t), void* context)
+      : box_(box), sides_(box), visit_(visit), context_(context) {}
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
   static const ObliqueSides* oblique() { return nullptr; }
@@ -106,6 +105,8 @@ class BoxQuery {
   static bool is_beyond(double) { return false; }
   static bool enters(const IndexNode&, std::size_t) { return true; }
   [[nodiscard]] bool is_done() const { return is_done_; }
+
+  void enter(const IndexedPart& part) { part_ = &part; }
 
   void leaf(const IndexWalk::Leaf& leaf) {
     leaf.for_each(*this, [this](std::uint32_t triangle) {
@@ -117,47 +118,140 @@ class BoxQuery {
  private:
   /// False for NaN.
   [[nodiscard]] bool is_apart(std::uint32_t triangle) const {
-    const Box other = geometry::bounds(mesh_.triangle(triangle));
+    const Box other = geometry::bounds(part_->triangle(triangle));
     return (other.min().array() > box_.max().array()).any() ||
            (other.max().array() < box_.min().array()).any();
   }
 
   const Box& box_;
   BoxSides sides_;
-  const Mesh& mesh_;
+  const IndexedPart* part_ = nullptr;
   bool (*visit_)(void*, std::uint32_t);
   void* context_;
   bool is_done_ = false;
 };
 
-std::optional<Nearest> search(const SceneIndex& index, const Mesh& mesh,
-                              std::span<const Triangle> body, double cutoff_m,
-                              DistanceSearch::Goal goal, double certain_m = 0.0,
-                              double share = 1.0) {
-  if (!is_usable(body) || std::isnan(cutoff_m)) return Nearest{0.0, 0};
-  const Box body_box = bounds_of(body);
-  const Box all = body_box.merged(index.bounds());
-  WalkedBy<DistanceSearch> query(body, body_box, mesh, cutoff_m,
-                                 geometry::triangle_distance_error_m(all.sizes().maxCoeff()), goal,
-                                 certain_m, share);
-  IndexWalk(index).run(query);
-  return query.result();
-}
+/// For the walk over the boxes of parts: each that is of interest to a query is walked for it.
+template <class Query>
+class PartsQuery {
+ public:
+  PartsQuery(Query& query, std::span<const IndexedPart> parts) : query_(query), parts_(parts) {}
+
+  [[nodiscard]] const BoxSides& sides() const { return query_.sides(); }
+  [[nodiscard]] const ObliqueSides* oblique() const { return query_.oblique(); }
+  [[nodiscard]] double squared_reach_m2() const { return query_.squared_reach_m2(); }
+  [[nodiscard]] bool is_beyond(double squared) const { return query_.is_beyond(squared); }
+  [[nodiscard]] bool enters(const IndexNode& node, std::size_t slot) const {
+    return query_.enters(node, slot);
+  }
+  [[nodiscard]] bool is_done() const { return query_.is_done(); }
+
+  void leaf(const IndexWalk::Leaf& leaf) {
+    leaf.for_each(*this, [this](std::uint32_t number) {
+      enter(parts_[number]);
+      return !is_done();
+    });
+  }
+
+  void enter(const IndexedPart& part) {
+    query_.enter(part);
+    IndexWalk(part.indexed->tree, {part.first_triangle, part.first_leaf}).run(query_);
+  }
+
+ private:
+  Query& query_;
+  std::span<const IndexedPart> parts_;
+};
 
 }  // namespace
 
-std::span<const std::uint32_t> SceneIndex::leaf_triangles(std::uint32_t leaf) const {
-  return std::span(references_)
-      .subspan(leaf_begin_[leaf], leaf_begin_[leaf + 1] - leaf_begin_[leaf]);
+void SceneIndex::add(const std::shared_ptr<const IndexedMesh>& mesh) {
+  assert(mesh);
+  const IndexTree& tree = mesh->tree;
+  if (tree.leaves() == 0) return;
+  IndexStatistics& s = statistics_;
+  parts_.push_back(
+      {mesh, static_cast<std::uint32_t>(s.triangles), static_cast<std::uint32_t>(s.leaves)});
+  bounds_.extend(tree.bounds());
+  s.nodes += tree.nodes() + tree.leaves();
+  s.leaves += tree.leaves();
+  s.depth = std::max(s.depth, tree.depth());
+  s.triangles += mesh->mesh->triangles.size();
+  s.references += tree.references();
+  s.memory_bytes += tree.memory_bytes();
+}
+
+SceneIndex SceneIndex::of(std::span<const std::shared_ptr<const IndexedMesh>> meshes) {
+  SceneIndex index;
+  for (const std::shared_ptr<const IndexedMesh>& mesh : meshes) index.add(mesh);
+  IndexStatistics& s = index.statistics_;
+  if (index.parts_.size() > 1) {
+    std::vector<Box> boxes;
+    boxes.reserve(index.parts_.size());
+    for (const IndexedPart& part : index.parts_) boxes.push_back(part.indexed->tree.bounds());
+    index.top_ = IndexTree::of_boxes(boxes);
+    s.nodes += index.top_.nodes();
+    s.depth += index.top_.depth();
+    s.memory_bytes += index.top_.memory_bytes();
+  }
+  if (s.triangles > 0) {
+    s.duplication = static_cast<double>(s.references) / static_cast<double>(s.triangles);
+  }
+  return index;
+}
+
+SceneIndex SceneIndex::build(std::shared_ptr<const Mesh> mesh, const IndexOptions& options) {
+  return of(std::array{IndexedMesh::build(std::move(mesh), options)});
+}
+
+SceneIndex SceneIndex::build(const Mesh& mesh, const IndexOptions& options) {
+  SceneIndex index = build(std::make_shared<const Mesh>(mesh), options);
+  index.statistics_.memory_bytes += mesh.vertices.size() * sizeof(geometry::Vec3) +
+                                    mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  return index;
+}
+
+bool SceneIndex::has_same_trees_as(const SceneIndex& other) const {
+  return top_.is_same_as(other.top_) &&
+         std::ranges::equal(parts_, other.parts_, [](const IndexedPart& a, const IndexedPart& b) {
+           return a.indexed->tree.is_same_as(b.indexed->tree);
+         });
+}
+
+template <class Query>
+void SceneIndex::run(Query& query) const {
+  PartsQuery<Query> parts(query, parts_);
+  if (parts_.size() == 1) {
+    parts.enter(parts_.front());
+  } else {
+    IndexWalk(top_).run(parts);
+  }
+}
+
+/// Calls `visit(query, leaf)` for every leaf that `triangle` touches until it returns false.
+template <class Visit>
+void SceneIndex::visit_leaves(const Triangle& triangle, const Visit& visit) const {
+  TouchQuery<Visit> query(triangle, visit);
+  run(query);
+}
+
+std::optional<Nearest> SceneIndex::search(std::span<const Triangle> body, double cutoff_m,
+                                          DistanceGoal goal, double certain_m, double share) const {
+  if (size() == 0 || body.empty()) return std::nullopt;
+  if (!is_usable(body) || std::isnan(cutoff_m)) return Nearest{0.0, 0};
+  WalkedBy<DistanceSearch> query(body, bounds_of(body), cutoff_m, nearest_error_m(body), goal,
+                                 certain_m, share);
+  run(query);
+  return query.result();
 }
 
 std::optional<std::uint32_t> SceneIndex::first_intersection(const Triangle& triangle) const {
   if (size() == 0) return std::nullopt;
   if (!is_usable(triangle)) return 0;
   std::uint32_t lowest = kNone;
-  visit_leaves(*this, triangle, [&](const auto& query, const IndexWalk::Leaf& leaf) {
+  visit_leaves(triangle, [&](const auto& query, const IndexWalk::Leaf& leaf) {
     leaf.for_each(query, [&](std::uint32_t index) {
-      if (index < lowest && geometry::triangles_touch(triangle, mesh_->triangle(index))) {
+      if (index < lowest && geometry::triangles_touch(triangle, query.triangle(index))) {
         lowest = index;
       }
       return index < lowest;
@@ -172,9 +266,9 @@ bool SceneIndex::intersects(const Triangle& triangle) const {
   if (size() == 0) return false;
   if (!is_usable(triangle)) return true;
   bool found = false;
-  visit_leaves(*this, triangle, [&](const auto& query, const IndexWalk::Leaf& leaf) {
+  visit_leaves(triangle, [&](const auto& query, const IndexWalk::Leaf& leaf) {
     leaf.for_each(query, [&](std::uint32_t index) {
-      found = geometry::triangles_touch(triangle, mesh_->triangle(index));
+      found = geometry::triangles_touch(triangle, query.triangle(index));
       return !found;
     });
     return !found;
@@ -187,9 +281,9 @@ std::optional<SegmentHit> SceneIndex::closest_hit(const LineSegment& segment) co
   if (!is_usable(segment.from) || !is_usable(segment.to)) return SegmentHit{0.0, 0};
   std::optional<SegmentHit> best;
   const Triangle thin = {segment.from, segment.to, segment.to};
-  visit_leaves(*this, thin, [&](const auto& query, const IndexWalk::Leaf& leaf) {
+  visit_leaves(thin, [&](const auto& query, const IndexWalk::Leaf& leaf) {
     leaf.for_each(query, [&](std::uint32_t index) {
-      const auto fraction = geometry::hit_fraction(segment, mesh_->triangle(index));
+      const auto fraction = geometry::hit_fraction(segment, query.triangle(index));
       if (fraction && (!best || *fraction < best->fraction ||
                        (*fraction == best->fraction && index < best->triangle))) {
         best = SegmentHit{*fraction, index};
@@ -203,7 +297,7 @@ std::optional<SegmentHit> SceneIndex::closest_hit(const LineSegment& segment) co
 
 void SceneIndex::leaves_touching(const Triangle& triangle, std::vector<std::uint32_t>& out) const {
   out.clear();
-  visit_leaves(*this, triangle, [&](const auto&, const IndexWalk::Leaf& leaf) {
+  visit_leaves(triangle, [&](const auto&, const IndexWalk::Leaf& leaf) {
     out.push_back(leaf.id());
     return true;
   });
@@ -217,14 +311,12 @@ double SceneIndex::nearest_error_m(std::span<const Triangle> body) const {
 }
 
 std::optional<Nearest> SceneIndex::nearest(std::span<const Triangle> body, double cutoff_m) const {
-  if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, cutoff_m, DistanceSearch::Goal::kNearest);
+  return search(body, cutoff_m, DistanceGoal::kNearest);
 }
 
 std::optional<Nearest> SceneIndex::near(std::span<const Triangle> body, double cutoff_m,
                                         double certain_m, double share) const {
-  if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, cutoff_m, DistanceSearch::Goal::kNear, certain_m, share);
+  return search(body, cutoff_m, DistanceGoal::kNear, certain_m, share);
 }
 
 Passage SceneIndex::passage(const MovingBody& body) const {
@@ -232,23 +324,21 @@ Passage SceneIndex::passage(const MovingBody& body) const {
     return {true, std::nullopt, std::numeric_limits<double>::infinity()};
   }
   if (!is_usable(body.middle) || !is_usable(body.ends)) return {false, Nearest{0.0, 0}, 0.0};
-  const Box ends_box = bounds_of(body.ends);
-  WalkedBy<PassageSearch> query(body, ends_box, *mesh_, nearest_error_m(body.ends));
-  IndexWalk(*this).run(query);
+  WalkedBy<PassageSearch> query(body, bounds_of(body.ends), nearest_error_m(body.ends));
+  run(query);
   return query.passage();
 }
 
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
                                               double distance_m) const {
-  if (size() == 0 || body.empty()) return std::nullopt;
-  return search(*this, *mesh_, body, distance_m, DistanceSearch::Goal::kAny);
+  return search(body, distance_m, DistanceGoal::kAny);
 }
 
 bool SceneIndex::visit_touching(const Box& box, bool (*visit)(void*, std::uint32_t),
                                 void* context) const {
   if (size() == 0) return true;
-  BoxQuery query(box, *mesh_, visit, context);
-  IndexWalk(*this).run(query);
+  BoxQuery query(box, visit, context);
+  run(query);
   return !query.is_done();
 }
 

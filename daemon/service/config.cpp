@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/config.h"
 
+#include <utility>
+
 #include "lcmtypes/channels.h"
 
 namespace camway::service {
@@ -13,9 +15,12 @@ std::string ServiceConfig::fault() const {
   if (workers < 1 || workers > 256) {
     return "workers: " + std::to_string(workers) + " is not within 1 to 256";
   }
-  if (queue_capacity < 1 || queue_capacity > kMaxQueueCapacity) {
-    return "queue: " + std::to_string(queue_capacity) + " is not within 1 to " +
-           std::to_string(kMaxQueueCapacity);
+  for (const auto& [name, value] :
+       {std::pair{"queue", queue.jobs}, std::pair{"client queue", queue.jobs_of_a_client}}) {
+    if (value < 1 || value > kMaxQueueCapacity) {
+      return std::string(name) + ": " + std::to_string(value) + " is not within 1 to " +
+             std::to_string(kMaxQueueCapacity);
+    }
   }
   if (!(deadline.default_s > 0.0) || !(deadline.default_s <= deadline.max_s)) {
     return "deadline: the default must be above 0 and at most the maximum";

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "daemon/service/answer_cache.h"
+#include "daemon/service/fair_queue.h"
 #include "daemon/service/wire_convert.h"
 #include "daemon/service/wire_pages.h"
 
@@ -15,10 +16,11 @@ inline constexpr std::size_t kMaxQueueCapacity = 100'000;
 
 /// How the service behaves. Every default works.
 struct ServiceConfig {
-  std::string prefix = "CAMWAY";    ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
-  int workers = 1;                  ///< `--workers` [Limit: 1 <= value <= 256]
-  std::size_t queue_capacity = 64;  ///< requests that wait for a worker; `--queue`
-                                    ///< [Limit: 1 <= value <= kMaxQueueCapacity]
+  std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
+  int workers = 1;                ///< `--workers` [Limit: 1 <= value <= 256]
+  /// Requests that wait for a worker; `--queue`, `--client-queue`
+  /// [Limit: 1 <= value <= kMaxQueueCapacity]
+  FairQueue::Limits queue;
   DeadlineLimits deadline;
   PageAssembly<plan_request_t>::Limits assembly;
   AnswerCache::Limits cache;

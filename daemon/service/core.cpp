@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/core.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
@@ -26,7 +28,32 @@ Core::Core(Transport& transport, const scene::SceneStore& scene_store, ServiceCo
       publish_warnings(log, config.warning_period),
       outbox(transport),
       mailbox(transport),
-      workers(config.workers, config.queue_capacity) {}
+      workers(config.workers, config.queue) {}
+
+void Core::submit(Job job) {
+  if (std::optional<FairQueue::Refused> refused = workers.submit(std::move(job))) {
+    refused->job.abandon(refused->why);
+  }
+}
+
+void Core::expire_jobs() {
+  for (const Job& job : workers.take_expired(Job::Clock::now())) job.abandon(Refusal::kExpired);
+}
+
+std::string Core::refusal_text(Refusal why) const {
+  switch (why) {
+    case Refusal::kClientFull:
+      return fmt::format("{} requests of this client wait already; send it again later",
+                         config.queue.jobs_of_a_client);
+    case Refusal::kStopping:
+      return "the daemon is stopping";
+    case Refusal::kQueueFull:
+    case Refusal::kExpired:
+      break;
+  }
+  return fmt::format("all {} workers are busy and {} requests wait; send it again later",
+                     config.workers, config.queue.jobs);
+}
 
 void Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
   ++counters.malformed;

@@ -7,8 +7,10 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "daemon/collision/deadline.h"
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 #include "daemon/scene/scene_store.h"
@@ -24,8 +26,8 @@
 namespace camway::service {
 
 /// `planning::plan`, or a stand-in for it in tests. Called from several threads at a time.
-using Planner =
-    std::function<planning::PlanResult(const scene::Snapshot&, const planning::PlanRequest&)>;
+using Planner = std::function<planning::PlanResult(
+    const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&)>;
 
 /// What was done since the start. Written and read by the loop thread only.
 struct Counters {
@@ -47,6 +49,15 @@ struct Core {
   /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
                            std::string_view reason);
+
+  /// Queues `job`; what is not run for it is abandoned here and now.
+  void submit(Job job);
+
+  /// Abandons what waited for too long.
+  void expire_jobs();
+
+  /// For whoever asked for a job that is refused. Not for `Refusal::kExpired`.
+  [[nodiscard]] std::string refusal_text(Refusal why) const;
 
   /// Counts and logs a message that could not be read.
   void note_malformed(std::string_view channel, std::size_t size, std::string_view reason);

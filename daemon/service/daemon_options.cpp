@@ -54,14 +54,18 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.add_option("--workers", options.service.workers, "Requests planned at the same time")
       ->default_str("one for each core");
   // CLI11 would read -1 as the largest number there is.
-  app.add_option("--queue", options.service.queue_capacity, "Requests that may wait for a worker")
+  app.add_option("--queue", options.service.queue.jobs, "Requests that may wait for a worker")
+      ->check(CLI::Range(std::size_t{1}, kMaxQueueCapacity))
+      ->capture_default_str();
+  app.add_option("--client-queue", options.service.queue.jobs_of_a_client,
+                 "Requests of one client that may wait for a worker")
       ->check(CLI::Range(std::size_t{1}, kMaxQueueCapacity))
       ->capture_default_str();
   app.add_option("--deadline-s", options.service.deadline.default_s,
-                 "Planning time of requests that name none, seconds")
+                 "Deadline of requests that name none, seconds from their receipt")
       ->capture_default_str();
   app.add_option("--max-deadline-s", options.service.deadline.max_s,
-                 "Longest planning time that a request may ask for, seconds")
+                 "Longest deadline that a request may ask for, seconds")
       ->capture_default_str();
   app.add_option("--log-level", raw.log_level, "What is logged on stderr")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))

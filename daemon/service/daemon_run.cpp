@@ -77,13 +77,14 @@ int serve(const DaemonOptions& options, const scene::SceneStore& scenes,
     log->error(opened.error);
     return kExitLcm;
   }
-  const Planner planner = [](const scene::Snapshot& snapshot,
-                             const planning::PlanRequest& request) {
-    return planning::plan(snapshot, request);
+  const Planner planner = [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
+                             const collision::Deadline& deadline) {
+    return planning::plan(snapshot, request, deadline);
   };
   Service service(*opened.transport, scenes, options.service, planner, log);
-  log->info("serving on {} with prefix {}, {} workers, queue of {}", options.lcm_url,
-            options.service.prefix, options.service.workers, options.service.queue_capacity);
+  log->info("serving on {} with prefix {}, {} workers, queue of {}, {} for a client",
+            options.lcm_url, options.service.prefix, options.service.workers,
+            options.service.queue.jobs, options.service.queue.jobs_of_a_client);
   const StopSignals stop_signals([&](int signal) {
     log->info("signal {}", signal);
     service.request_stop();

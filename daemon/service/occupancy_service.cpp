@@ -62,20 +62,19 @@ void OccupancyService::on_request(const std::shared_ptr<const occupancy_request_
         fmt::format("scene: '{}' is unknown; {}", request->scene, core_.scenes.summary())));
     return;
   }
-  WorkerPool::Job work;
+  Job work;
+  work.client = request->client_id;
   work.run = [this, request, snapshot = std::move(snapshot)] {
     auto answer = std::make_shared<const occupancy_response_t>(answer_of(*snapshot, *request));
     core_.mailbox.post([this, answer = std::move(answer)] { send(*answer); });
   };
-  work.abandon = [this, request] { refuse_overloaded(*request); };
-  if (!core_.workers.try_submit(std::move(work))) refuse_overloaded(*request);
+  work.abandon = [this, request](Refusal why) { refuse(*request, why); };
+  core_.submit(std::move(work));
 }
 
-void OccupancyService::refuse_overloaded(const occupancy_request_t& request) {
+void OccupancyService::refuse(const occupancy_request_t& request, Refusal why) {
   ++core_.counters.overloaded;
-  const std::string_view message = core_.workers.closed()
-                                       ? "the daemon is stopping"
-                                       : "too many requests wait; send it again later";
+  const std::string message = core_.refusal_text(why);
   core_.overload_warnings.warn(
       fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
   send(plain_occupancy_answer(request, occupancy_response_t::STATUS_OVERLOADED, message));

@@ -25,7 +25,7 @@ class OccupancyService {
  private:
   void on_malformed(std::span<const std::uint8_t> message, std::string_view reason);
   void on_request(const std::shared_ptr<const occupancy_request_t>& request);
-  void refuse_overloaded(const occupancy_request_t& request);
+  void refuse(const occupancy_request_t& request, Refusal why);
   void send(occupancy_response_t answer);
 
   Core& core_;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
@@ -23,6 +24,17 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
   return header;
 }
 
+/// Numbers that are none are refused once the request's turn comes.
+double deadline_in_queue_s(double wire_s, const DeadlineLimits& limits) {
+  const double deadline_s = deadline_of(wire_s, limits);
+  return deadline_s > 0.0 ? deadline_s : limits.default_s;
+}
+
+Priority priority_of(const plan_request_t& request) {
+  if (request.priority < 0) return Priority::kLow;
+  return request.priority > 0 ? Priority::kHigh : Priority::kNormal;
+}
+
 /// What an answer does not hold for, where it is read: behind its message.
 void append_warnings(const scene::ImportReport& report, const planning::PlanOptions& options,
                      planning::PlanResult& result) {
@@ -36,7 +48,8 @@ void append_warnings(const scene::ImportReport& report, const planning::PlanOpti
 
 /// The answer of `planner`, whatever happens.
 plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                          const plan_request_t& wire, const DeadlineLimits& limits) {
+                          const plan_request_t& wire, const DeadlineLimits& limits,
+                          const collision::Deadline& deadline) {
   std::string error;
   try {
     const ConvertedRequest converted = from_wire(wire, limits);
@@ -44,7 +57,7 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
       return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
                           header_of(wire, &snapshot));
     }
-    planning::PlanResult result = planner(snapshot, *converted.request);
+    planning::PlanResult result = planner(snapshot, *converted.request, deadline);
     planning::name_witnesses(*snapshot.mesh, *converted.request, result);
     append_warnings(snapshot.report, converted.request->options, result);
     return to_wire(result, header_of(wire, &snapshot));
@@ -75,11 +88,13 @@ Pages encode_answer(plan_response_t& answer) {
 
 }  // namespace
 
-/// A request on its way through a worker.
-struct PlanService::Job {
+/// A request on its way to and through a worker.
+struct PlanService::Pending {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
   std::shared_ptr<const scene::Snapshot> snapshot;
+  double deadline_s;
+  collision::Deadline deadline;
 };
 
 void PlanService::on_message(std::span<const std::uint8_t> message) {
@@ -139,60 +154,74 @@ void PlanService::on_request(plan_request_t request) {
 }
 
 void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
-  Job job{key, std::move(request), nullptr};
-  job.snapshot = core_.scenes.find(job.request->scene);
-  if (!job.snapshot) {
-    plan_response_t answer = plain_answer(
-        plan_response_t::STATUS_UNKNOWN_SCENE,
-        fmt::format("scene: '{}' is unknown; {}", job.request->scene, core_.scenes.summary()),
-        header_of(*job.request, nullptr));
-    Pages pages = encode_answer(answer);
-    finish(job, answer, std::move(pages));
+  const double deadline_s = deadline_in_queue_s(request->deadline_s, core_.config.deadline);
+  const Pending pending{key, request, core_.scenes.find(request->scene), deadline_s,
+                        collision::Deadline::after_s(deadline_s)};
+  if (!pending.snapshot) {
+    const std::string message =
+        fmt::format("scene: '{}' is unknown; {}", request->scene, core_.scenes.summary());
+    finish_plainly(pending, plan_response_t::STATUS_UNKNOWN_SCENE, message);
     return;
   }
-  WorkerPool::Job work;
-  work.run = [this, job] { run(job); };
-  work.abandon = [this, job] {
-    cache_.forget(job.key);
-    refuse_overloaded(*job.request);
-  };
-  if (!core_.workers.try_submit(std::move(work))) {
-    cache_.forget(key);
-    refuse_overloaded(*job.request);
-  }
+  Job job;
+  job.run = [this, pending] { run(pending); };
+  job.abandon = [this, pending](Refusal why) { abandon(pending, why); };
+  job.client = key.client_id;
+  job.priority = priority_of(*request);
+  job.expires =
+      Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
+                              std::chrono::duration<double>(pending.deadline.remaining_s()));
+  core_.submit(std::move(job));
 }
 
 // On a worker: touches nothing of the service but the planner and what is made for many threads.
-void PlanService::run(const Job& job) {
-  auto answer = std::make_shared<plan_response_t>(
-      answer_of(planner_, *job.snapshot, *job.request, core_.config.deadline));
+void PlanService::run(const Pending& pending) {
+  if (pending.deadline.passed()) {
+    core_.mailbox.post([this, pending] { abandon(pending, Refusal::kExpired); });
+    return;
+  }
+  auto answer = std::make_shared<plan_response_t>(answer_of(
+      planner_, *pending.snapshot, *pending.request, core_.config.deadline, pending.deadline));
   Pages pages = encode_answer(*answer);
-  core_.mailbox.post([this, job, answer = std::move(answer), pages = std::move(pages)] {
-    finish(job, *answer, pages);
+  core_.mailbox.post([this, pending, answer = std::move(answer), pages = std::move(pages)] {
+    finish(pending, *answer, pages);
   });
 }
 
-void PlanService::finish(const Job& job, const plan_response_t& answer, Pages pages) {
+void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
   core_.log->info(
       "answered client={} request={} scene={} status={} keyframes={} segments={} collisions={} "
-      "remaining={} pages={} ms={:.1f}: {}",
-      job.key.client_id, job.key.request_id, job.request->scene, status_name(answer.status),
-      job.request->keyframes.size(), answer.segments.size(), answer.collisions.size(),
-      answer.remaining.size(), pages->size(), answer.total_ms, answer.message);
-  cache_.finish(job.key, pages);
-  send(job.key, std::move(pages));
+      "remaining={} pages={} ms={:.1f} since_receipt_ms={:.1f}: {}",
+      pending.key.client_id, pending.key.request_id, pending.request->scene,
+      status_name(answer.status), pending.request->keyframes.size(), answer.segments.size(),
+      answer.collisions.size(), answer.remaining.size(), pages->size(), answer.total_ms,
+      pending.deadline.elapsed_ms(), answer.message);
+  cache_.finish(pending.key, pages);
+  send(pending.key, std::move(pages));
 }
 
-void PlanService::refuse_overloaded(const plan_request_t& request) {
+void PlanService::finish_plainly(const Pending& pending, std::int32_t status,
+                                 std::string_view message) {
+  plan_response_t answer =
+      plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
+  Pages pages = encode_answer(answer);
+  finish(pending, answer, std::move(pages));
+}
+
+void PlanService::abandon(const Pending& pending, Refusal why) {
+  if (why == Refusal::kExpired) {
+    finish_plainly(pending, plan_response_t::STATUS_TIMEOUT,
+                   fmt::format("the deadline of {:g} s passed while the request waited for a "
+                               "worker; nothing was planned",
+                               pending.deadline_s));
+    return;
+  }
+  cache_.forget(pending.key);
   ++core_.counters.overloaded;
-  const std::string message =
-      core_.workers.closed()
-          ? "the daemon is stopping"
-          : fmt::format("all {} workers are busy and {} requests wait; send it again later",
-                        core_.config.workers, core_.config.queue_capacity);
-  core_.overload_warnings.warn(
-      fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
-  answer_uncached(request, plan_response_t::STATUS_OVERLOADED, message);
+  const std::string message = core_.refusal_text(why);
+  core_.overload_warnings.warn(fmt::format("refused request {} of {}: {}", pending.key.request_id,
+                                           pending.key.client_id, message));
+  answer_uncached(*pending.request, plan_response_t::STATUS_OVERLOADED, message);
 }
 
 void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,

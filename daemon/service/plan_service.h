@@ -13,8 +13,9 @@ namespace camway::service {
 ///
 /// A request takes this way: bytes checked, decoded, pages joined, known ones answered from the
 /// cache or left alone while they are being planned, scene looked up, queued, planned, encoded,
-/// cached, sent. All answers to requests that were read are cached but `overloaded`, so that the
-/// same request can be sent again later, and conflicts, whose ids belong to another request.
+/// cached, sent. Deadlines run from when all pages are there. All answers to requests that were
+/// read are cached but `overloaded`, so that the same request can be sent again later, and
+/// conflicts, whose ids belong to another request.
 class PlanService {
  public:
   PlanService(Core& core, Planner planner)
@@ -27,14 +28,15 @@ class PlanService {
   void on_message(std::span<const std::uint8_t> message);
 
  private:
-  struct Job;
+  struct Pending;
 
   void on_malformed(std::span<const std::uint8_t> message, std::string_view reason);
   void on_request(plan_request_t request);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
-  void run(const Job& job);
-  void finish(const Job& job, const plan_response_t& answer, Pages pages);
-  void refuse_overloaded(const plan_request_t& request);
+  void run(const Pending& pending);
+  void finish(const Pending& pending, const plan_response_t& answer, Pages pages);
+  void finish_plainly(const Pending& pending, std::int32_t status, std::string_view message);
+  void abandon(const Pending& pending, Refusal why);
   void answer_uncached(const plan_request_t& request, std::int32_t status,
                        std::string_view message);
   void send(const RequestKey& key, Pages pages);

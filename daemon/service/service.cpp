@@ -65,17 +65,22 @@ bool Service::subscribe() {
 // One round: finished answers go out, messages come in.
 void Service::turn(Clock::duration longest_wait) {
   core_.mailbox.run_all();
+  core_.expire_jobs();
   core_.outbox.send_burst();
+  const Clock::time_point next_expiry = core_.workers.next_expiry();
+  if (next_expiry != Clock::time_point::max()) {
+    longest_wait = std::min(longest_wait, next_expiry - Clock::now());
+  }
   std::chrono::milliseconds wait = in_milliseconds(longest_wait);
   if (!core_.outbox.empty()) wait = std::min(wait, Outbox::kPause);
   if (!transport_.poll(wait)) broken_ = true;
 }
 
 RunOutcome Service::drain() {
-  std::vector<WorkerPool::Job> waiting = core_.workers.close();
+  const std::vector<Job> waiting = core_.workers.close();
   core_.log->info("stopping: {} requests are being planned, {} that wait are refused",
                   core_.workers.running(), waiting.size());
-  for (const WorkerPool::Job& job : waiting) job.abandon();
+  for (const Job& job : waiting) job.abandon(Refusal::kStopping);
   const Clock::time_point limit = Clock::now() + core_.config.drain_limit;
   while (!idle()) {
     const Clock::time_point now = Clock::now();

@@ -165,11 +165,6 @@ std::optional<Status> status_of(std::int32_t wire) {
 /// Only an exact 0 asks for the default: NaN and negative values go on to `planning::validate`.
 double or_default(double wire, double fallback) { return wire == 0.0 ? fallback : wire; }
 
-double deadline_of(double wire_s, const DeadlineLimits& limits) {
-  const double deadline_s = or_default(wire_s, limits.default_s);
-  return deadline_s > limits.max_s ? limits.max_s : deadline_s;
-}
-
 /// `motion::Path` takes its preconditions on trust; numbers from the wire must be shown to meet
 /// them.
 std::string path_fault(const std::vector<segment_t>& segments) {
@@ -193,6 +188,11 @@ std::int32_t count(const List& list) {
 }
 
 }  // namespace
+
+double deadline_of(double wire_s, const DeadlineLimits& limits) {
+  const double deadline_s = or_default(wire_s, limits.default_s);
+  return deadline_s > limits.max_s ? limits.max_s : deadline_s;
+}
 
 ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits) {
   planning::PlanRequest request;

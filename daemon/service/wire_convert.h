@@ -16,11 +16,15 @@
 /// `planning::validate`. Functions without state, safe from any thread.
 namespace camway::service {
 
-/// How long the daemon plans.
+/// How long a request may take from its receipt to the end of planning.
 struct DeadlineLimits {
   double default_s = 10.0;  ///< for requests that say 0 [Limit: 0 < value] [Units: seconds]
   double max_s = 60.0;      ///< longer ones are cut to this [Limit: default_s <= value]
 };
+
+/// The deadline that holds for a request that says `wire_s`, in seconds. Only an exact 0 asks for
+/// the default: NaN and negative values stay, for `planning::validate`.
+double deadline_of(double wire_s, const DeadlineLimits& limits);
 
 /// A request, or why there is none, e.g. "method: 'magic' is unknown".
 struct ConvertedRequest {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/worker_pool.h"
 
-#include <iterator>
 #include <utility>
 
 namespace camway::service {
 
-WorkerPool::WorkerPool(int workers, std::size_t queue_capacity)
-    : workers_(workers), queue_capacity_(queue_capacity) {
+WorkerPool::WorkerPool(int workers, const FairQueue::Limits& limits)
+    : workers_(workers), queue_(limits) {
   threads_.reserve(static_cast<std::size_t>(workers));
   for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
 }
@@ -15,35 +14,40 @@ WorkerPool::WorkerPool(int workers, std::size_t queue_capacity)
 WorkerPool::~WorkerPool() { stop(); }
 
 void WorkerPool::stop() {
-  close();
+  const std::vector<Job> dropped = close();
   threads_.clear();
 }
 
-bool WorkerPool::try_submit(Job job) {
+std::optional<FairQueue::Refused> WorkerPool::submit(Job job) {
+  std::optional<FairQueue::Refused> refused;
   {
     const std::lock_guard lock(mutex_);
-    if (closed_ || queue_.size() >= queue_capacity_) return false;
-    queue_.push_back(std::move(job));
+    if (closed_) return FairQueue::Refused{std::move(job), Refusal::kStopping};
+    refused = queue_.push(std::move(job));
   }
   changed_.notify_one();
-  return true;
+  return refused;
 }
 
-std::vector<WorkerPool::Job> WorkerPool::close() {
+std::vector<Job> WorkerPool::take_expired(Job::Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  return queue_.take_expired(now);
+}
+
+Job::Clock::time_point WorkerPool::next_expiry() const {
+  const std::lock_guard lock(mutex_);
+  return queue_.next_expiry();
+}
+
+std::vector<Job> WorkerPool::close() {
   std::vector<Job> left;
   {
     const std::lock_guard lock(mutex_);
     closed_ = true;
-    left.assign(std::make_move_iterator(queue_.begin()), std::make_move_iterator(queue_.end()));
-    queue_.clear();
+    left = queue_.take_all();
   }
   changed_.notify_all();
   return left;
-}
-
-bool WorkerPool::closed() const {
-  const std::lock_guard lock(mutex_);
-  return closed_;
 }
 
 std::size_t WorkerPool::queued() const {
@@ -61,13 +65,16 @@ void WorkerPool::work() {
   while (true) {
     changed_.wait(lock, [this] { return closed_ || !queue_.empty(); });
     if (queue_.empty()) return;
-    Job job = std::move(queue_.front());
-    queue_.pop_front();
+    FairQueue::Begun begun = queue_.pop();
     ++running_;
     lock.unlock();
-    job.run();
-    job = {};
+    const Job::Clock::time_point start = Job::Clock::now();
+    begun.job.run();
+    const Job::Clock::duration took = Job::Clock::now() - start;
+    begun.job.run = nullptr;  // what it holds goes outside the lock
+    begun.job.abandon = nullptr;
     lock.lock();
+    queue_.finish(begun, took);
     --running_;
   }
 }

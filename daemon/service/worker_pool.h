@@ -3,41 +3,41 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
-#include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
+#include "daemon/service/fair_queue.h"
+
 namespace camway::service {
 
-/// A fixed number of threads and a bounded queue of jobs, first come first served. All members may
-/// be called from any thread.
+/// A fixed number of threads and the queue that feeds them. All members may be called from any
+/// thread. Jobs that leave the queue unrun are handed to the caller, who abandons them.
 class WorkerPool {
  public:
-  struct Job {
-    std::function<void()> run;      ///< by a worker; must not throw
-    std::function<void()> abandon;  ///< instead of `run`, by whoever takes it out of the queue
-  };
-
-  /// [Limit: 1 <= workers, 1 <= queue_capacity]
-  WorkerPool(int workers, std::size_t queue_capacity);
+  /// [Limit: 1 <= workers]
+  WorkerPool(int workers, const FairQueue::Limits& limits);
   /// As `stop`.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Queues `job`; false if the queue is full or closed.
-  [[nodiscard]] bool try_submit(Job job);
+  /// Queues `job`. Hands back the job that is not run for want of room, this one or another, or
+  /// this one if the pool is closed.
+  [[nodiscard]] std::optional<FairQueue::Refused> submit(Job job);
+
+  /// The jobs that expired before anybody began them, and when the next will.
+  [[nodiscard]] std::vector<Job> take_expired(Job::Clock::time_point now);
+  [[nodiscard]] Job::Clock::time_point next_expiry() const;
 
   /// Lets no more jobs in and hands back those that nobody has begun.
-  std::vector<Job> close();
+  [[nodiscard]] std::vector<Job> close();
 
   /// Drops the jobs that nobody has begun, waits for the others and ends the threads. To be called
   /// before anything goes that a job uses. Not for two threads at a time.
   void stop();
 
-  [[nodiscard]] bool closed() const;
   [[nodiscard]] std::size_t queued() const;
   [[nodiscard]] std::size_t running() const;
   [[nodiscard]] int workers() const { return workers_; }
@@ -46,10 +46,9 @@ class WorkerPool {
   void work();
 
   const int workers_;
-  const std::size_t queue_capacity_;
   mutable std::mutex mutex_;  ///< guards everything below but threads_
   std::condition_variable changed_;
-  std::deque<Job> queue_;
+  FairQueue queue_;
   std::size_t running_ = 0;
   bool closed_ = false;
   std::vector<std::jthread> threads_;

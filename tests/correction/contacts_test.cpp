@@ -58,7 +58,7 @@ struct Case {
   [[nodiscard]] std::vector<ContactRow> rows(double horizon_m = kAll_m) const {
     FreeSpace space = this->space();
     std::vector<ContactRow> rows;
-    add_contact_rows(space, reference, kLever_m, point, all(), horizon_m, rows);
+    add_contact_rows(space, space.may_turn(), reference, kLever_m, point, all(), horizon_m, rows);
     return rows;
   }
   /// A vertex of the body in the world.

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/free_space.h"
+#include "daemon/correction/objective_cost.h"
 #include "daemon/motion/interpolate.h"
 #include "tests/support/scenes.h"
 
@@ -235,6 +237,37 @@ TEST(Ladder, TellsWhatBecameOfThePath) {
     }
   }
   EXPECT_GT(corrected, 12);
+}
+
+// Each is at least as good by its own measure as the path that is closest, and most are better.
+TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
+  std::mt19937_64 random = testing::seeded(4503);
+  std::map<Objective, int> better;
+  constexpr int kRuns = 12;
+  for (int run = 0; run < kRuns; ++run) {
+    Case c = cluttered_tour(random);
+    const CubicPath original = c.path();
+    const CubicPath closest = c.corrected().path;
+    FreeSpace space(c.index, c.body, c.options.detect, c.options.orientation);
+    for (const Objective objective :
+         {Objective::kShortest, Objective::kSmoothest, Objective::kSafest}) {
+      c.options.objective = objective;
+      const CubicPath path = c.corrected().path;
+      const ObjectiveCost now = objective_cost(objective, path, original, space);
+      const ObjectiveCost before = objective_cost(objective, closest, original, space);
+      // The sum over gaps, of samples at other times than those that were compared.
+      EXPECT_LE(now.value, 1.001 * before.value) << run << ": " << static_cast<int>(objective);
+      better[objective] += now.value < 0.99 * before.value ? 1 : 0;
+      // What it did not have to turn for, it did not turn.
+      for (int i = 0; i <= 200; ++i) {
+        const double time_s = std::lerp(path.begin_s(), path.end_s(), i / 200.0);
+        EXPECT_LT(path.pose(time_s).orientation.angularDistance(closest.pose(time_s).orientation),
+                  1e-6);
+      }
+    }
+  }
+  for (const auto& [objective, count] : better)
+    EXPECT_GT(count, kRuns / 2) << static_cast<int>(objective);
 }
 
 TEST(Ladder, InsertsKeyframesWithinThePathAndBesideThoseGiven) {

@@ -24,6 +24,7 @@ using motion::Keyframe;
 using testing::Draw;
 
 constexpr int kEnough = 100;  // steps
+constexpr int kKnots = 12;
 constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
                                     Objective::kSmoothest, Objective::kSafest};
 
@@ -221,7 +222,7 @@ TEST(Relaxation, WithoutStepsChangesNothing) {
   expect_same(result.candidate.path, swing.free->candidate.path);
   FreeSpace space = swing.c.space();
   Improvement improvement{Objective::kClosest, 0};
-  EXPECT_FALSE(polished(swing.c.problem, improvement, space, Deadline::never()));
+  EXPECT_FALSE(polished(swing.c.problem, kKnots, improvement, space, Deadline::never()));
   EXPECT_EQ(improvement.steps_left, 0);
 }
 
@@ -330,7 +331,7 @@ TEST(Relaxation, ShortestShortensUpToWhatIsInTheWay) {
 TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
   for (const Objective objective : kObjectives) {
     Case c;
-    constexpr int kKnots = 8;
+    constexpr int kFewKnots = 8;
     c.policy.rule = OrientationRule::kKeep;
     c.problem = testing::problem_of_gap({at(0, {0, 0, 2.1}), at(8, {0, 0, -1.9})}, 0);
     // The middle is a knot; samples are a quarter of a second from knots, an eighth of a metre.
@@ -338,7 +339,7 @@ TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
     testing::add_triangle(c.mesh, {-0.02, -4, z}, {0.02, -4, z}, {0, 0.2, z});
     c.build();
     const std::optional<Relaxed> free =
-        correction_with(c, lifted(c.problem, kKnots, {0, 0.9, 0}), Ends::kFree);
+        correction_with(c, lifted(c.problem, kFewKnots, {0, 0.9, 0}), Ends::kFree);
     ASSERT_TRUE(free);
     const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
     expect_keyframes_kept(c, result.candidate.path);
@@ -376,7 +377,7 @@ TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
     FreeSpace space = c.space();
     Improvement improvement{Objective::kSmoothest, kEnough};
     const std::optional<Candidate> better =
-        polished(c.problem, improvement, space, Deadline::never());
+        polished(c.problem, kKnots, improvement, space, Deadline::never());
     EXPECT_LE(improvement.steps_left, kEnough);
     if (!better) continue;
     ++found;
@@ -445,7 +446,7 @@ TEST(Relaxation, PolishesNextToAShortGap) {
   FreeSpace space = c.space();
   Improvement improvement{Objective::kShortest, kEnough};
   const std::optional<Candidate> better =
-      polished(c.problem, improvement, space, Deadline::never());
+      polished(c.problem, kKnots, improvement, space, Deadline::never());
   ASSERT_TRUE(better);
   expect_keyframes_kept(c, better->path);
   constexpr double kStraight_m = 6.5;
@@ -459,7 +460,7 @@ TEST(Relaxation, PolishesNothingThatIsAsGoodAsItGets) {
   c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
   FreeSpace space = c.space();
   Improvement improvement{Objective::kClosest, kEnough};
-  EXPECT_FALSE(polished(c.problem, improvement, space, Deadline::never()));
+  EXPECT_FALSE(polished(c.problem, kKnots, improvement, space, Deadline::never()));
   EXPECT_EQ(improvement.steps_left, kEnough);
 }
 

@@ -183,12 +183,13 @@ StackedPoint on(const CubicPath& path, double time_s) {
 
 /// The objective, from control points one by one; its weights are part of what is computed.
 double value_of(const Case& c, Objective objective, const Offsets& offsets, int first, int last) {
-  const double fade = 1.5 * c.knots.count;
-  const double distance = objective == Objective::kClosest ? 1.0 : 0.0;
+  const bool is_near = objective == Objective::kClosest || objective == Objective::kSafest;
+  const double distance = is_near ? 1.0 : 0.0;
   const double stretch = objective == Objective::kShortest ? 1.0 : 0.0;
   double bend = 1.0;
-  if (objective == Objective::kShortest) bend = 0.05;
-  if (objective == Objective::kClosest) bend = fade * fade * fade * fade;
+  if (objective == Objective::kShortest) bend = std::pow(0.1 * c.knots.count, 2.0);
+  if (objective == Objective::kClosest) bend = std::pow(1.5 * c.knots.count, 4.0);
+  if (objective == Objective::kSafest) bend = std::pow(0.2 * c.knots.count, 4.0);
   const auto control_point = [&](int k) -> StackedPoint {
     return on(c.problem.path, c.knots.knot_s(k)) + stacked(offsets(k), kLever_m);
   };

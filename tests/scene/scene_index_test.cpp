@@ -25,7 +25,26 @@ struct Case {
   bool on_grid;
   std::uint32_t threshold;
   Decomposition decomposition = Decomposition::kOctree;
+  std::size_t meshes = 1;
 };
+
+/// An index of `count` meshes, each with a run of the triangles, and of one without any.
+SceneIndex index_of_meshes(const std::vector<Triangle>& triangles, std::size_t count,
+                           const IndexOptions& options) {
+  if (count == 1) return SceneIndex::build(mesh_of_triangles(triangles), options);
+  std::vector<std::shared_ptr<const IndexedMesh>> meshes;
+  const auto add = [&](std::size_t begin, std::size_t end) {
+    const std::vector<Triangle> run(triangles.begin() + static_cast<std::ptrdiff_t>(begin),
+                                    triangles.begin() + static_cast<std::ptrdiff_t>(end));
+    meshes.push_back(
+        IndexedMesh::build(std::make_shared<const Mesh>(mesh_of_triangles(run)), options));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    add(i * triangles.size() / count, (i + 1) * triangles.size() / count);
+    if (i == 0) add(0, 0);
+  }
+  return SceneIndex::of(meshes);
+}
 
 /// Distance of one triangle to the whole body.
 double brute_nearest_of(const SceneIndex& tree, std::span<const Triangle> body,
@@ -42,10 +61,10 @@ class IndexQueries : public testing::TestWithParam<Case> {
   IndexQueries() : random_(GetParam().seed) {
     const std::vector<Triangle> triangles =
         GetParam().on_grid ? grid_soup(random_, 500) : soup(random_, 700);
-    tree_ =
-        SceneIndex::build(mesh_of_triangles(triangles), {.decomposition = GetParam().decomposition,
-                                                         .threshold = GetParam().threshold,
-                                                         .max_depth = 12});
+    tree_ = index_of_meshes(triangles, GetParam().meshes,
+                            {.decomposition = GetParam().decomposition,
+                             .threshold = GetParam().threshold,
+                             .max_depth = 12});
   }
 
   Vec3 point() { return GetParam().on_grid ? random_.on_grid(14) : random_.in_cube(6.0); }
@@ -265,15 +284,18 @@ TEST_P(IndexQueries, VisitsWhatTouchesABox) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, IndexQueries,
-                         testing::Values(Case{"Soup", 501, false, 8},
-                                         Case{"SoupDeep", 502, false, 1},
-                                         Case{"Grid", 503, true, 8}, Case{"GridDeep", 504, true, 2},
-                                         Case{"KdTreeSoup", 511, false, 8, Decomposition::kKdTree},
-                                         Case{"KdTreeGrid", 512, true, 2, Decomposition::kKdTree},
-                                         Case{"BvhSoup", 513, false, 8, Decomposition::kBvh},
-                                         Case{"BvhGrid", 514, true, 2, Decomposition::kBvh}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, IndexQueries,
+    testing::Values(Case{"Soup", 501, false, 8}, Case{"SoupDeep", 502, false, 1},
+                    Case{"Grid", 503, true, 8}, Case{"GridDeep", 504, true, 2},
+                    Case{"KdTreeSoup", 511, false, 8, Decomposition::kKdTree},
+                    Case{"KdTreeGrid", 512, true, 2, Decomposition::kKdTree},
+                    Case{"BvhSoup", 513, false, 8, Decomposition::kBvh},
+                    Case{"BvhGrid", 514, true, 2, Decomposition::kBvh},
+                    Case{"TwoMeshes", 521, false, 8, Decomposition::kOctree, 2},
+                    Case{"ManyMeshes", 522, false, 2, Decomposition::kBvh, 97},
+                    Case{"MeshEach", 523, true, 4, Decomposition::kOctree, 500}),
+    [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(SceneIndex, ThresholdAndDepthAreObeyed) {
   RandomTriangles random(507);
@@ -297,11 +319,11 @@ TEST(SceneIndex, IsTheSameForAnyNumberOfThreads) {
       const SceneIndex other =
           SceneIndex::build(mesh, {.decomposition = decomposition, .threads = threads});
       EXPECT_EQ(one.statistics(), other.statistics());
-      ASSERT_TRUE(one.has_same_tree_as(other)) << threads;
+      ASSERT_TRUE(one.has_same_trees_as(other)) << threads;
     }
   }
   EXPECT_FALSE(SceneIndex::build(mesh, {.threshold = 4})
-                   .has_same_tree_as(SceneIndex::build(mesh, {.threshold = 5})));
+                   .has_same_trees_as(SceneIndex::build(mesh, {.threshold = 5})));
 }
 
 TEST(SceneIndex, NearestIsTheSameForAllDecompositions) {

@@ -34,8 +34,8 @@ TEST(DaemonOptions, TheEnvironmentNamesTheUrlUnlessTheCommandLineDoes) {
 TEST(DaemonOptions, ReadsEveryFlag) {
   const ParsedOptions parsed =
       parse({"--scene", "a=x.obj,scale=2", "--scene", "b=y.obj,occupancy=0.1", "--prefix", "TEST",
-             "--workers", "3", "--queue", "5", "--deadline-s", "1.5", "--max-deadline-s", "4",
-             "--log-level", "warn"});
+             "--workers", "3", "--queue", "5", "--client-queue", "2", "--deadline-s", "1.5",
+             "--max-deadline-s", "4", "--log-level", "warn"});
   ASSERT_TRUE(parsed.options);
   const DaemonOptions& options = *parsed.options;
   ASSERT_EQ(options.scenes.size(), 2U);
@@ -43,7 +43,8 @@ TEST(DaemonOptions, ReadsEveryFlag) {
   EXPECT_EQ(options.scenes[1].options.occupancy_resolution_m, 0.1);
   EXPECT_EQ(options.service.prefix, "TEST");
   EXPECT_EQ(options.service.workers, 3);
-  EXPECT_EQ(options.service.queue_capacity, 5U);
+  EXPECT_EQ(options.service.queue.jobs, 5U);
+  EXPECT_EQ(options.service.queue.jobs_of_a_client, 2U);
   EXPECT_EQ(options.service.deadline.default_s, 1.5);
   EXPECT_EQ(options.service.deadline.max_s, 4.0);
   EXPECT_EQ(options.log_level, spdlog::level::warn);
@@ -58,6 +59,7 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
       {{"--scene", "a=b", "--workers", "0"}, "workers"},
       {{"--scene", "a=b", "--workers", "many"}, "--workers"},
       {{"--scene", "a=b", "--queue", "-1"}, "--queue"},
+      {{"--scene", "a=b", "--client-queue", "0"}, "--client-queue"},
       {{"--scene", "a=b", "--prefix", "no blanks"}, "prefix 'no blanks'"},
       {{"--scene", "a=b", "--deadline-s", "nan"}, "deadline"},
       {{"--scene", "a=b", "--log-level", "loud"}, "--log-level"},

@@ -171,7 +171,7 @@ TEST(OccupancyService, TheLargestBatchGetsAnAnswerThatFits) {
 
 TEST(OccupancyService, SharesTheQueueWithPlanning) {
   ServiceConfig config;
-  config.queue_capacity = 1;
+  config.queue.jobs = 1;
   RunningService daemon(config);
   daemon.scenes.put(wall_scene());
   daemon.planner.hold();

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 #include "daemon/service/wire_body.h"
 #include "daemon/service/wire_convert.h"
@@ -15,13 +17,14 @@ namespace camway::service {
 namespace {
 
 using testing::echo_result;
+using testing::request_of;
 using testing::request_with;
 using testing::RunningService;
 
 ServiceConfig with_workers(int workers, std::size_t queue_capacity) {
   ServiceConfig config;
   config.workers = workers;
-  config.queue_capacity = queue_capacity;
+  config.queue.jobs = queue_capacity;
   return config;
 }
 
@@ -253,6 +256,106 @@ TEST(PlanService, DeadlinesAreLimitedByTheConfiguration) {
   request.deadline_s = 0.0;
   daemon.send(request);
   EXPECT_EQ(daemon.answer_to(request)->message, std::to_string(0.5));
+}
+
+TEST(PlanService, DeadlinesRunFromReceipt) {
+  RunningService daemon;
+  daemon.planner.hold();
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  plan_request_t waiting = request_with(2);
+  waiting.deadline_s = 30.0;
+  daemon.send(waiting);
+  plan_request_t marker = request_with(3);
+  marker.scene = "cellar";  // answered at once, so the one before is in the queue then
+  daemon.send(marker);
+  ASSERT_TRUE(daemon.answer_to(marker));
+  constexpr double kWait_s = 0.2;
+  std::this_thread::sleep_for(std::chrono::duration<double>(kWait_s));
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(waiting));
+  EXPECT_LE(daemon.planner.last_budget_s(), waiting.deadline_s - kWait_s);
+}
+
+TEST(PlanService, ARequestThatWaitedPastItsDeadlineIsAnsweredThen) {
+  RunningService daemon;
+  daemon.planner.hold();
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  plan_request_t late = request_with(2);
+  late.deadline_s = 0.05;
+  daemon.send(late);
+  // The worker is still busy with the first.
+  const std::optional<plan_response_t> answer = daemon.answer_to(late);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_TIMEOUT);
+  EXPECT_NE(answer->message.find("the deadline of 0.05 s passed"), std::string::npos)
+      << answer->message;
+  EXPECT_EQ(answer->scene_revision, 7);
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(request_with(1)));
+  EXPECT_EQ(daemon.planner.calls(), 1);
+}
+
+TEST(PlanService, AClientThatFloodsDoesNotKeepAnotherWaiting) {
+  ServiceConfig config = with_workers(1, 64);
+  config.queue.jobs_of_a_client = 40;
+  RunningService daemon(config);
+  daemon.planner.hold();
+  daemon.send(request_of("flood", 1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  for (std::int64_t id = 2; id <= 100; ++id) daemon.send(request_of("flood", id));
+  for (std::int64_t id = 1; id <= 3; ++id) daemon.send(request_of("modest", id));
+  plan_request_t marker = request_of("marker", 1);
+  marker.scene = "cellar";
+  daemon.send(marker);
+  ASSERT_TRUE(daemon.answer_to(marker));
+  const std::string flood = daemon.channels.plan_response("flood");
+  EXPECT_EQ(daemon.transport.published_on(flood).size(), 99U - 40U) << "the rest is refused";
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(request_of("modest", 3)));
+  // One was being planned, and of equals each has his turn: at most one for each of the other's.
+  std::size_t flood_answers = 0;
+  std::size_t modest_answers = 0;
+  for (const auto& message : daemon.transport.published()) {
+    if (message.channel == daemon.channels.plan_response("modest")) ++modest_answers;
+    if (message.channel == flood && modest_answers < 3) ++flood_answers;
+  }
+  EXPECT_LE(flood_answers, 99U - 40U + 1U + 3U);
+}
+
+TEST(PlanService, ANewcomerFindsRoomInAQueueThatOneClientFilled) {
+  RunningService daemon(with_workers(1, 4));
+  daemon.planner.hold();
+  for (std::int64_t id = 1; id <= 9; ++id) daemon.send(request_of("flood", id));
+  daemon.send(request_of("modest", 1));
+  daemon.planner.release();
+  const std::optional<plan_response_t> answer = daemon.answer_to(request_of("modest", 1));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_OK);
+}
+
+TEST(PlanService, PriorityDecidesAmongTheRequestsOfAClient) {
+  RunningService daemon;
+  daemon.planner.hold();
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  std::vector<plan_request_t> requests{request_with(2), request_with(3), request_with(4)};
+  requests[0].priority = plan_request_t::LOW;
+  requests[2].priority = plan_request_t::HIGH;
+  for (const plan_request_t& request : requests) daemon.send(request);
+  plan_request_t marker = request_of("marker", 1);
+  marker.scene = "cellar";
+  daemon.send(marker);
+  ASSERT_TRUE(daemon.answer_to(marker));
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(requests[0]));
+  std::vector<std::int64_t> order;
+  for (const Bytes& bytes :
+       daemon.transport.published_on(daemon.channels.plan_response("tester"))) {
+    order.push_back(wire::decode<plan_response_t>(bytes).message->request_id);
+  }
+  EXPECT_EQ(order, (std::vector<std::int64_t>{1, 4, 3, 2}));
 }
 
 TEST(PlanService, AnswersDoNotDependOnTheNumberOfWorkers) {

@@ -189,6 +189,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.camera.near_m = number(random);
   message.body = body(random);
   message.method = text(random, wire::kMaxMethodBytes);
+  message.priority = static_cast<std::int8_t>(random());
   message.deadline_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);

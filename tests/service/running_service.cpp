@@ -11,9 +11,11 @@
 
 namespace camway::testing {
 
-planning::PlanResult FakePlanner::plan(const planning::PlanRequest& request) {
+planning::PlanResult FakePlanner::plan(const planning::PlanRequest& request,
+                                       const collision::Deadline& deadline) {
   std::unique_lock lock(mutex_);
   ++calls_;
+  last_budget_s_ = deadline.remaining_s();
   changed_.notify_all();
   changed_.wait(lock, [this] { return !held_; });
   lock.unlock();
@@ -41,6 +43,11 @@ bool FakePlanner::wait_for_calls(int count) const {
 int FakePlanner::calls() const {
   const std::lock_guard lock(mutex_);
   return calls_;
+}
+
+double FakePlanner::last_budget_s() const {
+  const std::lock_guard lock(mutex_);
+  return last_budget_s_;
 }
 
 planning::PlanResult echo_result(const planning::PlanRequest& request) {
@@ -87,9 +94,8 @@ RunningService::RunningService(service::ServiceConfig config, FakePlanner::Resul
   scenes.put(empty_scene("hall"));
   service_.emplace(
       transport, scenes, std::move(config),
-      [this](const scene::Snapshot&, const planning::PlanRequest& request) {
-        return planner.plan(request);
-      },
+      [this](const scene::Snapshot&, const planning::PlanRequest& request,
+             const collision::Deadline& deadline) { return planner.plan(request, deadline); },
       log_->logger);
   loop_ = std::thread([this] { outcome_ = service_->run(); });
 }
@@ -142,6 +148,12 @@ std::string RunningService::log_text() const { return log_->sink->text(); }
 plan_request_t request_with(std::int64_t request_id, std::size_t keyframes) {
   Random random(kSeed + static_cast<std::uint64_t>(request_id));
   return service::to_wire(sample_request(keyframes, random), {"tester", request_id, 0});
+}
+
+plan_request_t request_of(const std::string& client, std::int64_t request_id) {
+  plan_request_t request = request_with(request_id);
+  request.client_id = client;
+  return request;
 }
 
 }  // namespace camway::testing

@@ -24,19 +24,23 @@ class FakePlanner {
 
   explicit FakePlanner(Result result) : result_(std::move(result)) {}
 
-  planning::PlanResult plan(const planning::PlanRequest& request);
+  planning::PlanResult plan(const planning::PlanRequest& request,
+                            const collision::Deadline& deadline);
 
   void hold();
   void release();
   /// Waits until `count` calls have begun; false if that takes too long.
   [[nodiscard]] bool wait_for_calls(int count) const;
   [[nodiscard]] int calls() const;
+  /// What was left of the last call's deadline when it began.
+  [[nodiscard]] double last_budget_s() const;
 
  private:
   Result result_;
   mutable std::mutex mutex_;  ///< guards all below
   mutable std::condition_variable changed_;
   int calls_ = 0;
+  double last_budget_s_ = 0.0;
   bool held_ = false;
 };
 
@@ -79,5 +83,7 @@ class RunningService {
 
 /// A request of client "tester" on scene "room" with arbitrary finite keyframes.
 plan_request_t request_with(std::int64_t request_id, std::size_t keyframes = 3);
+/// The same of another client.
+plan_request_t request_of(const std::string& client, std::int64_t request_id);
 
 }  // namespace camway::testing

@@ -178,7 +178,7 @@ TEST(Service, LivesThroughAFloodOfMutants) {
 
 TEST(Service, CountsWhatItDoes) {
   ServiceConfig config = quick_heartbeats();
-  config.queue_capacity = 1;
+  config.queue.jobs = 1;
   RunningService daemon(config);
   daemon.planner.hold();
   daemon.send(request_with(1));
@@ -295,7 +295,9 @@ TEST(Service, SaysWhenNothingCanBeSubscribed) {
   const scene::SceneStore scenes;
   Service service(
       transport, scenes, {},
-      [](const scene::Snapshot&, const planning::PlanRequest&) { return planning::PlanResult{}; },
+      [](const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&) {
+        return planning::PlanResult{};
+      },
       std::make_shared<spdlog::logger>("silent"));
   EXPECT_EQ(service.run(), RunOutcome::kNotSubscribed);
   EXPECT_TRUE(transport.published().empty());
@@ -312,7 +314,9 @@ TEST(ServiceConfig, NamesWhatIsWrong) {
   EXPECT_NE(fault_of([](auto& c) { c.prefix = "TWELVE_CHARS"; }), "");
   EXPECT_NE(fault_of([](auto& c) { c.workers = 0; }).find("workers"), std::string::npos);
   EXPECT_NE(fault_of([](auto& c) { c.workers = 257; }).find("workers"), std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.queue_capacity = 0; }).find("queue"), std::string::npos);
+  EXPECT_NE(fault_of([](auto& c) { c.queue.jobs = 0; }).find("queue"), std::string::npos);
+  EXPECT_NE(fault_of([](auto& c) { c.queue.jobs_of_a_client = 0; }).find("client queue"),
+            std::string::npos);
   EXPECT_NE(fault_of([](auto& c) { c.deadline.default_s = 0; }).find("deadline"),
             std::string::npos);
   EXPECT_NE(fault_of([](auto& c) { c.deadline.max_s = 1; }).find("deadline"), std::string::npos);

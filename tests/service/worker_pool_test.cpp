@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <latch>
+#include <utility>
 
 namespace camway::service {
 namespace {
@@ -12,12 +13,13 @@ namespace {
 /// Keeps a worker busy until it is opened.
 class Gate {
  public:
-  WorkerPool::Job job() {
-    return {[this] {
-              entered_.count_down();
-              opened_.wait();
-            },
-            [] {}};
+  Job job() {
+    Job job;
+    job.run = [this] {
+      entered_.count_down();
+      opened_.wait();
+    };
+    return job;
   }
   void wait_until_entered() const { entered_.wait(); }
   void open() { opened_.count_down(); }
@@ -27,56 +29,75 @@ class Gate {
   std::latch opened_{1};
 };
 
+Job job_of(std::function<void()> run) {
+  Job job;
+  job.run = std::move(run);
+  return job;
+}
+
 TEST(WorkerPool, RunsEveryJobItTook) {
   std::atomic<int> done = 0;
   std::latch all(100);
-  WorkerPool pool(3, 100);
+  WorkerPool pool(3, {.jobs = 100, .jobs_of_a_client = 100});
   for (int i = 0; i < 100; ++i) {
-    ASSERT_TRUE(pool.try_submit({[&] {
-                                   ++done;
-                                   all.count_down();
-                                 },
-                                 [] {}}));
+    ASSERT_FALSE(pool.submit(job_of([&] {
+      ++done;
+      all.count_down();
+    })));
   }
   all.wait();
   EXPECT_EQ(done, 100);
 }
 
-TEST(WorkerPool, RefusesWhatDoesNotFitTheQueue) {
+TEST(WorkerPool, HandsBackWhatDoesNotFitTheQueue) {
   Gate gate;
-  WorkerPool pool(1, 2);
-  ASSERT_TRUE(pool.try_submit(gate.job()));
+  WorkerPool pool(1, {.jobs = 2});
+  ASSERT_FALSE(pool.submit(gate.job()));
   gate.wait_until_entered();
   EXPECT_EQ(pool.running(), 1U);
-  std::atomic<int> done = 0;
-  const WorkerPool::Job job{[&] { ++done; }, [] {}};
-  EXPECT_TRUE(pool.try_submit(job));
-  EXPECT_TRUE(pool.try_submit(job));
-  EXPECT_FALSE(pool.try_submit(job));
+  EXPECT_FALSE(pool.submit(job_of([] {})));
+  EXPECT_FALSE(pool.submit(job_of([] {})));
+  const std::optional<FairQueue::Refused> refused = pool.submit(job_of([] {}));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->why, Refusal::kQueueFull);
   EXPECT_EQ(pool.queued(), 2U);
   gate.open();
 }
 
+TEST(WorkerPool, HandsBackWhatExpiredAndDoesNotRunIt) {
+  Gate gate;
+  WorkerPool pool(1, {});
+  ASSERT_FALSE(pool.submit(gate.job()));
+  gate.wait_until_entered();
+  EXPECT_EQ(pool.next_expiry(), Job::Clock::time_point::max());
+  std::atomic<int> run = 0;
+  Job job = job_of([&] { ++run; });
+  job.expires = Job::Clock::now();
+  ASSERT_FALSE(pool.submit(job));
+  EXPECT_EQ(pool.next_expiry(), job.expires);
+  EXPECT_TRUE(pool.take_expired(job.expires - std::chrono::nanoseconds(1)).empty());
+  EXPECT_EQ(pool.take_expired(job.expires).size(), 1U);
+  EXPECT_EQ(pool.queued(), 0U);
+  gate.open();
+  pool.stop();
+  EXPECT_EQ(run, 0);
+}
+
 TEST(WorkerPool, CloseHandsBackWhatNobodyBegan) {
   Gate gate;
-  WorkerPool pool(1, 5);
-  ASSERT_TRUE(pool.try_submit(gate.job()));
+  WorkerPool pool(1, {});
+  ASSERT_FALSE(pool.submit(gate.job()));
   gate.wait_until_entered();
-  int run = 0;
-  int abandoned = 0;
-  for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(pool.try_submit({[&] { ++run; }, [&] { ++abandoned; }}));
-  }
-  EXPECT_FALSE(pool.closed());
-  const std::vector<WorkerPool::Job> left = pool.close();
-  EXPECT_TRUE(pool.closed());
-  ASSERT_EQ(left.size(), 3U);
-  for (const WorkerPool::Job& job : left) job.abandon();
-  EXPECT_EQ(abandoned, 3);
-  EXPECT_EQ(run, 0);
-  EXPECT_FALSE(pool.try_submit({[&] { ++run; }, [] {}}));
+  std::atomic<int> run = 0;
+  for (int i = 0; i < 3; ++i) ASSERT_FALSE(pool.submit(job_of([&] { ++run; })));
+  EXPECT_EQ(pool.close().size(), 3U);
+  const std::optional<FairQueue::Refused> refused = pool.submit(job_of([&] { ++run; }));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->why, Refusal::kStopping);
   EXPECT_EQ(pool.running(), 1U) << "what runs goes on";
   gate.open();
+  pool.stop();
+  EXPECT_EQ(run, 0);
 }
 
 }  // namespace

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/fair_queue.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace camway::service {
+namespace {
+
+/// No job is free, so that clients whose jobs take no time to speak of still take turns.
+constexpr double kLeastCharge_s = 1e-4;
+
+/// How many clients are remembered that wait for nothing but had more than their part: enough that
+/// nobody gets rid of what he used by coming back, few enough to cost nothing.
+constexpr std::size_t kMostIdle = 1024;
+
+double weight_of(Priority priority) {
+  constexpr double kStep = 4.0;
+  switch (priority) {
+    case Priority::kHigh:
+      return 1.0 / kStep;
+    case Priority::kLow:
+      return kStep;
+    case Priority::kNormal:
+      return 1.0;
+  }
+  return 1.0;
+}
+
+double seconds(FairQueue::Clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+}  // namespace
+
+std::optional<FairQueue::Refused> FairQueue::push(Job job) {
+  const Clients::iterator client = find_or_begin(job.client);
+  std::optional<Refused> refused;
+  if (const std::optional<Victim> victim = victim_for(client, job.priority)) {
+    if (!victim->client) {
+      link(client);
+      return Refused{std::move(job), victim->why};
+    }
+    const Clients::iterator other = *victim->client;
+    unlink(other);
+    refused = Refused{take(other, std::prev(other->second.waiting.end())), victim->why};
+    if (other != client) link(other);
+  }
+  unlink(client);
+  const Place place{-static_cast<int>(job.priority), ++next_number_};
+  const auto expiry = expiries_.emplace(job.expires, std::pair{job.client, place});
+  client->second.waiting.emplace(place, Waiting{std::move(job), expiry});
+  link(client);
+  return refused;
+}
+
+FairQueue::Begun FairQueue::pop() {
+  const Clients::iterator position = clients_.find(std::get<std::string>(*ready_.begin()));
+  unlink(position);
+  Client& client = position->second;
+  now_s_ = std::max(now_s_, client.used_s);
+  Begun begun{take(position, client.waiting.begin()), 0.0};
+  begun.charged_s = std::max(client.last_s, kLeastCharge_s) * weight_of(begun.job.priority);
+  client.used_s += begun.charged_s;
+  client.turn = ++next_number_;
+  ++client.running;
+  ++running_;
+  link(position);
+  return begun;
+}
+
+void FairQueue::finish(const Begun& begun, Clock::duration took) {
+  const Clients::iterator position = clients_.find(begun.job.client);
+  unlink(position);
+  Client& client = position->second;
+  client.last_s = std::max(seconds(took), kLeastCharge_s);
+  client.used_s += client.last_s * weight_of(begun.job.priority) - begun.charged_s;
+  --client.running;
+  --running_;
+  link(position);
+  forget_idle();
+}
+
+std::vector<Job> FairQueue::take_expired(Clock::time_point now) {
+  std::vector<Job> expired;
+  while (next_expiry() <= now && !empty()) {
+    const auto [name, place] = expiries_.begin()->second;
+    const Clients::iterator client = clients_.find(name);
+    unlink(client);
+    expired.push_back(take(client, client->second.waiting.find(place)));
+    link(client);
+  }
+  return expired;
+}
+
+std::vector<Job> FairQueue::take_all() { return take_expired(Clock::time_point::max()); }
+
+FairQueue::Clock::time_point FairQueue::next_expiry() const {
+  return empty() ? Clock::time_point::max() : expiries_.begin()->first;
+}
+
+FairQueue::Clients::iterator FairQueue::find_or_begin(const std::string& name) {
+  const auto [position, is_new] = clients_.try_emplace(name);
+  Client& client = position->second;
+  if (is_new) client.turn = ++next_number_;
+  // Who asked for nothing has no claim to make up for it now.
+  if (client.waiting.empty() && client.running == 0) {
+    unlink(position);
+    client.used_s = std::max(client.used_s, now_s_);
+  }
+  return position;
+}
+
+std::optional<FairQueue::Victim> FairQueue::victim_for(Clients::iterator client,
+                                                       Priority priority) {
+  const std::map<Place, Waiting>& own = client->second.waiting;
+  const bool client_full = own.size() >= limits_.jobs_of_a_client;
+  if (!client_full && size() < limits_.jobs) return std::nullopt;
+  const Refusal why = client_full ? Refusal::kClientFull : Refusal::kQueueFull;
+  if (!client_full) {
+    const auto longest =
+        std::max_element(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) {
+          return a.second.waiting.size() < b.second.waiting.size();
+        });
+    if (longest->second.waiting.size() > own.size() + 1) return Victim{why, longest};
+  }
+  if (!own.empty() && std::prev(own.end())->second.job.priority < priority) {
+    return Victim{why, client};
+  }
+  return Victim{why, std::nullopt};
+}
+
+Job FairQueue::take(Clients::iterator client, std::map<Place, Waiting>::iterator position) {
+  Job job = std::move(position->second.job);
+  expiries_.erase(position->second.expiry);
+  client->second.waiting.erase(position);
+  return job;
+}
+
+/// Before anything changes that a client is sorted by; `link` puts it where it belongs then, which
+/// may be nowhere: the iterator is not valid afterwards.
+void FairQueue::unlink(Clients::iterator client) {
+  const Turn turn{client->second.used_s, client->second.turn, client->first};
+  ready_.erase(turn);
+  idle_.erase(turn);
+}
+
+void FairQueue::link(Clients::iterator client) {
+  const Turn turn{client->second.used_s, client->second.turn, client->first};
+  if (!client->second.waiting.empty()) {
+    ready_.insert(turn);
+  } else if (client->second.running == 0) {
+    if (client->second.used_s > now_s_) {
+      idle_.insert(turn);
+    } else {
+      clients_.erase(client);
+    }
+  }
+}
+
+void FairQueue::forget_idle() {
+  const bool all_idle = ready_.empty() && running_ == 0;
+  while (!idle_.empty() &&
+         (all_idle || idle_.size() > kMostIdle || std::get<double>(*idle_.begin()) <= now_s_)) {
+    clients_.erase(std::get<std::string>(*idle_.begin()));
+    idle_.erase(idle_.begin());
+  }
+  if (all_idle) now_s_ = 0.0;
+}
+
+}  // namespace camway::service

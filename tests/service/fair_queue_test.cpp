@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/fair_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <map>
+#include <random>
+#include <string>
+
+namespace camway::service {
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = FairQueue::Clock;
+
+constexpr std::uint64_t kSeed = 20060619;
+
+Job job_of(const std::string& client, Priority priority = Priority::kNormal,
+           Clock::time_point expires = Clock::time_point::max()) {
+  return {[] {}, [](Refusal) {}, client, priority, expires};
+}
+
+FairQueue::Limits wide() { return {.jobs = 100'000, .jobs_of_a_client = 100'000}; }
+
+/// How one client behaves: always `waiting` jobs in the queue, each of which takes `cost`.
+struct Habit {
+  int waiting;
+  milliseconds cost;
+  Priority priority = Priority::kNormal;
+};
+
+/// Simulates `workers` workers for `length`; how much time each client's jobs got.
+std::map<std::string, milliseconds> served(const std::map<std::string, Habit>& habits, int workers,
+                                           milliseconds length) {
+  FairQueue queue(wide());
+  std::map<std::string, milliseconds> got;
+  std::multimap<milliseconds, FairQueue::Begun> running;  // by when they end
+  for (const auto& [client, habit] : habits) {
+    for (int i = 0; i < habit.waiting; ++i) (void)queue.push(job_of(client, habit.priority));
+  }
+  milliseconds now{0};
+  while (now < length) {
+    while (static_cast<int>(running.size()) < workers && !queue.empty()) {
+      FairQueue::Begun begun = queue.pop();
+      running.emplace(now + habits.at(begun.job.client).cost, std::move(begun));
+    }
+    const auto next = running.begin();
+    now = next->first;
+    const std::string client = next->second.job.client;
+    queue.finish(next->second, habits.at(client).cost);
+    running.erase(next);
+    got[client] += habits.at(client).cost;
+    (void)queue.push(job_of(client, habits.at(client).priority));
+  }
+  return got;
+}
+
+TEST(FairQueue, AClientsOwnJobsGoByPriorityThenFirstComeFirstServed) {
+  FairQueue queue(wide());
+  std::vector<int> order;
+  const auto push = [&](int number, Priority priority) {
+    Job job = job_of("a", priority);
+    job.run = [&order, number] { order.push_back(number); };
+    EXPECT_FALSE(queue.push(std::move(job)));
+  };
+  push(1, Priority::kLow);
+  push(2, Priority::kNormal);
+  push(3, Priority::kNormal);
+  push(4, Priority::kHigh);
+  push(5, Priority::kHigh);
+  while (!queue.empty()) {
+    const FairQueue::Begun begun = queue.pop();
+    begun.job.run();
+    queue.finish(begun, milliseconds(1));
+  }
+  EXPECT_EQ(order, (std::vector<int>{4, 5, 2, 3, 1}));
+}
+
+TEST(FairQueue, ClientsWithEqualJobsTakeTurns) {
+  FairQueue queue(wide());
+  for (int i = 0; i < 50; ++i) ASSERT_FALSE(queue.push(job_of("flood")));
+  for (int i = 0; i < 5; ++i) ASSERT_FALSE(queue.push(job_of("modest")));
+  int flood_before_modest = 0;
+  for (int modest = 0; modest < 5;) {
+    const FairQueue::Begun begun = queue.pop();
+    queue.finish(begun, milliseconds(2));
+    if (begun.job.client == "modest") {
+      ++modest;
+    } else {
+      ++flood_before_modest;
+    }
+  }
+  EXPECT_LE(flood_before_modest, 5);
+}
+
+// What a client gets is time, not turns: one with jobs that take a hundred times as long, however
+// many of them wait, gets no more of it.
+TEST(FairQueue, ClientsGetTheSameTimeWhateverTheirJobsTake) {
+  for (const int workers : {1, 2, 5}) {
+    const auto got = served({{"flood", {500, milliseconds(10)}},
+                             {"long", {20, milliseconds(1000)}},
+                             {"modest", {5, milliseconds(10)}}},
+                            workers, milliseconds(300'000));
+    // A client with few jobs cannot fill more workers than it has jobs; here each can.
+    const double fair = 300'000.0 * workers / 3.0;
+    for (const auto& [client, time] : got) {
+      EXPECT_NEAR(static_cast<double>(time.count()) / fair, 1.0, 0.05)
+          << client << " with " << workers << " workers";
+    }
+  }
+}
+
+// It comes back only when its last job is done, so it is never seen waiting beside its own.
+TEST(FairQueue, AClientThatAsksOneByOneDoesNotGetRidOfWhatItUsed) {
+  const auto got = served({{"long", {1, milliseconds(1000)}}, {"short", {10, milliseconds(10)}}}, 1,
+                          milliseconds(300'000));
+  EXPECT_NEAR(static_cast<double>(got.at("long").count()) / 150'000.0, 1.0, 0.05);
+}
+
+TEST(FairQueue, PriorityScalesTheShareOfAClient) {
+  const auto got = served({{"high", {10, milliseconds(10), Priority::kHigh}},
+                           {"normal", {10, milliseconds(10)}},
+                           {"low", {10, milliseconds(10), Priority::kLow}}},
+                          1, milliseconds(210'000));
+  EXPECT_NEAR(static_cast<double>(got.at("high").count()), 160'000.0, 4000.0);
+  EXPECT_NEAR(static_cast<double>(got.at("normal").count()), 40'000.0, 4000.0);
+  EXPECT_NEAR(static_cast<double>(got.at("low").count()), 10'000.0, 4000.0);
+}
+
+TEST(FairQueue, ABreakEarnsNothing) {
+  FairQueue queue(wide());
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_FALSE(queue.push(job_of("busy")));
+    ASSERT_FALSE(queue.push(job_of("busy")));
+    queue.finish(queue.pop(), milliseconds(100));
+  }
+  // The other had nothing in those 100 seconds; now they take turns from where they are.
+  for (int i = 0; i < 100; ++i) ASSERT_FALSE(queue.push(job_of("late")));
+  int late = 0;
+  for (int i = 0; i < 20; ++i) {
+    const FairQueue::Begun begun = queue.pop();
+    late += begun.job.client == "late" ? 1 : 0;
+    queue.finish(begun, milliseconds(100));
+  }
+  EXPECT_NEAR(late, 10, 1);
+}
+
+TEST(FairQueue, RefusesWhatAClientHasTooManyOf) {
+  FairQueue queue({.jobs = 10, .jobs_of_a_client = 2});
+  ASSERT_FALSE(queue.push(job_of("a", Priority::kLow)));
+  ASSERT_FALSE(queue.push(job_of("a")));
+  const auto refused = queue.push(job_of("a", Priority::kLow));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->why, Refusal::kClientFull);
+  const auto displaced = queue.push(job_of("a", Priority::kHigh));
+  ASSERT_TRUE(displaced);
+  EXPECT_EQ(displaced->job.priority, Priority::kLow) << "the low one made way";
+  EXPECT_FALSE(queue.push(job_of("b"))) << "another client has room";
+  EXPECT_EQ(queue.size(), 3U);
+}
+
+TEST(FairQueue, AFullQueueMakesRoomAtTheCostOfWhoHasMost) {
+  FairQueue queue({.jobs = 4});
+  for (int i = 0; i < 4; ++i) ASSERT_FALSE(queue.push(job_of("flood")));
+  for (int i = 0; i < 2; ++i) {
+    const auto displaced = queue.push(job_of("modest"));
+    ASSERT_TRUE(displaced);
+    EXPECT_EQ(displaced->job.client, "flood");
+    EXPECT_EQ(displaced->why, Refusal::kQueueFull);
+  }
+  const auto refused = queue.push(job_of("modest"));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->job.client, "modest") << "both have two now";
+  EXPECT_EQ(queue.size(), 4U);
+}
+
+TEST(FairQueue, GivesUpWhatExpiredAndNothingElse) {
+  FairQueue queue(wide());
+  const Clock::time_point start = Clock::now();
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_FALSE(queue.push(job_of(std::string(1, static_cast<char>('a' + i % 3)),
+                                   Priority::kNormal, start + milliseconds(i))));
+  }
+  EXPECT_EQ(queue.next_expiry(), start);
+  EXPECT_EQ(queue.take_expired(start + milliseconds(3)).size(), 4U);
+  EXPECT_EQ(queue.next_expiry(), start + milliseconds(4));
+  EXPECT_EQ(queue.size(), 6U);
+  for (int i = 0; i < 6; ++i) queue.finish(queue.pop(), milliseconds(1));
+  EXPECT_TRUE(queue.empty());
+  EXPECT_EQ(queue.next_expiry(), Clock::time_point::max());
+}
+
+// Against what must hold whatever happens: no job is lost or doubled.
+TEST(FairQueue, EveryJobLeavesOnceWhateverHappens) {
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937_64 random(kSeed);
+  FairQueue queue({.jobs = 20, .jobs_of_a_client = 6});
+  std::deque<FairQueue::Begun> running;
+  std::size_t in = 0;
+  std::size_t out = 0;
+  const Clock::time_point start = Clock::now();
+  for (int step = 0; step < 50'000; ++step) {
+    const Clock::time_point now = start + milliseconds(step);
+    const auto action = random() % 8;
+    if (action < 4) {
+      const auto priority = static_cast<Priority>(static_cast<int>(random() % 3) - 1);
+      ++in;
+      if (queue.push(job_of("client" + std::to_string(random() % 9), priority,
+                            now + milliseconds(random() % 100)))) {
+        ++out;
+      }
+    } else if (action < 6 && !queue.empty()) {
+      running.push_back(queue.pop());
+    } else if (action < 7 && !running.empty()) {
+      queue.finish(running.front(), milliseconds(random() % 50));
+      running.pop_front();
+      ++out;
+    } else {
+      for (const Job& job : queue.take_expired(now)) {
+        ASSERT_LE(job.expires, now);
+        ++out;
+      }
+    }
+    ASSERT_LE(queue.size(), 20U);
+    ASSERT_EQ(in, out + queue.size() + running.size());
+  }
+  EXPECT_EQ(queue.take_all().size() + out + running.size(), in);
+  EXPECT_TRUE(queue.empty());
+}
+
+}  // namespace
+}  // namespace camway::service
