@@ -122,6 +122,7 @@ struct PlanResponse {
   /// Duration of `path` by the one asked for; above 1 where it was slowed to meet limits. All times
   /// of the answer are new ones then.
   double time_scale = 1.0;
+  std::vector<SlowedStretch> slowed;  ///< where that was, in order of time
   std::vector<KeyframeFault> keyframe_faults;  ///< why invalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< the proof, if infeasible
 

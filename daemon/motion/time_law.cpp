@@ -87,13 +87,11 @@ class Reachability {
     const auto clamped = [&](std::size_t i, std::size_t back) { return i < back ? 0 : i - back; };
     for (const Knot& knot : knots)
       floor_ = std::min({floor_, knot.cap, limit_m_per_s2 / knot.second.norm()});
-    // Control value i acts from knot i - 2 to knot i + 1, stage i from knot i - 1 to knot i + 1.
+    // Control value i has a share in the x of knots i - 1 and i alone, and between them.
     for (std::size_t i = 0; i <= last + 1; ++i) {
-      double cap = kNone;
-      for (std::size_t k = clamped(i, 2); k <= std::min(i + 1, last); ++k)
-        cap = std::min(cap, knots[k].cap);
-      largest_.push_back(cap);
+      largest_.push_back(std::min(knots[clamped(i, 1)].cap, knots[std::min(i, last)].cap));
     }
+    // Stage i acts from knot i - 1 to knot i + 1.
     for (std::size_t i = 0; i <= last; ++i) {
       const std::size_t before = clamped(i, 1);
       const std::size_t after = std::min(i + 1, last);

@@ -117,6 +117,21 @@ std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path
   return Retimed{std::move(law), std::move(slowed), std::move(interpolated), check.certificate};
 }
 
+std::vector<SlowedStretch> slowed_stretches(const TimeLaw& law) {
+  const std::span<const double> given_s = law.knots_s();
+  const std::span<const double> new_s = law.new_knots_s();
+  std::vector<SlowedStretch> slowed;
+  for (std::size_t i = 0; i + 1 < given_s.size(); ++i) {
+    // A parabola within (0, 1] is 1 in its middle only if it is so everywhere.
+    if (law.rate((given_s[i] + given_s[i + 1]) / 2.0) == 1.0) continue;
+    if (slowed.empty() || slowed.back().given_t_end_s != given_s[i])
+      slowed.push_back({new_s[i], new_s[i], given_s[i], given_s[i]});
+    slowed.back().t_end_s = new_s[i + 1];
+    slowed.back().given_t_end_s = given_s[i + 1];
+  }
+  return slowed;
+}
+
 }  // namespace
 
 std::optional<LimitBreach> find_limit_breach(const Path& path, const RateLimits& limits) {
@@ -171,6 +186,8 @@ void move_times(const TimeLaw& law, PlanResult& result) {
     move(interval.t_end_s);
     if (interval.witness) move(interval.witness->time_s);
   };
+  result.time_scale = law.stretch();
+  result.slowed = slowed_stretches(law);
   for (motion::Keyframe& keyframe : result.keyframes) move(keyframe.time_s);
   for (CollisionInterval& interval : result.collisions) move_interval(interval);
   for (CollisionInterval& interval : result.remaining_collisions) move_interval(interval);

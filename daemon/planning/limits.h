@@ -61,7 +61,7 @@ std::optional<Retimed> slowed_where_needed(const TooFast& problem,
 Retimed slowed_alike(const TooFast& problem);
 
 /// Moves every time of the result but those of its path, which `law` was made for: of keyframes,
-/// collisions and corrections.
+/// collisions and corrections. Says in it where and by how much it was slowed.
 void move_times(const motion::TimeLaw& law, PlanResult& result);
 
 }  // namespace camway::planning

@@ -315,7 +315,6 @@ class Planner {
     }
     if (slowed.certificate) result_.certificate = *slowed.certificate;
     result_.measures = motion::measure(result_.path, slowed.interpolated.path());
-    result_.time_scale = slowed.law.stretch();
     breach_.reset();
   }
 

@@ -95,6 +95,14 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
     EXPECT_GT(slower.time_scale, 1.0);
     EXPECT_LT(slower.time_scale, 0.97 / share) << "than all the way";
     EXPECT_NEAR(slower.path.end_s(), 6.0 * slower.time_scale, 1e-12);
+    ASSERT_FALSE(slower.slowed.empty());
+    double lost_s = 0.0;
+    for (const SlowedStretch& stretch : slower.slowed) {
+      // What came before it is later, but not longer.
+      EXPECT_NEAR(stretch.t_begin_s - stretch.given_t_begin_s, lost_s, 1e-12);
+      lost_s = stretch.t_end_s - stretch.given_t_end_s;
+    }
+    EXPECT_NEAR(slower.path.end_s() - 6.0, lost_s, 1e-12);
     motion::test::expect_smooth(slower.path, 8.0);
     // Proved anew, by who knows nothing of how it was made.
     std::string fault;
