@@ -392,7 +392,7 @@ class Planner {
                                   timed_out_ ? "the deadline came first: " : "",
                                   counted(result_.collisions.size(), "collision"),
                                   counted(inserted, "keyframe"), remaining) +
-                      note();
+                      note_of_times() + note();
   }
 
   [[nodiscard]] std::string why_too_fast() const {

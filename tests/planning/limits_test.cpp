@@ -179,6 +179,7 @@ TEST(Limits, StretchAllTimesOfAPathThatCollides) {
   request.options.limits.speed_m_per_s = 0.5 * before.measures->largest_speed_m_per_s;
   const PlanResult after = planned(*column_scene(), retimed(request));
   EXPECT_EQ(after.status, Status::kPartial);
+  EXPECT_THAT(after.message, HasSubstr("slowed all the way"));
   EXPECT_NEAR(after.time_scale, 2.0, 0.01);
   EXPECT_TRUE(motion::meets(after.path, request.options.limits));
   ASSERT_EQ(after.path.segments().size(), before.path.segments().size());
