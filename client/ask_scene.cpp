@@ -2,6 +2,8 @@
 #include "client/ask_scene.h"
 
 #include <algorithm>
+#include <future>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -18,79 +20,100 @@ constexpr std::size_t kPagesAtOnce = 64;
 /// A list that changes while it is read is begun anew so often.
 constexpr int kMaxRestarts = 3;
 
-/// Waits for the answer to one request.
-template <class Response>
-class Collector {
- public:
-  Collector(std::string client_id, std::int64_t request_id)
-      : client_id_(std::move(client_id)), request_id_(request_id) {}
-
-  /// Whether the answer is new.
-  bool take(std::span<const std::uint8_t> bytes) {
-    wire::Decoded<Response> decoded = wire::decode<Response>(bytes);
-    if (!decoded.message) {
-      fault = decoded.fault.text(Response::getTypeName());
-      return false;
-    }
-    const Response& message = *decoded.message;
-    if (message.client_id != client_id_ || message.request_id != request_id_) return false;
-    response = std::move(*decoded.message);
-    return true;
-  }
-
-  std::optional<Response> response;
-  std::string fault;
-
- private:
-  std::string client_id_;
-  std::int64_t request_id_;
-};
-
 std::string explain(std::int32_t status, const std::string& message) {
   return to_string(static_cast<Status>(status)) + ": " +
          (message.empty() ? "(no reason given)" : message);
 }
 
-/// What came of one exchange.
+/// What came of one question.
 template <class Response>
 struct Asked {
   std::optional<Response> response;
   Failure failure{Status::kOk, {}};
 };
 
-Asked<upload_status_t> ask_upload(Session& session, const std::vector<std::uint8_t>& bytes,
-                                  std::int64_t checksum, const std::vector<std::int32_t>& pages,
-                                  Clock::time_point deadline) {
-  const std::int64_t request_id = session.new_request_id();
-  std::vector<Bytes> messages;
+/// A question on its way that one message answers.
+template <class Response>
+class OneAnswer final : public Call {
+ public:
+  OneAnswer(Kind kind, Context& context, std::int64_t request_id, std::vector<Outgoing> question,
+            Clock::time_point deadline)
+      : Call(kind, request_id, std::move(question), context.retry(deadline)), context_(context) {}
+
+  std::future<Asked<Response>> answer() { return promise_.get_future(); }
+
+  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point /*now*/) override {
+    wire::Decoded<Response> decoded = wire::decode<Response>(bytes);
+    if (!decoded.message) {
+      fault_ = decoded.fault.text(Response::getTypeName());
+      return;
+    }
+    if (decoded.message->client_id != context_.options().client_id) return;
+    retry().note_life();
+    if (decoded.message->status == static_cast<std::int32_t>(Status::kOverloaded)) {
+      refusal_ = explain(decoded.message->status, decoded.message->message);
+      return;
+    }
+    response_ = std::move(*decoded.message);
+  }
+  bool answered() const override { return response_.has_value(); }
+  void finish(Outcome outcome) override {
+    Asked<Response> asked{std::move(response_), {Status::kOk, {}}};
+    if (outcome != Outcome::kAnswered) {
+      asked = {std::nullopt, refusal_ && outcome == Outcome::kDeadline
+                                 ? Failure{Status::kOverloaded, *refusal_}
+                                 : context_.explain(outcome, retry().ever_heard(), {}, fault_)};
+    }
+    promise_.set_value(std::move(asked));
+  }
+
+ private:
+  Context& context_;
+  std::optional<Response> response_;
+  std::optional<std::string> refusal_;
+  std::string fault_;
+  std::promise<Asked<Response>> promise_;
+};
+
+/// What calls ask with.
+struct Asker {
+  Context& context;
+  Engine& engine;
+  Clock::time_point deadline;
+
+  template <class Response>
+  Asked<Response> ask(Call::Kind kind, std::int64_t request_id,
+                      std::vector<Outgoing> question) const {
+    const auto call = std::make_shared<OneAnswer<Response>>(kind, context, request_id,
+                                                            std::move(question), deadline);
+    std::future<Asked<Response>> answer = call->answer();
+    engine.start(call);
+    return answer.get();
+  }
+};
+
+/// Sends these pages and asks what is missing then.
+Asked<upload_status_t> ask_upload(const Asker& asker, const std::vector<std::uint8_t>& bytes,
+                                  std::int64_t checksum, const std::vector<std::int32_t>& pages) {
+  const std::int64_t request_id = asker.context.new_request_id();
+  std::vector<Outgoing> question;
   const auto add = [&](std::int32_t page) {
     upload_page_t message = page_of(bytes, checksum, page);
-    message.client_id = session.options().client_id;
+    message.client_id = asker.context.options().client_id;
     message.request_id = request_id;
-    messages.push_back(wire::encode(message));
+    question.push_back({asker.context.channels().upload(), wire::encode(message)});
   };
   for (const std::int32_t page : pages) add(page);
   add(-1);
-  Collector<upload_status_t> collector(session.options().client_id, request_id);
-  session.receive_upload_with([&](std::span<const std::uint8_t> message) {
-    if (collector.take(message)) session.note_news();
-  });
-  const auto answered = [&] { return collector.response.has_value(); };
-  int tries = 0;
-  const Outcome outcome = session.ask(
-      {session.channels().upload(), std::move(messages), answered, answered}, deadline, tries);
-  session.receive_upload_with({});
-  if (outcome == Outcome::kAnswered) return {collector.response, {Status::kOk, {}}};
-  return {std::nullopt, session.explain(outcome, {}, collector.fault)};
+  return asker.ask<upload_status_t>(Call::Kind::kUpload, request_id, std::move(question));
 }
 
 /// Sends what the daemon does not have yet, until it has all. Nothing if it has.
-std::optional<Failure> upload(Session& session, const std::vector<std::uint8_t>& bytes,
-                              Clock::time_point deadline) {
+std::optional<Failure> upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
   const std::int64_t checksum = wire::crc64(bytes.data(), bytes.size());
   std::vector<std::int32_t> pages;  // none at first: the daemon may have some
   for (;;) {
-    const Asked<upload_status_t> asked = ask_upload(session, bytes, checksum, pages, deadline);
+    const Asked<upload_status_t> asked = ask_upload(asker, bytes, checksum, pages);
     if (!asked.response) return asked.failure;
     const upload_status_t& status = *asked.response;
     if (status.status != upload_status_t::STATUS_OK) {
@@ -98,7 +121,7 @@ std::optional<Failure> upload(Session& session, const std::vector<std::uint8_t>&
                      "upload: " + explain(status.status, status.message)};
     }
     if (status.total_missing == 0) return std::nullopt;
-    if (Clock::now() >= deadline) {
+    if (Clock::now() >= asker.deadline) {
       return Failure{Status::kNoAnswer,
                      "the upload was not complete by the deadline; ask again to "
                      "go on, or raise ClientOptions.deadline_s"};
@@ -109,33 +132,13 @@ std::optional<Failure> upload(Session& session, const std::vector<std::uint8_t>&
   }
 }
 
-Asked<scene_response_t> ask_once(Session& session, scene_request_t request,
-                                 Clock::time_point deadline) {
-  request.client_id = session.options().client_id;
-  request.request_id = session.new_request_id();
+Asked<scene_response_t> ask_once(const Asker& asker, scene_request_t request) {
+  request.client_id = asker.context.options().client_id;
+  request.request_id = asker.context.new_request_id();
   request.utime = microseconds_since_1970();
-  Collector<scene_response_t> collector(request.client_id, request.request_id);
-  std::optional<Failure> refusal;
-  session.receive_scene_with([&](std::span<const std::uint8_t> bytes) {
-    if (!collector.take(bytes)) return;
-    if (collector.response->status == scene_response_t::STATUS_OVERLOADED) {
-      refusal = Failure{Status::kOverloaded,
-                        explain(collector.response->status, collector.response->message)};
-      collector.response.reset();
-      session.note_life();
-    } else {
-      session.note_news();
-    }
-  });
-  const auto answered = [&] { return collector.response.has_value(); };
-  int tries = 0;
-  const Outcome outcome =
-      session.ask({session.channels().scene_request(), {wire::encode(request)}, answered, answered},
-                  deadline, tries);
-  session.receive_scene_with({});
-  if (outcome == Outcome::kAnswered) return {collector.response, {Status::kOk, {}}};
-  if (refusal && outcome == Outcome::kDeadline) return {std::nullopt, *refusal};
-  return {std::nullopt, session.explain(outcome, {}, collector.fault)};
+  return asker.ask<scene_response_t>(
+      Call::Kind::kScene, request.request_id,
+      {{asker.context.channels().scene_request(), wire::encode(request)}});
 }
 
 SceneAnswer answer_of(const Asked<scene_response_t>& asked) {
@@ -170,30 +173,30 @@ std::optional<std::string> fault_in_form(const scene_request_t& request) {
 
 }  // namespace
 
-SceneAnswer ask_scene(Session& session, scene_request_t request,
+SceneAnswer ask_scene(Context& context, Engine& engine, scene_request_t request,
                       const std::vector<std::uint8_t>& bytes) {
   if (const auto fault = fault_in_form(request)) {
     return failed<SceneAnswer>({Status::kInvalid, *fault});
   }
-  const Clock::time_point deadline = after(session.options().deadline_s);
+  const Asker asker{context, engine, after(context.options().deadline_s)};
   if (!bytes.empty()) {
-    if (std::optional<Failure> failure = upload(session, bytes, deadline)) {
+    if (std::optional<Failure> failure = upload(asker, bytes)) {
       return failed<SceneAnswer>(*std::move(failure));
     }
   }
-  return answer_of(ask_once(session, std::move(request), deadline));
+  return answer_of(ask_once(asker, std::move(request)));
 }
 
-SceneAnswer ask_scene_list(Session& session, scene_request_t request) {
+SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t request) {
   if (const auto fault = fault_in_form(request)) {
     return failed<SceneAnswer>({Status::kInvalid, *fault});
   }
-  const Clock::time_point deadline = after(session.options().deadline_s);
+  const Asker asker{context, engine, after(context.options().deadline_s)};
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
     SceneAnswer all;
     for (;;) {
       request.first = static_cast<std::int32_t>(all.scenes.size() + all.objects.size());
-      const Asked<scene_response_t> asked = ask_once(session, request, deadline);
+      const Asked<scene_response_t> asked = ask_once(asker, request);
       SceneAnswer part = answer_of(asked);
       if (!part.ok()) return part;
       if (request.first > 0 && part.scene.revision != all.scene.revision) break;

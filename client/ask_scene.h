@@ -8,16 +8,17 @@
 #include <camway/scene_request_t.hpp>
 
 #include "camway/scene.h"
-#include "client/session.h"
+#include "client/context.h"
+#include "client/engine.h"
 
 namespace camway {
 
 /// Sends `upload` first, if there is one, then asks for what `request` says; client and request id
-/// are set here. Preconditions as those of the calls in session.h.
-SceneAnswer ask_scene(Session& session, scene_request_t request,
+/// are set here. Waits for the answer; not for the engine's own thread.
+SceneAnswer ask_scene(Context& context, Engine& engine, scene_request_t request,
                       const std::vector<std::uint8_t>& upload = {});
 
 /// Asks for a list until all of it is here.
-SceneAnswer ask_scene_list(Session& session, scene_request_t request);
+SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t request);
 
 }  // namespace camway
