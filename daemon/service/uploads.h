@@ -36,8 +36,8 @@ class Uploads {
 
   struct Limits {
     std::size_t uploads = 16;                          ///< begun or complete
-    std::size_t bytes = std::size_t{256} << 20;        ///< of one upload
-    std::size_t total_bytes = std::size_t{512} << 20;  ///< of all
+    std::size_t bytes = std::size_t{64} << 20;         ///< of one upload
+    std::size_t total_bytes = std::size_t{256} << 20;  ///< of all
     std::chrono::seconds idle{600};                    ///< then it is forgotten
   };
 

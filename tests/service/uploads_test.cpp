@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "lcmtypes/checksum.h"
@@ -90,8 +91,11 @@ TEST(Uploads, SaysWhatIsMissing) {
   EXPECT_EQ(taken.status.request_id, 7);
   EXPECT_EQ(taken.status.total_missing, 3);
   EXPECT_EQ(taken.status.missing, (std::vector<std::int32_t>{0, 2, 3}));
-  const Bytes long_one = some_bytes((wire::kMaxMissingPages + 10) * kPage, 4);
-  const upload_status_t status = uploads.take(page_of(long_one, -1), kNow).status;
+  Uploads::Limits limits;
+  limits.bytes = limits.total_bytes = std::size_t{1} << 30;
+  upload_page_t question = page_of(whole, -1);
+  question.total_bytes = static_cast<std::int64_t>((wire::kMaxMissingPages + 10) * kPage);
+  const upload_status_t status = Uploads(limits).take(question, kNow).status;
   EXPECT_EQ(status.missing.size(), wire::kMaxMissingPages);
   EXPECT_EQ(status.num_missing, static_cast<std::int32_t>(wire::kMaxMissingPages));
   EXPECT_EQ(status.total_missing, static_cast<std::int32_t>(wire::kMaxMissingPages + 10));
