@@ -65,7 +65,10 @@ void exercise(const scene_request_t& message) {
   // Round shapes of a fine chord error would take long, and nothing else.
   if (message.kind == scene_request_t::SPHERE || message.kind == scene_request_t::CYLINDER) return;
   scene::SceneStore scenes;
-  scenes.put(scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh).snapshot);
+  scene::SnapshotOptions options;
+  options.field.reset();
+  scenes.put(
+      scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh, options).snapshot);
   const scene_response_t answer = service::perform(message, nullptr, {}, scenes);
   require(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
           "a refusal has a reason");
