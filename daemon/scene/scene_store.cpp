@@ -13,6 +13,14 @@ void SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
   scenes_.insert_or_assign(std::move(name), std::move(snapshot));
 }
 
+bool SceneStore::remove(std::string_view name) {
+  const std::lock_guard lock(mutex_);
+  const auto position = scenes_.find(name);
+  if (position == scenes_.end()) return false;
+  scenes_.erase(position);
+  return true;
+}
+
 std::shared_ptr<const Snapshot> SceneStore::find(std::string_view name) const {
   const std::lock_guard lock(mutex_);
   const auto position = scenes_.find(name);

@@ -19,6 +19,9 @@ class SceneStore {
   /// Adds the scene, or replaces the snapshot of that name. Precondition: not null.
   void put(std::shared_ptr<const Snapshot> snapshot);
 
+  /// Whether there was such a scene.
+  bool remove(std::string_view name);
+
   /// The newest snapshot, or null.
   [[nodiscard]] std::shared_ptr<const Snapshot> find(std::string_view name) const;
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -40,6 +41,8 @@ class WorkerPool {
 
   [[nodiscard]] std::size_t queued() const;
   [[nodiscard]] std::size_t running() const;
+  /// How long the worker that is at one job for the longest has been; 0 if none is.
+  [[nodiscard]] Job::Clock::duration longest_run(Job::Clock::time_point now) const;
   [[nodiscard]] int workers() const { return workers_; }
 
  private:
@@ -49,7 +52,7 @@ class WorkerPool {
   mutable std::mutex mutex_;  ///< guards everything below but threads_
   std::condition_variable changed_;
   FairQueue queue_;
-  std::size_t running_ = 0;
+  std::multiset<Job::Clock::time_point> begun_;  ///< when the jobs that run were begun
   bool closed_ = false;
   std::vector<std::jthread> threads_;
 };

@@ -27,6 +27,16 @@ TEST(SceneStore, FindsTheNewestSnapshotOfAName) {
   EXPECT_EQ(store.find(""), nullptr);
 }
 
+TEST(SceneStore, RemovesAndSaysWhetherThereWasAny) {
+  SceneStore store;
+  store.put(revision_of("room", 1));
+  const std::shared_ptr<const Snapshot> taken = store.find("room");
+  EXPECT_TRUE(store.remove("room"));
+  EXPECT_EQ(store.find("room"), nullptr);
+  EXPECT_EQ(taken->name, "room") << "what was taken stays as it is";
+  EXPECT_FALSE(store.remove("room"));
+}
+
 TEST(SceneStore, ListsInOrderOfName) {
   SceneStore store;
   EXPECT_EQ(store.summary(), "there are no scenes");
