@@ -65,7 +65,7 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 class Planner {
  public:
   Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
-      : mesh_(*snapshot.mesh),
+      : mesh_(snapshot.mesh),
         obstacles_(snapshot),
         request_(request),
         deadline_(deadline),
@@ -467,7 +467,7 @@ class Planner {
   // For the final check, however little of the deadline is left.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
-  const scene::Mesh& mesh_;
+  const scene::WholeMesh& mesh_;
   const collision::Obstacles obstacles_;
   const PlanRequest& request_;
   const Deadline& deadline_;

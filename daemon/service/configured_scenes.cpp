@@ -7,7 +7,7 @@
 
 #include "daemon/planning/request.h"
 #include "daemon/scene/import_warnings.h"
-#include "daemon/scene/occupancy_map.h"
+#include "daemon/scene/occupancy_mirror.h"
 
 namespace camway::service {
 namespace {
@@ -54,7 +54,24 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     loaded.push_back(load(scene));
     if (!loaded.back()) return false;
   }
-  for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) put(std::move(snapshot));
+  remove_all_but(wanted);
+  held_ = std::move(next);
+  bool all = true;
+  for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
+    const std::string name = snapshot->name;
+    const scene::StoreResult put = store_.put(std::move(snapshot));
+    if (put.snapshot) continue;
+    log_->error(put.error);
+    // Tried again the next time. An older one of that name goes when it is not wanted any more.
+    for (Held& held : held_) {
+      if (held.scene.name == name) held.stamp = {};
+    }
+    all = false;
+  }
+  return all;
+}
+
+void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) {
   for (const Held& held : held_) {
     const bool stays = std::any_of(wanted.begin(), wanted.end(), [&](const SceneArgument& scene) {
       return scene.name == held.scene.name;
@@ -63,8 +80,6 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     store_.remove(held.scene.name);
     log_->info("scene {} is gone", held.scene.name);
   }
-  held_ = std::move(next);
-  return true;
 }
 
 ConfiguredScenes::FileStamp ConfiguredScenes::stamp_of(const std::filesystem::path& file) {
@@ -87,15 +102,6 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
     log_scene(*result.snapshot, scene, *log_);
   }
   return result.snapshot;
-}
-
-void ConfiguredScenes::put(std::shared_ptr<const scene::Snapshot> snapshot) {
-  if (const auto before = store_.find(snapshot->name)) {
-    auto next = std::make_shared<scene::Snapshot>(*snapshot);
-    next->revision = before->revision + 1;
-    snapshot = std::move(next);
-  }
-  store_.put(std::move(snapshot));
 }
 
 }  // namespace camway::service

@@ -25,7 +25,8 @@ class ConfiguredScenes {
   /// Makes the store hold `wanted`, and none of those that it held for an earlier call and that are
   /// not wanted any more. Loads what is new, what is to be read in another way and what changed on
   /// disk, and logs what was read and assumed. If one cannot be loaded, or a stop is asked for in
-  /// between, nothing changes and the answer is false, with the file and the reason logged.
+  /// between, nothing changes and the answer is false, with the file and the reason logged; so it
+  /// is if the store has no room for one, which then is the only one left out.
   bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
 
  private:
@@ -43,7 +44,7 @@ class ConfiguredScenes {
   static FileStamp stamp_of(const std::filesystem::path& file);
   [[nodiscard]] bool holds(const Held& wanted) const;
   [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene) const;
-  void put(std::shared_ptr<const scene::Snapshot> snapshot);
+  void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;
   std::shared_ptr<spdlog::logger> log_;

@@ -50,7 +50,7 @@ void Reloader::reload(const std::stop_token& stop) {
     return;
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
-    log_->error("reload: not all scenes could be loaded, all stays as it was");
+    log_->error("reload: not all scenes could be taken over, so no setting is");
     return;
   }
   take_over(*parsed.options);

@@ -87,6 +87,19 @@ TEST_F(ConfiguredScenesTest, ChangesNothingIfOneSceneIsBad) {
   EXPECT_EQ(store_.find("room"), nullptr);
 }
 
+TEST_F(ConfiguredScenesTest, LeavesOutWhatTheStoreHasNoRoomFor) {
+  scene::SceneStoreLimits limits;
+  limits.scenes = 1;
+  scene::SceneStore small(limits);
+  ConfiguredScenes scenes(small, log_.logger());
+  EXPECT_FALSE(scenes.update({scene_of("room", room_), scene_of("hall", hall_)}));
+  EXPECT_NE(small.find("room"), nullptr);
+  EXPECT_EQ(small.find("hall"), nullptr);
+  EXPECT_THAT(log_.text(), HasSubstr("there are 1 scenes already"));
+  EXPECT_TRUE(scenes.update({scene_of("hall", hall_)})) << "what is gone makes room first";
+  EXPECT_NE(small.find("hall"), nullptr);
+}
+
 TEST_F(ConfiguredScenesTest, GivesUpBetweenScenesWhenAskedToStop) {
   std::stop_source stop;
   stop.request_stop();

@@ -90,7 +90,7 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
   EXPECT_THAT(reload([&] {
                 return ParsedOptions{next, 0, {}};
               }),
-              HasSubstr("not all scenes could be loaded, all stays as it was"));
+              HasSubstr("not all scenes could be taken over"));
   EXPECT_EQ(log_.logger()->level(), spdlog::level::info);
   EXPECT_NE(store_.find("room"), nullptr);
 
