@@ -2,12 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/integration/fixture.h"
 #include "tests/support/notify_socket.h"
@@ -88,6 +92,60 @@ TEST_F(OperationTest, IsNotCalledAliveWhileItStandsStill) {
   EXPECT_EQ(socket_->next(std::chrono::milliseconds(500)), "");
   daemon().signal(SIGCONT);
   EXPECT_NE(socket_->next_of("WATCHDOG=1"), "");
+}
+
+class CommandTest : public IntegrationTest {
+ protected:
+  /// Runs `camway` to its end; its outputs go to `output`.
+  int camway(std::vector<std::string> arguments, std::string& output) {
+    arguments.insert(arguments.begin(), CAMWAY_BINARY);
+    Process process(arguments, file("camway.log"));
+    const std::optional<int> code = process.wait();
+    output = process.output();
+    return code.value_or(-1);
+  }
+};
+
+TEST_F(CommandTest, StatusSaysHowTheDaemonIs) {
+  start_daemon();
+  std::string said;
+  EXPECT_EQ(camway({"status"}, said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("plan, 0 requests wait"));
+  EXPECT_THAT(said, HasSubstr("  office: revision 1, "));
+  EXPECT_EQ(camway({"status", "--json"}, said), 0) << said;
+  const auto json = nlohmann::json::parse(said);
+  EXPECT_EQ(json.at("total_scenes"), 3);
+  EXPECT_EQ(json.at("scenes").size(), 3u);
+  EXPECT_EQ(camway({"status", "--watch", "--count", "2"}, said), 0) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
+
+  stop_daemon();
+  EXPECT_EQ(camway({"status", "--timeout-s", "0.1"}, said), 3) << said;
+  EXPECT_THAT(said, HasSubstr("no daemon was heard"));
+}
+
+TEST_F(CommandTest, DoctorFindsTheDaemonTheNetworkAndTheScenes) {
+  start_daemon();
+  {
+    std::ofstream config(file("camwayd.toml"));
+    config << "[[scene]]\nname = \"maze\"\nfile = \"" << scene_file("maze") << "\"\n";
+  }
+  std::string said;
+  EXPECT_EQ(camway({"doctor", "--json", "--config", file("camwayd.toml")}, said), 0) << said;
+  const auto json = nlohmann::json::parse(said);
+  EXPECT_EQ(json.at("problems"), 0) << said;
+  std::map<std::string, std::string> severities;
+  for (const auto& finding : json.at("findings")) {
+    severities[finding.at("check")] = finding.at("severity");
+  }
+  for (const char* check : {"multicast route", "lcm", "daemon", "clocks", "scene files"}) {
+    EXPECT_EQ(severities[check], "good") << check;
+  }
+
+  stop_daemon();
+  EXPECT_EQ(camway({"doctor", "--timeout-s", "0.1"}, said), 3) << said;
+  EXPECT_THAT(said, HasSubstr("mend: systemctl start camwayd"));
+  EXPECT_THAT(said, HasSubstr("Camway does not work here yet."));
 }
 
 }  // namespace
