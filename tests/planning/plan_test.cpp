@@ -259,23 +259,6 @@ TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
   EXPECT_THAT(plan(*column_scene(), request).message, ::testing::Not(note));
 }
 
-TEST(Plan, StretchesTimesToMeetLimitsIfAllowed) {
-  PlanRequest request = bulging_tour();
-  request.options.limits.speed_m_per_s = 0.5;
-  const PlanResult refused = planned(*column_scene(), request);
-  EXPECT_EQ(refused.status, Status::kPartial);
-  EXPECT_THAT(refused.message, ::testing::HasSubstr("options.limits"));
-  // What is proved of it stays true.
-  EXPECT_TRUE(refused.certificate.certified);
-  EXPECT_TRUE(refused.remaining_collisions.empty());
-  request.options.limits.may_retime = true;
-  const PlanResult slower = planned(*column_scene(), request);
-  EXPECT_EQ(slower.status, Status::kOk) << slower.message;
-  EXPECT_GT(slower.time_scale, 1.0);
-  EXPECT_LE(slower.measures->largest_speed_m_per_s, 0.5);
-  EXPECT_EQ(slower.path.end_s(), slower.keyframes.back().time_s);
-}
-
 // The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide, and may not turn.
 TEST(Plan, MakesTheCameraSmallerIfNothingElseHelpsAndItMay) {
   Mesh mesh;
@@ -339,6 +322,32 @@ TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
   EXPECT_EQ(result.status, Status::kTimeout);
   ASSERT_EQ(result.remaining_collisions.size(), 1u);
   EXPECT_EQ(result.remaining_collisions[0], (collision::CollisionInterval{0.0, 4.0}));
+}
+
+TEST(Plan, SaysHowFarItIs) {
+  const auto progress = std::make_shared<collision::Progress>();
+  const PlanResult result = plan(*column_scene(), bulging_tour(),
+                                 collision::Deadline::never().watched({}, progress));
+  ASSERT_FALSE(result.corrections.empty());
+  const auto corrected =
+      std::ranges::count_if(result.corrections, [](const correction::Correction& correction) {
+        return correction.rung != correction::Rung::kNone;
+      });
+  EXPECT_EQ(progress->stage, collision::Progress::Stage::kCertifying);
+  EXPECT_EQ(progress->collisions, static_cast<int>(result.corrections.size()));
+  EXPECT_EQ(progress->corrected, static_cast<int>(corrected));
+}
+
+TEST(Plan, ToldToStopItChecksNothingAnyMore) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto progress = std::make_shared<collision::Progress>();
+  const PlanResult result =
+      plan(*column_scene(), bulging_tour(),
+           collision::Deadline::never().watched(stop.get_token(), progress));
+  EXPECT_EQ(result.status, Status::kTimeout);
+  EXPECT_FALSE(result.certificate.certified);
+  ASSERT_EQ(result.remaining_collisions.size(), 1u);
 }
 
 TEST(Plan, DerivesTimesAndNormalisesQuaternions) {

@@ -129,6 +129,15 @@ cage_t cage(Random& random) {
   return cage;
 }
 
+slowed_stretch_t slowed_stretch(Random& random) {
+  slowed_stretch_t stretch{};
+  for (double* value :
+       {&stretch.t_begin_s, &stretch.t_end_s, &stretch.given_t_begin_s, &stretch.given_t_end_s}) {
+    *value = number(random);
+  }
+  return stretch;
+}
+
 keyframe_fault_t keyframe_fault(Random& random) {
   keyframe_fault_t fault{};
   fault.keyframe = small(random);
@@ -191,6 +200,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.method = text(random, wire::kMaxMethodBytes);
   message.priority = static_cast<std::int8_t>(random());
   message.deadline_s = number(random);
+  message.progress_period_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
@@ -204,6 +214,42 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.has_times = static_cast<std::int8_t>(random());
   message.num_keyframes =
       fill_list(message.keyframes, length(random, 700), [&] { return keyframe(random); });
+  return message;
+}
+
+template <>
+cancel_t random_message<cancel_t>(Random& random) {
+  cancel_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  return message;
+}
+
+template <>
+plan_progress_t random_message<plan_progress_t>(Random& random) {
+  plan_progress_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.stage = static_cast<std::int8_t>(below(random, 6));
+  message.requests_ahead = small(random);
+  message.num_collisions = small(random);
+  message.num_corrected = small(random);
+  message.since_receipt_s = number(random);
+  message.deadline_s = number(random);
+  return message;
+}
+
+template <>
+missing_pages_t random_message<missing_pages_t>(Random& random) {
+  missing_pages_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.num_pages = small(random);
+  message.num_missing =
+      fill_list(message.missing, length(random, 1024), [&] { return small(random); });
   return message;
 }
 
@@ -253,6 +299,8 @@ plan_response_t random_message<plan_response_t>(Random& random) {
   message.proof_cage = cage(random);
   message.num_corrections =
       fill_list(message.corrections, length(random, 100), [&] { return correction(random); });
+  message.num_slowed =
+      fill_list(message.slowed, length(random, 100), [&] { return slowed_stretch(random); });
   message.num_keyframe_faults = fill_list(message.keyframe_faults, length(random, 100),
                                           [&] { return keyframe_fault(random); });
   message.num_proof_triangles =
