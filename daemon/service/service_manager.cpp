@@ -2,6 +2,7 @@
 #include "daemon/service/service_manager.h"
 
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -15,6 +16,9 @@
 
 namespace camway::service {
 namespace {
+
+/// For what the manager has to know.
+constexpr std::chrono::milliseconds kPatience{1000};
 
 std::string from_environment_or_empty(const char* name) {
   const char* const value = std::getenv(name);
@@ -50,17 +54,17 @@ ServiceManager ServiceManager::from_environment() {
 }
 
 void ServiceManager::ready(std::string_view status) const {
-  send("READY=1\nSTATUS=" + std::string(status));
+  send("READY=1\nSTATUS=" + std::string(status), kPatience);
 }
 
 void ServiceManager::reloading() const {
-  send("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(monotonic_us()));
+  send("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(monotonic_us()), kPatience);
 }
 
-void ServiceManager::stopping() const { send("STOPPING=1"); }
+void ServiceManager::stopping() const { send("STOPPING=1", kPatience); }
 
 void ServiceManager::alive() const {
-  if (watchdog_) send("WATCHDOG=1");
+  if (watchdog_) send("WATCHDOG=1", std::chrono::milliseconds::zero());
 }
 
 std::chrono::milliseconds ServiceManager::alive_period() const {
@@ -70,7 +74,7 @@ std::chrono::milliseconds ServiceManager::alive_period() const {
   return std::clamp(third, std::chrono::milliseconds{1}, kLongest);
 }
 
-void ServiceManager::send(const std::string& state) const {
+void ServiceManager::send(const std::string& state, std::chrono::milliseconds patience) const {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (socket_.empty() || socket_.size() >= sizeof address.sun_path) return;
@@ -78,10 +82,13 @@ void ServiceManager::send(const std::string& state) const {
   if (socket_.front() == '@') address.sun_path[0] = '\0';  // an abstract name
   const int fd = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return;
+  const timeval limit{patience.count() / 1000, patience.count() % 1000 * 1000};
+  ::setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+  // A limit of 0 would be none.
+  const int flags = MSG_NOSIGNAL | (patience.count() == 0 ? MSG_DONTWAIT : 0);
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());
-  // A manager that does not read must not stop us from serving.
-  ::sendto(fd, state.data(), state.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
-           reinterpret_cast<const sockaddr*>(&address), length);
+  ::sendto(fd, state.data(), state.size(), flags, reinterpret_cast<const sockaddr*>(&address),
+           length);
   ::close(fd);
 }
 

@@ -10,7 +10,8 @@ namespace camway::service {
 
 /// Tells the service manager how the daemon is. The protocol is that of sd_notify(3): a datagram to
 /// a Unix socket for each state, which needs no library; systemd is one that listens. Without a
-/// socket nothing is said. Safe from any thread; what cannot be sent is not sent again.
+/// socket nothing is said. Safe from any thread. Where the manager does not read, `alive` is left
+/// out at once, and the others are after a second.
 class ServiceManager {
  public:
   /// As the environment says: NOTIFY_SOCKET, WATCHDOG_USEC, WATCHDOG_PID.
@@ -33,7 +34,7 @@ class ServiceManager {
   [[nodiscard]] std::chrono::milliseconds alive_period() const;
 
  private:
-  void send(const std::string& state) const;
+  void send(const std::string& state, std::chrono::milliseconds patience) const;
 
   std::string socket_;
   std::optional<std::chrono::microseconds> watchdog_;

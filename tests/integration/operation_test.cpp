@@ -30,7 +30,7 @@ class OperationTest : public IntegrationTest {
     if (HasFatalFailure()) return;
     socket_.emplace(file("notify"));
     setenv("NOTIFY_SOCKET", file("notify").c_str(), 1);
-    setenv("WATCHDOG_USEC", "300000", 1);
+    setenv("WATCHDOG_USEC", "900000", 1);
   }
   void TearDown() override {
     IntegrationTest::TearDown();
