@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <arpa/inet.h>
-#include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -33,24 +34,41 @@ std::optional<std::int64_t> number_in_file(const char* file) {
   return stream >> value ? std::optional(value) : std::nullopt;
 }
 
-/// The device that has this address.
-std::optional<MulticastRoute> device_with(const in_addr& address) {
-  ifaddrs* all = nullptr;
-  if (::getifaddrs(&all) != 0) return std::nullopt;
-  std::optional<MulticastRoute> found;
-  for (const ifaddrs* device = all; device != nullptr && !found; device = device->ifa_next) {
-    if (device->ifa_addr == nullptr || device->ifa_addr->sa_family != AF_INET) continue;
-    const auto* const inet = reinterpret_cast<const sockaddr_in*>(device->ifa_addr);
-    if (inet->sin_addr.s_addr != address.s_addr) continue;
-    // The loopback carries multicast that stays on it without the flag, once there is a route.
-    const bool multicast = (device->ifa_flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
-    found = MulticastRoute{device->ifa_name, multicast};
+/// The device of the longest prefix that holds `group`, by the kernel's main table. A line of it:
+/// device, destination, gateway, flags, three counts, mask, ...; addresses are hexadecimal, in the
+/// order of bytes that `in_addr` has.
+std::string device_towards(const in_addr& group) {
+  std::ifstream stream("/proc/net/route");
+  std::string best;
+  int longest = -1;
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    std::string device;
+    std::string counts;
+    std::uint32_t destination = 0;
+    std::uint32_t gateway = 0;
+    std::uint32_t flags = 0;
+    std::uint32_t mask = 0;
+    words >> device >> std::hex >> destination >> gateway >> flags;
+    for (int i = 0; i < 3; ++i) words >> counts;
+    if (!(words >> mask) || (group.s_addr & mask) != destination) continue;
+    if (std::popcount(mask) <= longest) continue;
+    longest = std::popcount(mask);
+    best = device;
   }
-  ::freeifaddrs(all);
-  return found;
+  return best;
 }
 
-/// Asks the kernel how it would send; nothing is sent.
+bool does_multicast(const std::string& device, int fd) {
+  ifreq request{};
+  if (device.size() >= sizeof request.ifr_name) return true;
+  device.copy(request.ifr_name, device.size());
+  if (::ioctl(fd, SIOCGIFFLAGS, &request) != 0) return true;  // not ours to judge
+  // The loopback carries multicast without the flag, once there is a route (measured).
+  return (request.ifr_flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
+}
+
+/// Asks the kernel whether it would send, and by what; nothing is sent.
 std::optional<MulticastRoute> route_to(const LcmNetwork& network) {
   sockaddr_in group{};
   group.sin_family = AF_INET;
@@ -58,12 +76,14 @@ std::optional<MulticastRoute> route_to(const LcmNetwork& network) {
   if (::inet_pton(AF_INET, network.group.c_str(), &group.sin_addr) != 1) return std::nullopt;
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return std::nullopt;
-  sockaddr_in own{};
-  socklen_t length = sizeof own;
-  const bool known = ::connect(fd, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0 &&
-                     ::getsockname(fd, reinterpret_cast<sockaddr*>(&own), &length) == 0;
+  std::optional<MulticastRoute> route;
+  if (::connect(fd, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0) {
+    const std::string device = device_towards(group.sin_addr);
+    route =
+        MulticastRoute{device.empty() ? "a table of its own" : device, does_multicast(device, fd)};
+  }
   ::close(fd);
-  return known ? device_with(own.sin_addr) : std::nullopt;
+  return route;
 }
 
 /// "RcvbufErrors" of /proc/net/snmp: a line of names, then one of numbers, both begin with "Udp:".
