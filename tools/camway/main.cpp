@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   camway::tools::add_check_command(app, exit_code);
   camway::tools::add_info_command(app, exit_code);
   camway::tools::add_occupancy_command(app, exit_code);
+  camway::tools::add_load_command(app, exit_code);
   camway::tools::add_replay_command(app, exit_code);
   camway::tools::add_draw_command(app, exit_code);
   try {

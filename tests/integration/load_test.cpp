@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/integration/fixture.h"
+
+namespace camway::integration {
+namespace {
+
+using testing::HasSubstr;
+
+/// `camway load` against a daemon, and what it measures.
+class LoadTest : public IntegrationTest {
+ protected:
+  /// Runs it on scene `office` with a few requests; `more` are further arguments. Its exit code.
+  int load(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{CAMWAY_BINARY, "load",
+                                       "--json",      file("load.json"),
+                                       "--scene",     "office=" + scene_file("office")};
+    for (const char* request : {"office-free-door", "office-graze-door", "office-free-timed"}) {
+      arguments.insert(arguments.end(), {"--request", request_file(request)});
+    }
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Process process(arguments, file("load.log"));
+    const std::optional<int> code = process.wait();
+    output_ = process.output();
+    return code.value_or(-1);
+  }
+
+  nlohmann::json measured() const {
+    return nlohmann::json::parse(read_file(file("load.json")), nullptr, false);
+  }
+
+  std::string output_;
+};
+
+TEST_F(LoadTest, EveryAnswerIsWhatPlanningGives) {
+  start_daemon({"--workers", "2"});
+  ASSERT_EQ(load({"--clients", "4", "--requests", "60", "--seconds", "60"}), 0) << output_;
+  const nlohmann::json json = measured();
+  EXPECT_EQ(json["requests"], 60);
+  EXPECT_EQ(json["answered"], 60);
+  EXPECT_EQ(json["by_status"]["ok"], 60);
+  EXPECT_GT(json["latency_ms"]["p50"], json["latency_without_planning_ms"]["p50"]);
+  EXPECT_LE(json["latency_ms"]["p50"], json["latency_ms"]["p999"]);
+  EXPECT_THAT(output_, HasSubstr("0 wrong, 0 lost"));
+}
+
+TEST_F(LoadTest, AnotherSceneUnderTheSameNameIsFoundOut) {
+  start_daemon_with_scenes({"office=" + scene_file("gallery")});
+  EXPECT_EQ(load({"--clients", "1", "--requests", "3"}), 3) << output_;
+  EXPECT_EQ(measured()["wrong"], 3);
+  EXPECT_THAT(output_, HasSubstr("is not what planning here gives"));
+}
+
+TEST_F(LoadTest, SaysThatThereIsNoDaemon) {
+  EXPECT_EQ(load({"--requests", "3"}), 2);
+  EXPECT_THAT(output_, HasSubstr("no daemon was heard"));
+}
+
+TEST_F(LoadTest, NothingIsLostOrWrongOnABadNetwork) {
+  const std::string clients_url = "udpm://239.255.76.67:7668?ttl=0";
+  const std::string daemon_url = "udpm://239.255.76.67:7667?ttl=0";
+  start_daemon({"--url", daemon_url});
+  Process relay({LOSSY_RELAY_BINARY, clients_url, daemon_url, "0.1", "0.1", "0.1", "2006"},
+                file("relay.log"));
+  ASSERT_TRUE(eventually([&] { return relay.output().find("relaying") != std::string::npos; }));
+  ASSERT_EQ(load({"--url", clients_url, "--clients", "8", "--requests", "200", "--seconds", "120"}),
+            0)
+      << output_;
+  const nlohmann::json json = measured();
+  EXPECT_EQ(json["answered"], 200);
+  EXPECT_GT(json["retries"], 10);
+}
+
+}  // namespace
+}  // namespace camway::integration

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/camway/load_tally.h"
+
+namespace camway::tools {
+
+struct LoadOptions {
+  std::string url;  ///< LCM network; empty: as the client's default
+  std::string prefix = "CAMWAY";
+  int clients = 8;
+  double seconds = 10.0;      ///< no request is begun later
+  std::int64_t requests = 0;  ///< of all clients together; 0: as many as the time allows
+  int daemon_pid = 0;         ///< of the process whose memory is watched; 0: none
+};
+
+struct LoadResult {
+  std::string error;  ///< why there was no run; empty if there was one
+  LoadTally tally;
+  double elapsed_s = 0.0;
+  std::vector<MemorySample> memory;
+};
+
+/// Lets `clients` clients, each on a thread of its own, ask the questions in turn, each as soon as
+/// the one before is answered, until time or requests are used up.
+LoadResult run_load(const std::vector<LoadQuestion>& questions, const LoadOptions& options);
+
+}  // namespace camway::tools
