@@ -72,7 +72,7 @@ class Search {
     return std::ranges::binary_search(faults_, keyframe, {}, &KeyframeFault::keyframe);
   }
 
-  // The body is in one piece, so any point of it tells on which side all of it is.
+  // The same point of the body everywhere: what surrounds it changes on no free motion.
   [[nodiscard]] Vec3 part_W(const Pose& pose) const {
     const Vec3 point_C = (part_C_[0] + part_C_[1] + part_C_[2]) / 3.0;
     return pose.position + pose.orientation * point_C;
