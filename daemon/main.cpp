@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <iostream>
 #include <memory>
 
 #include "daemon/scene/scene_store.h"
@@ -19,7 +20,10 @@ constexpr int kExitBadInput = 2;
 int run(int argc, char** argv) {
   using namespace camway;
   const service::ParsedOptions parsed = service::parse_daemon_options(argc, argv);
-  if (!parsed.options) return parsed.exit_code;
+  if (!parsed.options) {
+    (parsed.exit_code == 0 ? std::cout : std::cerr) << parsed.text;
+    return parsed.exit_code;
+  }
 
   const auto log = std::make_shared<spdlog::logger>(
       "camwayd", std::make_shared<spdlog::sinks::stderr_sink_mt>());

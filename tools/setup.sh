@@ -15,8 +15,8 @@ readonly kPackages=(
   liblcm-dev liblcm-bin
   # geometry, scenes, the occupancy map
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
-  # logs, flags, JSON, pictures
-  libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
+  # logs, flags, JSON, configuration files, pictures
+  libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
   # tests
   libgtest-dev libgmock-dev
   # the private network namespace

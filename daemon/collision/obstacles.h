@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/scene/distance_field.h"
+#include "daemon/scene/clearance_field.h"
 #include "daemon/scene/snapshot.h"
 
 namespace camway::collision {
@@ -14,7 +14,7 @@ struct Obstacles {
       : index(snapshot.index), field(snapshot.field.get()) {}
 
   const scene::SceneIndex& index;
-  const scene::DistanceField* field = nullptr;  ///< may be absent: it spares time, no more
+  const scene::ClearanceField* field = nullptr;  ///< may be absent: it spares time, no more
 };
 
 }  // namespace camway::collision

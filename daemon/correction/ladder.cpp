@@ -20,9 +20,10 @@ using motion::CubicPath;
 
 class Ladder {
  public:
-  Ladder(const scene::Mesh& mesh, FreeSpace& space, const std::vector<motion::Keyframe>& keyframes,
-         const CubicPath& path, const std::vector<CollisionInterval>& collisions,
-         const LadderOptions& options, const collision::Deadline& deadline)
+  Ladder(const scene::WholeMesh& mesh, FreeSpace& space,
+         const std::vector<motion::Keyframe>& keyframes, const CubicPath& path,
+         const std::vector<CollisionInterval>& collisions, const LadderOptions& options,
+         const collision::Deadline& deadline)
       : mesh_(mesh), space_(space), options_(options), deadline_(deadline), original_(path) {
     for (std::size_t i = 0; i < keyframes.size(); ++i) {
       keyframes_s_.push_back(keyframes[i].time_s);
@@ -115,19 +116,19 @@ class Ladder {
   }
 
   void prove_infeasible() {
-    const ClosedSurfaces surfaces = find_closed_surfaces(mesh_);
+    const ClosedSurfaces surfaces = find_closed_surfaces(*mesh_);
     const double smallest = 1.0 - options_.max_shrink;
     // A point of the body itself, which the eye is not.
     const geometry::Triangle& part = space_.body().triangles_C().front();
     const geometry::Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
     result_.separation =
-        find_separation(mesh_, surfaces, at_keyframes_W(point_C), kPointRounding_m);
+        find_separation(*mesh_, surfaces, at_keyframes_W(point_C), kPointRounding_m);
     if (result_.separation && smallest < 1.0) {
       const auto way_W = [&](std::size_t keyframe) {
         const motion::Pose& pose = poses_as_asked_[keyframe];
         return geometry::LineSegment{placed(pose, point_C), placed(pose, smallest * point_C)};
       };
-      if (!keeps_clear(*result_.separation, mesh_, way_W(result_.separation->inside),
+      if (!keeps_clear(*result_.separation, *mesh_, way_W(result_.separation->inside),
                        way_W(result_.separation->outside), kPointRounding_m)) {
         result_.separation.reset();
       }
@@ -154,7 +155,7 @@ class Ladder {
     }
     const geometry::Vec3 center_C = rectangle_C.center();
     const double side_m = rectangle_C.sizes().head<2>().minCoeff();
-    result_.cage = find_cage(mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
+    result_.cage = find_cage(*mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
                              kPointRounding_m + (1.0 - smallest) * center_C.norm());
   }
 
@@ -375,7 +376,7 @@ class Ladder {
   /// the body: surfaces so close to it prove nothing.
   static constexpr double kPointRounding_m = 1e-6;
 
-  const scene::Mesh& mesh_;
+  const scene::WholeMesh& mesh_;
   FreeSpace& space_;
   const LadderOptions& options_;
   const collision::Deadline& deadline_;
@@ -395,7 +396,7 @@ class Ladder {
 
 }  // namespace
 
-LadderResult correct_by_ladder(const scene::Mesh& mesh, const collision::Obstacles& obstacles,
+LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Obstacles& obstacles,
                                const motion::Body& body,
                                const std::vector<motion::Keyframe>& keyframes,
                                const CubicPath& path,

@@ -13,6 +13,7 @@
 #include "daemon/correction/separation.h"
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
+#include "daemon/scene/whole_mesh.h"
 
 namespace camway::correction {
 
@@ -50,7 +51,7 @@ struct LadderResult {
 ///
 /// `path` is the interpolation of `keyframes`, `collisions` what `detect_collisions` found on it,
 /// `mesh` the scene that `obstacles` index.
-LadderResult correct_by_ladder(const scene::Mesh& mesh, const collision::Obstacles& obstacles,
+LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Obstacles& obstacles,
                                const motion::Body& body,
                                const std::vector<motion::Keyframe>& keyframes,
                                const motion::CubicPath& path,

@@ -185,7 +185,7 @@ class Planner {
     options.orientation = request_.options.orientation;
     options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
     correction::LadderResult corrected = correction::correct_by_ladder(
-        *snapshot_.mesh, obstacles_, *body_, result_.keyframes,
+        snapshot_.mesh, obstacles_, *body_, result_.keyframes,
         motion::interpolate_cubic(result_.keyframes), found, options, deadline_);
     timed_out_ = corrected.timed_out;
     needed_keyframes_ = corrected.needed_keyframes;

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/planning/witness.h"
 
-#include <algorithm>
-
 namespace camway::planning {
 namespace {
 
 using collision::CollisionInterval;
 
-/// The object that holds `triangle`; null if none does.
-const scene::MeshObject* object_of(const scene::Mesh& mesh, std::uint32_t triangle) {
-  // The first that ends behind it: objects without triangles end where they begin, and are passed.
-  const auto found =
-      std::ranges::partition_point(mesh.objects, [&](const scene::MeshObject& object) {
-        return object.first_triangle + object.triangle_count <= triangle;
-      });
-  if (found == mesh.objects.end() || found->first_triangle > triangle) return nullptr;
-  return &*found;
-}
-
-std::vector<WitnessNames> names_of(const scene::Mesh& mesh, const motion::Body& body,
+std::vector<WitnessNames> names_of(const scene::WholeMesh& mesh, const motion::Body& body,
                                    const std::vector<CollisionInterval>& intervals) {
   std::vector<WitnessNames> names;
   names.reserve(intervals.size());
@@ -32,13 +19,12 @@ std::vector<WitnessNames> names_of(const scene::Mesh& mesh, const motion::Body& 
 
 }  // namespace
 
-WitnessNames describe_witness(const scene::Mesh& mesh, const motion::Body& body,
+WitnessNames describe_witness(const scene::WholeMesh& mesh, const motion::Body& body,
                               const collision::Witness& witness) {
-  const scene::MeshObject* object = object_of(mesh, witness.triangle);
-  return {object != nullptr ? object->name : std::string(), body.feature_name(witness.feature)};
+  return {mesh.object_name(witness.triangle), body.feature_name(witness.feature)};
 }
 
-void name_witnesses(const scene::Mesh& mesh, const PlanRequest& request, PlanResult& result) {
+void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, PlanResult& result) {
   if (result.collisions.empty() && result.remaining_collisions.empty()) return;
   if (!result.collision_names.empty() || !result.remaining_names.empty()) return;
   std::string fault;

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <fstream>
-#include <iomanip>
 #include <limits>
+#include <ostream>
 #include <sstream>
 #include <utility>
 
@@ -29,6 +28,14 @@ OcTreeKey key_of(const Voxel& voxel) {
     return static_cast<octomap::key_type>(v - VoxelGrid::kMinVoxel);
   };
   return {key(voxel[0]), key(voxel[1]), key(voxel[2])};
+}
+
+/// The cube of a leaf with this key that is so many levels above a voxel.
+VoxelCube cube_of(const OcTreeKey& key, unsigned levels_above_voxel) {
+  VoxelCube cube;
+  for (unsigned k = 0; k < 3; ++k) cube.min[k] = std::int32_t{key[k]} + VoxelGrid::kMinVoxel;
+  cube.size = std::int32_t{1} << levels_above_voxel;
+  return cube;
 }
 
 /// The least value that `cost` takes on the boxes of occupied leaves, or nothing if none is
@@ -83,9 +90,11 @@ class CheapestLeaf {
   std::optional<double> best_;
 };
 
+/// `bounds` is the box of all occupied leaves.
 template <typename Cost>
-std::optional<double> cheapest_leaf(const OcTree& tree, const VoxelGrid& grid, const Cost& cost,
-                                    double limit) {
+std::optional<double> cheapest_leaf(const OcTree& tree, const VoxelGrid& grid, const Box& bounds,
+                                    const Cost& cost, double limit) {
+  if (bounds.isEmpty() || !(cost(bounds) <= limit)) return std::nullopt;
   return CheapestLeaf<Cost>(tree, grid, cost, limit).run();
 }
 
@@ -238,6 +247,7 @@ OccupancyMap::OccupancyMap(std::unique_ptr<const OcTree> tree, const VoxelGrid& 
     const unsigned levels_above_voxel = tree_->getTreeDepth() - leaf.getDepth();
     if (tree_->isNodeOccupied(*leaf)) {
       statistics_.occupied_voxels += std::uint64_t{1} << (3 * levels_above_voxel);
+      bounds_.extend(grid_.box(cube_of(leaf.getIndexKey(), levels_above_voxel)));
     }
   }
 }
@@ -245,6 +255,7 @@ OccupancyMap::OccupancyMap(std::unique_ptr<const OcTree> tree, const VoxelGrid& 
 OccupancyMap::~OccupancyMap() = default;
 
 bool OccupancyMap::occupied_at(const Vec3& point_W) const {
+  if (!bounds_.contains(point_W)) return false;
   const std::optional<Voxel> voxel = grid_.voxel_of(point_W);
   if (!voxel) return false;
   const OcTreeNode* node = tree_->search(key_of(*voxel));
@@ -253,7 +264,7 @@ bool OccupancyMap::occupied_at(const Vec3& point_W) const {
 
 bool OccupancyMap::occupied_in_box(const Box& box_W) const {
   if (!(box_W.min().array() <= box_W.max().array()).all()) return false;  // empty, or NaN
-  return cheapest_leaf(*tree_, grid_, BoxTouch(box_W), 0.0).has_value();
+  return cheapest_leaf(*tree_, grid_, bounds_, BoxTouch(box_W), 0.0).has_value();
 }
 
 bool OccupancyMap::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
@@ -264,28 +275,24 @@ std::optional<double> OccupancyMap::ray_hit_m(const Vec3& origin_W, const Vec3& 
                                               double max_range_m) const {
   if (!origin_W.allFinite() || !direction_W.allFinite()) return std::nullopt;
   if ((direction_W.array() == 0.0).all()) return std::nullopt;
-  return cheapest_leaf(*tree_, grid_, RayEntry(origin_W, direction_W), max_range_m);
+  return cheapest_leaf(*tree_, grid_, bounds_, RayEntry(origin_W, direction_W), max_range_m);
 }
 
 std::optional<double> OccupancyMap::distance_m(const Vec3& point_W, double max_distance_m) const {
   if (!point_W.allFinite()) return std::nullopt;
-  return cheapest_leaf(*tree_, grid_, PointDistance(point_W), max_distance_m);
+  return cheapest_leaf(*tree_, grid_, bounds_, PointDistance(point_W), max_distance_m);
 }
 
-std::string OccupancyMap::write_bt(const std::filesystem::path& file) const {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (!out) return "cannot open '" + file.string() + "' for writing";
+void write_bt_of(const OcTree& tree, std::ostream& out) {
   // Not OcTree::writeBinaryConst: it prints the resolution with six digits, which scales the map of
   // any other resolution, and chats on stderr. The call below is not virtual for the latter reason:
   // the installed library was built with its debug output on.
+  const std::streamsize precision = out.precision(std::numeric_limits<double>::max_digits10);
   out << "# Octomap OcTree binary file\n# conservative mirror of a Camway scene\n#\n"
-      << "id " << tree_->getTreeType() << "\nsize " << tree_->size() << "\nres "
-      << std::setprecision(std::numeric_limits<double>::max_digits10) << grid_.resolution_m()
+      << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
       << "\ndata\n";
-  tree_->octomap::OccupancyOcTreeBase<OcTreeNode>::writeBinaryData(out);
-  out.close();
-  if (!out) return "cannot write '" + file.string() + "'";
-  return {};
+  out.precision(precision);
+  tree.octomap::OccupancyOcTreeBase<OcTreeNode>::writeBinaryData(out);
 }
 
 }  // namespace camway::scene

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -85,15 +85,19 @@ class OccupancyMap {
   [[nodiscard]] std::optional<double> distance_m(const geometry::Vec3& point_W,
                                                  double max_distance_m) const;
 
-  /// Writes OctoMap's binary format, which octovis opens. Returns an error text, empty on success.
-  [[nodiscard]] std::string write_bt(const std::filesystem::path& file) const;
+  /// The map itself, for those in daemon/scene who know OctoMap.
+  [[nodiscard]] const octomap::OcTree& tree() const { return *tree_; }
 
  private:
   OccupancyMap(std::unique_ptr<const octomap::OcTree> tree, const VoxelGrid& grid);
 
   std::unique_ptr<const octomap::OcTree> tree_;
   VoxelGrid grid_;
+  geometry::Box bounds_;  ///< of the occupied voxels
   OccupancyStatistics statistics_;
 };
+
+/// Writes OctoMap's binary format, which octovis opens.
+void write_bt_of(const octomap::OcTree& tree, std::ostream& out);
 
 }  // namespace camway::scene

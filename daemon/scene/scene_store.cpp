@@ -1,29 +1,106 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/scene_store.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 namespace camway::scene {
 
-void SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
-  assert(snapshot);
-  std::string name = snapshot->name;
+std::string SceneStore::over_limit(const Snapshot& next) const {
+  if (next.objects.size() > limits_.objects) {
+    return "scene '" + next.name + "': more than " + std::to_string(limits_.objects) + " objects";
+  }
   const std::lock_guard lock(mutex_);
-  scenes_.insert_or_assign(std::move(name), std::move(snapshot));
+  std::uint64_t triangles = next.index.size();
+  std::size_t others = 0;
+  for (const auto& [name, entry] : scenes_) {
+    if (name == next.name) continue;
+    ++others;
+    triangles += entry.newest->index.size();
+  }
+  if (others >= limits_.scenes) {
+    return "scene '" + next.name + "': there are " + std::to_string(limits_.scenes) +
+           " scenes already";
+  }
+  if (triangles > limits_.triangles) {
+    return "scene '" + next.name + "': with it there would be more than " +
+           std::to_string(limits_.triangles) + " triangles in all scenes";
+  }
+  return {};
+}
+
+StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
+  assert(snapshot);
+  const std::lock_guard changing(changing_);
+  if (std::string error = over_limit(*snapshot); !error.empty()) {
+    return {nullptr, StoreFault::kLimit, std::move(error)};
+  }
+  std::optional<Entry> old;  // takes its time to go, when nobody waits any more
+  const std::lock_guard lock(mutex_);
+  const auto found = scenes_.find(snapshot->name);
+  const std::uint64_t next =
+      1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
+  if (snapshot->revision < next) {
+    auto numbered = std::make_shared<Snapshot>(*snapshot);
+    numbered->revision = next;
+    snapshot = std::move(numbered);
+  }
+  if (found != scenes_.end()) old = std::move(found->second);
+  scenes_.insert_or_assign(snapshot->name,
+                           Entry{snapshot, SceneHistory(*snapshot, limits_.history)});
+  return {std::move(snapshot), StoreFault::kNone, ""};
+}
+
+StoreResult SceneStore::change(std::string_view scene, SceneChange change) {
+  const std::lock_guard changing(changing_);
+  const std::shared_ptr<const Snapshot> before = find(scene);
+  if (!before) {
+    return {nullptr, StoreFault::kUnknownScene,
+            "scene: '" + std::string(scene) + "' is unknown; " + summary()};
+  }
+  SnapshotResult result = changed(*before, change, before->revision + 1);
+  if (!result.snapshot) return {nullptr, StoreFault::kInvalid, std::move(result.error)};
+  if (std::string error = over_limit(*result.snapshot); !error.empty()) {
+    return {nullptr, StoreFault::kLimit, std::move(error)};
+  }
+  const std::lock_guard lock(mutex_);
+  Entry& entry = scenes_.find(scene)->second;
+  entry.newest = result.snapshot;
+  entry.history.add(std::move(change), result.snapshot->revision);
+  return {std::move(result.snapshot), StoreFault::kNone, ""};
+}
+
+bool SceneStore::remove(std::string_view scene) {
+  std::optional<Entry> old;
+  const std::lock_guard changing(changing_);
+  const std::lock_guard lock(mutex_);
+  const auto found = scenes_.find(scene);
+  if (found == scenes_.end()) return false;
+  highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
+  old = std::move(found->second);
+  scenes_.erase(found);
+  return true;
 }
 
 std::shared_ptr<const Snapshot> SceneStore::find(std::string_view name) const {
   const std::lock_guard lock(mutex_);
   const auto position = scenes_.find(name);
-  return position == scenes_.end() ? nullptr : position->second;
+  return position == scenes_.end() ? nullptr : position->second.newest;
+}
+
+std::optional<SceneHistory> SceneStore::history(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto position = scenes_.find(name);
+  if (position == scenes_.end()) return std::nullopt;
+  return position->second.history;
 }
 
 std::vector<std::shared_ptr<const Snapshot>> SceneStore::list() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::shared_ptr<const Snapshot>> all;
   all.reserve(scenes_.size());
-  for (const auto& [name, snapshot] : scenes_) all.push_back(snapshot);
+  for (const auto& [name, entry] : scenes_) all.push_back(entry.newest);
   return all;
 }
 

@@ -1,71 +1,120 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/snapshot.h"
 
-#include <xxhash.h>
-
-#include <cstdio>
+#include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace camway::scene {
 namespace {
 
 SnapshotResult build(std::string name, Mesh mesh, ImportReport report,
-                     const SnapshotOptions& options) {
-  auto snapshot = std::make_shared<Snapshot>();
-  if (options.occupancy_resolution_m) {
-    OccupancyMap::BuildResult mirror = OccupancyMap::build(mesh, *options.occupancy_resolution_m);
-    if (!mirror.map) return {nullptr, name + ": " + mirror.error};
-    snapshot->occupancy = std::move(mirror.map);
-  }
-  if (options.field) {
-    DistanceFieldResult result = DistanceField::build(mesh, *options.field);
-    snapshot->field = std::move(result.field);
-    snapshot->why_no_field = std::move(result.why_off);
-  } else {
-    snapshot->why_no_field = "it was not asked for";
-  }
-  snapshot->name = std::move(name);
-  snapshot->digest = mesh_digest(mesh);
-  snapshot->mesh = std::make_shared<const Mesh>(std::move(mesh));
-  snapshot->index = SceneIndex::build(snapshot->mesh, options.index);
-  snapshot->report = std::move(report);
-  return {std::move(snapshot), ""};
+                     const ObjectOptions& options) {
+  ObjectResult result = place_object(
+      name, make_source(ObjectKind::kMesh, std::move(mesh), std::move(report), options), {},
+      options);
+  if (!result.object) return {nullptr, result.error};
+  return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
 }
 
-/// What an import would have reported of a mesh that is already there.
-ImportReport report_of(const Mesh& mesh) {
-  ImportReport report;
-  report.format = "memory";
-  report.vertices = mesh.vertices.size();
-  report.triangles = mesh.triangles.size();
-  report.objects = mesh.objects.size();
-  report.bounds_m = mesh.bounds();
-  return report;
+std::string digest_of(const SceneObjects& objects) {
+  if (objects.empty()) return mesh_digest(Mesh());
+  if (objects.size() == 1) return objects.front()->digest;
+  std::vector<std::string> digests;
+  digests.reserve(objects.size());
+  for (const auto& object : objects) digests.push_back(object->digest);
+  return text_digest(digests);
+}
+
+void add(const SceneObject& object, ImportReport& sum) {
+  const ImportReport& report = object.source->report;
+  sum.vertices += report.vertices;
+  sum.triangles += report.triangles;
+  sum.objects += report.objects;
+  sum.bounds_m.extend(object.placed->tree.bounds());
+  sum.degenerate_triangles += report.degenerate_triangles;
+  sum.dropped_nonfinite += report.dropped_nonfinite;
+  sum.dropped_bad_index += report.dropped_bad_index;
+  sum.dropped_points_and_lines += report.dropped_points_and_lines;
+  sum.dropped_freeform += report.dropped_freeform;
+  sum.ignored_statements += report.ignored_statements;
+  sum.single_precision = sum.single_precision || report.single_precision;
+  sum.rounding_m = std::max(sum.rounding_m, report.rounding_m);
+}
+
+ImportReport report_of(const SceneObjects& objects) {
+  if (objects.size() == 1) {
+    ImportReport report = objects.front()->source->report;
+    report.bounds_m = objects.front()->placed->tree.bounds();
+    return report;
+  }
+  ImportReport sum;
+  sum.format = "several objects";
+  for (const auto& object : objects) add(*object, sum);
+  return sum;
+}
+
+void make_field(Snapshot& snapshot) {
+  std::vector<PlacedField> fields;
+  const ObjectSource* without = nullptr;  ///< an object that has triangles but no field
+  for (const auto& object : snapshot.objects) {
+    const ObjectSource& source = *object->source;
+    if (source.mesh_O->triangles.empty()) continue;
+    fields.push_back(
+        {source.field_O, object->placement, source.bounds_O, object->placed->tree.bounds()});
+    if (!source.field_O) without = &source;
+  }
+  if (fields.empty()) {
+    snapshot.why_no_field =
+        snapshot.options.field ? "the scene has no triangles" : "it was not asked for";
+  } else if (fields.size() > ClearanceField::kMaxObjects) {
+    snapshot.why_no_field =
+        "the scene has more than " + std::to_string(ClearanceField::kMaxObjects) + " objects";
+  } else if (std::ranges::none_of(fields, [](const auto& f) { return f.field_O != nullptr; })) {
+    snapshot.why_no_field = without->why_no_field;
+  } else {
+    snapshot.field = std::make_shared<const ClearanceField>(fields);
+  }
 }
 
 }  // namespace
 
-std::string mesh_digest(const Mesh& mesh) {
-  XXH3_state_t* state = XXH3_createState();
-  XXH3_128bits_reset(state);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    std::array<double, 9> coordinates{};
-    std::size_t at = 0;
-    for (const geometry::Vec3& v : mesh.triangle(i)) {
-      for (int k = 0; k < 3; ++k) coordinates[at++] = v[k] + 0.0;  // -0 is the same point as 0
-    }
-    XXH3_128bits_update(state, coordinates.data(), sizeof coordinates);
+const SceneObject* Snapshot::find(std::string_view object) const {
+  const auto found = std::ranges::lower_bound(
+      objects, object, {}, [](const auto& each) { return std::string_view(each->name); });
+  return found != objects.end() && (*found)->name == object ? found->get() : nullptr;
+}
+
+std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
+                                         SceneObjects objects, const ObjectOptions& options) {
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->name = std::move(name);
+  snapshot->revision = revision;
+  snapshot->options = options;
+  snapshot->digest = digest_of(objects);
+  snapshot->report = report_of(objects);
+  std::vector<WholeMesh::Part> meshes;
+  std::vector<std::shared_ptr<const IndexedMesh>> indexed;
+  std::vector<std::shared_ptr<const OccupancyMap>> maps;
+  for (const auto& object : objects) {
+    assert(object->occupancy || !options.occupancy_resolution_m);
+    meshes.push_back({object->name, object->placed->mesh});
+    indexed.push_back(object->placed);
+    if (object->occupancy) maps.push_back(object->occupancy);
   }
-  const XXH128_hash_t hash = XXH3_128bits_digest(state);
-  XXH3_freeState(state);
-  char text[33];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return text;
+  snapshot->mesh = WholeMesh(std::move(meshes));
+  snapshot->index = SceneIndex::of(indexed);
+  if (options.occupancy_resolution_m) {
+    snapshot->occupancy =
+        std::make_shared<const OccupancyMirror>(*options.occupancy_resolution_m, std::move(maps));
+  }
+  snapshot->objects = std::move(objects);
+  make_field(*snapshot);
+  return snapshot;
 }
 
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options) {
-  ImportReport report = report_of(mesh);
+  ImportReport report = scene::report_of(mesh, "memory");
   return build(std::move(name), std::move(mesh), std::move(report), options);
 }
 

@@ -6,34 +6,45 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "daemon/scene/distance_field.h"
+#include "daemon/scene/clearance_field.h"
 #include "daemon/scene/import.h"
-#include "daemon/scene/mesh.h"
-#include "daemon/scene/occupancy_map.h"
+#include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/scene_index.h"
+#include "daemon/scene/scene_object.h"
+#include "daemon/scene/whole_mesh.h"
 
 namespace camway::scene {
 
+struct SnapshotOptions : ObjectOptions {
+  ImportOptions import;
+};
+
+/// Objects in order of their names, each name once.
+using SceneObjects = std::vector<std::shared_ptr<const SceneObject>>;
+
 /// One revision of a scene. Planning reads nothing else, so an update can never change the world
-/// under a request: it builds the next snapshot and swaps.
+/// under a request: it builds the next snapshot and swaps. The next one shares all objects that did
+/// not change.
 struct Snapshot {
   std::string name;
   std::uint64_t revision = 1;
-  std::string digest;  ///< of the triangles, 32 hexadecimal digits; equal content, equal digest
-  std::shared_ptr<const Mesh> mesh = std::make_shared<const Mesh>();  ///< never null
+  /// Of the triangles, 32 hexadecimal digits; equal objects in equal order, equal digest. Of a
+  /// single object it is that object's; of several a digest of theirs.
+  std::string digest;
+  SceneObjects objects;
+  ObjectOptions options;  ///< what objects are built with
+  WholeMesh mesh;         ///< numbered as `index` is
   SceneIndex index;
-  std::shared_ptr<const DistanceField> field;     ///< null where it is off
-  std::string why_no_field;                       ///< empty exactly when `field` is set
-  std::shared_ptr<const OccupancyMap> occupancy;  ///< null unless a resolution was given
-  ImportReport report;
-};
+  std::shared_ptr<const ClearanceField> field;       ///< null where it is off
+  std::string why_no_field;                          ///< empty exactly when `field` is set
+  std::shared_ptr<const OccupancyMirror> occupancy;  ///< null unless a resolution was given
+  ImportReport report;                               ///< of all objects together
 
-struct SnapshotOptions {
-  ImportOptions import;
-  IndexOptions index;
-  std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: not wanted
-  std::optional<double> occupancy_resolution_m;                        ///< no mirror without it
+  /// Null if there is none of that name.
+  [[nodiscard]] const SceneObject* find(std::string_view object) const;
 };
 
 struct SnapshotResult {
@@ -41,13 +52,15 @@ struct SnapshotResult {
   std::string error;                         ///< names the file
 };
 
-/// Digest of the triangles' coordinates and order.
-std::string mesh_digest(const Mesh& mesh);
+/// Puts objects together to a scene. Costs what there are objects, whatever is in them.
+/// Preconditions: in order of name, each once; built with `options`.
+std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
+                                         SceneObjects objects, const ObjectOptions& options);
 
-/// Builds index, distance field and mirror of a mesh that is already there.
+/// A scene of one object, of the scene's name, from a mesh that is already there.
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options = {});
 
-/// Imports `file` and builds the snapshot.
+/// The same from a file.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
                              const SnapshotOptions& options = {});
 

@@ -12,8 +12,9 @@ std::string ServiceConfig::fault() const {
     return "prefix '" + prefix + "' is not of 1 to " + std::to_string(wire::kMaxPrefixLength) +
            " letters, digits, '_' and '-'";
   }
-  if (workers < 1 || workers > 256) {
-    return "workers: " + std::to_string(workers) + " is not within 1 to 256";
+  if (workers < 1 || workers > kMaxWorkers) {
+    return "workers: " + std::to_string(workers) + " is not within 1 to " +
+           std::to_string(kMaxWorkers);
   }
   for (const auto& [name, value] :
        {std::pair{"queue", queue.jobs}, std::pair{"client queue", queue.jobs_of_a_client}}) {

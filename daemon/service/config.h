@@ -13,11 +13,12 @@
 namespace camway::service {
 
 inline constexpr std::size_t kMaxQueueCapacity = 100'000;
+inline constexpr int kMaxWorkers = 256;
 
 /// How the service behaves. Every default works.
 struct ServiceConfig {
   std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
-  int workers = 1;                ///< `--workers` [Limit: 1 <= value <= 256]
+  int workers = 1;                ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
   /// Requests that wait for a worker; `--queue`, `--client-queue`
   /// [Limit: 1 <= value <= kMaxQueueCapacity]
   FairQueue::Limits queue;

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/service/config_file.h"
+#include "daemon/service/daemon_settings.h"
 #include "daemon/service/version.h"
 
 namespace camway::service {
@@ -17,8 +21,10 @@ namespace {
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
     "signal ends it at once), 1 LCM cannot be used or failed, 2 wrong command "
-    "line or scene file.\n"
+    "line, configuration or scene file.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";
+
+constexpr int kExitBadInput = 2;
 
 std::string default_url() {
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
@@ -26,33 +32,49 @@ std::string default_url() {
   return set ? from_environment : kDefaultLcmUrl;
 }
 
-int default_workers() {
-  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
+bool is_readable_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return !std::filesystem::is_directory(file, ignored) && std::ifstream(file).is_open();
+}
+
+int workers_for_this_machine() {
+  return static_cast<int>(
+      std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMaxWorkers}));
 }
 
 /// What CLI11 fills in, as text where we parse ourselves.
 struct Raw {
+  std::string config_file;
+  bool check_config = false;
   std::vector<std::string> scenes;
-  std::string log_level = "info";
+  std::string log_level;
 };
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.set_version_flag("--version", std::string("camwayd ") + kVersion + " (" + kBuild + ")");
   app.footer(kFooter);
+  app.add_option("--config", raw.config_file,
+                 "Configuration file (TOML); what is given on the command line goes before it")
+      ->type_name("FILE");
+  app.add_flag("--check-config", raw.check_config,
+               "Say what command line and configuration file come to, and end: with code 2 if "
+               "anything is wrong");
   app.add_option("--scene", raw.scenes,
-                 "A scene to hold; may be given several times. scale: file units to metres; up: "
+                 "A scene to hold; may be given several times, beside those of the configuration "
+                 "file or in the place of one of the same name. scale: file units to metres; up: "
                  "turns axes; occupancy: edge of a voxel of the occupancy map in metres, no map "
                  "without it")
       ->type_name(kSceneArgumentForm)
-      ->required()
       ->take_all();
   app.add_option("--prefix", options.service.prefix, "Channels begin with this")
       ->capture_default_str();
   app.add_option("--url", options.lcm_url,
                  "LCM provider; ttl=0 keeps the traffic on this host [LCM_DEFAULT_URL, else " +
                      std::string(kDefaultLcmUrl) + "]");
-  app.add_option("--workers", options.service.workers, "Requests planned at the same time")
-      ->default_str("one for each core");
+  app.add_option("--workers", options.service.workers,
+                 "Requests planned at the same time; 0: one for each core")
+      ->check(CLI::Range(0, kMaxWorkers))
+      ->capture_default_str();
   // CLI11 would read -1 as the largest number there is.
   app.add_option("--queue", options.service.queue.jobs, "Requests that may wait for a worker")
       ->check(CLI::Range(std::size_t{1}, kMaxQueueCapacity))
@@ -68,44 +90,103 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "Longest deadline that a request may ask for, seconds")
       ->capture_default_str();
   app.add_option("--log-level", raw.log_level, "What is logged on stderr")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
-      ->capture_default_str();
+      ->check(CLI::IsMember(std::vector<std::string>(kLogLevels.begin(), kLogLevels.end())))
+      ->default_str(std::string(log_level_name(options.log_level)));
 }
 
-/// Turns the texts into options; returns what is wrong with them.
-std::string resolve(const Raw& raw, DaemonOptions& options) {
-  std::set<std::string> names;
-  for (const std::string& text : raw.scenes) {
-    ParsedSceneArgument parsed = parse_scene_argument(text);
-    if (!parsed.scene) return "--scene: " + parsed.error;
-    if (!names.insert(parsed.scene->name).second) {
-      return "--scene: the name '" + parsed.scene->name + "' is given twice";
-    }
-    options.scenes.push_back(std::move(*parsed.scene));
-  }
-  options.log_level = spdlog::level::from_str(raw.log_level);
-  return options.service.fault();
-}
-
-}  // namespace
-
-ParsedOptions parse_daemon_options(int argc, const char* const* argv) {
-  DaemonOptions options;
-  options.lcm_url = default_url();
-  options.service.workers = default_workers();
-  Raw raw;
+/// Reads the command line over `options`; what to end with if it is no good or asks for help.
+std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& raw,
+                                        DaemonOptions& options) {
   CLI::App app("camwayd: plans camera paths that are free of collision, over LCM", "camwayd");
   declare(app, raw, options);
   try {
     app.parse(argc, argv);
+    return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? 0 : 2};
+    std::ostringstream text;
+    const bool good = app.exit(error, text, text) == 0;
+    return ParsedOptions{std::nullopt, good ? 0 : kExitBadInput, text.str()};
   }
-  if (const std::string error = resolve(raw, options); !error.empty()) {
-    std::cerr << "camwayd: " << error << '\n';
-    return {std::nullopt, 2};
+}
+
+/// The scenes of the command line, beside or in the place of those of the file; returns what is
+/// wrong with them.
+std::string add_scenes(const std::vector<std::string>& texts, std::vector<SceneArgument>& scenes) {
+  std::set<std::string> names;
+  for (const std::string& text : texts) {
+    ParsedSceneArgument parsed = parse_scene_argument(text);
+    if (!parsed.scene) return "--scene: " + parsed.error;
+    const std::string& name = parsed.scene->name;
+    if (!names.insert(name).second) return "--scene: the name '" + name + "' is given twice";
+    std::erase_if(scenes, [&](const SceneArgument& scene) { return scene.name == name; });
+    scenes.push_back(std::move(*parsed.scene));
   }
-  return {std::move(options), 0};
+  return scenes.empty() ? "no scene is named: give --scene or, in a configuration file, [[scene]]"
+                        : std::string();
+}
+
+/// Turns the texts into options; returns what is wrong with them.
+std::string resolve(const Raw& raw, DaemonOptions& options) {
+  options.config_file = raw.config_file;
+  if (!raw.log_level.empty()) options.log_level = spdlog::level::from_str(raw.log_level);
+  if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
+  if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return fault;
+  return options.service.fault();
+}
+
+ParsedOptions failed(const std::vector<std::string>& faults) {
+  ParsedOptions parsed{std::nullopt, kExitBadInput, {}};
+  for (const std::string& fault : faults) parsed.text += "camwayd: " + fault + '\n';
+  return parsed;
+}
+
+/// What `--check-config` finds in options that are right in themselves.
+ParsedOptions check(const DaemonOptions& options) {
+  std::vector<std::string> faults;
+  std::ostringstream found;
+  found << "camwayd: the configuration is right\n";
+  for (const SceneArgument& scene : options.scenes) {
+    const std::string line = "scene '" + scene.name + "': " + scene.file.string();
+    if (!is_readable_file(scene.file)) faults.push_back(line + " cannot be read");
+    found << line << '\n';
+  }
+  DaemonOptions defaults = default_options();
+  defaults.service.workers = workers_for_this_machine();
+  for (const SettingChange& change : changes_between(std::move(defaults), options)) {
+    found << change.key << " = " << change.after << " (default " << change.before << ")\n";
+  }
+  return faults.empty() ? ParsedOptions{std::nullopt, 0, found.str()} : failed(faults);
+}
+
+}  // namespace
+
+std::string_view log_level_name(spdlog::level::level_enum level) {
+  return level == spdlog::level::off ? kLogLevels.back()
+                                     : kLogLevels.at(static_cast<std::size_t>(level));
+}
+
+DaemonOptions default_options() {
+  DaemonOptions options;
+  options.lcm_url = default_url();
+  options.service.workers = 0;
+  return options;
+}
+
+ParsedOptions parse_daemon_options(int argc, const char* const* argv) {
+  DaemonOptions options = default_options();
+  Raw raw;
+  if (std::optional<ParsedOptions> end = read_flags(argc, argv, raw, options)) return *end;
+  if (!raw.config_file.empty()) {
+    options = default_options();
+    const std::vector<std::string> faults = read_config_file(raw.config_file, options);
+    if (!faults.empty()) return failed(faults);
+    // Once more, over the file. What was good the first time is good again.
+    raw = {};
+    if (std::optional<ParsedOptions> end = read_flags(argc, argv, raw, options)) return *end;
+  }
+  if (const std::string fault = resolve(raw, options); !fault.empty()) return failed({fault});
+  if (raw.check_config) return check(options);
+  return {std::move(options), 0, {}};
 }
 
 }  // namespace camway::service

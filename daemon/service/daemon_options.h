@@ -3,8 +3,11 @@
 
 #include <spdlog/common.h>
 
+#include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "daemon/service/config.h"
@@ -15,21 +18,35 @@ namespace camway::service {
 /// Traffic stays on the host (ttl 0) unless the url says otherwise.
 inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 
-/// The command line of `camwayd`.
+/// What `--log-level` and the configuration take.
+inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "info",
+                                                            "warn",  "error", "off"};
+std::string_view log_level_name(spdlog::level::level_enum level);
+
+/// What `camwayd` is to do: built-in defaults, the configuration file over them, the command line
+/// over both.
 struct DaemonOptions {
+  std::filesystem::path config_file;  ///< empty: none
   std::vector<SceneArgument> scenes;
-  std::string lcm_url;  ///< `--url`, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
+  std::string lcm_url;  ///< `--url`, else the file, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
   spdlog::level::level_enum log_level = spdlog::level::info;
   ServiceConfig service;
 };
 
-/// Options, or the code to exit with: 0 after `--help` and `--version`, 2 after an error. What
-/// there was to say has been printed then.
+/// What holds where neither file nor command line says anything: 0 workers, which stands for one
+/// for each core.
+DaemonOptions default_options();
+
+/// Options, or what to say in their place and the code to exit with: 0 after `--help`, `--version`
+/// and a good `--check-config` (for standard output), 2 after an error (for standard error).
 struct ParsedOptions {
   std::optional<DaemonOptions> options;
   int exit_code = 0;
+  std::string text;
 };
 
+/// Reads the command line and the configuration file that it names. Another call later sees what
+/// became of that file.
 ParsedOptions parse_daemon_options(int argc, const char* const* argv);
 
 }  // namespace camway::service

@@ -5,7 +5,7 @@
 
 #include "daemon/planning/plan.h"
 #include "daemon/scene/import_warnings.h"
-#include "daemon/scene/occupancy_map.h"
+#include "daemon/scene/occupancy_mirror.h"
 #include "daemon/service/lcm_transport.h"
 #include "daemon/service/service.h"
 #include "daemon/service/stop_signals.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/scene/occupancy_map.h"
+#include "daemon/scene/occupancy_mirror.h"
 #include "daemon/service/wire_convert.h"
 #include "lcmtypes/wire_layout.h"
 
@@ -75,7 +75,7 @@ std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer
 /// The wire's word for "nothing found".
 double wire_distance(const std::optional<double>& distance_m) { return distance_m.value_or(-1.0); }
 
-void answer_on(const scene::OccupancyMap& map, const occupancy_request_t& request,
+void answer_on(const scene::OccupancyMirror& map, const occupancy_request_t& request,
                occupancy_response_t& answer) {
   answer.num_points = answer_list(request.points_m, answer.points_occupied,
                                   [&](const Numbers& q) { return map.occupied_at(vec3(q, 0)); });

@@ -58,7 +58,7 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
                           header_of(wire, &snapshot));
     }
     planning::PlanResult result = planner(snapshot, *converted.request, deadline);
-    planning::name_witnesses(*snapshot.mesh, *converted.request, result);
+    planning::name_witnesses(snapshot.mesh, *converted.request, result);
     append_warnings(snapshot.report, converted.request->options, result);
     return to_wire(result, header_of(wire, &snapshot));
   } catch (const std::exception& exception) {

@@ -7,21 +7,10 @@
 #include <cmath>
 #include <system_error>
 
-#include "lcmtypes/wire_layout.h"
-
 namespace camway::service {
 namespace {
 
 constexpr std::array<std::string_view, 3> kOptionNames{"scale", "up", "occupancy"};
-
-bool is_scene_name(std::string_view name) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  return !name.empty() && name.size() <= wire::kMaxSceneNameBytes &&
-         std::all_of(name.begin(), name.end(), allowed);
-}
 
 std::optional<double> positive_number(std::string_view text) {
   double value = 0.0;
@@ -34,13 +23,9 @@ std::optional<double> positive_number(std::string_view text) {
 /// Applies one `key=value`; returns what is wrong with it.
 std::string apply_option(std::string_view key, std::string_view value, SceneArgument& scene) {
   if (key == "up") {
-    if (value == "z-to-y") {
-      scene.options.import.up = scene::UpAxis::kZToY;
-    } else if (value == "y-to-z") {
-      scene.options.import.up = scene::UpAxis::kYToZ;
-    } else {
-      return "up=" + std::string(value) + ": must be z-to-y or y-to-z";
-    }
+    const std::optional<scene::UpAxis> up = up_axis_named(value);
+    if (!up) return "up=" + std::string(value) + ": must be as-in-file, z-to-y or y-to-z";
+    scene.options.import.up = *up;
     return {};
   }
   const std::optional<double> number = positive_number(value);
@@ -76,6 +61,22 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
 
 }  // namespace
 
+bool is_scene_name(std::string_view name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !name.empty() && name.size() <= wire::kMaxSceneNameBytes &&
+         std::all_of(name.begin(), name.end(), allowed);
+}
+
+std::optional<scene::UpAxis> up_axis_named(std::string_view word) {
+  if (word == "as-in-file") return scene::UpAxis::kAsInFile;
+  if (word == "z-to-y") return scene::UpAxis::kZToY;
+  if (word == "y-to-z") return scene::UpAxis::kYToZ;
+  return std::nullopt;
+}
+
 ParsedSceneArgument parse_scene_argument(std::string_view text) {
   const auto fail = [&](const std::string& reason) -> ParsedSceneArgument {
     return {std::nullopt, "scene '" + std::string(text) + "': " + reason};
@@ -85,8 +86,7 @@ ParsedSceneArgument parse_scene_argument(std::string_view text) {
   SceneArgument scene;
   scene.name = text.substr(0, equals);
   if (!is_scene_name(scene.name)) {
-    return fail("the name must be of letters, digits, '_', '-' and '.', at most " +
-                std::to_string(wire::kMaxSceneNameBytes));
+    return fail(std::string("the name ") + kSceneNameRule);
   }
   std::string_view rest = text.substr(equals + 1);
   if (std::string error = take_options(rest, scene); !error.empty()) return fail(error);

@@ -7,15 +7,26 @@
 #include <string_view>
 
 #include "daemon/scene/snapshot.h"
+#include "lcmtypes/wire_layout.h"
 
 namespace camway::service {
 
-/// A scene as the command lines of `camwayd` and `camway replay` name it.
+/// A scene as the command lines of `camwayd` and `camway replay` and the daemon's configuration
+/// name it.
 struct SceneArgument {
   std::string name;
   std::filesystem::path file;
   scene::SnapshotOptions options;
 };
+
+/// Whether `name` keeps `kSceneNameRule`.
+bool is_scene_name(std::string_view name);
+inline constexpr char kSceneNameRule[] =
+    "must be of letters, digits, '_', '-' and '.', at most 128";
+static_assert(wire::kMaxSceneNameBytes == 128);
+
+/// "as-in-file", "z-to-y" or "y-to-z"; nothing for another word.
+std::optional<scene::UpAxis> up_axis_named(std::string_view word);
 
 /// A scene argument, or what is wrong with the text.
 struct ParsedSceneArgument {

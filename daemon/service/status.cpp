@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "daemon/scene/occupancy_map.h"
+#include "daemon/scene/occupancy_mirror.h"
 #include "daemon/service/version.h"
 #include "daemon/service/wire_convert.h"
 
@@ -15,7 +15,7 @@ scene_info_t info_of(const scene::Snapshot& snapshot) {
   info.name = clipped(snapshot.name, wire::kMaxSceneNameBytes);
   info.revision = static_cast<std::int64_t>(snapshot.revision);
   info.digest = clipped(snapshot.digest, wire::kMaxDigestBytes);
-  info.num_triangles = static_cast<std::int64_t>(snapshot.mesh->triangles.size());
+  info.num_triangles = static_cast<std::int64_t>(snapshot.index.size());
   if (!snapshot.index.bounds().isEmpty()) {
     std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
     std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);

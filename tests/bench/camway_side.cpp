@@ -9,7 +9,10 @@ namespace camway::bench {
 
 CamwayScene::CamwayScene(std::shared_ptr<const scene::Mesh> mesh) {
   index_build_s_ = timed_s([&] { index_ = scene::SceneIndex::build(mesh); });
-  field_build_s_ = timed_s([&] { field_ = scene::DistanceField::build(*mesh).field; });
+  field_build_s_ = timed_s([&] {
+    const scene::DistanceFieldResult built = scene::DistanceField::build(*mesh);
+    if (built.field) field_ = std::make_shared<const scene::ClearanceField>(built.field);
+  });
 }
 
 collision::Obstacles CamwayScene::obstacles() const {

@@ -27,7 +27,7 @@ class CamwayScene {
 
  private:
   scene::SceneIndex index_;
-  std::shared_ptr<const scene::DistanceField> field_;
+  std::shared_ptr<const scene::ClearanceField> field_;
   double index_build_s_ = 0.0;  ///< with all threads, by the wall
   double field_build_s_ = 0.0;
 };

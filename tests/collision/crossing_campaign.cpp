@@ -106,7 +106,8 @@ CrossingTally run_crossing_case(const CrossingCase& c) {
       c.with_field ? scene::DistanceField::build(c.obstacle, {.threads = 1})
                    : scene::DistanceFieldResult{};
   collision::Obstacles obstacles(index);
-  obstacles.field = field.field.get();
+  std::optional<scene::ClearanceField> clearance;
+  if (field.field) obstacles.field = &clearance.emplace(field.field);
   const Intervals found = certified_intervals(obstacles, c.path, c.camera, options_for(c));
   if (c.collides) {
     tally.misses = covers(found, c.known_s) ? 0 : 1;

@@ -39,8 +39,8 @@ struct Case {
   }
   [[nodiscard]] LadderResult corrected() const {
     const CubicPath before = path();
-    return correct_by_ladder(mesh, index, body, keyframes, before, collisions(before), options,
-                             Deadline::never());
+    return correct_by_ladder(std::make_shared<const Mesh>(mesh), index, body, keyframes, before,
+                             collisions(before), options, Deadline::never());
   }
 };
 

@@ -48,8 +48,8 @@ Outcome corrected(const Case& c, const OrientationPolicy& policy, Objective obje
   };
   const std::vector<CollisionInterval> found = collisions(before);
   EXPECT_FALSE(found.empty()) << "nothing to correct";
-  Outcome outcome{correct_by_ladder(c.mesh, index, c.body, c.keyframes, before, found, options,
-                                    Deadline::never()),
+  Outcome outcome{correct_by_ladder(std::make_shared<const scene::Mesh>(c.mesh), index, c.body,
+                                    c.keyframes, before, found, options, Deadline::never()),
                   before, false, 0.0, 0.0};
   const motion::Path now = outcome.result.path.path();
   outcome.is_free = collisions(outcome.result.path).empty();

@@ -8,7 +8,7 @@
 namespace camway::planning {
 namespace {
 
-scene::Mesh three_objects() {
+scene::WholeMesh three_objects() {
   scene::Mesh mesh;
   for (const char* name : {"table", "nothing", "lamp", ""}) {
     const auto first = static_cast<std::uint32_t>(mesh.triangles.size());
@@ -16,11 +16,11 @@ scene::Mesh three_objects() {
     if (!is_empty) testing::add_cuboid(mesh, geometry::Vec3::Zero(), geometry::Vec3::Ones());
     mesh.objects.push_back({name, first, is_empty ? 0U : 12U});
   }
-  return mesh;
+  return std::make_shared<const scene::Mesh>(std::move(mesh));
 }
 
 TEST(DescribeWitness, NamesTheObjectOfATriangleAndTheFeature) {
-  const scene::Mesh mesh = three_objects();
+  const scene::WholeMesh mesh = three_objects();
   const motion::Body body(testing::small_camera());
   const auto described = [&](std::uint32_t triangle, std::uint32_t feature) {
     return describe_witness(mesh, body, {.triangle = triangle, .feature = feature});
@@ -34,7 +34,7 @@ TEST(DescribeWitness, NamesTheObjectOfATriangleAndTheFeature) {
 }
 
 TEST(DescribeWitness, LeavesNamesEmptyWhereThereIsNoWitness) {
-  const scene::Mesh mesh = three_objects();
+  const scene::WholeMesh mesh = three_objects();
   PlanRequest request;
   request.camera = testing::small_camera();
   PlanResult result;

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/scene_store.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
 
+#include "daemon/scene/shape_mesh.h"
+
 namespace camway::scene {
 namespace {
+
+using testing::HasSubstr;
 
 std::shared_ptr<const Snapshot> revision_of(std::string name, std::uint64_t revision) {
   auto snapshot = std::make_shared<Snapshot>();
@@ -37,6 +42,59 @@ TEST(SceneStore, ListsInOrderOfName) {
   EXPECT_EQ(store.summary(), "there are: 'a' 'b' 'c'");
   for (const char* name : {"d", "e", "f", "g"}) store.put(revision_of(name, 1));
   EXPECT_EQ(store.summary(), "there are: 'a' 'b' 'c' 'd' 'e' and 2 more");
+}
+
+SceneChange put_box(const std::string& object) {
+  Mesh mesh = *box_mesh(geometry::Vec3(1, 1, 1)).mesh;
+  const ImportReport report = report_of(mesh, "box");
+  return {SceneChange::Kind::kPut,
+          object,
+          make_source(ObjectKind::kBox, std::move(mesh), report, {}),
+          {}};
+}
+
+TEST(SceneStore, ChangesASceneRevisionByRevision) {
+  SceneStore store;
+  EXPECT_EQ(store.change("room", put_box("a")).fault, StoreFault::kUnknownScene);
+  EXPECT_THAT(store.change("room", put_box("a")).error, HasSubstr("'room'"));
+  store.put(revision_of("room", 1));
+  EXPECT_EQ(store.change("room", put_box("a")).snapshot->revision, 2U);
+  const StoreResult refused = store.change("room", {SceneChange::Kind::kRemove, "b", nullptr, {}});
+  EXPECT_EQ(refused.fault, StoreFault::kInvalid);
+  EXPECT_THAT(refused.error, HasSubstr("'b'"));
+  EXPECT_EQ(store.find("room")->revision, 2U) << "what is refused changes nothing";
+  const std::optional<SceneHistory> history = store.history("room");
+  ASSERT_TRUE(history);
+  EXPECT_EQ(history->rebuild(2)->digest, store.find("room")->digest);
+  EXPECT_TRUE(history->rebuild(1)->objects.empty());
+  EXPECT_FALSE(store.history("attic"));
+}
+
+TEST(SceneStore, NeverTakesARevisionTwice) {
+  SceneStore store;
+  store.put(revision_of("room", 1));
+  ASSERT_TRUE(store.change("room", put_box("a")).snapshot);
+  EXPECT_EQ(store.put(revision_of("room", 1)).snapshot->revision, 3U);
+  EXPECT_TRUE(store.remove("room"));
+  EXPECT_FALSE(store.remove("room"));
+  EXPECT_EQ(store.find("room"), nullptr);
+  EXPECT_EQ(store.put(revision_of("room", 1)).snapshot->revision, 4U);
+}
+
+TEST(SceneStore, HoldsNoMoreThanItsLimits) {
+  SceneStore store({.scenes = 2, .objects = 2, .triangles = 36, .history = {}});
+  store.put(revision_of("room", 1));
+  store.put(revision_of("attic", 1));
+  const StoreResult third = store.put(revision_of("cellar", 1));
+  EXPECT_EQ(third.fault, StoreFault::kLimit);
+  EXPECT_THAT(third.error, HasSubstr("'cellar'"));
+  EXPECT_TRUE(store.put(revision_of("attic", 2)).snapshot) << "replacing one is no third";
+  EXPECT_TRUE(store.change("room", put_box("a")).snapshot);
+  EXPECT_TRUE(store.change("room", put_box("b")).snapshot);
+  EXPECT_THAT(store.change("room", put_box("c")).error, HasSubstr("2 objects"));
+  EXPECT_TRUE(store.change("attic", put_box("a")).snapshot);
+  EXPECT_THAT(store.change("attic", put_box("b")).error, HasSubstr("36 triangles"));
+  EXPECT_EQ(store.find("attic")->objects.size(), 1U);
 }
 
 TEST(SceneStore, MayBeReadWhileItChanges) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <vector>
 
 namespace camway::service {
@@ -56,7 +58,7 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
       {{"--scene", "office.obj"}, "must be NAME=FILE"},
       {{"--scene", "a=b,scale=x"}, "scale=x"},
       {{"--scene", "a=b", "--scene", "a=c"}, "'a' is given twice"},
-      {{"--scene", "a=b", "--workers", "0"}, "workers"},
+      {{"--scene", "a=b", "--workers", "257"}, "--workers"},
       {{"--scene", "a=b", "--workers", "many"}, "--workers"},
       {{"--scene", "a=b", "--queue", "-1"}, "--queue"},
       {{"--scene", "a=b", "--client-queue", "0"}, "--client-queue"},
@@ -66,22 +68,98 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
       {{"--scene", "a=b", "--colour"}, "--colour"},
   };
   for (const auto& [arguments, reason] : table) {
-    ::testing::internal::CaptureStderr();
     const ParsedOptions parsed = parse(arguments);
-    const std::string said = ::testing::internal::GetCapturedStderr();
     EXPECT_FALSE(parsed.options) << reason;
     EXPECT_EQ(parsed.exit_code, 2) << reason;
-    EXPECT_NE(said.find(reason), std::string::npos) << said;
+    EXPECT_NE(parsed.text.find(reason), std::string::npos) << parsed.text;
   }
+}
+
+/// A configuration file and a scene file beside it, gone with the test.
+class DaemonOptionsFile : public ::testing::Test {
+ protected:
+  DaemonOptionsFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "camway-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+    write("room.obj", "v 0 0 0\n");
+  }
+  ~DaemonOptionsFile() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(DaemonOptionsFile, TheCommandLineGoesBeforeTheFileAndTheFileBeforeTheDefaults) {
+  const std::string file = write("c.toml", R"(
+      [lcm]
+      prefix = "FILE"
+      [queue]
+      requests = 7
+      [log]
+      level = "error"
+      [[scene]]
+      name = "room"
+      file = "room.obj"
+      [[scene]]
+      name = "hall"
+      file = "/hall.obj")");
+  const ParsedOptions parsed = parse({"--queue", "9", "--config", file.c_str(), "--scene",
+                                      "hall=other.obj", "--scene", "attic=attic.obj"});
+  ASSERT_TRUE(parsed.options) << parsed.text;
+  const DaemonOptions& options = *parsed.options;
+  EXPECT_EQ(options.config_file, file);
+  EXPECT_EQ(options.service.prefix, "FILE");
+  EXPECT_EQ(options.service.queue.jobs, 9U);
+  EXPECT_EQ(options.log_level, spdlog::level::err);
+  EXPECT_EQ(options.service.deadline.default_s, 10.0);
+  EXPECT_GE(options.service.workers, 1);
+  ASSERT_EQ(options.scenes.size(), 3U);
+  EXPECT_EQ(options.scenes[0].file, folder_ / "room.obj");
+  EXPECT_EQ(options.scenes[1].file, "other.obj");
+  EXPECT_EQ(options.scenes[2].file, "attic.obj");
+
+  EXPECT_EQ(parse({"--config", file.c_str(), "--log-level", "warn"}).options->log_level,
+            spdlog::level::warn);
+}
+
+TEST_F(DaemonOptionsFile, ChecksAConfigurationAndSaysWhatItComesTo) {
+  const std::string file = write("c.toml", R"(
+      [queue]
+      requests = 7
+      [[scene]]
+      name = "room"
+      file = "room.obj")");
+  const ParsedOptions good = parse({"--check-config", "--config", file.c_str()});
+  EXPECT_FALSE(good.options);
+  EXPECT_EQ(good.exit_code, 0);
+  EXPECT_EQ(good.text, "camwayd: the configuration is right\nscene 'room': " +
+                           (folder_ / "room.obj").string() +
+                           "\nqueue.requests = 7 (default 256)\n");
+
+  const ParsedOptions no_scene =
+      parse({"--check-config", "--config", file.c_str(), "--scene", "hall=/nowhere.obj"});
+  EXPECT_EQ(no_scene.exit_code, 2);
+  EXPECT_EQ(no_scene.text, "camwayd: scene 'hall': /nowhere.obj cannot be read\n");
+}
+
+TEST_F(DaemonOptionsFile, ABadFileEndsWithCode2AndEveryFaultInIt) {
+  const std::string file = write("c.toml", "[queue]\nlenght = 7\nrequests = 0\n");
+  const ParsedOptions parsed = parse({"--config", file.c_str(), "--scene", "a=b"});
+  EXPECT_EQ(parsed.exit_code, 2);
+  EXPECT_NE(parsed.text.find("c.toml:2: 'queue.lenght' is no setting"), std::string::npos);
+  EXPECT_NE(parsed.text.find("c.toml:3: queue.requests: must be within"), std::string::npos);
 }
 
 TEST(DaemonOptions, HelpAndVersionEndWithCode0) {
   for (const char* flag : {"--help", "--version"}) {
-    ::testing::internal::CaptureStdout();
     const ParsedOptions parsed = parse({flag});
     EXPECT_FALSE(parsed.options);
     EXPECT_EQ(parsed.exit_code, 0);
-    EXPECT_NE(::testing::internal::GetCapturedStdout().find("camwayd"), std::string::npos);
+    EXPECT_NE(parsed.text.find("camwayd"), std::string::npos);
   }
 }
 

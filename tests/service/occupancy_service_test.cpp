@@ -31,8 +31,7 @@ std::shared_ptr<const scene::Snapshot> wall_scene() {
   mesh.objects = {{"wall", 0, 2}};
   scene::OccupancyMap::BuildResult built = scene::OccupancyMap::build(mesh, 0.5);
   EXPECT_TRUE(built.map) << built.error;
-  snapshot->occupancy = built.map;
-  snapshot->mesh = std::make_shared<const scene::Mesh>(std::move(mesh));
+  snapshot->occupancy = std::make_shared<const scene::OccupancyMirror>(built.map);
   return snapshot;
 }
 

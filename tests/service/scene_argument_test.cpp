@@ -51,7 +51,7 @@ TEST(SceneArgument, ErrorsQuoteTheTextAndSayWhatIsWrong) {
       {"a=b,scale=inf", "must be a number above 0"},
       {"a=b,scale=2x", "must be a number above 0"},
       {"a=b,occupancy=", "occupancy=: must be a number above 0"},
-      {"a=b,up=x-to-y", "up=x-to-y: must be z-to-y or y-to-z"},
+      {"a=b,up=x-to-y", "up=x-to-y: must be as-in-file, z-to-y or y-to-z"},
       {"a=b,ocupancy=0.1", "'ocupancy' is no option"},
   };
   for (const auto& [text, reason] : table) {

@@ -151,7 +151,7 @@ class CliReplay : public CliScene {
       const double x = 0.1 + 0.05 * i;
       const auto request = simple_request({{x, 0, 1}, {x / 2, 0.3, -1}});
       planning::PlanResult result = planning::plan(*loaded.snapshot, request);
-      planning::name_witnesses(*loaded.snapshot->mesh, request, result);
+      planning::name_witnesses(loaded.snapshot->mesh, request, result);
       if (changed && i == 3) result.remaining_collisions.push_back({0.0, 0.0});
       log.add_request(request, {"client", i, 0});
       log.add_answer(result, {{"client", i, 0}, "wall", 1, loaded.snapshot->digest});

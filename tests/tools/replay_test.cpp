@@ -33,7 +33,7 @@ class ReplayTest : public ::testing::Test {
 
   PlanResult planned(const PlanRequest& request) const {
     PlanResult result = planning::plan(*scenes_.at("wall"), request);
-    planning::name_witnesses(*scenes_.at("wall")->mesh, request, result);
+    planning::name_witnesses(scenes_.at("wall")->mesh, request, result);
     result.timing.total_ms = kRecordedMs;
     return result;
   }

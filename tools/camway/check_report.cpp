@@ -31,7 +31,7 @@ double met_within_m(const planning::PlanRequest& request) {
 }
 
 planning::WitnessNames names_of(const CheckInput& input, const collision::Witness& witness) {
-  return planning::describe_witness(*input.snapshot->mesh, *input.body, witness);
+  return planning::describe_witness(input.snapshot->mesh, *input.body, witness);
 }
 
 /// What an interval collides with, in words.

@@ -32,7 +32,7 @@ ExitCode ask_map(const OccupancyFlags& flags, const OccupancyBatch& batch) {
     print_error(loaded.result.error);
     return ExitCode::kInvalidInput;
   }
-  const scene::OccupancyMap& map = *loaded.result.snapshot->occupancy;
+  const scene::OccupancyMirror& map = *loaded.result.snapshot->occupancy;
   const scene::OccupancyStatistics statistics = map.statistics();
   fmt::print(stderr, "camway: {} occupied voxels of {} m\n", statistics.occupied_voxels,
              statistics.resolution_m);

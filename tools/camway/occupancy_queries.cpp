@@ -114,7 +114,7 @@ ParsedBatch parse_batch(const OccupancyTexts& texts) {
   return parsed;
 }
 
-OccupancyAnswer answer_offline(const scene::OccupancyMap& map, const OccupancyBatch& batch) {
+OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch) {
   OccupancyAnswer answer;
   answer.status = Status::kOk;
   answer.resolution_m = map.resolution_m();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/camway/occupancy.h"
-#include "daemon/scene/occupancy_map.h"
+#include "daemon/scene/occupancy_mirror.h"
 
 namespace camway::tools {
 
@@ -28,7 +28,7 @@ struct ParsedBatch {
 ParsedBatch parse_batch(const OccupancyTexts& texts);
 
 /// What a daemon would answer, from a map in this process.
-OccupancyAnswer answer_offline(const scene::OccupancyMap& map, const OccupancyBatch& batch);
+OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch);
 
 /// One line per query, in the words of the command line.
 std::string describe(const OccupancyTexts& texts, const OccupancyAnswer& answer);

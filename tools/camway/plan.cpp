@@ -120,13 +120,13 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     return answer;
   }
   answer.scene_digest = scene.result.snapshot->digest;
-  answer.mesh = scene.result.snapshot->mesh;
+  answer.mesh = scene.result.snapshot->mesh.share();
   const planning::PlanOptions& options = request.value->options;
   answer.warnings = scene::import_warnings(
       scene.result.snapshot->report,
       scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
   answer.result = planning::plan(*scene.result.snapshot, *request.value);
-  planning::name_witnesses(*scene.result.snapshot->mesh, *request.value, answer.result);
+  planning::name_witnesses(scene.result.snapshot->mesh, *request.value, answer.result);
   answer.result.timing.load_scene_ms = scene.load_ms;
   if (answer.result.status == Status::kInvalid) {
     answer.result.message = file + ": " + answer.result.message;

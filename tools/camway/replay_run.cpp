@@ -35,7 +35,7 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
     return result;
   }
   result = planning::plan(*scene->second, *recorded.request);
-  planning::name_witnesses(*scene->second->mesh, *recorded.request, result);
+  planning::name_witnesses(scene->second->mesh, *recorded.request, result);
   return result;
 }
 

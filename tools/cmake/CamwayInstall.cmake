@@ -1,8 +1,10 @@
 # What `cmake --install` puts where: the client for find_package(camway), the wire types for other
-# languages, and the daemon (other programs are installed where they are defined).
+# languages, and the daemon with its sample configuration (other programs are installed where they are defined).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS camwayd)
+install(FILES ${PROJECT_SOURCE_DIR}/daemon/camwayd.toml
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway)
 
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.

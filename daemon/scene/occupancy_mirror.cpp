@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/occupancy_mirror.h"
+
+#include <octomap/OcTree.h>
+
+#include <algorithm>
+#include <cassert>
+#include <fstream>
+#include <utility>
+
+namespace camway::scene {
+namespace {
+
+using geometry::Box;
+using geometry::Vec3;
+using octomap::OcTree;
+using octomap::OcTreeKey;
+
+using Maps = std::vector<std::shared_ptr<const OccupancyMap>>;
+
+/// Marks in `whole` every voxel of an occupied cube of `size` voxels with the lowest key `low`.
+void mark_cube(const OcTreeKey& low, unsigned size, OcTree& whole) {
+  const auto key = [](octomap::key_type k, unsigned step) {
+    return static_cast<octomap::key_type>(k + step);
+  };
+  const float occupied = whole.getClampingThresMaxLog();
+  for (unsigned x = 0; x < size; ++x) {
+    for (unsigned y = 0; y < size; ++y) {
+      for (unsigned z = 0; z < size; ++z) {
+        whole.setNodeValue(OcTreeKey(key(low[0], x), key(low[1], y), key(low[2], z)), occupied,
+                           true);
+      }
+    }
+  }
+}
+
+/// All maps in one.
+OcTree united(const Maps& maps, double resolution_m) {
+  OcTree whole(resolution_m);
+  for (const std::shared_ptr<const OccupancyMap>& map : maps) {
+    const OcTree& tree = map->tree();
+    if (tree.getRoot() == nullptr) continue;
+    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+      if (!tree.isNodeOccupied(*leaf)) continue;
+      mark_cube(leaf.getIndexKey(), 1U << (tree.getTreeDepth() - leaf.getDepth()), whole);
+    }
+  }
+  whole.updateInnerOccupancy();
+  whole.prune();
+  return whole;
+}
+
+}  // namespace
+
+OccupancyMirror::OccupancyMirror(std::shared_ptr<const OccupancyMap> map)
+    : OccupancyMirror(map->resolution_m(), Maps{map}) {}
+
+OccupancyMirror::OccupancyMirror(double resolution_m, Maps maps) : maps_(std::move(maps)) {
+  statistics_.resolution_m = resolution_m;
+  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+    assert(map && map->resolution_m() == resolution_m);
+    statistics_.occupied_voxels += map->statistics().occupied_voxels;
+    statistics_.nodes += map->statistics().nodes;
+    statistics_.memory_bytes += map->statistics().memory_bytes;
+  }
+}
+
+bool OccupancyMirror::occupied_at(const Vec3& point_W) const {
+  return std::ranges::any_of(maps_, [&](const auto& map) { return map->occupied_at(point_W); });
+}
+
+bool OccupancyMirror::occupied_in_box(const Box& box_W) const {
+  return std::ranges::any_of(maps_, [&](const auto& map) { return map->occupied_in_box(box_W); });
+}
+
+bool OccupancyMirror::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
+  return std::ranges::any_of(
+      maps_, [&](const auto& map) { return map->occupied_in_sphere(center_W, radius_m); });
+}
+
+std::optional<double> OccupancyMirror::ray_hit_m(const Vec3& origin_W, const Vec3& direction_W,
+                                                 double max_range_m) const {
+  std::optional<double> nearest;
+  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+    const std::optional<double> hit =
+        map->ray_hit_m(origin_W, direction_W, nearest.value_or(max_range_m));
+    if (hit) nearest = hit;
+  }
+  return nearest;
+}
+
+std::optional<double> OccupancyMirror::distance_m(const Vec3& point_W,
+                                                  double max_distance_m) const {
+  std::optional<double> nearest;
+  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+    const std::optional<double> distance =
+        map->distance_m(point_W, nearest.value_or(max_distance_m));
+    if (distance) nearest = distance;
+  }
+  return nearest;
+}
+
+void OccupancyMirror::write_bt(std::ostream& out) const {
+  if (maps_.size() == 1) {
+    write_bt_of(maps_.front()->tree(), out);
+  } else {
+    write_bt_of(united(maps_, resolution_m()), out);
+  }
+}
+
+std::string OccupancyMirror::write_bt(const std::filesystem::path& file) const {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (!out) return "cannot open '" + file.string() + "' for writing";
+  write_bt(out);
+  out.close();
+  if (!out) return "cannot write '" + file.string() + "'";
+  return {};
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "daemon/scene/scene_object.h"
+#include "daemon/scene/snapshot.h"
+
+namespace camway::scene {
+
+/// One change of a scene.
+struct SceneChange {
+  enum class Kind : std::uint8_t {
+    kPut,   ///< adds the object, or puts it in the place of the one of that name
+    kMove,  ///< puts it elsewhere
+    kRemove,
+  };
+
+  Kind kind = Kind::kPut;
+  std::string object;
+  std::shared_ptr<const ObjectSource> source;  ///< of kPut
+  Placement placement;                         ///< of kPut and kMove
+};
+
+/// The scene after `change`; nothing of what did not change is built again. Fails, with an error
+/// that names the object, if it is not there or cannot be where it shall be. The two snapshots are
+/// independent; safe from any thread. Precondition: a source is there where one is needed.
+SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision);
+
+/// The changes that led to the newest revision of a scene, as many as the limits allow, and what it
+/// was before them: so each of these revisions can be built again. A value type.
+class SceneHistory {
+ public:
+  struct Limits {
+    std::size_t changes = 1024;
+    /// Of what was put into the scene, in its own frame, still there or not.
+    std::uint64_t bytes = std::uint64_t{256} << 20;
+  };
+  struct Entry {
+    std::uint64_t revision = 0;  ///< that the change led to
+    SceneChange change;
+  };
+
+  /// Begins with `first`.
+  SceneHistory(const Snapshot& first, const Limits& limits);
+
+  /// Precondition: `changed` made `revision` of the newest one.
+  void add(SceneChange change, std::uint64_t revision);
+
+  /// The revision before the first change that is still known.
+  [[nodiscard]] std::uint64_t oldest_revision() const { return oldest_; }
+  [[nodiscard]] const std::deque<Entry>& entries() const { return entries_; }
+
+  /// Builds a revision again, from what the objects are and where they were then: equal to what it
+  /// was in everything. Nothing if `revision` is none of those that are known.
+  [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision) const;
+
+ private:
+  struct Placed {
+    std::shared_ptr<const ObjectSource> source;
+    Placement placement;
+  };
+  using State = std::map<std::string, Placed, std::less<>>;
+
+  static void apply(const SceneChange& change, State& state);
+  void forget_oldest();
+
+  std::string name_;
+  ObjectOptions options_;
+  Limits limits_;
+  std::uint64_t oldest_;
+  State state_;  ///< at `oldest_`
+  std::deque<Entry> entries_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace camway::scene

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/daemon_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace camway::service {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kMillisecondsPerSecond = 1e3;
+constexpr double kDayS = 86'400.0;
+/// Of counts and bytes that nobody means to reach: doubles hold every whole number up to it.
+constexpr double kManyBytes = 1e15;
+
+template <class Value>
+constexpr bool kIsWhole = std::is_same_v<Value, int> || std::is_same_v<Value, std::size_t>;
+
+}  // namespace
+
+std::string Setting::text() const {
+  return std::visit(
+      [](const auto* value) -> std::string {
+        using Value = std::decay_t<decltype(*value)>;
+        if constexpr (std::is_same_v<Value, std::string>) {
+          return fmt::format("\"{}\"", *value);
+        } else if constexpr (std::is_same_v<Value, spdlog::level::level_enum>) {
+          return fmt::format("\"{}\"", log_level_name(*value));
+        } else if constexpr (std::is_same_v<Value, milliseconds>) {
+          return fmt::format("{}", static_cast<double>(value->count()) / kMillisecondsPerSecond);
+        } else {
+          return fmt::format("{}", *value);
+        }
+      },
+      target);
+}
+
+std::string Setting::set(std::string_view value) const {
+  if (auto* const* level = std::get_if<spdlog::level::level_enum*>(&target)) {
+    const auto* const found = std::find(kLogLevels.begin(), kLogLevels.end(), value);
+    if (found == kLogLevels.end()) {
+      return fmt::format("must be one of {}", fmt::join(kLogLevels, ", "));
+    }
+    **level = spdlog::level::from_str(std::string(value));
+  } else {
+    *std::get<std::string*>(target) = value;
+  }
+  return {};
+}
+
+std::string Setting::set(double value) const {
+  if (!(value >= least && value <= most)) {
+    return fmt::format("must be within {} to {}", least, most);
+  }
+  std::visit(
+      [value](auto* place) {
+        using Value = std::decay_t<decltype(*place)>;
+        if constexpr (std::is_same_v<Value, milliseconds>) {
+          *place = milliseconds(std::llround(value * kMillisecondsPerSecond));
+        } else if constexpr (kIsWhole<Value> || std::is_same_v<Value, double>) {
+          *place = static_cast<Value>(value);
+        }
+      },
+      target);
+  return {};
+}
+
+bool Setting::is_text() const {
+  return std::holds_alternative<std::string*>(target) ||
+         std::holds_alternative<spdlog::level::level_enum*>(target);
+}
+
+bool Setting::is_whole_number() const {
+  return std::holds_alternative<int*>(target) || std::holds_alternative<std::size_t*>(target);
+}
+
+std::vector<Setting> settings_of(DaemonOptions& options) {
+  ServiceConfig& service = options.service;
+  constexpr double kQueue = kMaxQueueCapacity;
+  return {
+      {"lcm.url", &options.lcm_url},
+      {"lcm.prefix", &service.prefix},
+      {"lcm.waiting_messages", &service.subscription_capacity, 1, 1e6},
+      {"planning.workers", &service.workers, 0, kMaxWorkers},
+      {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},
+      {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
+      {"planning.drain_s", &service.drain_limit, 0, kDayS},
+      {"queue.requests", &service.queue.jobs, 1, kQueue},
+      {"queue.requests_of_a_client", &service.queue.jobs_of_a_client, 1, kQueue},
+      {"memory.remembered_answers", &service.cache.max_answers, 0, 1e6},
+      {"memory.remembered_answer_bytes", &service.cache.max_bytes, 0, kManyBytes},
+      {"memory.half_received_requests", &service.assembly.max_messages, 1, 1e6},
+      {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
+      {"status.period_s", &service.heartbeat_period, 0.01, 3600},
+      {"log.level", &options.log_level, 0, 0, true},
+      {"log.warning_period_s", &service.warning_period, 0, kDayS},
+  };
+}
+
+std::vector<SettingChange> changes_between(DaemonOptions before, DaemonOptions after) {
+  const std::vector<Setting> old_settings = settings_of(before);
+  const std::vector<Setting> new_settings = settings_of(after);
+  std::vector<SettingChange> changes;
+  for (std::size_t i = 0; i < old_settings.size(); ++i) {
+    SettingChange change{old_settings[i].key, old_settings[i].text(), new_settings[i].text(),
+                         old_settings[i].reloads};
+    if (change.before != change.after) changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+}  // namespace camway::service

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <spdlog/common.h>
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "daemon/service/daemon_options.h"
+
+namespace camway::service {
+
+/// A setting of the configuration file, bound to where its value goes. This list is all there is:
+/// the file's reader, the range of each value, the sample and what a reload may change follow it.
+struct Setting {
+  using Target = std::variant<std::string*, int*, std::size_t*, double*, std::chrono::milliseconds*,
+                              spdlog::level::level_enum*>;
+
+  std::string_view key;  ///< "queue.requests"; its unit is its suffix: durations are seconds (`_s`)
+  Target target;
+  /// Of numbers, both included, in the unit of the key.
+  double least = 0.0;
+  double most = 0.0;
+  bool reloads = false;  ///< whether SIGHUP takes it over; else it needs a restart
+
+  /// The value as the file says it.
+  [[nodiscard]] std::string text() const;
+  /// Takes `value`; returns what is wrong with it, e.g. "must be within 1 to 256", or nothing.
+  [[nodiscard]] std::string set(std::string_view value) const;
+  [[nodiscard]] std::string set(double value) const;
+  /// The kind of value that `set` takes.
+  [[nodiscard]] bool is_text() const;
+  [[nodiscard]] bool is_whole_number() const;
+};
+
+/// Every setting but the list of scenes, bound to `options`, in the order of the sample.
+std::vector<Setting> settings_of(DaemonOptions& options);
+
+/// A setting that two sets of options do not have in common.
+struct SettingChange {
+  std::string_view key;
+  std::string before;
+  std::string after;
+  bool reloads = false;
+};
+std::vector<SettingChange> changes_between(DaemonOptions before, DaemonOptions after);
+
+}  // namespace camway::service

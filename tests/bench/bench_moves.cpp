@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+//
+// What a change of one object costs in a scene of a million triangles, occupancy mirror included.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/scene/scene_store.h"
+#include "daemon/scene/shape_mesh.h"
+#include "tests/bench/columns.h"
+#include "tests/bench/command_line.h"
+#include "tests/bench/tiled_scene.h"
+
+namespace camway::bench {
+namespace {
+
+using nlohmann::json;
+using scene::SceneChange;
+
+struct Options {
+  std::string scene = own_scenes() + "/office.obj";
+  std::size_t tile_to = 1'000'000;
+  double occupancy_m = 0.1;
+  int rounds = 200;
+  std::string json_file;
+};
+
+/// Moves of one object of a scene.
+struct Moves {
+  std::string scene;
+  std::size_t objects = 0;
+  std::size_t triangles = 0;
+  std::size_t moved = 0;  ///< triangles of the object that moves
+  double median_s = 0.0;
+  double p99_s = 0.0;
+};
+
+SceneChange put(const std::string& name, scene::Mesh mesh, const geometry::Vec3& position_W,
+                const scene::ObjectOptions& options) {
+  std::string fault;
+  const scene::ImportReport report = scene::report_of(mesh, "bench");
+  return {SceneChange::Kind::kPut, name,
+          scene::make_source(scene::ObjectKind::kMesh, std::move(mesh), report, options),
+          scene::Placement::make(position_W, geometry::Quat::Identity(), fault)};
+}
+
+scene::Placement pose_of(int round) {
+  const double turn_rad = 0.1 * round;
+  std::string fault;
+  return scene::Placement::make(
+      geometry::Vec3(5.0 + std::cos(turn_rad), 1.0, 5.0 + std::sin(turn_rad)),
+      geometry::Quat(std::cos(turn_rad / 2.0), 0.0, std::sin(turn_rad / 2.0), 0.0), fault);
+}
+
+Moves measure(scene::SceneStore& store, const std::string& title, const std::string& object,
+              int rounds) {
+  std::vector<double> taken_s;
+  for (int round = -5; round < rounds; ++round) {
+    const double once_s = timed_s([&] {
+      store.change("bench", {SceneChange::Kind::kMove, object, nullptr, pose_of(round)});
+    });
+    if (round >= 0) taken_s.push_back(once_s);
+  }
+  const auto now = store.find("bench");
+  return {title,
+          now->objects.size(),
+          now->index.size(),
+          now->find(object)->placed->mesh->triangles.size(),
+          median(taken_s),
+          quantile(taken_s, 0.99)};
+}
+
+/// One large mesh, and a ball that moves about in it.
+void building(const Options& options, const scene::Mesh& mesh, std::vector<Moves>& all) {
+  scene::SnapshotOptions snapshot;
+  snapshot.occupancy_resolution_m = options.occupancy_m;
+  scene::SceneStore store;
+  store.put(scene::make_snapshot("bench", mesh, snapshot).snapshot);
+  for (const double chord_m : {0.1, 1e-3, 1e-4, 1e-5}) {
+    store.change("bench", put("ball", *scene::sphere_mesh(0.5, chord_m).mesh, {}, snapshot));
+    all.push_back(measure(store, "building and a ball", "ball", options.rounds));
+  }
+}
+
+/// As many triangles in a thousand objects, one of which moves.
+void warehouse(const Options& options, std::vector<Moves>& all) {
+  constexpr int kObjects = 1000;
+  scene::SnapshotOptions snapshot;
+  snapshot.occupancy_resolution_m = options.occupancy_m;
+  scene::SceneStore store;
+  store.put(scene::assemble("bench", 1, {}, snapshot));
+  const scene::Mesh ball = *scene::sphere_mesh(0.5, 1e-3).mesh;
+  const auto count = static_cast<int>(options.tile_to / ball.triangles.size() + 1);
+  for (int i = 0; i < std::max(count, kObjects); ++i) {
+    const geometry::Vec3 at(2.0 * (i % 32), 1.0, 2.0 * (i / 32));
+    store.change("bench", put(fmt::format("ball{:04}", i), ball, at, snapshot));
+  }
+  all.push_back(measure(store, "balls in rows", "ball0500", options.rounds));
+}
+
+int run(const Options& options) {
+  std::vector<Moves> all;
+  building(options, *tiled(*load_mesh(options.scene, 1.0), options.tile_to), all);
+  warehouse(options, all);
+  using M = Moves;
+  const std::vector<Column<M>> columns{
+      {"/scene", "scene", field(&M::scene)},
+      {"/objects", "objects", field(&M::objects)},
+      {"/triangles", "triangles", field(&M::triangles)},
+      {"/moved", "moved triangles", field(&M::moved)},
+      {"/median_s", "move, median", field(&M::median_s), as_duration},
+      {"/p99_s", "p99", field(&M::p99_s), as_duration},
+  };
+  fmt::print("\n{} moves each, to the new revision in force, mirror of {} m included\n\n",
+             options.rounds, options.occupancy_m);
+  print_table(columns, all);
+  json document = document_of("moves");
+  document["scenes"] = to_json(columns, all);
+  return finish(document, options.json_file);
+}
+
+}  // namespace
+}  // namespace camway::bench
+
+int main(int argc, char** argv) {
+  CLI::App app{"What moving one object costs in a large scene, occupancy mirror included"};
+  camway::bench::Options options;
+  app.add_option("--scene", options.scene, "Tiled for the scene of one large mesh");
+  app.add_option("--triangles", options.tile_to, "Of each scene")->capture_default_str();
+  app.add_option("--occupancy", options.occupancy_m, "Voxels of the mirror, metres")
+      ->capture_default_str();
+  camway::bench::add_rounds_option(app, options.rounds);
+  camway::bench::add_json_option(app, options.json_file);
+  CLI11_PARSE(app, argc, argv);
+  return camway::bench::run(options);
+}

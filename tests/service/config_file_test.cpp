@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/config_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "daemon/service/daemon_settings.h"
+
+namespace camway::service {
+namespace {
+
+/// Reads `text` as a configuration file of a folder of its own.
+class ConfigFile : public ::testing::Test {
+ protected:
+  ConfigFile() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "camway-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~ConfigFile() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<std::string> read(const std::string& text) {
+    const std::filesystem::path file = folder_ / "c.toml";
+    std::ofstream(file) << text;
+    return read_config_file(file, options_);
+  }
+
+  std::filesystem::path folder_;
+  DaemonOptions options_ = default_options();
+};
+
+std::string sample() {
+  std::ostringstream text;
+  text << std::ifstream(CAMWAYD_SAMPLE_CONFIG).rdbuf();
+  return text.str();
+}
+
+TEST_F(ConfigFile, TheSampleNamesEverySettingWithItsDefault) {
+  std::set<std::string> named;
+  for (const auto& [table, node] : toml::parse(sample())) {
+    for (const auto& [key, value] : *node.as_table()) {
+      named.insert(std::string(table.str()) + "." + std::string(key.str()));
+    }
+  }
+  std::set<std::string> settings;
+  for (const Setting& setting : settings_of(options_)) settings.insert(std::string(setting.key));
+  EXPECT_EQ(named, settings);
+
+  unsetenv("LCM_DEFAULT_URL");
+  options_ = default_options();
+  EXPECT_EQ(read(sample()), std::vector<std::string>{});
+  for (const SettingChange& change : changes_between(default_options(), options_)) {
+    ADD_FAILURE() << change.key << " is " << change.before << ", but in the sample "
+                  << change.after;
+  }
+  EXPECT_TRUE(options_.scenes.empty());
+}
+
+// What is commented out in the sample has no blank behind its '#'.
+TEST_F(ConfigFile, TheSceneOfTheSampleIsRight) {
+  std::istringstream lines(sample());
+  std::string scene;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() > 1 && line[0] == '#' && line[1] != ' ') scene += line.substr(1) + "\n";
+  }
+  ASSERT_EQ(read(scene), std::vector<std::string>{});
+  ASSERT_EQ(options_.scenes.size(), 1U);
+  EXPECT_EQ(options_.scenes[0].name, "office");
+  EXPECT_EQ(options_.scenes[0].file, folder_ / "office.obj");
+  EXPECT_EQ(options_.scenes[0].options.import.scale, 1.0);
+  EXPECT_EQ(options_.scenes[0].options.import.up, scene::UpAxis::kAsInFile);
+  EXPECT_EQ(options_.scenes[0].options.occupancy_resolution_m, 0.1);
+}
+
+TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
+  const std::vector<std::pair<std::string, std::string>> table{
+      {"[queue\n", ":1: "},
+      {"\nqueue = 1\n", ":2: 'queue' must be a table"},
+      {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has lcm, "},
+      {"[queue]\nlenght = 5\n",
+       ":2: 'queue.lenght' is no setting; [queue] has requests, requests_of_a_client"},
+      {"[queue]\nrequests = 0\n", ":2: queue.requests: must be within 1 to 100000"},
+      {"[queue]\nrequests = 1.5\n", ":2: queue.requests: must be a whole number"},
+      {"[queue]\nrequests = \"5\"\n", ":2: queue.requests: must be a whole number"},
+      {"[planning]\ndeadline_s = nan\n", ":2: planning.deadline_s: must be within"},
+      {"[planning]\ndeadline_s = \"1\"\n", ":2: planning.deadline_s: must be a number"},
+      {"[log]\nlevel = 3\n", ":2: log.level: must be a text"},
+      {"[log]\nlevel = \"loud\"\n", ":2: log.level: must be one of trace, "},
+      {"[log]\nlevel = \"info\"\nlevel = \"info\"\n", ":3: "},
+      {"scene = 1\n", ":1: scene: must be tables"},
+      {"[scene]\nname = \"a\"\n", ":1: scene: must be tables"},
+      {"[[scene]]\nfile = \"a.obj\"\n", "[[scene]]: 'name' is missing"},
+      {"[[scene]]\nname = \"a\"\n", "[[scene]]: 'file' is missing"},
+      {"[[scene]]\nname = \"a b\"\nfile = \"f\"\n", ":2: scene.name: must be of letters"},
+      {"[[scene]]\nname = \"a\"\nfile = \"\"\n", ":3: scene.file: must name a file"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\nscale = 0\n", ":4: scene.scale: must be a number"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\nup = \"x\"\n", ":4: scene.up: must be as-in-file"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\ncolour = 1\n", ":4: 'colour' is no setting of a"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\n[[scene]]\nname = \"a\"\nfile = \"g\"\n",
+       ":4: scene.name: 'a' is there twice"},
+  };
+  for (const auto& [text, fault] : table) {
+    options_ = default_options();
+    const std::vector<std::string> faults = read(text);
+    ASSERT_EQ(faults.size(), 1U) << text << ::testing::PrintToString(faults);
+    EXPECT_EQ(faults[0].find((folder_ / "c.toml").string() + ":"), 0U) << faults[0];
+    EXPECT_NE(faults[0].find(fault), std::string::npos) << faults[0];
+  }
+}
+
+TEST_F(ConfigFile, AllFaultsComeInTheOrderOfTheirLines) {
+  const std::vector<std::string> faults =
+      read("[queue]\nrequests = 0\n[lcm]\nurls = \"\"\n[log]\nlevel = \"loud\"\n");
+  ASSERT_EQ(faults.size(), 3U);
+  EXPECT_NE(faults[0].find(":2: "), std::string::npos);
+  EXPECT_NE(faults[1].find(":4: "), std::string::npos);
+  EXPECT_NE(faults[2].find(":6: "), std::string::npos);
+}
+
+TEST_F(ConfigFile, WhatCannotBeReadIsAFault) {
+  for (const std::filesystem::path& file : {folder_ / "missing.toml", folder_}) {
+    const std::vector<std::string> faults = read_config_file(file, options_);
+    ASSERT_EQ(faults.size(), 1U) << file;
+    EXPECT_EQ(faults[0], file.string() + ": cannot be read, or is empty");
+  }
+}
+
+}  // namespace
+}  // namespace camway::service
