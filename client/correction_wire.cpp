@@ -83,6 +83,10 @@ std::optional<std::string> append_correction_lists(const plan_response_t& page,
     response.corrections.push_back({wire.t_begin_s, wire.t_end_s, *method, wire.changed_t_begin_s,
                                     wire.changed_t_end_s, wire.moved_m, wire.turned_rad, tried});
   }
+  for (const slowed_stretch_t& wire : page.slowed) {
+    response.slowed.push_back(
+        {wire.t_begin_s, wire.t_end_s, wire.given_t_begin_s, wire.given_t_end_s});
+  }
   for (const keyframe_fault_t& wire : page.keyframe_faults) {
     response.keyframe_faults.push_back(from_wire(wire));
   }

@@ -27,6 +27,7 @@ constexpr std::size_t kMotionLimits = 3 * kDouble + kByte;
 constexpr std::size_t kMeasures = 8 * kDouble;
 constexpr std::size_t kCage = 12 * kDouble;
 constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble + 4 * kInt32;
+constexpr std::size_t kSlowedStretch = 4 * kDouble;
 constexpr std::size_t kKeyframeFault = kInt32 + kDouble + kByte + (3 + 4) * kDouble;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
 
@@ -111,6 +112,7 @@ constexpr std::array kPlanResponse{
     list_of("collisions", kInterval),
     list_of("remaining", kInterval),
     list("corrections", kCorrection),
+    list("slowed", kSlowedStretch),
     list("keyframe_faults", kKeyframeFault),
     list("proof_triangles", kInt32),
 };

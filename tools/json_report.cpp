@@ -79,6 +79,12 @@ planning::KeyframeFault read_fault(const Field& field) {
   return fault;
 }
 
+planning::SlowedStretch read_slowed(const Field& field) {
+  double given_s[2] = {};
+  field.member("given").numbers(given_s, 2);
+  return {field.member("t_begin").number(), field.member("t_end").number(), given_s[0], given_s[1]};
+}
+
 correction::CageBox read_cage(const Field& field) {
   correction::CageBox cage;
   geometry::Vec4 wxyz;
@@ -122,6 +128,12 @@ void read_report(const Field& root, planning::PlanResult& result) {
   }
   if (const auto scale = root.optional_member("near_scale")) result.near_scale = scale->number();
   if (const auto scale = root.optional_member("time_scale")) result.time_scale = scale->number();
+  if (const auto list = root.optional_member("slowed")) {
+    const std::size_t count = list->size();
+    for (std::size_t i = 0; i < count && !list->failed(); ++i) {
+      result.slowed.push_back(read_slowed(list->element(i)));
+    }
+  }
   if (const auto list = root.optional_member("keyframe_faults")) {
     const std::size_t count = list->size();
     for (std::size_t i = 0; i < count && !list->failed(); ++i) {

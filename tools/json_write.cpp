@@ -178,6 +178,19 @@ void write_correction(Writer& w, const correction::Correction& correction) {
   w.raw("}");
 }
 
+void write_slowed(Writer& w, const planning::SlowedStretch& stretch) {
+  constexpr std::string_view kWhat = "slowed";
+  w.raw("{\"t_begin\": ");
+  w.number(stretch.t_begin_s, kWhat);
+  w.raw(", \"t_end\": ");
+  w.number(stretch.t_end_s, kWhat);
+  w.raw(", \"given\": [");
+  w.number(stretch.given_t_begin_s, kWhat);
+  w.raw(", ");
+  w.number(stretch.given_t_end_s, kWhat);
+  w.raw("]}");
+}
+
 void write_measures(Writer& w, const motion::PathMeasures& measures) {
   write_numbers(w,
                 {{"length_m", measures.length_m},
@@ -261,6 +274,10 @@ void write_report(Writer& w, const planning::PlanResult& result) {
   if (result.time_scale != 1.0) {
     w.raw(",\n  \"time_scale\": ");
     w.number(result.time_scale, "time_scale");
+  }
+  if (!result.slowed.empty()) {
+    w.raw(",\n  \"slowed\": ");
+    w.list(result.slowed, [&](const planning::SlowedStretch& s) { write_slowed(w, s); });
   }
   if (!result.keyframe_faults.empty()) {
     w.raw(",\n  \"keyframe_faults\": ");

@@ -58,7 +58,7 @@ struct MotionLimits {
   double speed_m_per_s = 0.0;
   double acceleration_m_per_s2 = 0.0;
   double turn_rate_rad_per_s = 0.0;
-  /// Whether times may be stretched to meet them; else a path that breaks them is not `ok`.
+  /// Whether the path may be slowed to meet them; else a path that breaks them is not `ok`.
   bool may_retime = false;
 };
 

@@ -51,6 +51,14 @@ struct PathMeasures {
   double clearance_lower_bound_m = 0.0;  ///< of the body; proved; 0 where the path collides
 };
 
+/// A stretch of the path that was made slower to meet limits.
+struct SlowedStretch {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+  double given_t_begin_s = 0.0;  ///< when it was to begin and end by the times asked for
+  double given_t_end_s = 0.0;
+};
+
 /// A given keyframe that collides, or is nearer to the scene than required.
 struct KeyframeFault {
   std::int32_t keyframe = 0;

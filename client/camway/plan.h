@@ -120,7 +120,10 @@ struct PlanResponse {
   std::optional<PathMeasures> measures_before;  ///< of the path as interpolated
   std::optional<PathMeasures> measures;         ///< of `path`
   double near_scale = 1.0;  ///< the near distance that is proved, as a share of the one asked for
-  double time_scale = 1.0;  ///< the times of `path` are those asked for, stretched by this
+  /// Duration of `path` by the one asked for; above 1 where it was slowed to meet limits. All times
+  /// of the answer are new ones then.
+  double time_scale = 1.0;
+  std::vector<SlowedStretch> slowed;  ///< where that was, in order of time
   std::vector<KeyframeFault> keyframe_faults;  ///< why invalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< the proof, if infeasible
 

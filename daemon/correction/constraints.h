@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include "daemon/geometry/types.h"
+#include "daemon/motion/rate_limits.h"
 
 namespace camway::correction {
 
@@ -50,18 +50,10 @@ inline bool is_limited(const OrientationPolicy& policy) {
   return policy.rule != OrientationRule::kFree || policy.max_turn_rad < std::numbers::pi;
 }
 
-/// Limits that the path is to meet. Infinity: no limit. [Limit: value > 0]
-struct MotionLimits {
-  double speed_m_per_s = std::numeric_limits<double>::infinity();
-  double acceleration_m_per_s2 = std::numeric_limits<double>::infinity();
-  double turn_rate_rad_per_s = std::numeric_limits<double>::infinity();
-  /// Whether times may be stretched to meet them; else a path that breaks them is not `ok`.
+/// Limits that the path is to meet.
+struct MotionLimits : motion::RateLimits {
+  /// Whether the path may be slowed to meet them; else a path that breaks them is not `ok`.
   bool may_retime = false;
-
-  [[nodiscard]] bool any() const {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    return speed_m_per_s < kNone || acceleration_m_per_s2 < kNone || turn_rate_rad_per_s < kNone;
-  }
 
   bool operator==(const MotionLimits&) const = default;
 };

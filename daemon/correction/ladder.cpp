@@ -273,7 +273,7 @@ class Ladder {
     const std::optional<Candidate> other = polished(problem, knots, pursuit_, space_, deadline_);
     if (!other) return;
     const auto cost = [&](const CubicPath& path) {
-      return objective_cost(options_.objective, path, problem.original, space_);
+      return objective_cost(options_.objective, path, problem.original, space_, deadline_);
     };
     if (!is_better(cost(other->path), cost(problem.path)) || !take(*other)) return;
     for (const motion::BumpRow& row : other->rows) widen_corrections(gap, row);

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+
+#include "daemon/collision/clearance.h"
 
 namespace camway::correction {
 
@@ -17,6 +21,7 @@ constexpr double kTightStep = 0.05;   // the same
 constexpr double kFewestSamples = 32.0;
 constexpr double kMostSamples = 2000.0;
 constexpr double kTightGap = 0.02;      // in radii of the ball: nobody but `kSafest` asks for more
+constexpr double kSameGap = 0.99;       // of the least gap: samples miss more than the rest of it
 constexpr double kWorthAChange = 1e-3;  // of the cost: less is within what the samples miss
 
 template <class Use>
@@ -88,22 +93,28 @@ double least_gap_m(const motion::CubicPath& path, FreeSpace& space) {
 }
 
 // Over the way rather than over time: who lingers where it is safe is in no less danger elsewhere.
-ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space) {
+ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
+                     const collision::Deadline& deadline) {
   const double comfort_m = kComfort * space.ball_radius_m();
   ObjectiveCost cost{0.0, comfort_m};
   for_each_gap(path, kSampleStep * space.ball_radius_m(), comfort_m, space,
                [&](double gap_m, double way_m) {
                  const double missing = 1.0 - std::clamp(gap_m / comfort_m, 0.0, 1.0);
                  cost.value += missing * missing * way_m;
-                 cost.least_gap_m = std::min(cost.least_gap_m, gap_m);
                });
+  // This is what the answer's measure of safety is: not to be missed between samples.
+  const auto clearance =
+      collision::path_clearance(space.obstacles(), path.path(), space.body(), deadline);
+  if (!clearance) return {std::numeric_limits<double>::infinity(), 0.0};
+  cost.least_gap_m = std::min(comfort_m, clearance->lower_bound_m);
   return cost;
 }
 
 }  // namespace
 
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
-                             const motion::CubicPath& original, FreeSpace& space) {
+                             const motion::CubicPath& original, FreeSpace& space,
+                             const collision::Deadline& deadline) {
   switch (objective) {
     case Objective::kClosest:
       return {largest_deviation_m(path, original), least_gap_m(path, space)};
@@ -114,11 +125,12 @@ ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
     case Objective::kSafest:
       break;
   }
-  return danger(path, space);
+  return danger(path, space, deadline);
 }
 
 bool is_better(const ObjectiveCost& now, const ObjectiveCost& before) {
-  return now.value < (1.0 - kWorthAChange) * before.value && now.least_gap_m >= before.least_gap_m;
+  return now.value < (1.0 - kWorthAChange) * before.value &&
+         now.least_gap_m >= kSameGap * before.least_gap_m;
 }
 
 }  // namespace camway::correction

@@ -15,19 +15,21 @@ struct ObjectiveCost {
   /// [Units: m²/s³]; `kSafest`: how much is missing to a gap that is as good as any, squared, as a
   /// share of that gap, integrated over the way of the eye [Units: metres].
   double value = 0.0;
-  /// The least gap of the samples, or one that is wide enough for the objective. [Units: metres]
+  /// The least gap, or one that is wide enough for the objective: of samples, but for `kSafest`
+  /// `collision::path_clearance`. [Units: metres]
   double least_gap_m = 0.0;
 };
 
 /// Gaps wider than this, in radii of the ball that holds the body, are as good as any to `kSafest`.
 inline constexpr double kComfort = 3.0;
 
-/// `original` covers the time of `path`.
+/// `original` covers the time of `path`. If the deadline strikes, the value is infinite.
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
-                             const motion::CubicPath& original, FreeSpace& space);
+                             const motion::CubicPath& original, FreeSpace& space,
+                             const collision::Deadline& deadline);
 
 /// Whether `now` is better by more than what it takes to be worth a change, and nowhere nearer than
-/// the nearest before, where that was near.
+/// the nearest before, where that was near, rounding and sampling apart.
 bool is_better(const ObjectiveCost& now, const ObjectiveCost& before);
 
 }  // namespace camway::correction

@@ -23,7 +23,7 @@ using motion::CubicPoint;
 constexpr int kSamplesAStep = 2;     // between two knots
 constexpr double kFloor = 0.03;      // least gap that a step may leave, ...
 constexpr double kKeptShare = 0.8;   // ... or this share of what there was, where that is less
-constexpr double kLeastKept = 0.98;  // of the least gap, by `kSafest`
+constexpr double kLeastKept = 0.995;  // of the least gap, by `kSafest`
 constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
 constexpr double kFirstTrust = 2.0;                              // how far a step may move the body
 constexpr double kMostTrust = 4.0;

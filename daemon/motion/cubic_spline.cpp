@@ -48,25 +48,33 @@ std::vector<Point> solve(std::vector<Row<Point>>& rows) {
   return slopes;
 }
 
-}  // namespace
+/// Lengths and chord slopes of the intervals between knots.
+template <class Point>
+struct Chords {
+  std::vector<double> length;
+  std::vector<Point> slope;
+};
 
 template <class Point>
-std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
-                                 EndCondition ends) {
+Chords<Point> chords_of(std::span<const double> knots, std::span<const Point> points) {
   const std::size_t n = points.size();
   assert(n >= 2 && knots.size() == n);
-  std::vector<double> h(n - 1);
-  std::vector<Point> d(n - 1);
+  Chords<Point> chords;
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    h[i] = knots[i + 1] - knots[i];
-    assert(h[i] > 0.0);
-    d[i] = (points[i + 1] - points[i]) / h[i];
+    chords.length.push_back(knots[i + 1] - knots[i]);
+    assert(chords.length[i] > 0.0);
+    chords.slope.push_back(Point((points[i + 1] - points[i]) / chords.length[i]));
   }
-  if (n == 2) return {d[0], d[0]};
+  return chords;
+}
 
+/// The slopes with which the spline is C² at all inner knots and does at the ends what it is told.
+template <class Point>
+std::vector<Point> slopes_between(const Chords<Point>& chords, const EndRow<Point>& first,
+                                  const EndRow<Point>& last) {
+  const auto& [h, d] = chords;
+  const std::size_t n = h.size() + 1;
   std::vector<Row<Point>> rows(n);
-  const EndRow<Point> first = end_row<Point>(ends, h[0], d[0], h[1], d[1]);
-  const EndRow<Point> last = end_row<Point>(ends, h[n - 2], d[n - 2], h[n - 3], d[n - 3]);
   rows[0] = {0.0, first.at, first.inner, first.right};
   rows[n - 1] = {last.inner, last.at, 0.0, last.right};
   for (std::size_t i = 1; i + 1 < n; ++i) {
@@ -78,9 +86,35 @@ std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const 
   return solve(rows);
 }
 
+}  // namespace
+
+template <class Point>
+std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
+                                 EndCondition ends) {
+  const Chords<Point> chords = chords_of(knots, points);
+  const auto& [h, d] = chords;
+  const std::size_t n = points.size();
+  if (n == 2) return {d[0], d[0]};
+  return slopes_between(chords, end_row<Point>(ends, h[0], d[0], h[1], d[1]),
+                        end_row<Point>(ends, h[n - 2], d[n - 2], h[n - 3], d[n - 3]));
+}
+
+template <class Point>
+std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
+                                 const Point& first_slope, const Point& last_slope) {
+  return slopes_between(chords_of(knots, points), EndRow<Point>{1.0, 0.0, first_slope},
+                        EndRow<Point>{1.0, 0.0, last_slope});
+}
+
 template std::vector<geometry::Vec3> spline_slopes(std::span<const double>,
                                                    std::span<const geometry::Vec3>, EndCondition);
 template std::vector<geometry::Vec4> spline_slopes(std::span<const double>,
                                                    std::span<const geometry::Vec4>, EndCondition);
+template std::vector<geometry::Vec3> spline_slopes(std::span<const double>,
+                                                   std::span<const geometry::Vec3>,
+                                                   const geometry::Vec3&, const geometry::Vec3&);
+template std::vector<geometry::Vec4> spline_slopes(std::span<const double>,
+                                                   std::span<const geometry::Vec4>,
+                                                   const geometry::Vec4&, const geometry::Vec4&);
 
 }  // namespace camway::motion

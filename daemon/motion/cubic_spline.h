@@ -36,6 +36,21 @@ extern template std::vector<geometry::Vec4> spline_slopes(std::span<const double
                                                           std::span<const geometry::Vec4>,
                                                           EndCondition);
 
+/// The same with given slopes at the two ends ("complete" spline): where they are those of a smooth
+/// curve, the error is of fourth order in the spacing up to the ends (de Boor 2001, chapter V).
+template <class Point>
+std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
+                                 const Point& first_slope, const Point& last_slope);
+
+extern template std::vector<geometry::Vec3> spline_slopes(std::span<const double>,
+                                                          std::span<const geometry::Vec3>,
+                                                          const geometry::Vec3&,
+                                                          const geometry::Vec3&);
+extern template std::vector<geometry::Vec4> spline_slopes(std::span<const double>,
+                                                          std::span<const geometry::Vec4>,
+                                                          const geometry::Vec4&,
+                                                          const geometry::Vec4&);
+
 /// Bézier points of the spline's piece between knots `i` and `i + 1`. The outer two are the
 /// interpolated points, bit for bit.
 template <class Point>

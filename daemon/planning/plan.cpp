@@ -19,6 +19,7 @@
 #include "daemon/planning/check.h"
 #include "daemon/planning/effort_text.h"
 #include "daemon/planning/keyframe_faults.h"
+#include "daemon/planning/limits.h"
 #include "daemon/planning/shrink.h"
 
 namespace camway::planning {
@@ -201,7 +202,8 @@ class Planner {
     }
     if (corrected.inserted_s.empty()) return;
     is_as_interpolated_ = false;
-    result_.path = corrected.path.path();
+    corrected_ = std::move(corrected.path);
+    result_.path = corrected_->path();
     for (const double time_s : corrected.inserted_s) {
       result_.keyframes.push_back(
           {time_s, result_.path.pose(time_s), motion::KeyframeOrigin::kInserted});
@@ -258,6 +260,7 @@ class Planner {
     if (result_.collisions.empty()) return;
     result_.keyframes = given_keyframes();
     result_.path = motion::interpolate(result_.keyframes);
+    corrected_.reset();
     is_as_interpolated_ = true;
     result_.remaining_collisions = result_.collisions;
   }
@@ -289,53 +292,37 @@ class Planner {
     }
   }
 
-  // Slower all the way, by as much as the limits ask for, which leaves the path where it is:
-  // dynamic scaling (Hollerbach 1984, "Dynamic scaling of manipulator trajectories"). Proofs hold
-  // for parameters, so they stay.
+  // Slower where the path is faster than the limits allow. A path that collides is not worth a new
+  // curve: it is made slower all the way, which leaves its collisions where they are.
   void meet_limits() {
     const correction::MotionLimits& limits = request_.options.limits;
     if (!result_.measures || !limits.any()) return;
-    const motion::PathMeasures& now = *result_.measures;
-    const double factor =
-        std::max({now.largest_speed_m_per_s / limits.speed_m_per_s,
-                  std::sqrt(now.largest_acceleration_m_per_s2 / limits.acceleration_m_per_s2),
-                  now.largest_turn_rate_rad_per_s / limits.turn_rate_rad_per_s});
-    if (!(factor > 1.0)) return;
-    needed_time_scale_ = factor * kLimitMargin;
-    if (limits.may_retime) stretch_times();
+    breach_ = find_limit_breach(result_.path, limits);
+    if (!breach_ || !limits.may_retime) return;
+    const motion::CubicPath interpolated = motion::interpolate_cubic(given_keyframes());
+    const motion::CubicPath path =
+        corrected_ ? *corrected_ : motion::interpolate_cubic(result_.keyframes);
+    // The policy is for what the ladder corrects.
+    const correction::OrientationPolicy policy =
+        corrected_ ? request_.options.orientation : correction::OrientationPolicy{};
+    const TooFast too_fast{path, interpolated, limits, policy, obstacles_, *body_, detect_};
+    std::optional<Retimed> slowed;
+    if (result_.certificate.certified) slowed = slowed_where_needed(too_fast, deadline_);
+    slowed_everywhere_ = !slowed;
+    take(slowed ? std::move(*slowed) : slowed_alike(too_fast));
+    result_.timing.certify_ms += lap_ms();
   }
 
-  void stretch_times() {
-    const double begin_s = result_.path.begin_s();
-    const auto stretch = [&](double& time_s) {
-      time_s = begin_s + (time_s - begin_s) * needed_time_scale_;
-    };
-    std::vector<motion::Segment> segments(result_.path.segments().begin(),
-                                          result_.path.segments().end());
-    for (motion::Segment& segment : segments) {
-      stretch(segment.t0_s);
-      stretch(segment.t1_s);
+  void take(Retimed slowed) {
+    move_times(slowed.law, result_);
+    result_.path = slowed.path.path();
+    for (Keyframe& keyframe : result_.keyframes) {
+      if (keyframe.origin == motion::KeyframeOrigin::kInserted)
+        keyframe.pose = result_.path.pose(keyframe.time_s);
     }
-    for (Keyframe& keyframe : result_.keyframes) stretch(keyframe.time_s);
-    for (auto* list : {&result_.collisions, &result_.remaining_collisions}) {
-      for (CollisionInterval& interval : *list) stretch_interval(interval, stretch);
-    }
-    for (correction::Correction& correction : result_.corrections) {
-      stretch_interval(correction.interval, stretch);
-      stretch(correction.t_begin_s);
-      stretch(correction.t_end_s);
-    }
-    const motion::Path before = motion::interpolate(given_keyframes());
-    result_.path = motion::Path(std::move(segments));
-    result_.measures = motion::measure(result_.path, before);
-    result_.time_scale = std::exchange(needed_time_scale_, 1.0);
-  }
-
-  template <class Stretch>
-  static void stretch_interval(CollisionInterval& interval, const Stretch& stretch) {
-    stretch(interval.t_begin_s);
-    stretch(interval.t_end_s);
-    if (interval.witness) stretch(interval.witness->time_s);
+    if (slowed.certificate) result_.certificate = *slowed.certificate;
+    result_.measures = motion::measure(result_.path, slowed.interpolated.path());
+    breach_.reset();
   }
 
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
@@ -389,13 +376,10 @@ class Planner {
   void conclude() {
     const std::size_t inserted = inserted_keyframes();
     const std::size_t remaining = result_.remaining_collisions.size();
-    if (remaining == 0 && needed_time_scale_ > 1.0) {
+    if (remaining == 0 && breach_) {
       // It is proved free, and the certificate says so; it is not what was asked for.
       result_.status = Status::kPartial;
-      result_.message = fmt::format(
-          "options.limits: the path is free, but meets them only {:.3g} times as slowly; allow "
-          "limits.retime, or give later times",
-          needed_time_scale_);
+      result_.message = why_too_fast();
       return;
     }
     if (remaining == 0) {
@@ -404,7 +388,7 @@ class Planner {
                                     counted(result_.collisions.size(), "collision"),
                                     counted(inserted, "keyframe"), repaired(),
                                     result_.certificate.clearance_lower_bound_m) +
-                        note();
+                        note_of_times() + note();
       return;
     }
     if (result_.infeasibility) {
@@ -423,7 +407,8 @@ class Planner {
                                   timed_out_ ? "the deadline came first: " : "",
                                   counted(result_.collisions.size(), "collision"),
                                   counted(inserted, "keyframe"), repaired(), remaining) +
-                      note_of_keyframe_limit() + note_of_effort(result_.corrections) + note();
+                      note_of_keyframe_limit() + note_of_effort(result_.corrections) +
+                      note_of_times() + note();
   }
 
   [[nodiscard]] std::string note_of_keyframe_limit() const {
@@ -442,6 +427,23 @@ class Planner {
   [[nodiscard]] std::string repaired() const {
     const std::size_t count = result_.keyframe_faults.size();
     return count == 0 ? std::string() : fmt::format(", {} repaired", count);
+  }
+
+  [[nodiscard]] std::string why_too_fast() const {
+    return fmt::format(
+        "options.limits: the path is free, but too fast from {:.5g} s to {:.5g} s{}: {}; allow "
+        "limits.retime, or give later times",
+        breach_->t_begin_s, breach_->t_end_s,
+        breach_->stretches > 1
+            ? fmt::format(" and at {}", counted(breach_->stretches - 1, "other time"))
+            : "",
+        breach_->rate);
+  }
+
+  [[nodiscard]] std::string note_of_times() const {
+    if (result_.time_scale == 1.0) return {};
+    return fmt::format("; slowed {} to meet the limits, {:.4g} times as long",
+                       slowed_everywhere_ ? "all the way" : "in part", result_.time_scale);
   }
 
   [[nodiscard]] std::string why_infeasible() const {
@@ -487,8 +489,6 @@ class Planner {
 
   // A body that is fewer tolerances large is told so.
   static constexpr double kLeastTolerances = 10.0;
-  // The largest rates are over samples, which may miss a little.
-  static constexpr double kLimitMargin = 1.01;
 
   // Cameras are seldom rolled by so much: 30 degrees.
   static constexpr double kNotableTilt_rad = 0.5236;
@@ -509,7 +509,9 @@ class Planner {
   bool timed_out_ = false;
   bool is_searched_ = true;                      ///< the path as interpolated, for collisions
   std::optional<std::size_t> needed_keyframes_;  ///< set if more than allowed
-  double needed_time_scale_ = 1.0;               ///< above 1: limits are not met
+  std::optional<motion::CubicPath> corrected_;   ///< what the ladder made of the path, if anything
+  std::optional<LimitBreach> breach_;            ///< limits that are not met
+  bool slowed_everywhere_ = false;               ///< where `time_scale` is not 1
   PlanResult result_;
 };
 

@@ -61,6 +61,16 @@ struct KeyframeFault {
   std::optional<motion::Pose> free_pose;  ///< the nearest that was found, if any
 };
 
+/// A stretch of the path that was made slower to meet limits.
+struct SlowedStretch {
+  double t_begin_s = 0.0;
+  double t_end_s = 0.0;
+  double given_t_begin_s = 0.0;  ///< when it was to begin and end by the times asked for
+  double given_t_end_s = 0.0;
+
+  bool operator==(const SlowedStretch&) const = default;
+};
+
 /// Why there is no path: a closed surface of the scene, with one keyframe inside and another
 /// outside. Whoever wants to check it needs the triangles alone: each edge (by the coordinates of
 /// its ends) has an even number of them, and a ray from one keyframe meets an odd number, from the
@@ -99,8 +109,10 @@ struct PlanResult {
   /// The near distance that the proof is for, as a share of the one asked for; below 1 only if
   /// `PlanOptions::max_shrink` allowed it.
   double near_scale = 1.0;
-  /// The times of `path` are those asked for, stretched by this, to meet limits.
+  /// How many times as long `path` takes as was asked for, to meet limits. It is slower where it
+  /// has to be, or all the way (`planning/limits.h`); every time of the result is a new one.
   double time_scale = 1.0;
+  std::vector<SlowedStretch> slowed;  ///< where that was, in order of time; beyond, times are moved
   std::vector<KeyframeFault> keyframe_faults;  ///< for kInvalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
   Timing timing;

@@ -92,12 +92,15 @@ class Shrinking {
     return true;
   }
 
-  // What collided, and what became of it, is told of the camera that was asked for.
+  // What collided, and what became of it, is told of the camera that was asked for; unless times
+  // were moved to meet limits, which are not those of the first plan then.
   [[nodiscard]] PlanResult answer(PlanResult full) {
     PlanResult result = std::move(*best_);
     result.message = fmt::format("with a near distance of {:.3g} m instead of {:.3g} m: {}",
                                  request_.camera.near_m * result.near_scale, request_.camera.near_m,
                                  result.message);
+    result.timing = full.timing;
+    if (full.time_scale != 1.0 || result.time_scale != 1.0) return result;
     result.collisions = std::move(full.collisions);
     result.measures_before = full.measures_before;
     result.corrections = std::move(full.corrections);
@@ -106,7 +109,6 @@ class Shrinking {
       correction.rung = Rung::kShrink;
       correction.tried = {};
     }
-    result.timing = full.timing;
     return result;
   }
 

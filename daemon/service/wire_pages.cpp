@@ -28,6 +28,7 @@ struct Lists<plan_response_t> {
       std::pair{&plan_response_t::collisions, &plan_response_t::num_collisions},
       std::pair{&plan_response_t::remaining, &plan_response_t::num_remaining},
       std::pair{&plan_response_t::corrections, &plan_response_t::num_corrections},
+      std::pair{&plan_response_t::slowed, &plan_response_t::num_slowed},
       std::pair{&plan_response_t::keyframe_faults, &plan_response_t::num_keyframe_faults},
       std::pair{&plan_response_t::proof_triangles, &plan_response_t::num_proof_triangles});
   static constexpr std::int32_t kMaxPages = wire::kMaxResponsePages;

@@ -91,6 +91,15 @@ PathMeasures measures_of(const path_measures_t& wire) {
   return measures;
 }
 
+slowed_stretch_t wire_slowed(const planning::SlowedStretch& stretch) {
+  slowed_stretch_t wire{};
+  wire.t_begin_s = stretch.t_begin_s;
+  wire.t_end_s = stretch.t_end_s;
+  wire.given_t_begin_s = stretch.given_t_begin_s;
+  wire.given_t_end_s = stretch.given_t_end_s;
+  return wire;
+}
+
 keyframe_fault_t wire_fault(const KeyframeFault& fault) {
   keyframe_fault_t wire{};
   wire.keyframe = static_cast<std::int32_t>(fault.keyframe);
@@ -201,6 +210,10 @@ void put_report(const PlanResult& result, plan_response_t& wire) {
   if (result.measures) wire.measures = wire_measures(*result.measures);
   wire.near_scale = result.near_scale;
   wire.time_scale = result.time_scale;
+  for (const planning::SlowedStretch& stretch : result.slowed) {
+    wire.slowed.push_back(wire_slowed(stretch));
+  }
+  wire.num_slowed = static_cast<std::int32_t>(wire.slowed.size());
   for (const KeyframeFault& fault : result.keyframe_faults) {
     wire.keyframe_faults.push_back(wire_fault(fault));
   }
@@ -213,6 +226,10 @@ std::string read_report(const plan_response_t& wire, PlanResult& result) {
   if (wire.has_measures != 0) result.measures = measures_of(wire.measures);
   result.near_scale = wire.near_scale;
   result.time_scale = wire.time_scale;
+  for (const slowed_stretch_t& stretch : wire.slowed) {
+    result.slowed.push_back(
+        {stretch.t_begin_s, stretch.t_end_s, stretch.given_t_begin_s, stretch.given_t_end_s});
+  }
   std::string error = read_corrections(wire, result);
   if (error.empty()) error = read_faults(wire, result);
   if (error.empty()) error = read_infeasibility(wire, result);

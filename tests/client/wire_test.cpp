@@ -283,12 +283,21 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   pages[1].num_keyframe_faults = 2;
   pages[1].proof_triangles = {6};
   pages[1].num_proof_triangles = 1;
+  for (const std::size_t page : {0U, 1U}) {
+    slowed_stretch_t slowed{};
+    slowed.given_t_end_s = 2.5 + static_cast<double>(page);
+    pages[page].slowed = {slowed};
+    pages[page].num_slowed = 1;
+  }
   PlanCollector collector("me", 7);
   collector.take(wire::encode(pages[1]));
   collector.take(wire::encode(pages[0]));
   ASSERT_TRUE(collector.complete());
   const PlanResponse response = collector.response();
   ASSERT_TRUE(response.ok()) << response.error;
+  ASSERT_EQ(response.slowed.size(), 2u);
+  EXPECT_EQ(response.slowed[0].given_t_end_s, 2.5);
+  EXPECT_EQ(response.slowed[1].given_t_end_s, 3.5);
   ASSERT_EQ(response.corrections.size(), 1u);
   EXPECT_EQ(response.corrections[0].t_end_s, 0.5);
   EXPECT_EQ(response.corrections[0].method, Correction::Method::kGoRound);

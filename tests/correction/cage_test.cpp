@@ -182,6 +182,23 @@ TEST(Cage, NothingIsBetweenPointsOnOneSide) {
   EXPECT_FALSE(cage(mesh, {Vec3(1.0 + 1e-10, 2.55, 3.55), kOutside}, 0.15)) << "in a hole";
 }
 
+// Keyframes are only met up to rounding: one that is nearer to a side or a bar than that is on
+// neither side of it.
+TEST(Cage, IsToldOnlyByKeyframesThatAreClearOfItsSides) {
+  const scene::Mesh mesh = mesh_of(cage_bars(kBox, kTenBars, 0.02));
+  const auto is_found = [&](const Vec3& inside, const Vec3& outside, double within_m) {
+    return find_cage(mesh, find_closed_surfaces(mesh), std::vector<Vec3>{inside, outside}, 0.15,
+                     within_m)
+        .has_value();
+  };
+  const Vec3 before_a_hole(0.998, 2.55, 3.55);
+  EXPECT_TRUE(is_found(kInside, before_a_hole, 1e-3));
+  EXPECT_FALSE(is_found(kInside, before_a_hole, 3e-3));
+  const Vec3 beside_a_bar(1.012, 2.5, 3.52);  // by 2 mm
+  EXPECT_TRUE(is_found(beside_a_bar, kOutside, 1e-3));
+  EXPECT_FALSE(is_found(beside_a_bar, kOutside, 3e-3));
+}
+
 TEST(Cage, AMissingBarIsAWayOut) {
   const std::vector<Box> whole = cage_bars(kBox, kTenBars, 0.02);
   ASSERT_TRUE(cage(mesh_of(whole), {kOutside, kInside}, 0.15));

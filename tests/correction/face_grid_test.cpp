@@ -344,5 +344,32 @@ TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
   EXPECT_GT(blocked, 500);
 }
 
+// Both lie on the same side of the edge they share, so it is no border of what is covered oddly:
+// what is beyond it must not be taken for what is covered twice.
+TEST(FaceGrid, BlocksNothingBeyondAnEdgeOfTwoThatOverlap) {
+  // Which part of the grid is asked first must not matter.
+  for (const bool is_turned : {false, true}) {
+    scene::Mesh mesh;
+    const auto corner = [&](double u, double v) {
+      return is_turned ? Vec3(1 - u, 1 - v, 0.0) : Vec3(u, v, 0.0);
+    };
+    testing::add_triangle(mesh, corner(0, 1), corner(1, 0), corner(0, 0));
+    testing::add_triangle(mesh, corner(0, 1), corner(1, 0), corner(0.2, 0.2));
+    FaceGrid::Lines lines;
+    for (int i = 0; i <= 50; ++i) lines.push_back(i / 50.0);
+    FaceGrid grid(2, 0.0, {lines, lines}, Vec3::Zero());
+    grid.block_flat(mesh, mesh, std::vector<std::uint32_t>{0, 1});
+    int blocked = 0;
+    for (std::size_t v = 0; v < 50; ++v) {
+      for (std::size_t u = 0; u < 50; ++u) {
+        if (!grid.is_blocked(u, v)) continue;
+        ++blocked;
+        EXPECT_TRUE(is_turned ? u + v >= 49 : u + v <= 49) << u << " " << v;
+      }
+    }
+    EXPECT_GT(blocked, 100);
+  }
+}
+
 }  // namespace
 }  // namespace camway::correction

@@ -268,10 +268,12 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
          {Objective::kShortest, Objective::kSmoothest, Objective::kSafest}) {
       c.options.objective = objective;
       const CubicPath path = c.corrected().path;
-      const ObjectiveCost now = objective_cost(objective, path, original, space);
-      const ObjectiveCost before = objective_cost(objective, closest, original, space);
+      const ObjectiveCost now = objective_cost(objective, path, original, space, Deadline::never());
+      const ObjectiveCost before =
+          objective_cost(objective, closest, original, space, Deadline::never());
       // The sum over gaps, of samples at other times than those that were compared.
       EXPECT_LE(now.value, 1.001 * before.value) << run << ": " << static_cast<int>(objective);
+      EXPECT_GE(now.least_gap_m, 0.97 * before.least_gap_m) << run;
       better[objective] += now.value < 0.99 * before.value ? 1 : 0;
       // What it did not have to turn for, it did not turn.
       for (int i = 0; i <= 200; ++i) {

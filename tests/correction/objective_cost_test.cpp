@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "daemon/collision/clearance.h"
 #include "daemon/motion/measures.h"
 #include "tests/support/gap_problems.h"
 
@@ -31,7 +32,7 @@ struct Case {
   [[nodiscard]] ObjectiveCost cost(Objective objective, const CubicPath& path,
                                    const CubicPath& original) const {
     FreeSpace space = this->space();
-    return objective_cost(objective, path, original, space);
+    return objective_cost(objective, path, original, space, collision::Deadline::never());
   }
 };
 
@@ -75,7 +76,9 @@ TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
     const CubicPath path = straight(up, up + Vec3(3, 0, 0), 2.0);
     const ObjectiveCost cost = c.cost(Objective::kSafest, path, path);
     EXPECT_NEAR(cost.value, 3.0 * (1.0 - share) * (1.0 - share), 0.02) << share;
-    EXPECT_NEAR(cost.least_gap_m, share * comfort_m, 0.01 * comfort_m);
+    // As exact as the clearance of an answer.
+    EXPECT_LE(cost.least_gap_m, share * comfort_m * (1.0 + 1e-9));
+    EXPECT_GE(cost.least_gap_m, share * comfort_m * (1.0 - collision::kClearanceGap) - 1e-9);
     // However long it takes.
     const CubicPath slow = straight(up, up + Vec3(3, 0, 0), 20.0);
     EXPECT_NEAR(c.cost(Objective::kSafest, slow, slow).value, cost.value, 1e-6);

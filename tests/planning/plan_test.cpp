@@ -279,23 +279,6 @@ TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
   EXPECT_THAT(plan(*column_scene(), request).message, ::testing::Not(note));
 }
 
-TEST(Plan, StretchesTimesToMeetLimitsIfAllowed) {
-  PlanRequest request = bulging_tour();
-  request.options.limits.speed_m_per_s = 0.5;
-  const PlanResult refused = planned(*column_scene(), request);
-  EXPECT_EQ(refused.status, Status::kPartial);
-  EXPECT_THAT(refused.message, ::testing::HasSubstr("options.limits"));
-  // What is proved of it stays true.
-  EXPECT_TRUE(refused.certificate.certified);
-  EXPECT_TRUE(refused.remaining_collisions.empty());
-  request.options.limits.may_retime = true;
-  const PlanResult slower = planned(*column_scene(), request);
-  EXPECT_EQ(slower.status, Status::kOk) << slower.message;
-  EXPECT_GT(slower.time_scale, 1.0);
-  EXPECT_LE(slower.measures->largest_speed_m_per_s, 0.5);
-  EXPECT_EQ(slower.path.end_s(), slower.keyframes.back().time_s);
-}
-
 TEST(Plan, MeasuresTheClearanceBeforeAndAfter) {
   PlanRequest request = bulging_tour();
   const PlanResult corrected = planned(*column_scene(), request);

@@ -129,6 +129,15 @@ cage_t cage(Random& random) {
   return cage;
 }
 
+slowed_stretch_t slowed_stretch(Random& random) {
+  slowed_stretch_t stretch{};
+  for (double* value :
+       {&stretch.t_begin_s, &stretch.t_end_s, &stretch.given_t_begin_s, &stretch.given_t_end_s}) {
+    *value = number(random);
+  }
+  return stretch;
+}
+
 keyframe_fault_t keyframe_fault(Random& random) {
   keyframe_fault_t fault{};
   fault.keyframe = small(random);
@@ -253,6 +262,8 @@ plan_response_t random_message<plan_response_t>(Random& random) {
   message.proof_cage = cage(random);
   message.num_corrections =
       fill_list(message.corrections, length(random, 100), [&] { return correction(random); });
+  message.num_slowed =
+      fill_list(message.slowed, length(random, 100), [&] { return slowed_stretch(random); });
   message.num_keyframe_faults = fill_list(message.keyframe_faults, length(random, 100),
                                           [&] { return keyframe_fault(random); });
   message.num_proof_triangles =

@@ -208,6 +208,7 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     EXPECT_EQ(back.result->measures, result.measures);
     EXPECT_EQ(back.result->near_scale, 0.75);
     EXPECT_EQ(back.result->time_scale, 1.25);
+    EXPECT_EQ(back.result->slowed, result.slowed);
     EXPECT_EQ(back.result->keyframe_faults.size(), result.keyframe_faults.size());
     ASSERT_TRUE(back.result->infeasibility);
     EXPECT_EQ(back.result->infeasibility->keyframe_inside, 3U);
@@ -245,6 +246,7 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   fault.depth_m = 0.0625;
   fault.free_pose = motion::Pose{{1, 2, 3}, geometry::Quat(0.1, 0.2, 0.3, 0.4)};
   result.keyframe_faults = {fault};
+  result.slowed = {{1.5, 2.5, 1.0, 1.25}};
   const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
   ASSERT_EQ(wire.num_corrections, 1);
   EXPECT_EQ(wire.corrections[0].t_end_s, 2.0);
@@ -264,6 +266,11 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   EXPECT_EQ(wire.measures.length_m, 7.0);
   EXPECT_EQ(wire.measures.largest_turn_acceleration_rad_per_s2, 8.0);
   EXPECT_EQ(wire.measures.clearance_lower_bound_m, 9.0);
+  ASSERT_EQ(wire.num_slowed, 1);
+  EXPECT_EQ(wire.slowed[0].t_begin_s, 1.5);
+  EXPECT_EQ(wire.slowed[0].t_end_s, 2.5);
+  EXPECT_EQ(wire.slowed[0].given_t_begin_s, 1.0);
+  EXPECT_EQ(wire.slowed[0].given_t_end_s, 1.25);
   ASSERT_EQ(wire.num_keyframe_faults, 1);
   EXPECT_EQ(wire.keyframe_faults[0].keyframe, 4);
   EXPECT_EQ(wire.keyframe_faults[0].free_position_m[2], 3.0);

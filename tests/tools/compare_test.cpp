@@ -157,6 +157,7 @@ TEST(Compare, SeesWhatCorrectionDid) {
             "measures before correction");
   EXPECT_EQ(difference_after([](Result& b) { b.near_scale = 0.5; }), "near scale");
   EXPECT_EQ(difference_after([](Result& b) { b.time_scale = 2.0; }), "time scale");
+  EXPECT_EQ(difference_after([](Result& b) { b.slowed.resize(1); }), "slowed stretches 0 -> 1");
   EXPECT_EQ(difference_after([](Result& b) { b.keyframe_faults[0].depth_m = 1.0; }),
             "keyframe faults");
   EXPECT_EQ(difference_after([](Result& b) { b.keyframe_faults[0].free_pose.emplace(); }),

@@ -209,6 +209,9 @@ void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
   if (random() % 2 == 0) result.measures = any_measures(random);
   if (random() % 2 == 0) result.near_scale = number();
   if (random() % 2 == 0) result.time_scale = number();
+  result.slowed.resize(random() % 3);
+  for (planning::SlowedStretch& stretch : result.slowed)
+    stretch = {number(), number(), number(), number()};
   result.keyframe_faults.resize(random() % 3);
   for (planning::KeyframeFault& fault : result.keyframe_faults) {
     fault.keyframe = random() % 1000;
@@ -403,6 +406,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   result.measures = measures;
   result.near_scale = 0.75;
   result.time_scale = 1.5;
+  result.slowed = {{2.0, 4.0, 1.5, 2.5}};
   const std::string text = *write_plan_response(result).value;
   EXPECT_THAT(text, HasSubstr(R"("corrections": [
     {"t_begin": 2.25, "t_end": 2.75, "method": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
@@ -410,11 +414,16 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   "measures": {
     "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0},
     "after": {"length_m": 5.0,)"));
-  EXPECT_THAT(text, HasSubstr("\"near_scale\": 0.75,\n  \"time_scale\": 1.5"));
+  EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
+  "time_scale": 1.5,
+  "slowed": [
+    {"t_begin": 2.0, "t_end": 4.0, "given": [1.5, 2.5]}
+  ])"));
   const auto read = parse_plan_response(text, "P.json");
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
   EXPECT_EQ(read.value->measures, result.measures);
+  EXPECT_EQ(read.value->slowed, result.slowed);
 }
 
 TEST(JsonResponse, SaysWhyThereIsNoPath) {
@@ -468,7 +477,7 @@ TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
   for (const char* key :
-       {"measures", "near_scale", "time_scale", "keyframe_faults", "infeasibility"}) {
+       {"measures", "near_scale", "time_scale", "slowed", "keyframe_faults", "infeasibility"}) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
   }
 }

@@ -159,9 +159,11 @@ TEST(PlanSummary, SaysWhatWasScaled) {
   EXPECT_THAT(plan_summary(result, nullptr), Not(HasSubstr("\n")));
   result.near_scale = 0.8;
   result.time_scale = 1.25;
-  EXPECT_THAT(plan_summary(result, nullptr),
-              EndsWith("\n  the near distance is 0.8 of the one asked for"
-                       "\n  times are stretched by 1.25 to meet the limits"));
+  result.slowed = {{1.0, 2.5, 1.0, 1.5}, {4.0, 4.25, 3.0, 3.125}};
+  EXPECT_THAT(
+      plan_summary(result, nullptr),
+      EndsWith("\n  the near distance is 0.8 of the one asked for"
+               "\n  to meet the limits it takes 1.25 times as long, slowed at 1-2.5 s, 4-4.25 s"));
 }
 
 }  // namespace

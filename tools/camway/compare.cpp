@@ -94,6 +94,11 @@ bool same_fault(const planning::KeyframeFault& a, const planning::KeyframeFault&
                      geometry::wxyz(b.free_pose->orientation));
 }
 
+bool same_slowed(const planning::SlowedStretch& a, const planning::SlowedStretch& b) {
+  return same(a.t_begin_s, b.t_begin_s) && same(a.t_end_s, b.t_end_s) &&
+         same(a.given_t_begin_s, b.given_t_begin_s) && same(a.given_t_end_s, b.given_t_end_s);
+}
+
 bool same_cage(const std::optional<correction::CageBox>& a,
                const std::optional<correction::CageBox>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
@@ -164,6 +169,8 @@ std::string report_difference(const planning::PlanResult& a, const planning::Pla
   if (!same_measures(a.measures, b.measures)) return "measures";
   if (!same(a.near_scale, b.near_scale)) return "near scale";
   if (!same(a.time_scale, b.time_scale)) return "time scale";
+  const std::string slowed = differing("slowed stretches", a.slowed, b.slowed, same_slowed);
+  if (!slowed.empty()) return slowed;
   return same_proof(a.infeasibility, b.infeasibility) ? "" : "proof that there is no path";
 }
 

@@ -21,6 +21,7 @@ using planning::Status;
 /// Of each kind; the response has them all.
 constexpr std::size_t kMostLines = 20;
 constexpr std::size_t kMostObjects = 3;
+constexpr std::size_t kMostStretches = 5;
 
 /// Less than this is rounding, or nothing that a person would see.
 constexpr double kLeastMove_m = 1e-4;
@@ -198,8 +199,15 @@ void add_scales(const PlanResult& result, std::vector<std::string>& lines) {
         fmt::format("the near distance is {:.3g} of the one asked for", result.near_scale));
   }
   if (result.time_scale != 1.0) {
-    lines.push_back(
-        fmt::format("times are stretched by {:.4g} to meet the limits", result.time_scale));
+    std::string line =
+        fmt::format("to meet the limits it takes {:.4g} times as long", result.time_scale);
+    const std::size_t shown = std::min(result.slowed.size(), kMostStretches);
+    for (std::size_t i = 0; i < shown; ++i) {
+      line += fmt::format("{}{:.4g}-{:.4g} s", i == 0 ? ", slowed at " : ", ",
+                          result.slowed[i].t_begin_s, result.slowed[i].t_end_s);
+    }
+    if (shown < result.slowed.size()) line += ", ...";
+    lines.push_back(std::move(line));
   }
 }
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "daemon/collision/deadline.h"
+#include "daemon/collision/detect.h"
+#include "daemon/correction/constraints.h"
+#include "daemon/motion/body.h"
+#include "daemon/motion/cubic_path.h"
+#include "daemon/motion/time_law.h"
+#include "daemon/planning/result.h"
+
+namespace camway::planning {
+
+/// Where a path is faster than limits allow, by samples: for people.
+struct LimitBreach {
+  double t_begin_s = 0.0;  ///< the stretch with the largest breach
+  double t_end_s = 0.0;
+  std::size_t stretches = 1;  ///< how many there are
+  std::string rate;           ///< e.g. "its speed is up to 1.4 m/s, of 1 m/s that are allowed"
+};
+
+/// Nothing if the path meets the limits at every instant, to a millionth.
+std::optional<LimitBreach> find_limit_breach(const motion::Path& path,
+                                             const motion::RateLimits& limits);
+
+/// A path that is too fast, and what it must keep when it is slowed.
+struct TooFast {
+  const motion::CubicPath& path;
+  const motion::CubicPath& interpolated;  ///< the path before correction, over the same time
+  const correction::MotionLimits& limits;
+  const correction::OrientationPolicy& orientation;
+  const collision::Obstacles& obstacles;
+  const motion::Body& body;
+  const collision::DetectOptions detect;
+};
+
+/// A path that meets its limits.
+struct Retimed {
+  motion::TimeLaw law;
+  motion::CubicPath path;
+  motion::CubicPath interpolated;  ///< the path before correction, by the same law
+  /// Of `path`. Nothing where its control points are as they were: then what was proved still
+  /// holds, for proofs are of segments' parameters.
+  std::optional<Certificate> certificate;
+};
+
+/// Slows a path only where and before it has to be (`motion::TimeLaw::within`), which changes its
+/// curve a little, with knots closer and closer until all of this is so: it meets the limits at
+/// every instant; at samples no point of the body is further than the interval tolerance from where
+/// it was; corrections keep to the orientation policy, compared with the interpolated path by the
+/// same law; it is proved free of collision. Nothing if that is not reached within bounds or the
+/// deadline. Precondition: the path is free, and breaks the limits.
+std::optional<Retimed> slowed_where_needed(const TooFast& problem,
+                                           const collision::Deadline& deadline);
+
+/// The path with all times stretched alike.
+Retimed slowed_alike(const TooFast& problem);
+
+/// Moves every time of the result but those of its path, which `law` was made for: of keyframes,
+/// collisions and corrections. Says in it where and by how much it was slowed.
+void move_times(const motion::TimeLaw& law, PlanResult& result);
+
+}  // namespace camway::planning
