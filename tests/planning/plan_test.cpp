@@ -247,6 +247,26 @@ TEST(Plan, RepairsKeyframesIfAsked) {
   const PlanResult repaired = planned(*snapshot, request);
   EXPECT_EQ(repaired.status, Status::kOk) << repaired.message;
   EXPECT_EQ(repaired.path.pose(2.0).position, refused.keyframe_faults[0].free_pose->position);
+  for (const motion::Keyframe& keyframe : repaired.keyframes) {
+    EXPECT_EQ(keyframe.is_repaired, keyframe.time_s == 2.0);
+    if (keyframe.is_repaired) {
+      EXPECT_EQ(keyframe.origin, motion::KeyframeOrigin::kGiven);
+    }
+  }
+}
+
+// Half of the second keyframe is in a floor, and the floor is nearer than what is above it.
+TEST(Plan, RepairsNoKeyframeIntoASolid) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-20, -1, -20}, {20, 0.02, 20});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.pose.position.y() = 0.5;
+  request.keyframes[1].pose.position.y() = 0.0;
+  request.options.repair_keyframes = true;
+  const PlanResult result = planned(*snapshot, request);
+  EXPECT_EQ(result.status, Status::kOk) << result.message;
+  EXPECT_GT(result.path.pose(2.0).position.y(), 0.02);
 }
 
 TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
@@ -257,6 +277,73 @@ TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
   EXPECT_THAT(plan(*column_scene(), request).message, note);
   request.options.interval_tolerance_m = 1e-5;
   EXPECT_THAT(plan(*column_scene(), request).message, ::testing::Not(note));
+}
+
+TEST(Plan, MeasuresTheClearanceBeforeAndAfter) {
+  PlanRequest request = bulging_tour();
+  const PlanResult corrected = planned(*column_scene(), request);
+  ASSERT_EQ(corrected.status, Status::kOk);
+  EXPECT_EQ(corrected.measures_before->clearance_lower_bound_m, 0.0);
+  EXPECT_GT(corrected.measures->clearance_lower_bound_m, 0.0);
+  EXPECT_EQ(corrected.measures->clearance_lower_bound_m,
+            corrected.certificate.clearance_lower_bound_m);
+  request.keyframes[1].pose.position.x() = 0.0;
+  const PlanResult free = planned(*column_scene(), request);
+  ASSERT_TRUE(free.collisions.empty());
+  EXPECT_GT(free.measures_before->clearance_lower_bound_m, 0.0);
+  EXPECT_EQ(free.measures_before, free.measures);
+}
+
+TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
+  PlanRequest request = bulging_tour();
+  const auto needed = planned(*column_scene(), request).keyframes.size() - 3;
+  ASSERT_GT(needed, 0U);
+  request.options.max_inserted_keyframes = 0;
+  const PlanResult none = planned(*column_scene(), request);
+  EXPECT_EQ(none.status, Status::kPartial);
+  EXPECT_THAT(none.message, ::testing::HasSubstr("options.max_inserted_keyframes is 0"));
+  for (const correction::Correction& correction : none.corrections) {
+    EXPECT_EQ(correction.tried, correction::Effort{});
+  }
+  // Through a door: one keyframe is not enough.
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
+  testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
+  const auto wall = snapshot_of(std::move(mesh));
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  request.options.max_inserted_keyframes = 1;
+  const PlanResult few = planned(*wall, request);
+  EXPECT_EQ(few.status, Status::kPartial);
+  EXPECT_THAT(few.message,
+              ::testing::ContainsRegex("options.max_inserted_keyframes allows 1, .* need [1-9]"));
+}
+
+// The gap is narrower than the near quadrilateral however that turns, and the walls have no end.
+TEST(Plan, SaysHowHardItTried) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-80, -80, -0.05}, {-0.05, 80, 0.05});
+  testing::add_cuboid(mesh, {0.05, -80, -0.05}, {80, 80, 0.05});
+  PlanRequest request = bulging_tour();
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  request.options.orientation.rule = correction::OrientationRule::kKeep;
+  const PlanResult result = planned(*snapshot_of(std::move(mesh)), request);
+  EXPECT_EQ(result.status, Status::kPartial);
+  ASSERT_EQ(result.corrections.size(), 1U);
+  EXPECT_GT(result.corrections[0].tried.directions, 0);
+  EXPECT_GT(result.corrections[0].tried.lattice_points, 1000);
+  EXPECT_EQ(result.corrections[0].tried.tree_samples, 0);
+  EXPECT_THAT(result.message, ::testing::ContainsRegex("tried without success: .*lattice points"));
+}
+
+TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {
+  PlanRequest request = bulging_tour();
+  request.options.method = Method::kKeyframeInsertion;
+  EXPECT_THAT(planned(*column_scene(), request).message,
+              ::testing::Not(::testing::HasSubstr("does not look at")));
+  request.options.orientation.rule = correction::OrientationRule::kKeep;
+  request.options.objective = correction::Objective::kSafest;
+  EXPECT_THAT(planned(*column_scene(), request).message,
+              ::testing::HasSubstr("does not look at options.objective, options.orientation"));
 }
 
 // The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide, and may not turn.
@@ -322,6 +409,9 @@ TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
   EXPECT_EQ(result.status, Status::kTimeout);
   ASSERT_EQ(result.remaining_collisions.size(), 1u);
   EXPECT_EQ(result.remaining_collisions[0], (collision::CollisionInterval{0.0, 4.0}));
+  EXPECT_EQ(
+      result.message,
+      "the deadline came before the path was searched for collisions: nothing is known of it");
 }
 
 TEST(Plan, DerivesTimesAndNormalisesQuaternions) {
