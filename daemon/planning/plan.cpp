@@ -127,7 +127,12 @@ class Planner {
   }
 
   void refuse_keyframes() {
-    const KeyframeFault& first = result_.keyframe_faults.front();
+    const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
+    // Where keyframes were to be repaired, one that could not be is what is wrong.
+    const auto lost = std::ranges::find_if(faults, [&](const KeyframeFault& fault) {
+      return request_.options.repair_keyframes && !fault.free_pose;
+    });
+    const KeyframeFault& first = lost == faults.end() ? faults.front() : *lost;
     const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
     const std::string rule =
         detect_.clearance_m > 0.0
@@ -141,14 +146,14 @@ class Planner {
       const geometry::Vec3& to = first.free_pose->position;
       message +=
           fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
-    } else if (deadline_.passed()) {
-      message += "; the deadline came before a free pose was found";
     } else {
-      message += "; no free pose was found near it";
+      message += lost == faults.end() ? "; " : "; it could not be repaired: ";
+      message += deadline_.passed() ? "the deadline came before a free pose was found"
+                                    : "no free pose was found near it";
     }
-    if (result_.keyframe_faults.size() > 1) {
-      message += fmt::format("; {} keyframes are at fault", result_.keyframe_faults.size());
-    }
+    if (faults.size() > 1) message += fmt::format("; {} keyframes are at fault", faults.size());
+    if (faults.size() >= kMostKeyframeFaults && request_.options.repair_keyframes)
+      message += ", too many to be repaired";
     refuse(std::move(message), first.keyframe);
   }
 
@@ -200,7 +205,11 @@ class Planner {
           Infeasibility{corrected.cage->inside, corrected.cage->outside,
                         std::move(corrected.cage->triangles), corrected.cage->box};
     }
-    if (corrected.inserted_s.empty()) return;
+    // Corrections of less than the tolerance insert no keyframes, and are corrections.
+    const bool any = std::ranges::any_of(result_.corrections, [](const auto& correction) {
+      return correction.rung != correction::Rung::kNone;
+    });
+    if (!any) return;
     is_as_interpolated_ = false;
     corrected_ = std::move(corrected.path);
     result_.path = corrected_->path();

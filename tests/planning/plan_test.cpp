@@ -269,6 +269,43 @@ TEST(Plan, RepairsNoKeyframeIntoASolid) {
   EXPECT_GT(result.path.pose(2.0).position.y(), 0.02);
 }
 
+// The second of three keyframes is inside of so much that nothing free is near it.
+TEST(Plan, SaysWhichKeyframeCouldNotBeRepaired) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-20, -1, -20}, {20, 0.02, 20});
+  PlanRequest request = bulging_tour();
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.pose.position.y() = 0.5;
+  request.keyframes[1].pose.position.y() = 0.0;
+  const geometry::Vec3& last = request.keyframes[2].pose.position;
+  for (int i = -40; i <= 40; ++i) {
+    for (const int axis : {0, 1, 2}) {
+      geometry::Vec3 half = geometry::Vec3::Constant(2.0);
+      half[axis] = 1e-3;
+      geometry::Vec3 center = last;
+      center[axis] += 0.02 * i;
+      testing::add_cuboid(mesh, center - half, center + half);
+    }
+  }
+  request.options.repair_keyframes = true;
+  const PlanResult result = planned(*snapshot_of(std::move(mesh)), request);
+  EXPECT_EQ(result.status, Status::kInvalid);
+  EXPECT_EQ(result.keyframe, 2U);
+  EXPECT_THAT(result.message, ::testing::HasSubstr("keyframes[2]"));
+  EXPECT_THAT(result.message,
+              ::testing::HasSubstr("could not be repaired: no free pose was found near it"));
+}
+
+// What moves the camera by less than the tolerance inserts no keyframe, and counts all the same.
+TEST(Plan, KeepsCorrectionsOfLessThanTheTolerance) {
+  PlanRequest request = bulging_tour();
+  request.options.interval_tolerance_m = 1.0;
+  const PlanResult result = planned(*column_scene(), request);
+  ASSERT_FALSE(result.corrections.empty());
+  const bool is_corrected = result.corrections[0].rung != correction::Rung::kNone;
+  EXPECT_EQ(is_corrected, result.measures->largest_deviation_m > 0.0);
+  EXPECT_EQ(is_corrected, result.status == Status::kOk) << result.message;
+}
+
 TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
   PlanRequest request = bulging_tour();
   const auto note = ::testing::HasSubstr("options.interval_tolerance_m");
