@@ -30,8 +30,8 @@ constexpr double kLimitRounding = 1e-6;
 // How much slower than allowed a path is made, so that its fit need not be perfect.
 constexpr double kSlowerThanAllowed = 1.002;
 
-// Knots to the mean piece of a path, first and last. An answer with more pieces than this (28 MB)
-// is too long for the wire.
+// Knots to the mean piece of a path, first and last, and pieces at most: 27 MB of an answer, which
+// may have 61 on the wire.
 constexpr double kFewestKnots = 4.0;
 constexpr double kMostKnots = 256.0;
 constexpr std::size_t kMostPieces = 80'000;

@@ -414,6 +414,32 @@ TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
       "the deadline came before the path was searched for collisions: nothing is known of it");
 }
 
+TEST(Plan, SaysHowFarItIs) {
+  const auto progress = std::make_shared<collision::Progress>();
+  const PlanResult result = plan(*column_scene(), bulging_tour(),
+                                 collision::Deadline::never().watched({}, progress));
+  ASSERT_FALSE(result.corrections.empty());
+  const auto corrected =
+      std::ranges::count_if(result.corrections, [](const correction::Correction& correction) {
+        return correction.rung != correction::Rung::kNone;
+      });
+  EXPECT_EQ(progress->stage, collision::Progress::Stage::kCertifying);
+  EXPECT_EQ(progress->collisions, static_cast<int>(result.corrections.size()));
+  EXPECT_EQ(progress->corrected, static_cast<int>(corrected));
+}
+
+TEST(Plan, ToldToStopItChecksNothingAnyMore) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto progress = std::make_shared<collision::Progress>();
+  const PlanResult result =
+      plan(*column_scene(), bulging_tour(),
+           collision::Deadline::never().watched(stop.get_token(), progress));
+  EXPECT_EQ(result.status, Status::kTimeout);
+  EXPECT_FALSE(result.certificate.certified);
+  ASSERT_EQ(result.remaining_collisions.size(), 1u);
+}
+
 TEST(Plan, DerivesTimesAndNormalisesQuaternions) {
   PlanRequest request = bulging_tour();
   request.has_times = false;
