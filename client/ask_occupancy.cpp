@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "client/ask_occupancy.h"
+
+#include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "client/occupancy_wire.h"
-#include "client/session.h"
 #include "lcmtypes/wire_check.h"
 
 namespace camway {
@@ -14,50 +17,73 @@ namespace {
 /// The parts of a large batch are asked anew so often when the scene changes between them.
 constexpr int kMaxRestarts = 3;
 
-/// A part's answer, or why there is none.
-struct PartAnswer {
-  std::optional<occupancy_response_t> response;
-  Failure failure{Status::kOk, {}};
-};
-
 std::string explain(const occupancy_response_t& response) {
   const std::string said = response.message.empty() ? "(no reason given)" : response.message;
   return to_string(static_cast<Status>(response.status)) + " (scene \"" + response.scene +
          "\"): " + said;
 }
 
-PartAnswer ask_part(Session& session, const occupancy_request_t& request,
-                    Clock::time_point deadline) {
-  OccupancyCollector collector(request.client_id, request.request_id);
-  std::optional<Failure> refusal;
-  session.receive_occupancy_with([&](std::span<const std::uint8_t> bytes) {
-    if (collector.take(bytes) != OccupancyCollector::Taken::kNew) return;
-    if (collector.response()->status == occupancy_response_t::STATUS_OVERLOADED) {
-      refusal = Failure{Status::kOverloaded, explain(*collector.response())};
-      collector.clear();
-      session.note_life();
-    } else {
-      session.note_news();
+/// A part's answer, or why there is none.
+struct PartAnswer {
+  std::optional<occupancy_response_t> response;
+  Failure failure{Status::kOk, {}};
+};
+
+/// A part of a batch on its way.
+class PartCall final : public Call {
+ public:
+  PartCall(Context& context, const occupancy_request_t& request, Clock::time_point deadline)
+      : Call(Kind::kOccupancy, request.request_id,
+             {{context.channels().occupancy_request(), wire::encode(request)}},
+             context.retry(deadline)),
+        context_(context),
+        collector_(request.client_id, request.request_id) {}
+
+  std::future<PartAnswer> answer() { return promise_.get_future(); }
+
+  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point /*now*/) override {
+    if (collector_.take(bytes) != OccupancyCollector::Taken::kNew) return;
+    retry().note_life();
+    if (collector_.response()->status == occupancy_response_t::STATUS_OVERLOADED) {
+      refusal_ = Failure{Status::kOverloaded, explain(*collector_.response())};
+      collector_.clear();
     }
-  });
-  const auto answered = [&] { return collector.response().has_value(); };
-  const Question question{
-      session.channels().occupancy_request(), {wire::encode(request)}, answered, answered};
-  int tries = 0;
-  const Outcome outcome = session.ask(question, deadline, tries);
-  session.receive_occupancy_with({});
-  if (outcome == Outcome::kAnswered) return {collector.response(), {Status::kOk, {}}};
-  if (refusal && outcome == Outcome::kDeadline) return {std::nullopt, *refusal};
-  return {std::nullopt, session.explain(outcome, {}, collector.fault())};
+  }
+  bool answered() const override { return collector_.response().has_value(); }
+  void finish(Outcome outcome) override {
+    PartAnswer answer{collector_.response(), {Status::kOk, {}}};
+    if (outcome != Outcome::kAnswered) {
+      answer = {std::nullopt,
+                refusal_ && outcome == Outcome::kDeadline
+                    ? *refusal_
+                    : context_.explain(outcome, retry().ever_heard(), {}, collector_.fault())};
+    }
+    promise_.set_value(std::move(answer));
+  }
+
+ private:
+  Context& context_;
+  OccupancyCollector collector_;
+  std::optional<Failure> refusal_;
+  std::promise<PartAnswer> promise_;
+};
+
+PartAnswer ask_part(Context& context, Engine& engine, const occupancy_request_t& request,
+                    Clock::time_point deadline) {
+  const auto call = std::make_shared<PartCall>(context, request, deadline);
+  std::future<PartAnswer> answer = call->answer();
+  engine.start(call);
+  return answer.get();
 }
 
 /// Asks all parts in turn; nothing if the scene changed between them.
-std::optional<OccupancyAnswer> ask_parts(Session& session, std::vector<occupancy_request_t>& parts,
+std::optional<OccupancyAnswer> ask_parts(Context& context, Engine& engine,
+                                         std::vector<occupancy_request_t>& parts,
                                          Clock::time_point deadline) {
   OccupancyAnswer answer;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].request_id = session.new_request_id();
-    const PartAnswer part = ask_part(session, parts[i], deadline);
+    parts[i].request_id = context.new_request_id();
+    const PartAnswer part = ask_part(context, engine, parts[i], deadline);
     if (!part.response) return failed<OccupancyAnswer>(part.failure);
     const occupancy_response_t& response = *part.response;
     if (response.status != occupancy_response_t::STATUS_OK) {
@@ -78,15 +104,15 @@ std::optional<OccupancyAnswer> ask_parts(Session& session, std::vector<occupancy
 
 }  // namespace
 
-OccupancyAnswer ask_occupancy(Session& session, const OccupancyBatch& batch) {
+OccupancyAnswer ask_occupancy(Context& context, Engine& engine, const OccupancyBatch& batch) {
   if (const auto fault = fault_in_form(batch)) {
     return failed<OccupancyAnswer>({Status::kInvalid, *fault});
   }
-  const ClientOptions& options = session.options();
+  const ClientOptions& options = context.options();
   const Clock::time_point deadline = after(options.deadline_s);
   std::vector<occupancy_request_t> parts = to_requests(batch, options.client_id);
   for (int i = 0; i <= kMaxRestarts; ++i) {
-    if (std::optional<OccupancyAnswer> answer = ask_parts(session, parts, deadline)) {
+    if (std::optional<OccupancyAnswer> answer = ask_parts(context, engine, parts, deadline)) {
       return *std::move(answer);
     }
   }

@@ -1,73 +1,111 @@
 // SPDX-License-Identifier: MIT
 #include "camway/client.h"
 
-#include <atomic>
+#include <future>
 #include <utility>
 
-#include "client/session.h"
+#include "client/ask_occupancy.h"
+#include "client/context.h"
+#include "client/engine.h"
+#include "client/plan_call.h"
 
 namespace camway {
 namespace {
 
-/// Marks a client as in a call, for as long as it lives.
-class InCall {
- public:
-  explicit InCall(std::atomic<bool>& busy) : busy_(busy), alone_(!busy.exchange(true)) {}
-  ~InCall() {
-    if (alone_) busy_ = false;
-  }
-  InCall(const InCall&) = delete;
-  InCall& operator=(const InCall&) = delete;
-  /// Whether no other call was running.
-  bool alone() const { return alone_; }
+/// How often progress is told where the request does not say.
+constexpr double kProgressPeriod_s = 0.5;
 
- private:
-  std::atomic<bool>& busy_;
-  bool alone_;
-};
+template <class Answer>
+std::future<Answer> ready(Answer answer) {
+  std::promise<Answer> promise;
+  promise.set_value(std::move(answer));
+  return promise.get_future();
+}
 
 }  // namespace
 
 class Client::Impl {
  public:
-  explicit Impl(ClientOptions options) : session(std::move(options)) {}
-
-  /// Runs `call` unless the client is unusable or in a call.
-  template <class Answer, class Call>
-  Answer guarded(Call call) {
-    const InCall in_call(busy);
-    if (!in_call.alone()) {
-      return failed<Answer>(
-          {Status::kBusy, "this client is in a call on another thread; use one client each"});
-    }
-    if (!session.error().empty()) {
-      return failed<Answer>({session.error_status(), session.error()});
-    }
-    return call();
+  explicit Impl(ClientOptions options) : context(std::move(options)) {
+    error = fault_in(context.options());
+    if (!error.empty()) return;
+    error_status = Status::kNetworkUnusable;
+    error = link.open(context.options().url);
+    context.set_url(link.url());
+    if (error.empty()) engine.emplace(link, context.channels(), context.options().client_id);
   }
 
-  Session session;
-  std::atomic<bool> busy = false;
+  /// Why a call cannot be made, if it cannot.
+  std::optional<Failure> failure() const {
+    if (!error.empty()) return Failure{error_status, error};
+    return std::nullopt;
+  }
+
+  /// The same for a call that waits.
+  std::optional<Failure> failure_to_wait() const {
+    if (engine && engine->is_this_thread()) {
+      return Failure{Status::kBusy,
+                     "a handler of this client must not wait for it; use plan_async there"};
+    }
+    return failure();
+  }
+
+  Context context;
+  Link link;
+  std::string error;
+  Status error_status = Status::kInvalid;
+  std::optional<Engine> engine;  ///< last: its thread uses all else
 };
 
 Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 Client::~Client() = default;
 
-const std::string& Client::error() const { return impl_->session.error(); }
+const std::string& Client::error() const { return impl_->error; }
 
-const std::string& Client::client_id() const { return impl_->session.options().client_id; }
+const std::string& Client::client_id() const { return impl_->context.options().client_id; }
 
 PlanResponse Client::plan(const PlanRequest& request) {
-  return impl_->guarded<PlanResponse>([&] { return ask_plan(impl_->session, request); });
+  if (const auto failure = impl_->failure_to_wait()) return failed<PlanResponse>(*failure);
+  return plan_async(request).answer.get();
+}
+
+PendingPlan Client::plan_async(const PlanRequest& request, PlanHandlers handlers) {
+  std::optional<Failure> failure = impl_->failure();
+  if (!failure) {
+    if (auto fault = fault_in_form(request)) failure = Failure{Status::kInvalid, *fault};
+  }
+  if (failure) {
+    const auto response = failed<PlanResponse>(*failure);
+    if (handlers.on_answer) handlers.on_answer(response);
+    return {0, ready(response)};
+  }
+  PlanRequest sent = request;
+  if (handlers.on_progress && !(sent.progress_period_s > 0.0)) {
+    sent.progress_period_s = kProgressPeriod_s;
+  }
+  const std::int64_t id =
+      request.request_id != 0 ? request.request_id : impl_->context.new_request_id();
+  const auto call = std::make_shared<PlanCall>(impl_->context, sent, id, std::move(handlers));
+  PendingPlan pending{id, call->answer()};
+  impl_->engine->start(call);
+  return pending;
+}
+
+void Client::cancel(std::int64_t request_id) {
+  if (impl_->engine) impl_->engine->cancel(Call::Kind::kPlan, request_id);
 }
 
 OccupancyAnswer Client::occupancy(const OccupancyBatch& batch) {
-  return impl_->guarded<OccupancyAnswer>([&] { return ask_occupancy(impl_->session, batch); });
+  if (const auto failure = impl_->failure_to_wait()) return failed<OccupancyAnswer>(*failure);
+  return ask_occupancy(impl_->context, *impl_->engine, batch);
 }
 
 DaemonStatus Client::status(double timeout_s) {
-  return impl_->guarded<DaemonStatus>(
-      [&] { return impl_->session.next_heartbeat(after(timeout_s)); });
+  if (const auto failure = impl_->failure_to_wait()) return failed<DaemonStatus>(*failure);
+  const std::optional<DaemonStatus> heartbeat =
+      impl_->engine->next_heartbeat(after(timeout_s)).get();
+  if (heartbeat) return *heartbeat;
+  return failed<DaemonStatus>(impl_->context.explain(Outcome::kSilence, false, {}, {}));
 }
 
 }  // namespace camway

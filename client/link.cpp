@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "client/link.h"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <utility>
@@ -16,7 +19,8 @@ namespace {
 /// LCM's usual group and port; ttl 0 keeps traffic on this host unless the user asks otherwise.
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-constexpr int kMostDrained = 10'000;
+/// Bounded, so that somebody who floods the channels cannot keep us here.
+constexpr int kMostHandled = 256;
 
 std::string url_or_default(const std::string& url) {
   if (!url.empty()) return url;
@@ -36,11 +40,20 @@ void pass_on(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/,
 
 }  // namespace
 
-Link::Link() = default;
-Link::~Link() = default;
+Link::Link() {
+  int ends[2];
+  if (::pipe2(ends, O_NONBLOCK | O_CLOEXEC) == 0) wake_ = {ends[0], ends[1]};
+}
+
+Link::~Link() {
+  for (const int end : {wake_.read_end, wake_.write_end}) {
+    if (end >= 0) ::close(end);
+  }
+}
 
 std::string Link::open(const std::string& url) {
   url_ = url_or_default(url);
+  if (wake_.read_end < 0) return "this process has no file descriptors left";
   lcm_ = std::make_unique<lcm::LCM>(url_);
   // getFileno makes the receiving half set itself up and test itself, which is when LCM finds out.
   if (lcm_->good() && lcm_->getFileno() >= 0) return {};
@@ -62,20 +75,33 @@ bool Link::publish(const std::string& channel, const Bytes& bytes) {
 }
 
 Link::Wait Link::wait(Clock::time_point until) {
-  for (;;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
-    const int left_ms = static_cast<int>(std::clamp<long long>(left.count(), 0, 1000));
-    pollfd ready{lcm_->getFileno(), POLLIN, 0};
-    const int count = ::poll(&ready, 1, left_ms);
-    if (count > 0) return lcm_->handle() == 0 ? Wait::kHandled : Wait::kBroken;
-    if (count < 0 && errno != EINTR) return Wait::kBroken;
-    if (Clock::now() >= until) return Wait::kTimeUp;
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+  const int left_ms = static_cast<int>(std::clamp<long long>(left.count(), 0, 1000));
+  // poll leaves out what is negative.
+  std::array<pollfd, 2> inputs{pollfd{wake_.read_end, POLLIN, 0},
+                               pollfd{broken_ ? -1 : lcm_->getFileno(), POLLIN, 0}};
+  const int ready = ::poll(inputs.data(), inputs.size(), left_ms);
+  if (ready < 0 && errno != EINTR) broken_ = true;
+  if ((inputs[0].revents & POLLIN) != 0) clear_wake();
+  if (ready > 0 && inputs[1].revents != 0) {
+    for (int i = 0; i < kMostHandled; ++i) {
+      const int handled = lcm_->handleTimeout(0);
+      if (handled < 0) broken_ = true;
+      if (handled <= 0) break;
+    }
   }
+  if (broken_) return Wait::kBroken;
+  return ready > 0 ? Wait::kSomething : Wait::kTimeUp;
 }
 
-void Link::drain() {
-  // Bounded, so that somebody who floods the channels cannot keep us here.
-  for (int i = 0; i < kMostDrained && wait(Clock::now()) == Wait::kHandled; ++i) {
+void Link::wake() const {
+  // A full pipe wakes as well as one more byte does.
+  [[maybe_unused]] const ssize_t written = ::write(wake_.write_end, "", 1);
+}
+
+void Link::clear_wake() const {
+  std::array<char, 64> bytes;
+  while (::read(wake_.read_end, bytes.data(), bytes.size()) > 0) {
   }
 }
 

@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using Bytes = std::vector<std::uint8_t>;
 
 /// A connection to an LCM network: raw bytes in and out. The only place of the client that sees
-/// LCM. For one thread.
+/// LCM. For one thread, `wake` apart.
 class Link {
  public:
   using Handler = std::function<void(std::span<const std::uint8_t>)>;
@@ -44,15 +44,26 @@ class Link {
   /// Whether the network took the bytes. Precondition: open.
   bool publish(const std::string& channel, const Bytes& bytes);
 
-  enum class Wait { kHandled, kTimeUp, kBroken };
-  /// Handles one message, waiting for it until `until`.
+  enum class Wait { kSomething, kTimeUp, kBroken };
+  /// Waits until a message comes, `wake` is called or `until` passes; handles the messages that are
+  /// here, a bounded number of them. A network that broke stays broken.
   Wait wait(Clock::time_point until);
 
-  /// Handles all that is here already.
-  void drain();
+  /// Ends a wait, or the next one. From any thread.
+  void wake() const;
 
  private:
+  /// Two ends of a pipe.
+  struct Pipe {
+    int read_end = -1;
+    int write_end = -1;
+  };
+
+  void clear_wake() const;
+
   std::string url_;
+  Pipe wake_;
+  bool broken_ = false;
   std::unique_ptr<lcm::LCM> lcm_;
   std::list<Handler> handlers_;  ///< LCM keeps their addresses
 };

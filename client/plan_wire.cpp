@@ -83,6 +83,7 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.method = request.method;
   wire.priority = static_cast<std::int8_t>(request.priority);
   wire.deadline_s = request.deadline_s;
+  wire.progress_period_s = request.progress_period_s;
   wire.chord_error_m = request.chord_error_m;
   wire.interval_tolerance_m = request.interval_tolerance_m;
   wire.clearance_m = request.clearance_m;
@@ -216,6 +217,19 @@ std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& clien
   return encoded;
 }
 
+PlanProgress from_wire(const plan_progress_t& wire) {
+  PlanProgress progress;
+  if (wire.stage >= plan_progress_t::WAITING && wire.stage <= plan_progress_t::CERTIFYING) {
+    progress.stage = static_cast<PlanProgress::Stage>(wire.stage);
+  }
+  progress.requests_ahead = wire.requests_ahead;
+  progress.num_collisions = wire.num_collisions;
+  progress.num_corrected = wire.num_corrected;
+  progress.since_receipt_s = wire.since_receipt_s;
+  progress.deadline_s = wire.deadline_s;
+  return progress;
+}
+
 PlanCollector::PlanCollector(std::string client_id, std::int64_t request_id)
     : client_id_(std::move(client_id)), request_id_(request_id) {}
 
@@ -246,14 +260,22 @@ std::size_t PlanCollector::pages_expected() const {
   return pages_.empty() ? 0 : static_cast<std::size_t>(pages_.begin()->second.num_pages);
 }
 
+std::vector<std::int32_t> PlanCollector::missing() const {
+  std::vector<std::int32_t> missing;
+  for (std::int32_t page = 0; page < static_cast<std::int32_t>(pages_expected()); ++page) {
+    if (pages_.find(page) == pages_.end()) missing.push_back(page);
+  }
+  return missing;
+}
+
 Status PlanCollector::status() const { return static_cast<Status>(pages_.begin()->second.status); }
 
 PlanResponse PlanCollector::response() const {
   PlanResponse response = head_of(pages_.begin()->second);
-  if (pages_.begin()->second.status < 0 ||
-      pages_.begin()->second.status > plan_response_t::STATUS_MALFORMED) {
-    return bad_answer(response,
-                      "status " + std::to_string(pages_.begin()->second.status) + " is unknown");
+  const std::int32_t status = pages_.begin()->second.status;
+  if ((status < 0 || status > plan_response_t::STATUS_MALFORMED) &&
+      status != plan_response_t::STATUS_CANCELLED) {
+    return bad_answer(response, "status " + std::to_string(status) + " is unknown");
   }
   std::vector<Segment> segments;
   const segment_t* previous = nullptr;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <camway/plan_progress_t.hpp>
 #include <camway/plan_response_t.hpp>
 
 #include "camway/plan.h"
@@ -24,6 +25,9 @@ std::optional<std::string> fault_in_form(const PlanRequest& request);
 std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
                             std::int64_t request_id);
 
+/// What the message says. Stages that are unknown here count as waiting.
+PlanProgress from_wire(const plan_progress_t& wire);
+
 /// Puts the pages of the answer to one request together, in whatever order and however often they
 /// come. Pages of another answer to the same request (the daemon was restarted) replace it.
 class PlanCollector {
@@ -38,6 +42,8 @@ class PlanCollector {
   /// How many pages there are, and how many of them came. 0 until the first comes.
   std::size_t pages_expected() const;
   std::size_t pages_here() const { return pages_.size(); }
+  /// The numbers of those that did not come. Precondition: at least one came.
+  std::vector<std::int32_t> missing() const;
   /// What was wrong with the last message that was kBad.
   const std::string& fault() const { return fault_; }
 

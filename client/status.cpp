@@ -25,6 +25,8 @@ std::string to_string(Status status) {
       return "malformed";
     case Status::kNoMap:
       return "no_map";
+    case Status::kCancelled:
+      return "cancelled";
     case Status::kNoDaemon:
       return "no_daemon";
     case Status::kNoAnswer:

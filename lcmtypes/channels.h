@@ -52,6 +52,14 @@ struct Channels {
   [[nodiscard]] std::string plan_response(std::string_view client_id) const {
     return (prefix + "_PLAN_RESPONSE_").append(client_id);
   }
+  [[nodiscard]] std::string plan_progress(std::string_view client_id) const {
+    return (prefix + "_PLAN_PROGRESS_").append(client_id);
+  }
+  [[nodiscard]] std::string cancel() const { return prefix + "_CANCEL"; }
+  [[nodiscard]] std::string missing_pages() const { return prefix + "_MISSING_PAGES"; }
+  [[nodiscard]] std::string missing_pages(std::string_view client_id) const {
+    return (prefix + "_MISSING_PAGES_").append(client_id);
+  }
   [[nodiscard]] std::string occupancy_request() const { return prefix + "_OCCUPANCY_REQUEST"; }
   [[nodiscard]] std::string occupancy_response(std::string_view client_id) const {
     return (prefix + "_OCCUPANCY_RESPONSE_").append(client_id);

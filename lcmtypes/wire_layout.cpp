@@ -3,9 +3,12 @@
 
 #include <array>
 
+#include <camway/cancel_t.hpp>
 #include <camway/error_t.hpp>
+#include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
 #include <camway/occupancy_response_t.hpp>
+#include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 #include <camway/status_t.hpp>
@@ -62,6 +65,7 @@ constexpr std::array kPlanRequest{
     text("method", kMaxMethodBytes),
     fixed("priority", kByte),
     fixed("deadline_s", kDouble),
+    fixed("progress_period_s", kDouble),
     fixed("chord_error_m", kDouble),
     fixed("interval_tolerance_m", kDouble),
     fixed("clearance_m", kDouble),
@@ -115,6 +119,29 @@ constexpr std::array kPlanResponse{
     list("slowed", kSlowedStretch),
     list("keyframe_faults", kKeyframeFault),
     list("proof_triangles", kInt32),
+};
+
+constexpr std::array kCancel{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+};
+
+constexpr std::array kPlanProgress{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("stage", kByte),
+    fixed("counts", 3 * kInt32),
+    fixed("times", 2 * kDouble),
+};
+
+constexpr std::array kMissingPages{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("num_pages", kInt32),
+    list("missing", kInt32),
 };
 
 constexpr std::array kOccupancyRequest{
@@ -175,6 +202,18 @@ Layout layout_of<plan_request_t>() {
 template <>
 Layout layout_of<plan_response_t>() {
   return {"plan_response_t", plan_response_t::getHash(), kPlanResponse};
+}
+template <>
+Layout layout_of<cancel_t>() {
+  return {"cancel_t", cancel_t::getHash(), kCancel};
+}
+template <>
+Layout layout_of<plan_progress_t>() {
+  return {"plan_progress_t", plan_progress_t::getHash(), kPlanProgress};
+}
+template <>
+Layout layout_of<missing_pages_t>() {
+  return {"missing_pages_t", missing_pages_t::getHash(), kMissingPages};
 }
 template <>
 Layout layout_of<occupancy_request_t>() {

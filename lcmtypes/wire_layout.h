@@ -7,9 +7,12 @@
 #include <string_view>
 
 namespace camway {
+class cancel_t;
 class error_t;
+class missing_pages_t;
 class occupancy_request_t;
 class occupancy_response_t;
+class plan_progress_t;
 class plan_request_t;
 class plan_response_t;
 class status_t;
@@ -67,6 +70,12 @@ template <>
 Layout layout_of<plan_request_t>();
 template <>
 Layout layout_of<plan_response_t>();
+template <>
+Layout layout_of<cancel_t>();
+template <>
+Layout layout_of<plan_progress_t>();
+template <>
+Layout layout_of<missing_pages_t>();
 template <>
 Layout layout_of<occupancy_request_t>();
 template <>

@@ -24,10 +24,14 @@ struct ClientOptions {
 
   /// A call ends by then, whatever happens (planning calls: not before the request's own deadline).
   double deadline_s = 60.0;
-  double try_timeout_s = 1.0;  ///< how long a first answer may take before the request is repeated
-  double backoff = 1.5;        ///< each further try waits so many times longer [Limit: >= 1]
+  double try_timeout_s = 0.4;  ///< how long a first answer may take before the request is repeated
+  double backoff = 1.6;        ///< each further try waits so many times longer [Limit: >= 1]
   double max_try_timeout_s = 5.0;  ///< but never longer than this
-  int retries = 4;                 ///< repetitions without a sign of life before the call gives up
+  /// By how much of itself a wait is made shorter or longer at random, so that many clients that
+  /// were refused at once do not come back at once. [Limit: 0 <= value < 1]
+  double jitter = 0.2;
+  std::uint64_t seed = 0;  ///< of that; 0: another one each time
+  int retries = 5;         ///< repetitions without a sign of life before the call gives up
 };
 
 /// A scene that the daemon holds.
@@ -80,12 +84,13 @@ struct DaemonStatus {
 ///       std::cout << t << ' ' << pose.position_m[0] << ' ' << pose.position_m[1] << '\n';
 ///     }
 ///
-/// Calls block and never throw for trouble of network, daemon or planner: the result says how the
-/// call ended. A request whose answer or part of it does not come is sent again, with growing
-/// waits, under the same id, which is harmless: the daemon may die and be started again meanwhile.
+/// Calls never throw for trouble of network, daemon or planner: the result says how the call ended.
+/// A request whose answer does not come is sent again, with growing waits, under the same id, which
+/// is harmless: the daemon may die and be started again meanwhile. Parts of an answer that were
+/// lost are asked for.
 ///
-/// One thread per client: a call on a client that is in a call on another thread returns
-/// `Status::kBusy` at once. Any number of clients may live in a process.
+/// All members may be called from any thread, and many requests may be on their way at a time. A
+/// client has a thread of its own. Any number of clients may live in a process.
 class Client {
  public:
   /// Opens the network. Takes up to ten seconds where multicast does not work, for LCM tests that
@@ -102,8 +107,16 @@ class Client {
   /// What the daemon knows this client by.
   const std::string& client_id() const;
 
-  /// Asks for a path.
+  /// Asks for a path and waits for the answer.
   PlanResponse plan(const PlanRequest& request);
+
+  /// Asks for a path and returns at once. The answer comes in the future, and to the handler if
+  /// there is one; when the client is destroyed before, it says so.
+  PendingPlan plan_async(const PlanRequest& request, PlanHandlers handlers = {});
+
+  /// Calls off a request that was sent by this client. Its answer comes soon: `kCancelled`, or what
+  /// it was if it was ready. Does nothing for other ids, and nothing the second time.
+  void cancel(std::int64_t request_id);
 
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);

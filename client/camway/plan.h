@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +51,9 @@ struct PlanRequest {
 
   std::string method;  ///< "ladder", "keyframe_insertion" or empty
   Priority priority = Priority::kNormal;
+  /// How often the daemon says how far it is, to `PlanHandlers::on_progress`. 0: twice a second if
+  /// there is such a handler, else never. [Limit: at least 0.1 counts]
+  double progress_period_s = 0.0;
   double deadline_s = 0.0;            ///< from the daemon's receipt on, waiting included
   double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
   double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
@@ -67,6 +72,23 @@ struct PlanRequest {
   /// 0: the client picks a new one. Otherwise a number that this client id never used for another
   /// request; the daemon answers the same id with the same answer, without planning again.
   std::int64_t request_id = 0;
+};
+
+/// How far the daemon is with a request.
+struct PlanProgress {
+  enum class Stage {
+    kWaiting = 0,     ///< for a worker
+    kPreparing = 1,   ///< the path through the keyframes is made, and they are checked
+    kDetecting = 2,   ///< its collisions are searched for
+    kCorrecting = 3,  ///< they are corrected
+    kCertifying = 4,  ///< the path is proved as it will be sent
+  };
+  Stage stage = Stage::kWaiting;
+  std::int32_t requests_ahead = 0;  ///< while waiting: about how many are begun before
+  std::int32_t num_collisions = 0;  ///< of the path as interpolated; 0 before they are corrected
+  std::int32_t num_corrected = 0;   ///< of them
+  double since_receipt_s = 0.0;
+  double deadline_s = 0.0;  ///< that holds for the request, from its receipt
 };
 
 /// Where a collision was seen to be deepest.
@@ -134,6 +156,18 @@ struct PlanResponse {
   PlanTiming timing;
   int tries = 0;           ///< how often the request was sent
   double elapsed_s = 0.0;  ///< from the call to its return
+};
+
+/// What a client calls on its own thread: quick things, that do not wait for the client.
+struct PlanHandlers {
+  std::function<void(const PlanProgress&)> on_progress;
+  std::function<void(const PlanResponse&)> on_answer;  ///< once, before `PendingPlan::answer`
+};
+
+/// A request that was sent.
+struct PendingPlan {
+  std::int64_t request_id = 0;  ///< for `Client::cancel`; 0 if the request could not be sent
+  std::future<PlanResponse> answer;
 };
 
 }  // namespace camway

@@ -17,12 +17,13 @@ enum class Status {
   kOverloaded = 7,     ///< the daemon's queue stayed full until the call's deadline
   kMalformed = 8,      ///< the daemon could not read the request: client and daemon do not match
   kNoMap = 9,          ///< the scene was loaded without an occupancy map
+  kCancelled = 10,     ///< as the caller asked
 
   kNoDaemon = 100,         ///< nobody answered, and no daemon was heard
   kNoAnswer = 101,         ///< a daemon was heard, but its answer did not come, or not all of it
   kNetworkUnusable = 102,  ///< LCM cannot be opened or cannot send
   kBadAnswer = 103,        ///< an answer came that makes no sense: client and daemon do not match
-  kBusy = 104,             ///< another thread is in a call on the same client
+  kBusy = 104,             ///< a handler of the client called what waits for the client
 };
 
 /// E.g. "ok", "unknown_scene", "no_daemon"; "unknown" for a number that is none of the above.

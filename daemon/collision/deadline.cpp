@@ -2,6 +2,7 @@
 #include "daemon/collision/deadline.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace camway::collision {
 
@@ -10,26 +11,58 @@ namespace {
 // Longer than any process lives, short enough that no duration arithmetic overflows.
 constexpr double kLongest_s = 1e8;
 
+std::chrono::steady_clock::duration duration_of(double seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(std::clamp(seconds, 0.0, kLongest_s)));
+}
+
 }  // namespace
 
 Deadline::Deadline(Clock::duration budget) : start_(Clock::now()), budget_(budget) {}
 
-Deadline Deadline::after_s(double seconds) {
-  const std::chrono::duration<double> budget(std::clamp(seconds, 0.0, kLongest_s));
-  return Deadline(std::chrono::duration_cast<Clock::duration>(budget));
-}
+Deadline Deadline::after_s(double seconds) { return Deadline(duration_of(seconds)); }
 
 Deadline Deadline::never() { return after_s(kLongest_s); }
 
-bool Deadline::passed() const { return Clock::now() - start_ >= budget_; }
+Deadline Deadline::watched(std::stop_token stop, std::shared_ptr<Progress> progress) const {
+  Deadline watched = *this;
+  watched.stop_ = std::move(stop);
+  watched.progress_ = std::move(progress);
+  return watched;
+}
+
+Deadline Deadline::not_before_s(double seconds) const {
+  Deadline later = *this;
+  later.budget_ = std::max(budget_, Clock::now() - start_ + duration_of(seconds));
+  return later;
+}
+
+Deadline Deadline::share_of_rest(double share) const {
+  Deadline sooner = *this;
+  sooner.budget_ = Clock::now() - start_ + duration_of(share * remaining_s());
+  return sooner;
+}
+
+bool Deadline::passed() const { return stopped() || Clock::now() - start_ >= budget_; }
 
 double Deadline::remaining_s() const {
+  if (stopped()) return 0.0;
   const double left_s = std::chrono::duration<double>(budget_ - (Clock::now() - start_)).count();
   return std::max(left_s, 0.0);
 }
 
 double Deadline::elapsed_ms() const {
   return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+}
+
+void Deadline::report(Progress::Stage stage) const {
+  if (progress_) progress_->stage = stage;
+}
+
+void Deadline::report_collisions(std::size_t found, std::size_t corrected) const {
+  if (!progress_) return;
+  progress_->collisions = static_cast<int>(found);
+  progress_->corrected = static_cast<int>(corrected);
 }
 
 }  // namespace camway::collision

@@ -2,11 +2,16 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
+#include <stop_token>
+
+#include "daemon/collision/progress.h"
 
 namespace camway::collision {
 
-/// The only clock that planning sees: how long it has run, and whether it must stop. A value type.
-/// An answer depends on it only if it strikes.
+/// The only clock that planning sees: how long it has run, and whether it must stop, because time
+/// is up or because nobody wants the result any more. A value type. An answer depends on it only if
+/// it strikes.
 class Deadline {
  public:
   /// Strikes `seconds` from now. [Limit: 0 <= value]
@@ -15,13 +20,29 @@ class Deadline {
   /// Never strikes.
   static Deadline never();
 
+  /// The same, that strikes as well when `stop` is requested, and hands on what planning reports.
+  [[nodiscard]] Deadline watched(std::stop_token stop, std::shared_ptr<Progress> progress) const;
+
+  /// The same, but not before `seconds` from now, unless it is told to stop.
+  [[nodiscard]] Deadline not_before_s(double seconds) const;
+
+  /// The same, that strikes when `share` of what is left is over. [Limit: 0 <= value <= 1]
+  [[nodiscard]] Deadline share_of_rest(double share) const;
+
   [[nodiscard]] bool passed() const;
+
+  /// Whether somebody asked to stop, whatever the time.
+  [[nodiscard]] bool stopped() const { return stop_.stop_requested(); }
 
   /// What is left, 0 once it has passed.
   [[nodiscard]] double remaining_s() const;
 
   /// Milliseconds since it was made.
   [[nodiscard]] double elapsed_ms() const;
+
+  /// For whoever watches, if anybody does.
+  void report(Progress::Stage stage) const;
+  void report_collisions(std::size_t found, std::size_t corrected) const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -30,6 +51,8 @@ class Deadline {
 
   Clock::time_point start_;
   Clock::duration budget_;
+  std::stop_token stop_;
+  std::shared_ptr<Progress> progress_;
 };
 
 }  // namespace camway::collision

@@ -316,7 +316,13 @@ class Ladder {
     }
     correction.t_begin_s = std::max(correction.t_begin_s, original_.begin_s());
     correction.t_end_s = std::min(correction.t_end_s, original_.end_s());
+    report();
     return true;
+  }
+
+  void report() const {
+    const auto open = std::ranges::count(result_.corrections, Rung::kNone, &Correction::rung);
+    deadline_.report_collisions(open_.size(), open_.size() - static_cast<std::size_t>(open));
   }
 
   // Puts the candidate into the path, unless it would need more keyframes than allowed.

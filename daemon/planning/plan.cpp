@@ -89,6 +89,7 @@ class Planner {
  private:
   // Motion through the keyframes; false if the request cannot be planned.
   bool prepare() {
+    deadline_.report(collision::Progress::Stage::kPreparing);
     if (std::optional<InvalidRequest> fault = validate(request_)) {
       refuse(std::move(fault->message), fault->keyframe);
       return false;
@@ -159,8 +160,10 @@ class Planner {
 
   // Whether the path as interpolated collides, and where. Nothing if the deadline struck.
   std::optional<std::vector<CollisionInterval>> find_collisions() {
+    deadline_.report(collision::Progress::Stage::kDetecting);
     std::optional<std::vector<CollisionInterval>> found = detect();
     if (found) result_.collisions = *found;
+    deadline_.report_collisions(result_.collisions.size(), 0);
     result_.timing.detect_ms = lap_ms();
     return found;
   }
@@ -173,6 +176,7 @@ class Planner {
       return;
     }
     if (found->empty()) return;
+    deadline_.report(collision::Progress::Stage::kCorrecting);
     if (request_.options.method == Method::kLadder) {
       correct_by_ladder(*found);
     } else if (body_->is_camera()) {
@@ -237,8 +241,8 @@ class Planner {
   // time: an answer without it would be worth nothing.
   void certify() {
     if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
-    const Deadline budget =
-        Deadline::after_s(std::max(kFinalCheckBudget_s, deadline_.remaining_s()));
+    deadline_.report(collision::Progress::Stage::kCertifying);
+    const Deadline budget = deadline_.not_before_s(kFinalCheckBudget_s);
     PathCheck check = final_check(budget);
     if (check.complete) {
       result_.remaining_collisions = std::move(check.collisions);

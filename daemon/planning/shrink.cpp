@@ -21,11 +21,7 @@ using correction::Rung;
 constexpr double kStep = 0.85;       // from one scale to the next
 constexpr double kFirstShare = 0.5;  // of the deadline, for the camera as it is; then for the least
 
-Deadline share_of(const Deadline& deadline, double share) {
-  return Deadline::after_s(share * deadline.remaining_s());
-}
-
-/// From the largest to the least.
+/// From the largest to the least. [Limit: max_shrink < 1]
 std::vector<double> scales(double max_shrink) {
   const double least = 1.0 - max_shrink;
   std::vector<double> scales;
@@ -37,17 +33,16 @@ std::vector<double> scales(double max_shrink) {
 class Shrinking {
  public:
   Shrinking(const PlanRequest& request, const Deadline& deadline, const PlanAtSize& plan_at_size)
-      : request_(request),
-        deadline_(deadline),
-        plan_at_size_(plan_at_size),
-        scales_(scales(request.options.max_shrink)) {}
+      : request_(request), deadline_(deadline), plan_at_size_(plan_at_size) {}
 
   PlanResult run() {
-    PlanResult full = plan_at_size_(request_, share_of(deadline_, kFirstShare));
+    PlanResult full = plan_at_size_(request_, deadline_.share_of_rest(kFirstShare));
     const bool is_open = full.status == Status::kPartial || full.status == Status::kTimeout;
     if (!is_open || full.remaining_collisions.empty()) return full;
     const double begun_ms = deadline_.elapsed_ms();
     cut_off_ = full.status == Status::kTimeout;
+    // Not before: it may be that the first plan found the request invalid, and this with it.
+    scales_ = scales(request_.options.max_shrink);
     search();
     PlanResult result = best_ ? answer(std::move(full)) : refusal(std::move(full));
     const double took_ms = deadline_.elapsed_ms() - begun_ms;
@@ -83,7 +78,7 @@ class Shrinking {
     }
     PlanRequest smaller = request_;
     smaller.camera.near_m *= scales_[index];
-    PlanResult result = plan_at_size_(smaller, share_of(deadline_, share));
+    PlanResult result = plan_at_size_(smaller, deadline_.share_of_rest(share));
     tried_.push_back(scales_[index]);
     if (result.status == Status::kTimeout) cut_off_ = true;
     if (result.status != Status::kOk) return false;
@@ -129,7 +124,7 @@ class Shrinking {
   const PlanRequest& request_;
   const Deadline& deadline_;
   const PlanAtSize& plan_at_size_;
-  const std::vector<double> scales_;
+  std::vector<double> scales_;
   std::vector<double> tried_;
   std::optional<PlanResult> best_;
   bool cut_off_ = false;

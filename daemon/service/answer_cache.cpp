@@ -40,6 +40,13 @@ AnswerCache::Found AnswerCache::find_or_begin(const RequestKey& key, const Reque
   return {Known::kAnswered, entry.pages};
 }
 
+Pages AnswerCache::find(const RequestKey& key) {
+  const auto position = entries_.find(key);
+  if (position == entries_.end() || !position->second.pages) return nullptr;
+  by_age_.splice(by_age_.end(), by_age_, position->second.age);
+  return position->second.pages;
+}
+
 void AnswerCache::finish(const RequestKey& key, Pages pages) {
   const auto position = entries_.find(key);
   if (position == entries_.end() || position->second.pages) return;

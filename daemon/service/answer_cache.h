@@ -59,6 +59,9 @@ class AnswerCache {
 
   Found find_or_begin(const RequestKey& key, const RequestDigest& digest);
 
+  /// The answer under these ids, whatever was asked; null if there is none.
+  [[nodiscard]] Pages find(const RequestKey& key);
+
   /// Keeps the answer to a request that was being planned; the answers that were longest not asked
   /// for make room.
   void finish(const RequestKey& key, Pages pages);

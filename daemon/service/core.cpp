@@ -49,6 +49,7 @@ std::string Core::refusal_text(Refusal why) const {
       return "the daemon is stopping";
     case Refusal::kQueueFull:
     case Refusal::kExpired:
+    case Refusal::kCancelled:
       break;
   }
   return fmt::format("all {} workers are busy and {} requests wait; send it again later",

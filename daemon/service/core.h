@@ -56,7 +56,7 @@ struct Core {
   /// Abandons what waited for too long.
   void expire_jobs();
 
-  /// For whoever asked for a job that is refused. Not for `Refusal::kExpired`.
+  /// For whoever asked for a job that is refused for want of room or time to live.
   [[nodiscard]] std::string refusal_text(Refusal why) const;
 
   /// Counts and logs a message that could not be read.

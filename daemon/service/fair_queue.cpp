@@ -93,7 +93,39 @@ std::vector<Job> FairQueue::take_expired(Clock::time_point now) {
   return expired;
 }
 
+std::optional<Job> FairQueue::take(const std::string& client, std::int64_t id) {
+  const Clients::iterator position = clients_.find(client);
+  if (position == clients_.end()) return std::nullopt;
+  auto& waiting = position->second.waiting;
+  const auto found =
+      std::ranges::find_if(waiting, [id](const auto& place) { return place.second.job.id == id; });
+  if (found == waiting.end()) return std::nullopt;
+  unlink(position);
+  Job job = take(position, found);
+  link(position);
+  return job;
+}
+
 std::vector<Job> FairQueue::take_all() { return take_expired(Clock::time_point::max()); }
+
+std::optional<std::size_t> FairQueue::ahead_of(const std::string& client, std::int64_t id) const {
+  const auto own = clients_.find(client);
+  if (own == clients_.end()) return std::nullopt;
+  const auto& waiting = own->second.waiting;
+  const auto found =
+      std::ranges::find_if(waiting, [id](const auto& place) { return place.second.job.id == id; });
+  if (found == waiting.end()) return std::nullopt;
+  // Every other client has one turn for each of this one's.
+  const auto before = static_cast<std::size_t>(std::distance(waiting.begin(), found));
+  std::size_t ahead = before;
+  for (const auto& [name, other] : clients_) {
+    if (name == client) continue;
+    const bool is_first =
+        std::tie(other.used_s, other.turn) < std::tie(own->second.used_s, own->second.turn);
+    ahead += std::min(other.waiting.size(), before + (is_first ? 1 : 0));
+  }
+  return ahead;
+}
 
 FairQueue::Clock::time_point FairQueue::next_expiry() const {
   return empty() ? Clock::time_point::max() : expiries_.begin()->first;

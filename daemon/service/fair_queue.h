@@ -22,6 +22,7 @@ enum class Refusal {
   kQueueFull,   ///< as many wait as may, and this client has its part of them
   kClientFull,  ///< as many of this client wait as may
   kExpired,     ///< its deadline passed while it waited
+  kCancelled,   ///< it is not wanted any more
   kStopping,    ///< no more jobs are begun
 };
 
@@ -32,6 +33,7 @@ struct Job {
   std::function<void()> run;             ///< by a worker; must not throw
   std::function<void(Refusal)> abandon;  ///< instead of `run`, by whoever took it out of the queue
   std::string client;                    ///< whom its time is charged to
+  std::optional<std::int64_t> id = {};   ///< among the jobs of the client, to find it again
   Priority priority = Priority::kNormal;
   Clock::time_point expires = Clock::time_point::max();  ///< not worth running from then on
 };
@@ -71,11 +73,17 @@ class FairQueue {
 
   /// Takes out the jobs that have expired by `now`.
   std::vector<Job> take_expired(Clock::time_point now);
+  /// Takes out that job, if it waits.
+  std::optional<Job> take(const std::string& client, std::int64_t id);
   /// Takes out all jobs.
   std::vector<Job> take_all();
 
   [[nodiscard]] bool empty() const { return expiries_.empty(); }
   [[nodiscard]] std::size_t size() const { return expiries_.size(); }
+  /// About how many jobs are begun before that one, which waits: exactly, if all take the same time
+  /// and no more come. Nothing if it does not wait.
+  [[nodiscard]] std::optional<std::size_t> ahead_of(const std::string& client,
+                                                    std::int64_t id) const;
   /// When the next job expires; the end of time if none does.
   [[nodiscard]] Clock::time_point next_expiry() const;
 

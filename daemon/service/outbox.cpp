@@ -6,11 +6,11 @@
 
 namespace camway::service {
 
-bool Outbox::add(std::string channel, Pages pages) {
+bool Outbox::add(std::string channel, Pages pages, std::vector<std::size_t> which) {
   const bool waits = std::any_of(answers_.begin(), answers_.end(),
                                  [&](const Answer& answer) { return answer.pages == pages; });
   if (waits || answers_.size() >= kCapacity) return false;
-  answers_.push_back({std::move(channel), std::move(pages), 0});
+  answers_.push_back({std::move(channel), std::move(pages), std::move(which), 0});
   return true;
 }
 
@@ -18,11 +18,12 @@ void Outbox::send_burst() {
   std::size_t room = kBurstBytes;
   for (int sent = 0; sent < kBurstMessages && !answers_.empty(); ++sent) {
     Answer& answer = answers_.front();
-    const Bytes& page = (*answer.pages)[answer.next];
+    const bool all = answer.which.empty();
+    const Bytes& page = (*answer.pages)[all ? answer.next : answer.which[answer.next]];
     if (page.size() > room) return;
     room -= page.size();
     if (!transport_.publish(answer.channel, page)) ++failed_;
-    if (++answer.next == answer.pages->size()) answers_.pop_front();
+    if (++answer.next == (all ? answer.pages->size() : answer.which.size())) answers_.pop_front();
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/transport.h"
@@ -27,8 +28,10 @@ class Outbox {
 
   explicit Outbox(Transport& transport) : transport_(transport) {}
 
-  /// Queues an answer. False if it is full, or if this very answer is still waiting to be sent.
-  bool add(std::string channel, Pages pages);
+  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. False if it
+  /// is full, or if this very answer is still waiting to be sent.
+  /// Precondition: `which` counts pages that there are.
+  bool add(std::string channel, Pages pages, std::vector<std::size_t> which = {});
 
   /// Sends the next burst.
   void send_burst();
@@ -42,7 +45,8 @@ class Outbox {
   struct Answer {
     std::string channel;
     Pages pages;
-    std::size_t next = 0;
+    std::vector<std::size_t> which;
+    std::size_t next = 0;  ///< in `which`, or in `pages` if that is empty
   };
 
   Transport& transport_;

@@ -3,26 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <exception>
-#include <utility>
+#include <set>
 
-#include "daemon/planning/witness.h"
-#include "daemon/scene/import_warnings.h"
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
+#include <camway/plan_progress_t.hpp>
+
+#include "daemon/service/plan_answer.h"
 
 namespace camway::service {
 namespace {
-
-AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
-  AnswerHeader header;
-  header.ids = {request.client_id, request.request_id, utime_now()};
-  header.scene = request.scene;
-  if (snapshot != nullptr) {
-    header.scene_revision = static_cast<std::int64_t>(snapshot->revision);
-    header.scene_digest = snapshot->digest;
-  }
-  return header;
-}
 
 /// Numbers that are none are refused once the request's turn comes.
 double deadline_in_queue_s(double wire_s, const DeadlineLimits& limits) {
@@ -35,55 +27,8 @@ Priority priority_of(const plan_request_t& request) {
   return request.priority > 0 ? Priority::kHigh : Priority::kNormal;
 }
 
-/// What an answer does not hold for, where it is read: behind its message.
-void append_warnings(const scene::ImportReport& report, const planning::PlanOptions& options,
-                     planning::PlanResult& result) {
-  if (result.status == planning::Status::kInvalid) return;
-  const double resolution_m =
-      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m);
-  for (const std::string& warning : scene::import_warnings(report, resolution_m)) {
-    result.message += "; warning: " + warning;
-  }
-}
-
-/// The answer of `planner`, whatever happens.
-plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                          const plan_request_t& wire, const DeadlineLimits& limits,
-                          const collision::Deadline& deadline) {
-  std::string error;
-  try {
-    const ConvertedRequest converted = from_wire(wire, limits);
-    if (!converted.request) {
-      return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
-                          header_of(wire, &snapshot));
-    }
-    planning::PlanResult result = planner(snapshot, *converted.request, deadline);
-    planning::name_witnesses(snapshot.mesh, *converted.request, result);
-    append_warnings(snapshot.report, converted.request->options, result);
-    return to_wire(result, header_of(wire, &snapshot));
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  } catch (...) {
-    error = "unknown exception";
-  }
-  return plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
-                      header_of(wire, &snapshot));
-}
-
-/// Encodes `answer`, or in its place an answer that says that it is too long.
-Pages encode_answer(plan_response_t& answer) {
-  const std::size_t pages = count_pages(answer);
-  if (pages > static_cast<std::size_t>(wire::kMaxResponsePages)) {
-    const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
-                              answer.scene,
-                              answer.scene_revision,
-                              answer.scene_digest};
-    answer = plain_answer(plan_response_t::STATUS_INTERNAL_ERROR,
-                          fmt::format("the answer takes {} pages, more than the {} allowed", pages,
-                                      wire::kMaxResponsePages),
-                          header);
-  }
-  return std::make_shared<const std::vector<Bytes>>(encode_pages(answer));
+Pages one_page(Bytes bytes) {
+  return std::make_shared<const std::vector<Bytes>>(1, std::move(bytes));
 }
 
 }  // namespace
@@ -97,30 +42,30 @@ struct PlanService::Pending {
   collision::Deadline deadline;
 };
 
-void PlanService::on_message(std::span<const std::uint8_t> message) {
-  wire::Decoded<plan_request_t> decoded = wire::decode<plan_request_t>(message);
+template <class Message>
+std::optional<Message> PlanService::read(const std::string& channel,
+                                         std::span<const std::uint8_t> message) {
+  wire::Decoded<Message> decoded = wire::decode<Message>(message);
   if (!decoded.message) {
-    on_malformed(message, decoded.fault.text("plan_request_t"));
-    return;
+    on_malformed<Message>(channel, message, decoded.fault.text(Message::getTypeName()));
+    return std::nullopt;
   }
   if (!wire::is_client_id(decoded.message->client_id)) {
-    on_malformed(message, "plan_request_t.client_id: is not of [A-Za-z0-9_-]{1,32}");
-    return;
+    on_malformed<Message>(
+        channel, message,
+        std::string(Message::getTypeName()) + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
+    return std::nullopt;
   }
-  // No scene or method of ours has a name with control characters, so nothing is lost.
-  decoded.message->scene = wire::printable(decoded.message->scene);
-  decoded.message->method = wire::printable(decoded.message->method);
-  PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*decoded.message));
-  if (!outcome.error.empty()) on_malformed(message, "plan_request_t." + outcome.error);
-  if (outcome.whole) on_request(std::move(*outcome.whole));
+  return std::move(decoded.message);
 }
 
-void PlanService::on_malformed(std::span<const std::uint8_t> message, std::string_view reason) {
-  core_.note_malformed(core_.channels.plan_request(), message.size(), reason);
-  const std::optional<wire::Sender> sender =
-      wire::peek_sender(wire::layout_of<plan_request_t>(), message);
+template <class Message>
+void PlanService::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                               std::string_view reason) {
+  core_.note_malformed(channel, message.size(), reason);
+  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
   if (!sender) {
-    core_.report_unanswerable(core_.channels.plan_request(), message, reason);
+    core_.report_unanswerable(channel, message, reason);
     return;
   }
   plan_request_t request{};
@@ -129,7 +74,80 @@ void PlanService::on_malformed(std::span<const std::uint8_t> message, std::strin
   answer_uncached(request, plan_response_t::STATUS_MALFORMED, reason);
 }
 
-void PlanService::on_request(plan_request_t request) {
+void PlanService::on_request(std::span<const std::uint8_t> message) {
+  const std::string channel = core_.channels.plan_request();
+  std::optional<plan_request_t> page = read<plan_request_t>(channel, message);
+  if (!page) return;
+  // No scene or method of ours has a name with control characters, so nothing is lost.
+  page->scene = wire::printable(page->scene);
+  page->method = wire::printable(page->method);
+  PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
+  if (!outcome.error.empty()) {
+    on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error);
+  }
+  if (outcome.whole) take(std::move(*outcome.whole));
+}
+
+void PlanService::on_cancel(std::span<const std::uint8_t> message) {
+  const std::optional<cancel_t> cancel = read<cancel_t>(core_.channels.cancel(), message);
+  if (!cancel) return;
+  const RequestKey key{cancel->client_id, cancel->request_id};
+  if (in_flight_.cancel(key)) {
+    // One that is being planned ends by itself.
+    if (const std::optional<Job> waiting = core_.workers.take(key.client_id, key.request_id)) {
+      waiting->abandon(Refusal::kCancelled);
+    }
+  } else if (Pages answer = cache_.find(key)) {
+    send(key, std::move(answer));
+  } else {
+    plan_request_t unknown{};
+    unknown.client_id = key.client_id;
+    unknown.request_id = key.request_id;
+    answer_uncached(unknown, plan_response_t::STATUS_CANCELLED, "the daemon knows no such request");
+  }
+}
+
+void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
+  const auto asked = read<missing_pages_t>(core_.channels.missing_pages(), message);
+  if (!asked) return;
+  const RequestKey key{asked->client_id, asked->request_id};
+  Pages answer = cache_.find(key);
+  if (!answer) return;
+  std::set<std::size_t> which;
+  for (const std::int32_t page : asked->missing) {
+    if (page >= 0 && static_cast<std::size_t>(page) < answer->size()) {
+      which.insert(static_cast<std::size_t>(page));
+    }
+  }
+  if (which.empty()) return;
+  core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(answer),
+                   {which.begin(), which.end()});
+}
+
+void PlanService::tick(Clock::time_point now) {
+  for (plan_progress_t& progress : in_flight_.take_due(now)) {
+    const auto ahead = core_.workers.ahead_of(progress.client_id, progress.request_id);
+    progress.requests_ahead = static_cast<std::int32_t>(ahead.value_or(0));
+    core_.outbox.add(core_.channels.plan_progress(progress.client_id),
+                     one_page(wire::encode(progress)));
+  }
+  for (PageAssembly<plan_request_t>::Gap& gap : pages_.take_gaps(now)) {
+    missing_pages_t question{};
+    question.client_id = gap.client_id;
+    question.request_id = gap.request_id;
+    question.utime = utime_now();
+    question.num_pages = gap.num_pages;
+    question.num_missing = static_cast<std::int32_t>(gap.missing.size());
+    question.missing = std::move(gap.missing);
+    core_.outbox.add(core_.channels.missing_pages(gap.client_id), one_page(wire::encode(question)));
+  }
+}
+
+PlanService::Clock::time_point PlanService::next_tick() const {
+  return std::min(in_flight_.next_due(), pages_.next_gap());
+}
+
+void PlanService::take(plan_request_t request) {
   const RequestKey key{request.client_id, request.request_id};
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
   switch (found.known) {
@@ -156,7 +174,7 @@ void PlanService::on_request(plan_request_t request) {
 void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
   const double deadline_s = deadline_in_queue_s(request->deadline_s, core_.config.deadline);
   const Pending pending{key, request, core_.scenes.find(request->scene), deadline_s,
-                        collision::Deadline::after_s(deadline_s)};
+                        in_flight_.begin(key, deadline_s, request->progress_period_s)};
   if (!pending.snapshot) {
     const std::string message =
         fmt::format("scene: '{}' is unknown; {}", request->scene, core_.scenes.summary());
@@ -167,6 +185,7 @@ void PlanService::begin(std::shared_ptr<const plan_request_t> request, const Req
   job.run = [this, pending] { run(pending); };
   job.abandon = [this, pending](Refusal why) { abandon(pending, why); };
   job.client = key.client_id;
+  job.id = key.request_id;
   job.priority = priority_of(*request);
   job.expires =
       Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
@@ -177,14 +196,19 @@ void PlanService::begin(std::shared_ptr<const plan_request_t> request, const Req
 // On a worker: touches nothing of the service but the planner and what is made for many threads.
 void PlanService::run(const Pending& pending) {
   if (pending.deadline.passed()) {
-    core_.mailbox.post([this, pending] { abandon(pending, Refusal::kExpired); });
+    const Refusal why = pending.deadline.stopped() ? Refusal::kCancelled : Refusal::kExpired;
+    core_.mailbox.post([this, pending, why] { abandon(pending, why); });
     return;
   }
   auto answer = std::make_shared<plan_response_t>(answer_of(
       planner_, *pending.snapshot, *pending.request, core_.config.deadline, pending.deadline));
   Pages pages = encode_answer(*answer);
   core_.mailbox.post([this, pending, answer = std::move(answer), pages = std::move(pages)] {
-    finish(pending, *answer, pages);
+    if (in_flight_.cancelled(pending.key)) {
+      abandon(pending, Refusal::kCancelled);
+    } else {
+      finish(pending, *answer, pages);
+    }
   });
 }
 
@@ -196,6 +220,7 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
       status_name(answer.status), pending.request->keyframes.size(), answer.segments.size(),
       answer.collisions.size(), answer.remaining.size(), pages->size(), answer.total_ms,
       pending.deadline.elapsed_ms(), answer.message);
+  in_flight_.end(pending.key);
   cache_.finish(pending.key, pages);
   send(pending.key, std::move(pages));
 }
@@ -216,6 +241,11 @@ void PlanService::abandon(const Pending& pending, Refusal why) {
                                pending.deadline_s));
     return;
   }
+  if (why == Refusal::kCancelled) {
+    finish_plainly(pending, plan_response_t::STATUS_CANCELLED, "cancelled by its client");
+    return;
+  }
+  in_flight_.end(pending.key);
   cache_.forget(pending.key);
   ++core_.counters.overloaded;
   const std::string message = core_.refusal_text(why);

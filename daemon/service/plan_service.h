@@ -2,10 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "daemon/service/core.h"
+#include "daemon/service/in_flight.h"
 
 namespace camway::service {
 
@@ -18,20 +22,34 @@ namespace camway::service {
 /// conflicts, whose ids belong to another request.
 class PlanService {
  public:
+  using Clock = std::chrono::steady_clock;
+
   PlanService(Core& core, Planner planner)
       : core_(core),
         planner_(std::move(planner)),
         pages_(core.config.assembly),
         cache_(core.config.cache) {}
 
-  /// A message on the plan request channel. Throws only for want of memory.
-  void on_message(std::span<const std::uint8_t> message);
+  // Messages on the channels for plan requests, for calling them off, for pages of answers that did
+  // not come. They throw only for want of memory.
+  void on_request(std::span<const std::uint8_t> message);
+  void on_cancel(std::span<const std::uint8_t> message);
+  void on_missing_pages(std::span<const std::uint8_t> message);
+
+  /// Sends what is due by now: how far planning is, and questions for pages of requests.
+  void tick(Clock::time_point now);
+  /// When `tick` has something to do next; the end of time if never.
+  [[nodiscard]] Clock::time_point next_tick() const;
 
  private:
   struct Pending;
 
-  void on_malformed(std::span<const std::uint8_t> message, std::string_view reason);
-  void on_request(plan_request_t request);
+  template <class Message>
+  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
+  template <class Message>
+  void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                    std::string_view reason);
+  void take(plan_request_t request);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
   void run(const Pending& pending);
   void finish(const Pending& pending, const plan_response_t& answer, Pages pages);
@@ -45,6 +63,7 @@ class PlanService {
   Planner planner_;
   PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;
+  InFlight in_flight_;
 };
 
 }  // namespace camway::service

@@ -50,27 +50,27 @@ void Service::request_stop() noexcept {
 }
 
 bool Service::subscribe() {
-  const std::string plan = core_.channels.plan_request();
-  const std::string occupancy = core_.channels.occupancy_request();
-  const int capacity = core_.config.subscription_capacity;
-  return transport_.subscribe(
-             plan, capacity,
-             guarded([this](std::span<const std::uint8_t> m) { plans_.on_message(m); }, plan)) &&
-         transport_.subscribe(
-             occupancy, capacity,
-             guarded([this](std::span<const std::uint8_t> m) { occupancy_.on_message(m); },
-                     occupancy));
+  const auto to = [this](const std::string& channel, auto& service, auto handler) {
+    const auto handle = [&service, handler](std::span<const std::uint8_t> message) {
+      (service.*handler)(message);
+    };
+    return transport_.subscribe(channel, core_.config.subscription_capacity,
+                                guarded(handle, channel));
+  };
+  return to(core_.channels.plan_request(), plans_, &PlanService::on_request) &&
+         to(core_.channels.cancel(), plans_, &PlanService::on_cancel) &&
+         to(core_.channels.missing_pages(), plans_, &PlanService::on_missing_pages) &&
+         to(core_.channels.occupancy_request(), occupancy_, &OccupancyService::on_message);
 }
 
 // One round: finished answers go out, messages come in.
 void Service::turn(Clock::duration longest_wait) {
   core_.mailbox.run_all();
   core_.expire_jobs();
+  plans_.tick(Clock::now());
   core_.outbox.send_burst();
-  const Clock::time_point next_expiry = core_.workers.next_expiry();
-  if (next_expiry != Clock::time_point::max()) {
-    longest_wait = std::min(longest_wait, next_expiry - Clock::now());
-  }
+  const Clock::time_point next = std::min(core_.workers.next_expiry(), plans_.next_tick());
+  if (next != Clock::time_point::max()) longest_wait = std::min(longest_wait, next - Clock::now());
   std::chrono::milliseconds wait = in_milliseconds(longest_wait);
   if (!core_.outbox.empty()) wait = std::min(wait, Outbox::kPause);
   if (!transport_.poll(wait)) broken_ = true;

@@ -177,7 +177,8 @@ std::size_t count_pages(const plan_response_t& whole) {
 }
 
 template <class Message>
-typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page) {
+typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
+                                                                   Clock::time_point now) {
   if (std::string fault = page_fault(page); !fault.empty()) return {std::nullopt, fault};
   if (page.num_pages == 1) return {std::move(page), {}};
 
@@ -190,6 +191,8 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page)
     --position->missing;
     place = std::move(page);
   }
+  position->gap_at = now + kGap;
+  position->asked = 0;
   if (position->missing == 0) {
     Partial complete = std::move(*position);
     bytes_ -= complete.bytes;
@@ -219,8 +222,39 @@ typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(co
   }
   const auto num_pages = static_cast<std::size_t>(page.num_pages);
   partial_.push_back(
-      {std::move(header), std::vector<std::optional<Message>>(num_pages), num_pages, 0});
+      {std::move(header), std::vector<std::optional<Message>>(num_pages), num_pages, 0, {}, 0});
   return std::prev(partial_.end());
+}
+
+template <class Message>
+std::vector<typename PageAssembly<Message>::Gap> PageAssembly<Message>::take_gaps(
+    Clock::time_point now) {
+  std::vector<Gap> gaps;
+  for (Partial& partial : partial_) {
+    if (partial.gap_at > now) continue;
+    ++partial.asked;
+    partial.gap_at =
+        partial.asked < kMostAsked ? now + kGap * (1 << partial.asked) : Clock::time_point::max();
+    Gap gap;
+    for (std::size_t i = 0; i < partial.pages.size(); ++i) {
+      if (!partial.pages[i]) {
+        gap.missing.push_back(static_cast<std::int32_t>(i));
+        continue;
+      }
+      gap.client_id = partial.pages[i]->client_id;
+      gap.request_id = partial.pages[i]->request_id;
+    }
+    gap.num_pages = static_cast<std::int32_t>(partial.pages.size());
+    gaps.push_back(std::move(gap));
+  }
+  return gaps;
+}
+
+template <class Message>
+typename PageAssembly<Message>::Clock::time_point PageAssembly<Message>::next_gap() const {
+  Clock::time_point next = Clock::time_point::max();
+  for (const Partial& partial : partial_) next = std::min(next, partial.gap_at);
+  return next;
 }
 
 template <class Message>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <list>
@@ -34,6 +35,13 @@ std::size_t count_pages(const plan_response_t& whole);
 template <class Message>
 class PageAssembly {
  public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Pages are sent back to back: after so long a time without one, what is missing was lost.
+  static constexpr std::chrono::milliseconds kGap{100};
+  /// How often is asked for missing pages without one coming, each time after twice the wait.
+  static constexpr int kMostAsked = 5;
+
   struct Limits {
     std::size_t max_messages = 16;                  ///< half received at a time
     std::size_t max_bytes = std::size_t{64} << 20;  ///< of their pages, as encoded
@@ -51,7 +59,19 @@ class PageAssembly {
 
   /// A page that disagrees with those before in anything but page, utime, body and lists begins the
   /// message anew: its sender did. The body is that of page 0.
-  Outcome add(Message page);
+  Outcome add(Message page, Clock::time_point now = Clock::now());
+
+  /// A message of which pages did not come.
+  struct Gap {
+    std::string client_id;
+    std::int64_t request_id = 0;
+    std::int32_t num_pages = 0;
+    std::vector<std::int32_t> missing;
+  };
+  /// The messages that by `now` had no page for a while, each again and again, a few times.
+  std::vector<Gap> take_gaps(Clock::time_point now);
+  /// When there will be one; the end of time if no message waits for pages.
+  [[nodiscard]] Clock::time_point next_gap() const;
 
   [[nodiscard]] std::size_t half_received() const { return partial_.size(); }
 
@@ -61,6 +81,8 @@ class PageAssembly {
     std::vector<std::optional<Message>> pages;
     std::size_t missing = 0;
     std::size_t bytes = 0;
+    Clock::time_point gap_at{};  ///< when it counts as a gap that no page came
+    int asked = 0;               ///< since the last page
   };
   using Position = typename std::list<Partial>::iterator;
 

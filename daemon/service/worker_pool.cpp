@@ -39,6 +39,16 @@ Job::Clock::time_point WorkerPool::next_expiry() const {
   return queue_.next_expiry();
 }
 
+std::optional<Job> WorkerPool::take(const std::string& client, std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  return queue_.take(client, id);
+}
+
+std::optional<std::size_t> WorkerPool::ahead_of(const std::string& client, std::int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  return queue_.ahead_of(client, id);
+}
+
 std::vector<Job> WorkerPool::close() {
   std::vector<Job> left;
   {

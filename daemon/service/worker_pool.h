@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -30,6 +31,11 @@ class WorkerPool {
   /// The jobs that expired before anybody began them, and when the next will.
   [[nodiscard]] std::vector<Job> take_expired(Job::Clock::time_point now);
   [[nodiscard]] Job::Clock::time_point next_expiry() const;
+
+  /// As those of the queue.
+  [[nodiscard]] std::optional<Job> take(const std::string& client, std::int64_t id);
+  [[nodiscard]] std::optional<std::size_t> ahead_of(const std::string& client,
+                                                    std::int64_t id) const;
 
   /// Lets no more jobs in and hands back those that nobody has begun.
   [[nodiscard]] std::vector<Job> close();

@@ -7,10 +7,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
+
+#include <camway/plan_progress_t.hpp>
 
 #include "lcmtypes/wire_layout.h"
 #include "tests/client/fake_daemon.h"
@@ -292,24 +296,226 @@ TEST_F(ClientTest, SaysThatAnAnswerCannotBeRead) {
   EXPECT_THAT(response.error, HasSubstr("fingerprint"));
 }
 
-TEST_F(ClientTest, AnotherThreadIsToldThatTheClientIsBusy) {
-  std::atomic<bool> asked = false;
+TEST_F(ClientTest, ManyThreadsMayUseAClientAtATime) {
   FakeDaemon daemon;
-  daemon.heartbeat_every = milliseconds(30);
-  daemon.on_plan = [&](const plan_request_t&) {
-    asked = true;
+  daemon.heartbeat_every = milliseconds(20);
+  daemon.on_plan = [](const plan_request_t& request) {
+    return encode_all(answer_pages(request, static_cast<int>(request.deadline_s), 2));
+  };
+  daemon.start();
+  Client client(quick());
+  std::vector<std::thread> threads;
+  for (int i = 1; i <= 8; ++i) {
+    threads.emplace_back([&client, i] {
+      PlanRequest request = small_request();
+      request.deadline_s = i;
+      const PlanResponse response = client.plan(request);
+      EXPECT_TRUE(response.ok()) << response.error;
+      EXPECT_EQ(response.path.segments().size(), std::size_t(i));
+      EXPECT_TRUE(client.status().ok());
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST_F(ClientTest, ManyRequestsAreOnTheirWayAtATime) {
+  constexpr int kRequests = 20;
+  std::map<std::int64_t, plan_request_t> waiting;
+  FakeDaemon daemon;
+  daemon.heartbeat_every = milliseconds(20);  // alive, but
+  // answers when all are there, the last first.
+  daemon.on_plan = [&](const plan_request_t& request) {
+    waiting[request.request_id] = request;
+    std::vector<Bytes> answers;
+    if (waiting.size() < kRequests) return answers;
+    for (auto next = waiting.rbegin(); next != waiting.rend(); ++next) {
+      const int segments = static_cast<int>(next->second.seed);
+      answers.push_back(encode_all(answer_pages(next->second, segments, 100))[0]);
+    }
+    return answers;
+  };
+  daemon.start();
+  std::atomic<int> handled = 0;
+  Client client(quick());
+  std::vector<PendingPlan> pending;
+  for (int i = 1; i <= kRequests; ++i) {
+    PlanRequest request = small_request();
+    request.seed = i;
+    PlanHandlers handlers;
+    handlers.on_answer = [&handled, i](const PlanResponse& response) {
+      EXPECT_EQ(response.path.segments().size(), std::size_t(i));
+      ++handled;
+    };
+    pending.push_back(client.plan_async(request, std::move(handlers)));
+  }
+  std::set<std::int64_t> ids;
+  for (int i = 1; i <= kRequests; ++i) {
+    PendingPlan& plan = pending[std::size_t(i - 1)];
+    const PlanResponse response = plan.answer.get();
+    ASSERT_TRUE(response.ok()) << response.error;
+    EXPECT_EQ(response.path.segments().size(), std::size_t(i));
+    EXPECT_EQ(response.request_id, plan.request_id);
+    ids.insert(plan.request_id);
+  }
+  EXPECT_EQ(ids.size(), std::size_t(kRequests));
+  EXPECT_EQ(handled, kRequests);
+}
+
+TEST_F(ClientTest, CallsARequestOffUntilTheDaemonSaysSo) {
+  int cancels = 0;
+  std::atomic<bool> is_asked = false;
+  plan_request_t asked{};
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
+    asked = request;
+    is_asked = true;
+    return std::vector<Bytes>{};
+  };
+  daemon.on_cancel = [&](const cancel_t& cancel) {
+    if (++cancels < 3 || cancel.request_id != asked.request_id) return std::vector<Bytes>{};
+    auto pages = answer_pages(asked, 0, 1);
+    pages[0].status = plan_response_t::STATUS_CANCELLED;
+    pages[0].message = "cancelled by its client";
+    return encode_all(pages);
+  };
+  daemon.start();
+  Client client(quick());
+  PendingPlan plan = client.plan_async(small_request());
+  while (!is_asked) std::this_thread::yield();
+  client.cancel(plan.request_id);
+  client.cancel(plan.request_id + 1);  // none of ours
+  const PlanResponse response = plan.answer.get();
+  EXPECT_EQ(response.status, Status::kCancelled);
+  EXPECT_THAT(response.error, HasSubstr("cancelled"));
+  client.cancel(plan.request_id);  // once more does no harm
+  daemon.stop();
+  EXPECT_EQ(cancels, 3);
+}
+
+TEST_F(ClientTest, HearsHowFarTheDaemonIs) {
+  FakeDaemon daemon;
+  double period_s = 0.0;
+  daemon.on_plan = [&](const plan_request_t& request) {
+    period_s = request.progress_period_s;
+    plan_progress_t progress{};
+    progress.client_id = request.client_id;
+    progress.request_id = request.request_id;
+    progress.stage = plan_progress_t::CORRECTING;
+    progress.num_collisions = 4;
+    progress.num_corrected = 3;
+    daemon.publish("CAMWAY_PLAN_PROGRESS_" + request.client_id, wire::encode(progress));
+    return encode_all(answer_pages(request, 1, 1));
+  };
+  daemon.start();
+  Client client(quick());
+  std::vector<PlanProgress> told;
+  PlanHandlers handlers;
+  handlers.on_progress = [&](const PlanProgress& progress) {
+    told.push_back(progress);
+    throw 1;  // the user's mistake, not the client's end
+  };
+  ASSERT_TRUE(client.plan_async(small_request(), handlers).answer.get().ok());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].stage, PlanProgress::Stage::kCorrecting);
+  EXPECT_EQ(told[0].num_collisions, 4);
+  EXPECT_EQ(told[0].num_corrected, 3);
+  daemon.stop();
+  EXPECT_GT(period_s, 0.0) << "who has a handler wants to know";
+}
+
+TEST_F(ClientTest, AsksForJustThePagesThatWereLost) {
+  std::vector<Bytes> pages;
+  std::vector<std::int32_t> asked;
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) {
+    pages = encode_all(answer_pages(request, 60, 10));
+    return std::vector<Bytes>{pages[0], pages[2], pages[5]};
+  };
+  daemon.on_missing = [&](const missing_pages_t& question) {
+    std::vector<Bytes> some;
+    for (const std::int32_t page : question.missing) {
+      asked.push_back(page);
+      some.push_back(pages[std::size_t(page)]);
+    }
+    return some;
+  };
+  daemon.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.path.segments().size(), 60u);
+  EXPECT_EQ(response.tries, 1);
+  EXPECT_EQ(asked, (std::vector<std::int32_t>{1, 3, 4}));
+}
+
+TEST_F(ClientTest, SendsThePagesThatTheDaemonLacks) {
+  std::set<std::int32_t> seen;
+  int dropped = 0;
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& page) {
+    if (page.page == 1 && dropped < 1) {
+      ++dropped;
+      return std::vector<Bytes>{};
+    }
+    seen.insert(page.page);
+    if (static_cast<int>(seen.size()) == page.num_pages) {
+      return encode_all(answer_pages(page, 1, 1));
+    }
+    if (page.page + 1 == page.num_pages) {
+      missing_pages_t question{};
+      question.client_id = page.client_id;
+      question.request_id = page.request_id;
+      for (std::int32_t i = 0; i < page.num_pages; ++i) {
+        if (seen.count(i) == 0) question.missing.push_back(i);
+      }
+      question.missing.push_back(-1);
+      question.missing.push_back(page.num_pages);
+      question.num_missing = static_cast<std::int32_t>(question.missing.size());
+      daemon.publish("CAMWAY_MISSING_PAGES_" + page.client_id, wire::encode(question));
+    }
     return std::vector<Bytes>{};
   };
   daemon.start();
   ClientOptions options = quick();
-  options.deadline_s = 2.0;
+  options.try_timeout_s = options.max_try_timeout_s = 10.0;
   Client client(options);
-  std::thread other([&] { client.plan(small_request()); });
-  while (!asked) std::this_thread::yield();
-  EXPECT_EQ(client.status().status, Status::kBusy);
-  EXPECT_EQ(client.plan(small_request()).status, Status::kBusy);
-  other.join();
-  EXPECT_TRUE(client.status().ok());
+  PlanRequest request = small_request();
+  request.keyframes.resize(2500);
+  const PlanResponse response = client.plan(request);
+  ASSERT_TRUE(response.ok()) << response.error;
+  EXPECT_EQ(response.tries, 1);
+  daemon.stop();
+  EXPECT_EQ(dropped, 1);
+}
+
+TEST_F(ClientTest, AHandlerIsNotAllowedToWaitForItsClient) {
+  FakeDaemon daemon;
+  daemon.on_plan = [](const plan_request_t& request) {
+    return encode_all(answer_pages(request, 1, 1));
+  };
+  daemon.start();
+  Client client(quick());
+  Status status = Status::kOk;
+  PendingPlan next;
+  PlanHandlers handlers;
+  handlers.on_answer = [&](const PlanResponse&) {
+    status = client.plan(small_request()).status;
+    next = client.plan_async(small_request());
+  };
+  ASSERT_TRUE(client.plan_async(small_request(), handlers).answer.get().ok());
+  EXPECT_EQ(status, Status::kBusy);
+  EXPECT_TRUE(next.answer.get().ok()) << "but he may ask without waiting";
+}
+
+TEST_F(ClientTest, RequestsEndWithTheirClient) {
+  PendingPlan plan;
+  {
+    Client client(quick());
+    plan = client.plan_async(small_request());
+  }
+  const PlanResponse response = plan.answer.get();
+  EXPECT_EQ(response.status, Status::kNoAnswer);
+  EXPECT_THAT(response.error, HasSubstr("the client was destroyed"));
 }
 
 TEST_F(ClientTest, ReportsTheHeartbeat) {
@@ -434,6 +640,7 @@ TEST(ClientOptionsTest, WrongOnesAreNamed) {
   EXPECT_THAT(error_of([](auto& o) { o.try_timeout_s = -1; }), HasSubstr("try_timeout_s"));
   EXPECT_THAT(error_of([](auto& o) { o.backoff = 0.5; }), HasSubstr("backoff"));
   EXPECT_THAT(error_of([](auto& o) { o.retries = -1; }), HasSubstr("retries"));
+  EXPECT_THAT(error_of([](auto& o) { o.jitter = 1.0; }), HasSubstr("jitter"));
 }
 
 TEST(ClientOptionsTest, AnUnusableNetworkIsAnError) {

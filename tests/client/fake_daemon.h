@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
 #include <camway/occupancy_response_t.hpp>
 #include <camway/plan_request_t.hpp>
@@ -30,9 +32,13 @@ using Bytes = std::vector<std::uint8_t>;
 class FakeDaemon {
  public:
   using PlanScript = std::function<std::vector<Bytes>(const plan_request_t&)>;
+  using CancelScript = std::function<std::vector<Bytes>(const cancel_t&)>;
+  using MissingScript = std::function<std::vector<Bytes>(const missing_pages_t&)>;
   using OccupancyScript = std::function<std::vector<Bytes>(const occupancy_request_t&)>;
 
   PlanScript on_plan;
+  CancelScript on_cancel;    ///< answers on the channel for plan responses
+  MissingScript on_missing;  ///< likewise
   OccupancyScript on_occupancy;
   /// 0: silent.
   std::chrono::milliseconds heartbeat_every{0};
@@ -45,6 +51,8 @@ class FakeDaemon {
   /// Begins to listen; on return the subscriptions are in place.
   void start() {
     lcm_.subscribeFunction(channels_.plan_request(), &FakeDaemon::take_plan, this);
+    lcm_.subscribeFunction(channels_.cancel(), &FakeDaemon::take_cancel, this);
+    lcm_.subscribeFunction(channels_.missing_pages(), &FakeDaemon::take_missing, this);
     lcm_.subscribeFunction(channels_.occupancy_request(), &FakeDaemon::take_occupancy, this);
     running_ = true;
     thread_ = std::thread([this] { run(); });
@@ -53,6 +61,13 @@ class FakeDaemon {
   void stop() {
     running_ = false;
     if (thread_.joinable()) thread_.join();
+  }
+
+  /// From a script, or when the daemon does not run.
+  void publish(const std::string& channel, const Bytes& bytes) {
+    lcm_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+    // As a daemon does: back to back, large messages overrun the receiver's socket buffer.
+    if (bytes.size() > kLarge) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   const std::vector<plan_request_t>& plan_requests() const { return plan_requests_; }
@@ -69,6 +84,24 @@ class FakeDaemon {
     }
   }
 
+  template <class Message, class Script>
+  void answer(const lcm::ReceiveBuffer* buffer, const Script& script) {
+    const auto decoded =
+        wire::decode<Message>({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!decoded.message || !script) return;
+    for (const Bytes& bytes : script(*decoded.message)) {
+      publish(channels_.plan_response(decoded.message->client_id), bytes);
+    }
+  }
+
+  static void take_cancel(const lcm::ReceiveBuffer* buffer, const std::string&, FakeDaemon* self) {
+    self->answer<cancel_t>(buffer, self->on_cancel);
+  }
+
+  static void take_missing(const lcm::ReceiveBuffer* buffer, const std::string&, FakeDaemon* self) {
+    self->answer<missing_pages_t>(buffer, self->on_missing);
+  }
+
   static void take_occupancy(const lcm::ReceiveBuffer* buffer, const std::string&,
                              FakeDaemon* self) {
     const auto decoded = wire::decode<occupancy_request_t>(
@@ -77,12 +110,6 @@ class FakeDaemon {
     for (const Bytes& bytes : self->on_occupancy(*decoded.message)) {
       self->publish(self->channels_.occupancy_response(decoded.message->client_id), bytes);
     }
-  }
-
-  void publish(const std::string& channel, const Bytes& bytes) {
-    lcm_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
-    // As a daemon does: back to back, large messages overrun the receiver's socket buffer.
-    if (bytes.size() > kLarge) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   void run() {

@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <vector>
 
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
+#include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
@@ -72,6 +75,12 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
   }
   if (const auto batch = decoded<occupancy_request_t>(bytes)) {
     static_cast<void>(service::batch_fault(*batch));
+    ++right;
+  }
+  if (decoded<cancel_t>(bytes)) ++right;
+  if (decoded<missing_pages_t>(bytes)) ++right;
+  if (const auto progress = decoded<plan_progress_t>(bytes)) {
+    static_cast<void>(from_wire(*progress));
     ++right;
   }
   if (const auto answer = decoded<plan_response_t>(bytes)) {

@@ -6,7 +6,10 @@
 #include <iostream>
 #include <string>
 
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
+#include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
@@ -44,5 +47,8 @@ int main(int argc, char** argv) {
   write_messages<camway::plan_request_t>(folder, random);
   write_messages<camway::occupancy_request_t>(folder, random);
   write_messages<camway::plan_response_t>(folder, random);
+  write_messages<camway::cancel_t>(folder, random);
+  write_messages<camway::missing_pages_t>(folder, random);
+  write_messages<camway::plan_progress_t>(folder, random);
   return 0;
 }

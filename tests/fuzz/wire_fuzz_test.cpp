@@ -3,7 +3,10 @@
 // The fuzzer's entry point on mutants of a fixed seed, so that every build runs it.
 #include <gtest/gtest.h>
 
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
+#include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
@@ -16,7 +19,8 @@ namespace {
 
 template <class Message>
 class WireFuzz : public ::testing::Test {};
-using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t>;
+using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t, cancel_t,
+                                   missing_pages_t, plan_progress_t>;
 TYPED_TEST_SUITE(WireFuzz, Exercised);
 
 TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {

@@ -25,8 +25,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// What clients publish; all else is the daemon's.
-constexpr char kFromClients[] = ".*_(PLAN|OCCUPANCY)_REQUEST";
-constexpr char kFromDaemon[] = ".*_(PLAN_RESPONSE_.*|OCCUPANCY_RESPONSE_.*|STATUS|ERROR)";
+constexpr char kFromClients[] = ".*_(PLAN_REQUEST|OCCUPANCY_REQUEST|CANCEL|MISSING_PAGES)";
+constexpr char kFromDaemon[] =
+    ".*_((PLAN_RESPONSE|PLAN_PROGRESS|MISSING_PAGES|OCCUPANCY_RESPONSE)_.*|STATUS|ERROR)";
 
 struct Shares {
   double loss;

@@ -148,6 +148,27 @@ TEST_F(PlanningTest, LongRequestsAndAnswersTravelInPages) {
   EXPECT_EQ(response.path.end(), double(kKeyframes - 1));
 }
 
+TEST_F(PlanningTest, RequestsAreCalledOffInTheQueueAndInPlanning) {
+  start_daemon({"--workers", "1"});
+  Client client(patient());
+  PlanRequest request = request_of("office-wall-tour", "office");
+  std::vector<PendingPlan> plans;
+  for (int i = 0; i < 20; ++i) {
+    request.seed = i + 1;
+    plans.push_back(client.plan_async(request));
+  }
+  for (const PendingPlan& plan : plans) client.cancel(plan.request_id);
+  int cancelled = 0;
+  for (PendingPlan& plan : plans) {
+    const PlanResponse response = plan.answer.get();
+    if (response.status == Status::kCancelled) ++cancelled;
+    EXPECT_TRUE(response.status == Status::kCancelled || !response.path.empty()) << response.error;
+  }
+  // Some may have been done before the daemon heard of it.
+  EXPECT_GE(cancelled, 10);
+  EXPECT_TRUE(client.plan(request_of("office-free-door", "office")).ok());
+}
+
 TEST_F(PlanningTest, OptionsOfCorrectionArriveAndAnswersSayWhatWasDone) {
   start_daemon();
   Client client(patient());

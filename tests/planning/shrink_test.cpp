@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -41,6 +42,18 @@ Planned planned(double max_shrink, const Fits& fits) {
       request, Deadline::never(), [&](const PlanRequest& asked, const Deadline&) {
         planned.scales.push_back(asked.camera.near_m / 2.0);
         return ended(fits(planned.scales.back()) ? Status::kOk : Status::kPartial);
+      });
+  return planned;
+}
+
+Planned planned_with(double max_shrink, Status status) {
+  PlanRequest request;
+  request.options.max_shrink = max_shrink;
+  Planned planned;
+  planned.result =
+      plan_with_shrinking(request, Deadline::never(), [&](const PlanRequest&, const Deadline&) {
+        planned.scales.push_back(1.0);
+        return ended(status);
       });
   return planned;
 }
@@ -108,6 +121,31 @@ TEST(PlanWithShrinking, GivesThoseThatAreSmallerTheirShare) {
   EXPECT_EQ(result.status, Status::kOk);
   EXPECT_GE(result.near_scale, 0.5);
   EXPECT_LT(result.near_scale, 0.6);
+}
+
+// A request that is not valid goes in, and comes out as the planner judges it.
+TEST(PlanWithShrinking, DoesNotLookAtWhatIsNotValid) {
+  for (const double max_shrink : {1.0, 7.0, std::nan("")}) {
+    const Planned result = planned_with(max_shrink, Status::kInvalid);
+    EXPECT_EQ(result.result.status, Status::kInvalid);
+    EXPECT_EQ(result.scales.size(), 1U);
+  }
+}
+
+TEST(PlanWithShrinking, StopsWhenItIsToldTo) {
+  PlanRequest request;
+  request.options.max_shrink = 0.5;
+  std::stop_source stop;
+  const Deadline deadline = Deadline::never().watched(stop.get_token(), nullptr);
+  int tried = 0;
+  plan_with_shrinking(request, deadline, [&](const PlanRequest&, const Deadline& until) {
+    EXPECT_FALSE(until.passed());
+    stop.request_stop();
+    EXPECT_TRUE(until.passed());
+    ++tried;
+    return ended(Status::kTimeout);
+  });
+  EXPECT_EQ(tried, 1);
 }
 
 TEST(PlanWithShrinking, SaysSoWhereNoTimeWasLeftForIt) {

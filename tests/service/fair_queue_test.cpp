@@ -18,7 +18,7 @@ constexpr std::uint64_t kSeed = 20060619;
 
 Job job_of(const std::string& client, Priority priority = Priority::kNormal,
            Clock::time_point expires = Clock::time_point::max()) {
-  return {[] {}, [](Refusal) {}, client, priority, expires};
+  return {[] {}, [](Refusal) {}, client, {}, priority, expires};
 }
 
 FairQueue::Limits wide() { return {.jobs = 100'000, .jobs_of_a_client = 100'000}; }
@@ -189,6 +189,51 @@ TEST(FairQueue, GivesUpWhatExpiredAndNothingElse) {
   for (int i = 0; i < 6; ++i) queue.finish(queue.pop(), milliseconds(1));
   EXPECT_TRUE(queue.empty());
   EXPECT_EQ(queue.next_expiry(), Clock::time_point::max());
+}
+
+TEST(FairQueue, AJobThatWaitsCanBeTakenOut) {
+  FairQueue queue(wide());
+  for (std::int64_t id = 1; id <= 3; ++id) {
+    Job job = job_of("a");
+    job.id = id;
+    ASSERT_FALSE(queue.push(job));
+    job.client = "b";
+    ASSERT_FALSE(queue.push(job));
+  }
+  const std::optional<Job> taken = queue.take("a", 2);
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->client, "a");
+  EXPECT_FALSE(queue.take("a", 2));
+  EXPECT_FALSE(queue.take("c", 2));
+  EXPECT_EQ(queue.size(), 5U);
+  while (!queue.empty()) {
+    const FairQueue::Begun begun = queue.pop();
+    EXPECT_FALSE(begun.job.client == "a" && begun.job.id == 2);
+    queue.finish(begun, milliseconds(1));
+  }
+}
+
+TEST(FairQueue, KnowsHowManyAreAheadIfNoMoreCome) {
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937_64 random(kSeed);
+  for (int trial = 0; trial < 100; ++trial) {
+    FairQueue queue(wide());
+    std::vector<std::pair<std::string, std::int64_t>> jobs;
+    for (std::int64_t id = 0; id < 30; ++id) {
+      Job job = job_of(std::string(1, static_cast<char>('a' + random() % 4)));
+      job.id = id;
+      jobs.emplace_back(job.client, id);
+      ASSERT_FALSE(queue.push(std::move(job)));
+    }
+    std::map<std::int64_t, std::size_t> expected;
+    for (const auto& [client, id] : jobs) expected[id] = queue.ahead_of(client, id).value();
+    for (std::size_t begun_before = 0; !queue.empty(); ++begun_before) {
+      const FairQueue::Begun begun = queue.pop();
+      ASSERT_EQ(expected.at(*begun.job.id), begun_before) << "trial " << trial;
+      EXPECT_FALSE(queue.ahead_of(begun.job.client, *begun.job.id));
+      queue.finish(begun, milliseconds(1));
+    }
+  }
 }
 
 // Against what must hold whatever happens: no job is lost or doubled.

@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <stdexcept>
 #include <thread>
+
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
+#include <camway/plan_progress_t.hpp>
 
 #include "daemon/service/wire_body.h"
 #include "daemon/service/wire_convert.h"
@@ -295,6 +300,148 @@ TEST(PlanService, ARequestThatWaitedPastItsDeadlineIsAnsweredThen) {
   daemon.planner.release();
   ASSERT_TRUE(daemon.answer_to(request_with(1)));
   EXPECT_EQ(daemon.planner.calls(), 1);
+}
+
+cancel_t cancel_of(const plan_request_t& request) {
+  cancel_t cancel{};
+  cancel.client_id = request.client_id;
+  cancel.request_id = request.request_id;
+  return cancel;
+}
+
+void send_cancel(RunningService& daemon, const plan_request_t& request) {
+  daemon.send_on(daemon.channels.cancel(), wire::encode(cancel_of(request)));
+}
+
+TEST(PlanService, ARequestThatIsBeingPlannedIsCancelled) {
+  RunningService daemon;
+  daemon.planner.hold();
+  const plan_request_t request = request_with(1);
+  daemon.send(request);
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  send_cancel(daemon, request);
+  send_cancel(daemon, request);
+  // Nobody releases the planner: it stops because it is told to.
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_CANCELLED);
+  EXPECT_EQ(answer->num_segments, 0);
+  daemon.send(request);  // still on its way when it was cancelled, say
+  const std::optional<plan_response_t> again = daemon.answer_to(request, 1);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->status, plan_response_t::STATUS_CANCELLED);
+  EXPECT_EQ(daemon.planner.calls(), 1);
+}
+
+TEST(PlanService, ARequestThatWaitsIsCancelledAndNeverPlanned) {
+  RunningService daemon;
+  daemon.planner.hold();
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  daemon.send(request_with(2));
+  send_cancel(daemon, request_with(2));
+  const std::optional<plan_response_t> answer = daemon.answer_to(request_with(2));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_CANCELLED);
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(request_with(1)));
+  EXPECT_EQ(daemon.planner.calls(), 1);
+}
+
+TEST(PlanService, CancellingWhatIsOverOrUnknownIsAnsweredToo) {
+  RunningService daemon;
+  daemon.send(request_with(1));
+  const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1));
+  ASSERT_TRUE(answer);
+  send_cancel(daemon, request_with(1));
+  const std::optional<plan_response_t> again = daemon.answer_to(request_with(1), 1);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(wire::encode(*again), wire::encode(*answer)) << "the answer that was there";
+  send_cancel(daemon, request_with(2));
+  EXPECT_EQ(daemon.answer_to(request_with(2))->status, plan_response_t::STATUS_CANCELLED);
+  daemon.send(request_with(2));
+  EXPECT_EQ(daemon.answer_to(request_with(2), 3)->status, plan_response_t::STATUS_OK)
+      << "what the daemon does not know uses up no id";
+}
+
+TEST(PlanService, SaysHowFarItIsToThoseWhoWantToKnow) {
+  RunningService daemon;
+  daemon.planner.hold();
+  plan_request_t first = request_with(1);
+  first.progress_period_s = 0.001;
+  daemon.send(first);
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  daemon.send(request_with(2));
+  plan_request_t third = request_with(3);
+  third.progress_period_s = 0.1;
+  third.deadline_s = 25.0;
+  daemon.send(third);
+  const std::string channel = daemon.channels.plan_progress("tester");
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(daemon.transport.wait_for_messages_on(channel, 6));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(250))
+      << "nobody is told more often than ten times a second";
+  daemon.planner.release();
+  ASSERT_TRUE(daemon.answer_to(third));
+  std::set<std::int64_t> told;
+  for (const Bytes& bytes : daemon.transport.published_on(channel)) {
+    const plan_progress_t progress = wire::decode<plan_progress_t>(bytes).message.value();
+    told.insert(progress.request_id);
+    EXPECT_GT(progress.since_receipt_s, 0.0);
+    if (progress.request_id != 3) continue;
+    EXPECT_EQ(progress.stage, plan_progress_t::WAITING);
+    EXPECT_EQ(progress.requests_ahead, 1);
+    EXPECT_EQ(progress.deadline_s, 25.0);
+  }
+  EXPECT_EQ(told, (std::set<std::int64_t>{1, 3}));
+}
+
+TEST(PlanService, PagesOfAnAnswerAreSentAgainAlone) {
+  RunningService daemon;
+  const plan_request_t request = request_with(1, 2000);
+  daemon.send(request);
+  ASSERT_TRUE(daemon.answer_to(request));
+  const std::string channel = daemon.channels.plan_response("tester");
+  const std::vector<Bytes> all = daemon.transport.published_on(channel);
+  ASSERT_GT(all.size(), 5U);
+  missing_pages_t question{};
+  question.client_id = "tester";
+  question.request_id = 1;
+  question.missing = {4, 1, 4, -1, 99};
+  question.num_missing = 5;
+  daemon.send_on(daemon.channels.missing_pages(), wire::encode(question));
+  question.request_id = 7;  // of which there is no answer
+  daemon.send_on(daemon.channels.missing_pages(), wire::encode(question));
+  daemon.send(request_with(2));
+  ASSERT_TRUE(daemon.answer_to(request_with(2), all.size()));
+  const std::vector<Bytes> more = daemon.transport.published_on(channel);
+  ASSERT_EQ(more.size(), all.size() + 2 + 1);
+  EXPECT_EQ(more[all.size()], all[1]);
+  EXPECT_EQ(more[all.size() + 1], all[4]);
+  EXPECT_EQ(daemon.planner.calls(), 2);
+}
+
+TEST(PlanService, AsksForPagesOfARequestThatDidNotCome) {
+  RunningService daemon;
+  const plan_request_t request = request_with(1, 3000);
+  const std::vector<Bytes> pages = encode_pages(request);
+  ASSERT_GT(pages.size(), 3U);
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    if (i != 0 && i != 2) daemon.send_on(daemon.channels.plan_request(), pages[i]);
+  }
+  const std::string channel = daemon.channels.missing_pages("tester");
+  const std::optional<Bytes> bytes = daemon.transport.message_on(channel, 0);
+  ASSERT_TRUE(bytes);
+  const missing_pages_t question = wire::decode<missing_pages_t>(*bytes).message.value();
+  EXPECT_EQ(question.client_id, "tester");
+  EXPECT_EQ(question.request_id, 1);
+  EXPECT_EQ(question.num_pages, static_cast<std::int32_t>(pages.size()));
+  EXPECT_EQ(question.missing, (std::vector<std::int32_t>{0, 2}));
+  daemon.send_on(daemon.channels.plan_request(), pages[2]);
+  daemon.send_on(daemon.channels.plan_request(), pages[0]);
+  const std::optional<plan_response_t> answer = daemon.answer_to(request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(without_time(*answer), expected_echo(request));
 }
 
 TEST(PlanService, AClientThatFloodsDoesNotKeepAnotherWaiting) {

@@ -200,6 +200,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.method = text(random, wire::kMaxMethodBytes);
   message.priority = static_cast<std::int8_t>(random());
   message.deadline_s = number(random);
+  message.progress_period_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
@@ -213,6 +214,42 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.has_times = static_cast<std::int8_t>(random());
   message.num_keyframes =
       fill_list(message.keyframes, length(random, 700), [&] { return keyframe(random); });
+  return message;
+}
+
+template <>
+cancel_t random_message<cancel_t>(Random& random) {
+  cancel_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  return message;
+}
+
+template <>
+plan_progress_t random_message<plan_progress_t>(Random& random) {
+  plan_progress_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.stage = static_cast<std::int8_t>(below(random, 6));
+  message.requests_ahead = small(random);
+  message.num_collisions = small(random);
+  message.num_corrected = small(random);
+  message.since_receipt_s = number(random);
+  message.deadline_s = number(random);
+  return message;
+}
+
+template <>
+missing_pages_t random_message<missing_pages_t>(Random& random) {
+  missing_pages_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.num_pages = small(random);
+  message.num_missing =
+      fill_list(message.missing, length(random, 1024), [&] { return small(random); });
   return message;
 }
 

@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <random>
 
+#include <camway/cancel_t.hpp>
 #include <camway/error_t.hpp>
+#include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
 #include <camway/occupancy_response_t.hpp>
+#include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 #include <camway/status_t.hpp>
@@ -29,6 +32,12 @@ template <>
 plan_request_t random_message<plan_request_t>(Random& random);
 template <>
 plan_response_t random_message<plan_response_t>(Random& random);
+template <>
+cancel_t random_message<cancel_t>(Random& random);
+template <>
+plan_progress_t random_message<plan_progress_t>(Random& random);
+template <>
+missing_pages_t random_message<missing_pages_t>(Random& random);
 template <>
 occupancy_request_t random_message<occupancy_request_t>(Random& random);
 template <>

@@ -17,7 +17,8 @@ planning::PlanResult FakePlanner::plan(const planning::PlanRequest& request,
   ++calls_;
   last_budget_s_ = deadline.remaining_s();
   changed_.notify_all();
-  changed_.wait(lock, [this] { return !held_; });
+  // As planning does, this looks now and then whether it is still wanted.
+  while (held_ && !deadline.stopped()) changed_.wait_for(lock, std::chrono::milliseconds(1));
   lock.unlock();
   return result_(request);
 }

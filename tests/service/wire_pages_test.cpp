@@ -240,5 +240,36 @@ TEST(PageAssembly, RefusesPageNumbersThatCannotBe) {
   EXPECT_EQ(assembly.half_received(), 0U);
 }
 
+TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
+  using Assembly = PageAssembly<plan_request_t>;
+  Random random(kSeed);
+  const plan_request_t whole = to_wire(sample_request(3000, random), {"asker", 5, 0});
+  std::vector<plan_request_t> pages;
+  for (const Bytes& bytes : encode_pages(whole)) {
+    pages.push_back(*wire::decode<plan_request_t>(bytes).message);
+  }
+  ASSERT_GT(pages.size(), 3U);
+  Assembly assembly;
+  EXPECT_EQ(assembly.next_gap(), Assembly::Clock::time_point::max());
+  Assembly::Clock::time_point now = Assembly::Clock::now();
+  ASSERT_FALSE(assembly.add(pages[1], now).whole);
+  EXPECT_TRUE(assembly.take_gaps(now).empty()) << "more may be on their way";
+  int asked = 0;
+  while (assembly.next_gap() != Assembly::Clock::time_point::max()) {
+    now = assembly.next_gap();
+    const std::vector<Assembly::Gap> gaps = assembly.take_gaps(now);
+    ASSERT_EQ(gaps.size(), 1U);
+    EXPECT_EQ(gaps[0].client_id, "asker");
+    EXPECT_EQ(gaps[0].request_id, 5);
+    EXPECT_EQ(gaps[0].missing.size(), pages.size() - 1);
+    EXPECT_EQ(gaps[0].missing[0], 0);
+    EXPECT_EQ(gaps[0].missing[1], 2);
+    ++asked;
+  }
+  EXPECT_EQ(asked, Assembly::kMostAsked);
+  ASSERT_FALSE(assembly.add(pages[0], now).whole);
+  EXPECT_EQ(assembly.next_gap(), now + Assembly::kGap) << "a page came, so it asks anew";
+}
+
 }  // namespace
 }  // namespace camway::service

@@ -15,7 +15,7 @@ set_target_properties(camway_client_installed PROPERTIES
 target_include_directories(camway_client_installed INTERFACE
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(camway_client_installed INTERFACE cxx_std_17)
-target_link_libraries(camway_client_installed INTERFACE LCM::lcm)
+target_link_libraries(camway_client_installed INTERFACE LCM::lcm Threads::Threads)
 
 set(camway_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/camway)
 install(TARGETS camway_client_installed EXPORT camway-targets

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "client/engine.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+
+#include <camway/missing_pages_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+#include <camway/plan_progress_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <camway/status_t.hpp>
+
+#include "client/status_wire.h"
+#include "lcmtypes/wire_check.h"
+
+namespace camway {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Answers may come twice at once, and of several requests.
+constexpr int kResponseQueue = 2 * wire::kMaxResponsePages;
+constexpr int kSmallQueue = 256;
+
+/// What leaves without a breath: two messages of full size fit the usual receive buffer of 208 KiB
+/// with room for others.
+constexpr std::size_t kBurstBytes = 120'000;
+constexpr milliseconds kBreath{1};
+
+template <class Message>
+std::optional<std::int64_t> request_of(std::span<const std::uint8_t> bytes) {
+  const auto sender = wire::peek_sender(wire::layout_of<Message>(), bytes);
+  return sender ? std::optional(sender->request_id) : std::nullopt;
+}
+
+}  // namespace
+
+Engine::Engine(Link& link, const wire::Channels& channels, const std::string& client_id)
+    : link_(link), channels_(channels) {
+  listen(client_id);
+  thread_ = std::thread([this] { run(); });
+}
+
+Engine::~Engine() {
+  closing_ = true;
+  link_.wake();
+  thread_.join();
+}
+
+void Engine::listen(const std::string& client_id) {
+  link_.listen(channels_.plan_response(client_id), kResponseQueue, [this](auto bytes) {
+    const auto id = request_of<plan_response_t>(bytes);
+    // A message that cannot be read is for whoever waits: it says so if nothing else comes.
+    for (auto& [key, call] : calls_) {
+      if (key.first == Call::Kind::kPlan && (!id || *id == key.second)) {
+        call->take_answer(bytes, Clock::now());
+      }
+    }
+  });
+  link_.listen(channels_.plan_progress(client_id), kSmallQueue, [this](auto bytes) {
+    const auto id = request_of<plan_progress_t>(bytes);
+    Call* const call = id ? find(Call::Kind::kPlan, *id) : nullptr;
+    if (call != nullptr) call->take_progress(bytes);
+  });
+  link_.listen(channels_.missing_pages(client_id), kSmallQueue,
+               [this](auto bytes) { take_missing_pages(bytes); });
+  link_.listen(channels_.occupancy_response(client_id), kSmallQueue, [this](auto bytes) {
+    const auto id = request_of<occupancy_response_t>(bytes);
+    for (auto& [key, call] : calls_) {
+      if (key.first == Call::Kind::kOccupancy && (!id || *id == key.second)) {
+        call->take_answer(bytes, Clock::now());
+      }
+    }
+  });
+  link_.listen(channels_.status(), kSmallQueue, [this](auto bytes) { take_heartbeat(bytes); });
+}
+
+void Engine::start(std::shared_ptr<Call> call) {
+  post([this, call = std::move(call)] {
+    if (broken_) {
+      call->finish(Outcome::kBroken);
+      return;
+    }
+    const auto [position, is_new] = calls_.try_emplace({call->kind(), call->request_id()}, call);
+    // The same question again while it is being asked: the later call is the one that is answered.
+    if (!is_new) {
+      position->second->finish(Outcome::kClosed);
+      position->second = call;
+    }
+  });
+}
+
+void Engine::cancel(Call::Kind kind, std::int64_t request_id) {
+  post([this, kind, request_id] {
+    if (Call* const call = find(kind, request_id)) call->cancel();
+  });
+}
+
+std::future<std::optional<DaemonStatus>> Engine::next_heartbeat(Clock::time_point until) {
+  auto promise = std::make_shared<std::promise<std::optional<DaemonStatus>>>();
+  std::future<std::optional<DaemonStatus>> heartbeat = promise->get_future();
+  post([this, until, promise] { waiters_.push_back({until, std::move(*promise)}); });
+  return heartbeat;
+}
+
+void Engine::post(std::function<void()> task) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  link_.wake();
+}
+
+void Engine::run() {
+  while (!closing_) {
+    run_tasks();
+    const Clock::time_point now = Clock::now();
+    step(now);
+    end_waiters(now);
+    send_some(now);
+    if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
+    if (broken_) end_all(Outcome::kBroken);
+  }
+  run_tasks();
+  end_all(Outcome::kClosed);
+}
+
+void Engine::run_tasks() {
+  std::vector<std::function<void()>> tasks;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tasks.swap(tasks_);
+  }
+  for (const std::function<void()>& task : tasks) task();
+}
+
+void Engine::step(Clock::time_point now) {
+  for (auto position = calls_.begin(); position != calls_.end();) {
+    // A call may be ended and the user's code run by it: it must not be among the calls then.
+    const std::optional<Outcome> outcome = step(*position->second, now);
+    if (!outcome) {
+      ++position;
+      continue;
+    }
+    const std::shared_ptr<Call> call = position->second;
+    position = calls_.erase(position);
+    call->finish(*outcome);
+  }
+}
+
+std::optional<Outcome> Engine::step(Call& call, Clock::time_point now) {
+  if (call.answered()) return Outcome::kAnswered;
+  const auto send = [this](const std::vector<Outgoing>& messages) {
+    outgoing_.insert(outgoing_.end(), messages.begin(), messages.end());
+  };
+  switch (call.retry().next(now)) {
+    case Retry::Action::kSend:
+      send(call.question());
+      break;
+    case Retry::Action::kAskMissing:
+      send(call.missing());
+      break;
+    case Retry::Action::kSilence:
+      return Outcome::kSilence;
+    case Retry::Action::kDeadline:
+      return Outcome::kDeadline;
+    case Retry::Action::kWait:
+      break;
+  }
+  return std::nullopt;
+}
+
+void Engine::send_some(Clock::time_point now) {
+  if (now < send_at_) return;
+  std::size_t room = kBurstBytes;
+  while (!outgoing_.empty() && outgoing_.front().bytes.size() <= room) {
+    room -= outgoing_.front().bytes.size();
+    if (!link_.publish(outgoing_.front().channel, outgoing_.front().bytes)) broken_ = true;
+    outgoing_.pop_front();
+  }
+  if (!outgoing_.empty()) send_at_ = now + kBreath;
+}
+
+Clock::time_point Engine::next_wake() const {
+  Clock::time_point next = Clock::now() + std::chrono::seconds(1);
+  if (!outgoing_.empty()) next = std::min(next, send_at_);
+  for (const auto& [key, call] : calls_) {
+    next = std::min(next, call->answered() ? Clock::time_point{} : call->retry().wake());
+  }
+  for (const Waiter& waiter : waiters_) next = std::min(next, waiter.until);
+  return next;
+}
+
+void Engine::end_waiters(Clock::time_point now) {
+  const auto over = std::partition(waiters_.begin(), waiters_.end(),
+                                   [now](const Waiter& waiter) { return now < waiter.until; });
+  for (auto waiter = over; waiter != waiters_.end(); ++waiter) {
+    waiter->promise.set_value(std::nullopt);
+  }
+  waiters_.erase(over, waiters_.end());
+}
+
+void Engine::end_all(Outcome outcome) {
+  std::map<Key, std::shared_ptr<Call>> calls;
+  calls.swap(calls_);
+  for (const auto& [key, call] : calls) call->finish(outcome);
+  end_waiters(Clock::time_point::max());
+}
+
+Call* Engine::find(Call::Kind kind, std::int64_t request_id) {
+  const auto position = calls_.find({kind, request_id});
+  return position == calls_.end() ? nullptr : position->second.get();
+}
+
+/// The daemon lacks pages of a request.
+void Engine::take_missing_pages(std::span<const std::uint8_t> bytes) {
+  const auto decoded = wire::decode<missing_pages_t>(bytes);
+  if (!decoded.message) return;
+  Call* const call = find(Call::Kind::kPlan, decoded.message->request_id);
+  if (call == nullptr) return;
+  call->retry().note_life();
+  const std::vector<Outgoing>& pages = call->question();
+  std::set<std::int32_t> which(decoded.message->missing.begin(), decoded.message->missing.end());
+  for (const std::int32_t page : which) {
+    if (page >= 0 && static_cast<std::size_t>(page) < pages.size()) {
+      outgoing_.push_back(pages[static_cast<std::size_t>(page)]);
+    }
+  }
+}
+
+void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
+  const std::optional<DaemonStatus> status = read_status(bytes);
+  if (!status) return;
+  const Clock::time_point now = Clock::now();
+  for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
+  std::vector<Waiter> waiters;
+  waiters.swap(waiters_);
+  for (Waiter& waiter : waiters) waiter.promise.set_value(status);
+}
+
+}  // namespace camway

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "camway/client.h"
+#include "client/call.h"
+#include "client/link.h"
+#include "lcmtypes/channels.h"
+
+namespace camway {
+
+/// The thread of a client: owns the link, sends questions and repeats them, and gives what comes in
+/// to the calls that it is for. Any thread may start and cancel calls.
+class Engine {
+ public:
+  /// `link` is open. Subscribes, then starts the thread.
+  Engine(Link& link, const wire::Channels& channels, const std::string& client_id);
+  /// Ends all calls with `Outcome::kClosed`.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  void start(std::shared_ptr<Call> call);
+  void cancel(Call::Kind kind, std::int64_t request_id);
+
+  /// The next heartbeat; none if `until` passes or the network breaks.
+  std::future<std::optional<DaemonStatus>> next_heartbeat(Clock::time_point until);
+
+  /// Whether this is the engine's own thread, which must not wait for itself.
+  bool is_this_thread() const { return std::this_thread::get_id() == thread_.get_id(); }
+
+ private:
+  using Key = std::pair<Call::Kind, std::int64_t>;
+  struct Waiter {
+    Clock::time_point until;
+    std::promise<std::optional<DaemonStatus>> promise;
+  };
+
+  void listen(const std::string& client_id);
+  void post(std::function<void()> task);
+  void run();
+  void run_tasks();
+  void send_some(Clock::time_point now);
+  Clock::time_point next_wake() const;
+  void step(Clock::time_point now);
+  std::optional<Outcome> step(Call& call, Clock::time_point now);
+  void end_waiters(Clock::time_point now);
+  void end_all(Outcome outcome);
+  Call* find(Call::Kind kind, std::int64_t request_id);
+  void take_missing_pages(std::span<const std::uint8_t> bytes);
+  void take_heartbeat(std::span<const std::uint8_t> bytes);
+
+  Link& link_;
+  const wire::Channels channels_;
+
+  std::mutex mutex_;  ///< guards tasks_
+  std::vector<std::function<void()>> tasks_;
+  std::atomic<bool> closing_ = false;
+
+  // All else belongs to the thread.
+  std::map<Key, std::shared_ptr<Call>> calls_;
+  std::vector<Waiter> waiters_;
+  std::deque<Outgoing> outgoing_;
+  Clock::time_point send_at_{};  ///< no message leaves before
+  bool broken_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace camway

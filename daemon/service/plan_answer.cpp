@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/plan_answer.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "daemon/planning/witness.h"
+#include "daemon/scene/import_warnings.h"
+
+namespace camway::service {
+namespace {
+
+/// What an answer does not hold for, where it is read: behind its message.
+void append_warnings(const scene::ImportReport& report, const planning::PlanOptions& options,
+                     planning::PlanResult& result) {
+  if (result.status == planning::Status::kInvalid) return;
+  const double resolution_m =
+      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m);
+  for (const std::string& warning : scene::import_warnings(report, resolution_m)) {
+    result.message += "; warning: " + warning;
+  }
+}
+
+}  // namespace
+
+AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
+  AnswerHeader header;
+  header.ids = {request.client_id, request.request_id, utime_now()};
+  header.scene = request.scene;
+  if (snapshot != nullptr) {
+    header.scene_revision = static_cast<std::int64_t>(snapshot->revision);
+    header.scene_digest = snapshot->digest;
+  }
+  return header;
+}
+
+plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                          const plan_request_t& wire, const DeadlineLimits& limits,
+                          const collision::Deadline& deadline) {
+  std::string error;
+  try {
+    const ConvertedRequest converted = from_wire(wire, limits);
+    if (!converted.request) {
+      return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
+                          header_of(wire, &snapshot));
+    }
+    planning::PlanResult result = planner(snapshot, *converted.request, deadline);
+    planning::name_witnesses(snapshot.mesh, *converted.request, result);
+    append_warnings(snapshot.report, converted.request->options, result);
+    return to_wire(result, header_of(wire, &snapshot));
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  } catch (...) {
+    error = "unknown exception";
+  }
+  return plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
+                      header_of(wire, &snapshot));
+}
+
+Pages encode_answer(plan_response_t& answer) {
+  const std::size_t pages = count_pages(answer);
+  if (pages > static_cast<std::size_t>(wire::kMaxResponsePages)) {
+    const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
+                              answer.scene,
+                              answer.scene_revision,
+                              answer.scene_digest};
+    answer = plain_answer(plan_response_t::STATUS_INTERNAL_ERROR,
+                          fmt::format("the answer takes {} pages, more than the {} allowed", pages,
+                                      wire::kMaxResponsePages),
+                          header);
+  }
+  return std::make_shared<const std::vector<Bytes>>(encode_pages(answer));
+}
+
+}  // namespace camway::service

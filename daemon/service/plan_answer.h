@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+
+#include "daemon/collision/deadline.h"
+#include "daemon/scene/snapshot.h"
+#include "daemon/service/answer_cache.h"
+#include "daemon/service/core.h"
+#include "daemon/service/wire_convert.h"
+
+/// From a whole request to the messages of its answer. Functions without state, safe from any
+/// thread.
+namespace camway::service {
+
+/// `snapshot` may be null: the answer is about no scene then.
+AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
+
+/// The answer of `planner`, whatever happens: a planner that throws is an internal error.
+plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                          const plan_request_t& wire, const DeadlineLimits& limits,
+                          const collision::Deadline& deadline);
+
+/// Encodes `answer`, or what takes its place: an answer that says that it is too long.
+Pages encode_answer(plan_response_t& answer);
+
+}  // namespace camway::service

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/deadline.h"
+
+#include <gtest/gtest.h>
+
+namespace camway::collision {
+namespace {
+
+TEST(Deadline, StrikesWhenToldToStopWhateverTheTime) {
+  std::stop_source stop;
+  const Deadline deadline = Deadline::never().watched(stop.get_token(), nullptr);
+  const Deadline later = deadline.not_before_s(100.0);
+  EXPECT_FALSE(deadline.passed());
+  EXPECT_GT(deadline.remaining_s(), 1e6);
+  stop.request_stop();
+  EXPECT_TRUE(deadline.passed());
+  EXPECT_TRUE(deadline.stopped());
+  EXPECT_TRUE(later.passed()) << "copies hear of it too";
+  EXPECT_EQ(deadline.remaining_s(), 0.0);
+}
+
+TEST(Deadline, CanBePutOffButNotBroughtForward) {
+  const Deadline over = Deadline::after_s(0.0);
+  EXPECT_TRUE(over.passed());
+  EXPECT_FALSE(over.stopped());
+  const Deadline later = over.not_before_s(50.0);
+  EXPECT_FALSE(later.passed());
+  EXPECT_GT(later.remaining_s(), 40.0);
+  EXPECT_GT(Deadline::after_s(100.0).not_before_s(1.0).remaining_s(), 90.0);
+}
+
+TEST(Deadline, HandsOnWhatIsReported) {
+  const auto progress = std::make_shared<Progress>();
+  const Deadline deadline = Deadline::after_s(1.0).watched({}, progress);
+  EXPECT_EQ(progress->stage, Progress::Stage::kWaiting);
+  deadline.not_before_s(2.0).report(Progress::Stage::kDetecting);
+  deadline.report_collisions(7, 3);
+  EXPECT_EQ(progress->stage, Progress::Stage::kDetecting);
+  EXPECT_EQ(progress->collisions, 7);
+  EXPECT_EQ(progress->corrected, 3);
+  Deadline::after_s(1.0).report(Progress::Stage::kCertifying);  // nobody listens, nothing happens
+}
+
+}  // namespace
+}  // namespace camway::collision
