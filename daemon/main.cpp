@@ -7,10 +7,11 @@
 #include <memory>
 
 #include "daemon/scene/scene_store.h"
+#include "daemon/service/build_info.h"
+#include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
 #include "daemon/service/daemon_run.h"
-#include "daemon/service/stop_signals.h"
-#include "daemon/service/version.h"
+#include "daemon/service/process_signals.h"
 
 namespace {
 
@@ -29,14 +30,17 @@ int run(int argc, char** argv) {
       "camwayd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   log->set_level(parsed.options->log_level);
   log->flush_on(spdlog::level::info);
-  log->info("camwayd {} ({})", service::kVersion, service::kBuild);
+  log->info("camwayd {}", service::version_text());
 
+  service::block_reload_signal();  // a reload that is asked for now comes after the scenes
+  scene::SceneStore scenes;
+  service::ConfiguredScenes configured(scenes, log);
   // A stop signal while scenes are being read ends the process at once: nobody was promised
   // anything.
-  scene::SceneStore scenes;
-  if (!service::load_scenes(*parsed.options, scenes, *log)) return kExitBadInput;
+  if (!configured.update(parsed.options->scenes)) return kExitBadInput;
   service::block_stop_signals();
-  return service::serve(*parsed.options, scenes, log);
+  const auto read_again = [=] { return service::parse_daemon_options(argc, argv); };
+  return service::serve(*parsed.options, read_again, scenes, configured, log);
 }
 
 }  // namespace

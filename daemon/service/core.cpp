@@ -26,6 +26,7 @@ Core::Core(Transport& transport, const scene::SceneStore& scene_store, ServiceCo
       malformed_warnings(log, config.warning_period),
       overload_warnings(log, config.warning_period),
       publish_warnings(log, config.warning_period),
+      stuck_warnings(log, config.warning_period),
       outbox(transport),
       mailbox(transport),
       workers(config.workers, config.queue) {}

@@ -70,6 +70,7 @@ struct Core {
   Warnings malformed_warnings;
   Warnings overload_warnings;
   Warnings publish_warnings;
+  Warnings stuck_warnings;
   Outbox outbox;
   Mailbox mailbox;
   WorkerPool workers;

@@ -11,9 +11,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/service/build_info.h"
 #include "daemon/service/config_file.h"
 #include "daemon/service/daemon_settings.h"
-#include "daemon/service/version.h"
 
 namespace camway::service {
 namespace {
@@ -22,6 +22,9 @@ constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
     "signal ends it at once), 1 LCM cannot be used or failed, 2 wrong command "
     "line, configuration or scene file.\n"
+    "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
+    "is "
+    "logged and needs a restart.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";
 
 constexpr int kExitBadInput = 2;
@@ -51,7 +54,7 @@ struct Raw {
 };
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
-  app.set_version_flag("--version", std::string("camwayd ") + kVersion + " (" + kBuild + ")");
+  app.set_version_flag("--version", "camwayd " + version_text());
   app.footer(kFooter);
   app.add_option("--config", raw.config_file,
                  "Configuration file (TOML); what is given on the command line goes before it")

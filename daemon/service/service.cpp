@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/service.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -22,8 +24,9 @@ std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration du
 }  // namespace
 
 Service::Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
-                 Planner planner, std::shared_ptr<spdlog::logger> log)
+                 Planner planner, std::shared_ptr<spdlog::logger> log, ServiceHooks hooks)
     : transport_(transport),
+      hooks_(std::move(hooks)),
       core_(transport, scenes, std::move(config), std::move(log)),
       plans_(core_, std::move(planner)),
       occupancy_(core_) {}
@@ -35,10 +38,12 @@ RunOutcome Service::run() {
   if (!subscribe()) return RunOutcome::kNotSubscribed;
   heartbeat(Clock::now());
   core_.log->info("ready");
+  if (hooks_.ready) hooks_.ready();
   while (!stop_.load() && !broken_) {
     const Clock::time_point now = Clock::now();
     if (now >= next_heartbeat_) heartbeat(now);
-    turn(next_heartbeat_ - now);
+    if (now >= next_alive_) tell_alive(now);
+    turn(std::min(next_heartbeat_, next_alive_) - now);
   }
   if (broken_) return RunOutcome::kTransportBroken;
   return drain();
@@ -77,6 +82,7 @@ void Service::turn(Clock::duration longest_wait) {
 }
 
 RunOutcome Service::drain() {
+  if (hooks_.stopping) hooks_.stopping();
   const std::vector<Job> waiting = core_.workers.close();
   core_.log->info("stopping: {} requests are being planned, {} that wait are refused",
                   core_.workers.running(), waiting.size());
@@ -106,6 +112,19 @@ void Service::heartbeat(Clock::time_point now) {
     core_.publish_warnings.warn("the status could not be published");
   }
   next_heartbeat_ = now + core_.config.heartbeat_period;
+}
+
+void Service::tell_alive(Clock::time_point now) {
+  next_alive_ = now + hooks_.alive_period;
+  const std::chrono::duration<double> stuck_after =
+      std::chrono::duration<double>(core_.config.deadline.max_s) + hooks_.stuck_after;
+  const std::chrono::duration<double> longest = core_.workers.longest_run(now);
+  if (longest > stuck_after) {
+    core_.stuck_warnings.warn(
+        fmt::format("a worker is at one request for {:.0f} s", longest.count()));
+  } else if (hooks_.alive) {
+    hooks_.alive();
+  }
 }
 
 std::function<void(std::span<const std::uint8_t>)> Service::guarded(

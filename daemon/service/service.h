@@ -22,13 +22,26 @@ enum class RunOutcome {
   kTransportBroken  ///< the transport failed while serving
 };
 
+/// What the process around the service wants to know of it. Called by the loop thread; what is
+/// empty is left out.
+struct ServiceHooks {
+  std::function<void()> ready;     ///< subscriptions are in place, the first status is out
+  std::function<void()> stopping;  ///< a stop was asked for
+  /// Every `alive_period`, as long as the loop turns and no worker has been at one request for
+  /// longer than the longest deadline and `stuck_after`.
+  std::function<void()> alive;
+  std::chrono::milliseconds alive_period{1000};
+  /// Planning looks at its deadline now and then, and a busy machine makes that rare.
+  std::chrono::milliseconds stuck_after{60'000};
+};
+
 /// The daemon without its process: one thread, the caller of `run`, owns the transport, checks and
 /// queues requests and publishes answers; a fixed number of workers plan on immutable snapshots.
 class Service {
  public:
   /// `transport` and `scenes` must outlive the service. Precondition: `config.fault()` is empty.
   Service(Transport& transport, const scene::SceneStore& scenes, ServiceConfig config,
-          Planner planner, std::shared_ptr<spdlog::logger> log);
+          Planner planner, std::shared_ptr<spdlog::logger> log, ServiceHooks hooks = {});
   /// Waits for what is still being planned, which it does not answer any more.
   ~Service();
   Service(const Service&) = delete;
@@ -49,16 +62,19 @@ class Service {
   void turn(Clock::duration longest_wait);
   RunOutcome drain();
   void heartbeat(Clock::time_point now);
+  void tell_alive(Clock::time_point now);
   [[nodiscard]] bool idle() const;
   [[nodiscard]] std::function<void(std::span<const std::uint8_t>)> guarded(
       std::function<void(std::span<const std::uint8_t>)> handler, std::string channel);
 
   Transport& transport_;
+  const ServiceHooks hooks_;
   Core core_;
   PlanService plans_;
   OccupancyService occupancy_;
   const Clock::time_point started_ = Clock::now();
   Clock::time_point next_heartbeat_ = started_;
+  Clock::time_point next_alive_ = started_;
   std::atomic<bool> stop_ = false;
   bool broken_ = false;
 };

@@ -67,7 +67,12 @@ std::size_t WorkerPool::queued() const {
 
 std::size_t WorkerPool::running() const {
   const std::lock_guard lock(mutex_);
-  return running_;
+  return begun_.size();
+}
+
+Job::Clock::duration WorkerPool::longest_run(Job::Clock::time_point now) const {
+  const std::lock_guard lock(mutex_);
+  return begun_.empty() ? Job::Clock::duration::zero() : now - *begun_.begin();
 }
 
 void WorkerPool::work() {
@@ -76,16 +81,16 @@ void WorkerPool::work() {
     changed_.wait(lock, [this] { return closed_ || !queue_.empty(); });
     if (queue_.empty()) return;
     FairQueue::Begun begun = queue_.pop();
-    ++running_;
-    lock.unlock();
     const Job::Clock::time_point start = Job::Clock::now();
+    const auto mark = begun_.insert(start);
+    lock.unlock();
     begun.job.run();
     const Job::Clock::duration took = Job::Clock::now() - start;
     begun.job.run = nullptr;  // what it holds goes outside the lock
     begun.job.abandon = nullptr;
     lock.lock();
     queue_.finish(begun, took);
-    --running_;
+    begun_.erase(mark);
   }
 }
 

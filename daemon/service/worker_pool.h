@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -46,6 +47,8 @@ class WorkerPool {
 
   [[nodiscard]] std::size_t queued() const;
   [[nodiscard]] std::size_t running() const;
+  /// How long the worker that is at one job for the longest has been; 0 if none is.
+  [[nodiscard]] Job::Clock::duration longest_run(Job::Clock::time_point now) const;
   [[nodiscard]] int workers() const { return workers_; }
 
  private:
@@ -55,7 +58,7 @@ class WorkerPool {
   mutable std::mutex mutex_;  ///< guards everything below but threads_
   std::condition_variable changed_;
   FairQueue queue_;
-  std::size_t running_ = 0;
+  std::multiset<Job::Clock::time_point> begun_;  ///< when the jobs that run were begun
   bool closed_ = false;
   std::vector<std::jthread> threads_;
 };

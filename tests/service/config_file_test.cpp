@@ -11,26 +11,20 @@
 #include <toml++/toml.h>
 
 #include "daemon/service/daemon_settings.h"
+#include "tests/support/temporary_folder.h"
 
 namespace camway::service {
 namespace {
 
-/// Reads `text` as a configuration file of a folder of its own.
+/// Reads texts as configuration files.
 class ConfigFile : public ::testing::Test {
  protected:
-  ConfigFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "camway-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~ConfigFile() override { std::filesystem::remove_all(folder_); }
-
   std::vector<std::string> read(const std::string& text) {
-    const std::filesystem::path file = folder_ / "c.toml";
-    std::ofstream(file) << text;
-    return read_config_file(file, options_);
+    return read_config_file(temporary_.write("c.toml", text), options_);
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
   DaemonOptions options_ = default_options();
 };
 

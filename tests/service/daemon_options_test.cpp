@@ -5,8 +5,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace camway::service {
 namespace {
@@ -78,19 +79,13 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
 /// A configuration file and a scene file beside it, gone with the test.
 class DaemonOptionsFile : public ::testing::Test {
  protected:
-  DaemonOptionsFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "camway-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    write("room.obj", "v 0 0 0\n");
-  }
-  ~DaemonOptionsFile() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
+    return temporary_.write(name, text);
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+  std::string room_ = write("room.obj", "v 0 0 0\n");
 };
 
 TEST_F(DaemonOptionsFile, TheCommandLineGoesBeforeTheFileAndTheFileBeforeTheDefaults) {

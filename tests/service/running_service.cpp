@@ -89,7 +89,8 @@ struct RunningService::Log {
   std::shared_ptr<spdlog::logger> logger = std::make_shared<spdlog::logger>("test", sink);
 };
 
-RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result)
+RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result,
+                               service::ServiceHooks hooks)
     : planner(std::move(result)), channels{config.prefix}, log_(std::make_unique<Log>()) {
   scenes.put(empty_scene("room"));
   scenes.put(empty_scene("hall"));
@@ -97,7 +98,7 @@ RunningService::RunningService(service::ServiceConfig config, FakePlanner::Resul
       transport, scenes, std::move(config),
       [this](const scene::Snapshot&, const planning::PlanRequest& request,
              const collision::Deadline& deadline) { return planner.plan(request, deadline); },
-      log_->logger);
+      log_->logger, std::move(hooks));
   loop_ = std::thread([this] { outcome_ = service_->run(); });
 }
 

@@ -51,7 +51,8 @@ planning::PlanResult echo_result(const planning::PlanRequest& request);
 class RunningService {
  public:
   explicit RunningService(service::ServiceConfig config = {},
-                          FakePlanner::Result result = echo_result);
+                          FakePlanner::Result result = echo_result,
+                          service::ServiceHooks hooks = {});
   ~RunningService();
 
   /// Sends all pages of a request, in this order.

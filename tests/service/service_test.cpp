@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <semaphore>
+#include <thread>
 
 #include <camway/error_t.hpp>
 #include <camway/status_t.hpp>
@@ -64,6 +67,45 @@ TEST(Service, PublishesAStatusAtOnceAndGoesOn) {
   EXPECT_EQ(status.scenes[1].revision, 7);
   EXPECT_EQ(status.scenes[1].occupancy_resolution_m, 0.0);
   EXPECT_NE(daemon.log_text().find("ready"), std::string::npos);
+}
+
+TEST(Service, TellsWhenItIsReadyAndWhenItStops) {
+  std::atomic<bool> ready = false;
+  std::atomic<bool> stopping = false;
+  ServiceHooks hooks;
+  hooks.ready = [&] { ready = true; };
+  hooks.stopping = [&] { stopping = true; };
+  RunningService daemon({}, testing::echo_result, hooks);
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.answer_to(request_with(1)));
+  EXPECT_TRUE(ready);
+  EXPECT_FALSE(stopping);
+  daemon.stop();
+  EXPECT_TRUE(stopping);
+}
+
+TEST(Service, IsAliveUntilAWorkerHangs) {
+  std::counting_semaphore<> alive(0);
+  ServiceHooks hooks;
+  hooks.alive = [&] { alive.release(); };
+  hooks.alive_period = std::chrono::milliseconds(1);
+  hooks.stuck_after = std::chrono::milliseconds(50);
+  ServiceConfig config;
+  config.deadline = {1.0, 1.0};
+  RunningService daemon(config, testing::echo_result, hooks);
+  for (int i = 0; i < 5; ++i) alive.acquire();
+
+  daemon.planner.hold();
+  daemon.send(request_with(1));
+  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
+  while (daemon.log_text().find("a worker is at one request for") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  while (alive.try_acquire()) {
+  }
+  EXPECT_FALSE(alive.try_acquire_for(std::chrono::milliseconds(50)));
+  daemon.planner.release();
+  alive.acquire();
 }
 
 TEST(Service, UsesItsPrefixForEveryChannel) {

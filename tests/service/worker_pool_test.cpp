@@ -35,6 +35,24 @@ Job job_of(std::function<void()> run) {
   return job;
 }
 
+TEST(WorkerPool, TellsHowLongTheLongestJobRuns) {
+  Gate first;
+  Gate second;
+  const auto begin = Job::Clock::now();
+  WorkerPool pool(2, {.jobs = 2, .jobs_of_a_client = 2});
+  EXPECT_EQ(pool.longest_run(Job::Clock::now()), Job::Clock::duration::zero());
+  ASSERT_FALSE(pool.submit(first.job()));
+  first.wait_until_entered();
+  const auto between = Job::Clock::now();
+  ASSERT_FALSE(pool.submit(second.job()));
+  second.wait_until_entered();
+  const auto later = Job::Clock::now() + std::chrono::hours(1);
+  EXPECT_GE(pool.longest_run(later), later - between);
+  EXPECT_LE(pool.longest_run(later), later - begin);
+  first.open();
+  second.open();
+}
+
 TEST(WorkerPool, RunsEveryJobItTook) {
   std::atomic<int> done = 0;
   std::latch all(100);

@@ -29,6 +29,8 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code);
 void add_load_command(CLI::App& app, ExitCode& exit_code);
 void add_replay_command(CLI::App& app, ExitCode& exit_code);
 void add_draw_command(CLI::App& app, ExitCode& exit_code);
+void add_status_command(CLI::App& app, ExitCode& exit_code);
+void add_doctor_command(CLI::App& app, ExitCode& exit_code);
 
 /// `camway: message` on standard error.
 void print_error(std::string_view message);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "daemon/service/build_info.h"
 #include "tools/camway/commands.h"
 
 namespace {
@@ -13,7 +14,7 @@ int run(int argc, char** argv) {
   ExitCode exit_code = ExitCode::kSuccess;
   CLI::App app("Camway: smooth camera paths through keyframes, corrected until free of collision",
                "camway");
-  app.set_version_flag("--version", std::string("camway ") + CAMWAY_VERSION);
+  app.set_version_flag("--version", "camway " + camway::service::version_text());
   app.require_subcommand(1);
   app.footer(
       "Lengths are metres, times seconds, quaternions w, x, y, z. `camway COMMAND --help` says "
@@ -26,6 +27,8 @@ int run(int argc, char** argv) {
   camway::tools::add_load_command(app, exit_code);
   camway::tools::add_replay_command(app, exit_code);
   camway::tools::add_draw_command(app, exit_code);
+  camway::tools::add_status_command(app, exit_code);
+  camway::tools::add_doctor_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version

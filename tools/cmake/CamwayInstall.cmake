@@ -1,10 +1,13 @@
 # What `cmake --install` puts where: the client for find_package(camway), the wire types for other
-# languages, and the daemon with its sample configuration (other programs are installed where they are defined).
+# languages, and the daemon with its sample configuration and systemd unit (other programs are installed where they are defined).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS camwayd)
 install(FILES ${PROJECT_SOURCE_DIR}/daemon/camwayd.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/camway)
+configure_file(${PROJECT_SOURCE_DIR}/daemon/camwayd.service.in ${PROJECT_BINARY_DIR}/camwayd.service
+               @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/camwayd.service DESTINATION lib/systemd/system)
 
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/configured_scenes.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "daemon/planning/request.h"
+#include "daemon/scene/import_warnings.h"
+#include "daemon/scene/occupancy_mirror.h"
+
+namespace camway::service {
+namespace {
+
+void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, spdlog::logger& log) {
+  const scene::ImportReport& report = snapshot.report;
+  const geometry::Box& box = report.bounds_m;
+  log.info(
+      "scene {} from {}: {}, {} triangles, bounds ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, "
+      "{:.3g}) m at scale {:g}, rounded by {:.2g} m at most, {} degenerate and {} bad triangles "
+      "left "
+      "out, digest {}",
+      snapshot.name, scene.file.string(), report.format, report.triangles, box.min().x(),
+      box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z(), report.scale,
+      report.rounding_m, report.degenerate_triangles,
+      report.dropped_nonfinite + report.dropped_bad_index, snapshot.digest);
+  for (const std::string& warning :
+       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+    log.warn("scene {}: {}", snapshot.name, warning);
+  }
+  if (snapshot.occupancy) {
+    log.info("scene {}: occupancy map of {} voxels at {:g} m", snapshot.name,
+             snapshot.occupancy->statistics().occupied_voxels, snapshot.occupancy->resolution_m());
+  }
+}
+
+bool same(const SceneArgument& a, const SceneArgument& b) {
+  return a.name == b.name && a.file == b.file && a.options.import.scale == b.options.import.scale &&
+         a.options.import.up == b.options.import.up &&
+         a.options.occupancy_resolution_m == b.options.occupancy_resolution_m;
+}
+
+}  // namespace
+
+bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
+                              const std::stop_token& stop) {
+  std::vector<Held> next;
+  std::vector<std::shared_ptr<const scene::Snapshot>> loaded;
+  for (const SceneArgument& scene : wanted) {
+    // Before it is read: what is written meanwhile is read the next time.
+    next.push_back({scene, stamp_of(scene.file)});
+    if (holds(next.back())) continue;
+    if (stop.stop_requested()) return false;
+    loaded.push_back(load(scene));
+    if (!loaded.back()) return false;
+  }
+  remove_all_but(wanted);
+  held_ = std::move(next);
+  bool all = true;
+  for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
+    const std::string name = snapshot->name;
+    const scene::StoreResult put = store_.put(std::move(snapshot));
+    if (put.snapshot) continue;
+    log_->error(put.error);
+    // Tried again the next time. An older one of that name goes when it is not wanted any more.
+    for (Held& held : held_) {
+      if (held.scene.name == name) held.stamp = {};
+    }
+    all = false;
+  }
+  return all;
+}
+
+void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) {
+  for (const Held& held : held_) {
+    const bool stays = std::any_of(wanted.begin(), wanted.end(), [&](const SceneArgument& scene) {
+      return scene.name == held.scene.name;
+    });
+    if (stays) continue;
+    store_.remove(held.scene.name);
+    log_->info("scene {} is gone", held.scene.name);
+  }
+}
+
+ConfiguredScenes::FileStamp ConfiguredScenes::stamp_of(const std::filesystem::path& file) {
+  std::error_code ignored;  // loading says what is wrong
+  return {std::filesystem::last_write_time(file, ignored),
+          std::filesystem::file_size(file, ignored)};
+}
+
+bool ConfiguredScenes::holds(const Held& wanted) const {
+  return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
+    return same(held.scene, wanted.scene) && held.stamp == wanted.stamp;
+  });
+}
+
+std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene) const {
+  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options);
+  if (!result.snapshot) {
+    log_->error("scene {}: {}", scene.name, result.error);
+  } else {
+    log_scene(*result.snapshot, scene, *log_);
+  }
+  return result.snapshot;
+}
+
+}  // namespace camway::service

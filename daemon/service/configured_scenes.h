@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "daemon/scene/scene_store.h"
+#include "daemon/service/scene_argument.h"
+
+namespace camway::service {
+
+/// The scenes that command line and configuration name, in a store that may hold others too. For
+/// one thread at a time.
+class ConfiguredScenes {
+ public:
+  /// `store` must outlive this.
+  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<spdlog::logger> log)
+      : store_(store), log_(std::move(log)) {}
+
+  /// Makes the store hold `wanted`, and none of those that it held for an earlier call and that are
+  /// not wanted any more. Loads what is new, what is to be read in another way and what changed on
+  /// disk, and logs what was read and assumed. If one cannot be loaded, or a stop is asked for in
+  /// between, nothing changes and the answer is false, with the file and the reason logged; so it
+  /// is if the store has no room for one, which then is the only one left out.
+  bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
+
+ private:
+  /// By which a change on disk shows.
+  struct FileStamp {
+    std::filesystem::file_time_type written;
+    std::uintmax_t size = 0;
+    bool operator==(const FileStamp&) const = default;
+  };
+  struct Held {
+    SceneArgument scene;
+    FileStamp stamp;
+  };
+
+  static FileStamp stamp_of(const std::filesystem::path& file);
+  [[nodiscard]] bool holds(const Held& wanted) const;
+  [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene) const;
+  void remove_all_but(const std::vector<SceneArgument>& wanted);
+
+  scene::SceneStore& store_;
+  std::shared_ptr<spdlog::logger> log_;
+  std::vector<Held> held_;
+};
+
+}  // namespace camway::service

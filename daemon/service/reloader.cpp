@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/reloader.h"
+
+#include <exception>
+#include <utility>
+
+#include "daemon/service/daemon_settings.h"
+
+namespace camway::service {
+
+Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
+                   const ServiceManager& manager, std::shared_ptr<spdlog::logger> log)
+    : running_(std::move(running)),
+      read_(std::move(read)),
+      scenes_(scenes),
+      manager_(manager),
+      log_(std::move(log)),
+      thread_([this](const std::stop_token& stop) { serve(stop); }) {}
+
+void Reloader::request() {
+  {
+    const std::lock_guard lock(mutex_);
+    requested_ = true;
+  }
+  changed_.notify_one();
+}
+
+void Reloader::serve(const std::stop_token& stop) {
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      if (!changed_.wait(lock, stop, [this] { return requested_; })) return;
+      requested_ = false;
+    }
+    manager_.reloading();
+    try {
+      reload(stop);
+    } catch (const std::exception& error) {
+      log_->error("reload: {}; all stays as it was", error.what());
+    }
+    if (stop.stop_requested()) return;  // the manager is told that we stop
+    manager_.ready("serving");
+  }
+}
+
+void Reloader::reload(const std::stop_token& stop) {
+  ParsedOptions parsed = read_();
+  if (!parsed.options) {
+    log_->error("reload: the configuration is bad, all stays as it was:\n{}", parsed.text);
+    return;
+  }
+  if (!scenes_.update(parsed.options->scenes, stop)) {
+    log_->error("reload: not all scenes could be taken over, so no setting is");
+    return;
+  }
+  take_over(*parsed.options);
+}
+
+void Reloader::take_over(const DaemonOptions& next) {
+  for (const SettingChange& change : changes_between(running_, next)) {
+    if (change.reloads) {
+      log_->info("reload: {} = {}", change.key, change.after);
+    } else {
+      log_->warn("reload: {} stays {} until the daemon is started again; the configuration says {}",
+                 change.key, change.before, change.after);
+    }
+  }
+  running_.log_level = next.log_level;
+  log_->info("reload: done, {} scenes are configured", next.scenes.size());
+  log_->set_level(next.log_level);
+}
+
+}  // namespace camway::service

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "daemon/service/configured_scenes.h"
+#include "daemon/service/daemon_options.h"
+#include "daemon/service/service_manager.h"
+
+namespace camway::service {
+
+/// Reads the configuration again while the daemon serves, on a thread of its own: takes over scenes
+/// and log level, says which other changes need a restart, and keeps all as it was if the
+/// configuration or a scene is bad.
+class Reloader {
+ public:
+  using Read = std::function<ParsedOptions()>;
+
+  /// `running`: what the daemon was started with. `read` gives what holds now. `scenes` and
+  /// `manager` must outlive this; nobody else may use `scenes` meanwhile.
+  Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
+           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log);
+  /// Waits for the scene that is being read, if any; the reload that it belongs to is given up.
+  ~Reloader() = default;
+  Reloader(const Reloader&) = delete;
+  Reloader& operator=(const Reloader&) = delete;
+
+  /// From any thread. A request that comes while one is being served is served after it; more than
+  /// one then are one.
+  void request();
+
+ private:
+  void serve(const std::stop_token& stop);
+  void reload(const std::stop_token& stop);
+  void take_over(const DaemonOptions& next);
+
+  DaemonOptions running_;
+  Read read_;
+  ConfiguredScenes& scenes_;
+  const ServiceManager& manager_;
+  std::shared_ptr<spdlog::logger> log_;
+  std::mutex mutex_;  ///< guards requested_
+  std::condition_variable_any changed_;
+  bool requested_ = false;
+  std::jthread thread_;  ///< last: uses all above
+};
+
+}  // namespace camway::service

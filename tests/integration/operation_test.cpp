@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/integration/fixture.h"
+#include "tests/support/notify_socket.h"
+
+namespace camway::integration {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// A daemon that is run as a service: by a configuration file and under a service manager.
+class OperationTest : public IntegrationTest {
+ protected:
+  void SetUp() override {
+    IntegrationTest::SetUp();
+    if (HasFatalFailure()) return;
+    socket_.emplace(file("notify"));
+    setenv("NOTIFY_SOCKET", file("notify").c_str(), 1);
+    setenv("WATCHDOG_USEC", "900000", 1);
+  }
+  void TearDown() override {
+    IntegrationTest::TearDown();
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("WATCHDOG_USEC");
+  }
+
+  void write_config(const std::string& level, const std::vector<std::string>& scenes) const {
+    std::ofstream config(file("camwayd.toml"));
+    config << "[log]\nlevel = \"" << level << "\"\n";
+    for (const std::string& scene : scenes) {
+      config << "[[scene]]\nname = \"" << scene << "\"\nfile = \"" << scene_file(scene) << "\"\n";
+    }
+  }
+
+  static std::vector<std::string> scenes_served() {
+    std::vector<std::string> names;
+    for (const SceneInfo& scene : Client().status().scenes) names.push_back(scene.name);
+    return names;
+  }
+
+  std::optional<testing::NotifySocket> socket_;
+};
+
+TEST_F(OperationTest, TellsTheServiceManagerAndReloads) {
+  write_config("info", {"maze"});
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
+  EXPECT_EQ(socket_->next(), "READY=1\nSTATUS=serving");
+  EXPECT_EQ(socket_->next(), "WATCHDOG=1");
+  EXPECT_THAT(scenes_served(), ElementsAre("maze"));
+  EXPECT_THAT(daemon().output(), HasSubstr("(commit "));
+
+  write_config("debug", {"maze", "gallery"});
+  daemon().signal(SIGHUP);
+  EXPECT_NE(socket_->next_of("RELOADING=1"), "");
+  EXPECT_NE(socket_->next_of("READY=1"), "");
+  EXPECT_THAT(scenes_served(), ElementsAre("gallery", "maze"));
+  EXPECT_THAT(daemon().output(), HasSubstr("log.level = \"debug\""));
+
+  write_config("loud", {});
+  daemon().signal(SIGHUP);
+  EXPECT_NE(socket_->next_of("READY=1"), "");
+  EXPECT_THAT(scenes_served(), ElementsAre("gallery", "maze"));
+  EXPECT_THAT(daemon().output(), HasSubstr("camwayd.toml:2: log.level: must be one of"));
+
+  daemon().signal(SIGTERM);
+  EXPECT_EQ(socket_->next_of("STOPPING=1"), "STOPPING=1");
+  EXPECT_EQ(daemon().wait(), 0) << daemon().output();
+}
+
+TEST_F(OperationTest, IsNotCalledAliveWhileItStandsStill) {
+  write_config("info", {"maze"});
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
+  EXPECT_NE(socket_->next_of("WATCHDOG=1"), "");
+  daemon().signal(SIGSTOP);
+  // What was sent before it stood.
+  while (!socket_->next(std::chrono::milliseconds(500)).empty()) {
+  }
+  EXPECT_EQ(socket_->next(std::chrono::milliseconds(500)), "");
+  daemon().signal(SIGCONT);
+  EXPECT_NE(socket_->next_of("WATCHDOG=1"), "");
+}
+
+class CommandTest : public IntegrationTest {
+ protected:
+  /// Runs `camway` to its end; its outputs go to `output`.
+  int camway(std::vector<std::string> arguments, std::string& output) {
+    arguments.insert(arguments.begin(), CAMWAY_BINARY);
+    Process process(arguments, file("camway.log"));
+    const std::optional<int> code = process.wait();
+    output = process.output();
+    return code.value_or(-1);
+  }
+};
+
+TEST_F(CommandTest, StatusSaysHowTheDaemonIs) {
+  start_daemon();
+  std::string said;
+  EXPECT_EQ(camway({"status"}, said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("plan, 0 requests wait"));
+  EXPECT_THAT(said, HasSubstr("  office: revision 1, "));
+  EXPECT_EQ(camway({"status", "--json"}, said), 0) << said;
+  const auto json = nlohmann::json::parse(said);
+  EXPECT_EQ(json.at("total_scenes"), 3);
+  EXPECT_EQ(json.at("scenes").size(), 3u);
+  EXPECT_EQ(camway({"status", "--watch", "--count", "2"}, said), 0) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
+
+  stop_daemon();
+  EXPECT_EQ(camway({"status", "--timeout-s", "0.1"}, said), 3) << said;
+  EXPECT_THAT(said, HasSubstr("no daemon was heard"));
+}
+
+TEST_F(CommandTest, DoctorFindsTheDaemonTheNetworkAndTheScenes) {
+  start_daemon();
+  {
+    std::ofstream config(file("camwayd.toml"));
+    config << "[[scene]]\nname = \"maze\"\nfile = \"" << scene_file("maze") << "\"\n";
+  }
+  std::string said;
+  EXPECT_EQ(camway({"doctor", "--json", "--config", file("camwayd.toml")}, said), 0) << said;
+  const auto json = nlohmann::json::parse(said);
+  EXPECT_EQ(json.at("problems"), 0) << said;
+  std::map<std::string, std::string> severities;
+  for (const auto& finding : json.at("findings")) {
+    severities[finding.at("check")] = finding.at("severity");
+  }
+  for (const char* check : {"multicast route", "lcm", "daemon", "clocks", "scene files"}) {
+    EXPECT_EQ(severities[check], "good") << check;
+  }
+
+  stop_daemon();
+  EXPECT_EQ(camway({"doctor", "--timeout-s", "0.1"}, said), 3) << said;
+  EXPECT_THAT(said, HasSubstr("mend: systemctl start camwayd"));
+  EXPECT_THAT(said, HasSubstr("Camway does not work here yet."));
+}
+
+}  // namespace
+}  // namespace camway::integration

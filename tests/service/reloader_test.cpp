@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/reloader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "tests/support/captured_log.h"
+#include "tests/support/notify_socket.h"
+#include "tests/support/temporary_folder.h"
+
+namespace camway::service {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A reloader whose configuration the test makes, with a service manager that tells when it is
+/// done.
+class ReloaderTest : public ::testing::Test {
+ protected:
+  ReloaderTest() {
+    running_.scenes.push_back(scene_of("room"));
+    EXPECT_TRUE(scenes_.update(running_.scenes)) << log_.text();
+    reloader_.emplace(
+        running_, [this] { return read_(); }, scenes_, manager_, log_.logger());
+  }
+
+  SceneArgument scene_of(const std::string& name) const {
+    SceneArgument scene;
+    scene.name = name;
+    scene.file = folder_.write(name + ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    return scene;
+  }
+
+  /// Reloads what `read` gives, and returns all that was logged.
+  std::string reload(Reloader::Read read) {
+    read_ = std::move(read);
+    reloader_->request();
+    EXPECT_NE(socket_.next_of("RELOADING=1"), "");
+    EXPECT_NE(socket_.next_of("READY=1"), "");
+    return log_.text();
+  }
+
+  testing::TemporaryFolder folder_;
+  testing::NotifySocket socket_{(folder_.path() / "notify").string()};
+  const ServiceManager manager_{(folder_.path() / "notify").string(), std::nullopt};
+  testing::CapturedLog log_;
+  scene::SceneStore store_;
+  ConfiguredScenes scenes_{store_, log_.logger()};
+  DaemonOptions running_ = default_options();
+  Reloader::Read read_;
+  std::optional<Reloader> reloader_;
+};
+
+TEST_F(ReloaderTest, TakesOverScenesAndLogLevel) {
+  DaemonOptions next = running_;
+  next.scenes = {scene_of("hall")};
+  next.log_level = spdlog::level::debug;
+  const std::string said = reload([&] { return ParsedOptions{next, 0, {}}; });
+  EXPECT_THAT(said, HasSubstr("info reload: log.level = \"debug\""));
+  EXPECT_EQ(log_.logger()->level(), spdlog::level::debug);
+  EXPECT_NE(store_.find("hall"), nullptr);
+  EXPECT_EQ(store_.find("room"), nullptr);
+}
+
+TEST_F(ReloaderTest, SaysWhatNeedsARestart) {
+  DaemonOptions next = running_;
+  next.service.queue.jobs = 9;
+  const std::string said = reload([&] { return ParsedOptions{next, 0, {}}; });
+  EXPECT_THAT(said,
+              HasSubstr("warning reload: queue.requests stays 256 until the daemon is started "
+                        "again; the configuration says 9"));
+  EXPECT_THAT(said, Not(HasSubstr("log.level")));
+}
+
+TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
+  const std::string said = reload([] {
+    return ParsedOptions{std::nullopt, 2, "camwayd: c.toml:3: no"};
+  });
+  EXPECT_THAT(said, HasSubstr("all stays as it was:\ncamwayd: c.toml:3: no"));
+  EXPECT_NE(store_.find("room"), nullptr);
+
+  DaemonOptions next = running_;
+  next.log_level = spdlog::level::err;
+  next.scenes = {scene_of("hall")};
+  next.scenes.back().file = "/nowhere.obj";
+  EXPECT_THAT(reload([&] {
+                return ParsedOptions{next, 0, {}};
+              }),
+              HasSubstr("not all scenes could be taken over"));
+  EXPECT_EQ(log_.logger()->level(), spdlog::level::info);
+  EXPECT_NE(store_.find("room"), nullptr);
+
+  EXPECT_THAT(reload([]() -> ParsedOptions { throw std::runtime_error("boo"); }),
+              HasSubstr("error reload: boo; all stays as it was"));
+}
+
+}  // namespace
+}  // namespace camway::service
