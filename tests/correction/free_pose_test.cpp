@@ -131,7 +131,7 @@ TEST(NearestFreePose, NothingNearerIsFree) {
   std::normal_distribution<double> normal;
   int colliding = 0;
   int beaten = 0;
-  for (int run = 0; run < 150; ++run) {
+  for (int run = 0; run < 500; ++run) {
     const double x = place(random);
     const double y = place(random);
     const double z = place(random);
@@ -141,7 +141,7 @@ TEST(NearestFreePose, NothingNearerIsFree) {
     const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
     ASSERT_TRUE(found);
     bool is_beaten = false;
-    for (int k = 0; k < 2000 && !is_beaten; ++k) {
+    for (int k = 0; k < 500 && !is_beaten; ++k) {
       const double u = normal(random);
       const double v = normal(random);
       const double w = normal(random);

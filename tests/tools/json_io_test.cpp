@@ -412,7 +412,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
     {"t_begin": 2.25, "t_end": 2.75, "method": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
   ],
   "measures": {
-    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0},
+    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
     "after": {"length_m": 5.0,)"));
   EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
   "time_scale": 1.5,
