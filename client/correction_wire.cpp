@@ -33,6 +33,7 @@ PathMeasures from_wire(const path_measures_t& wire) {
   measures.largest_acceleration_m_per_s2 = wire.largest_acceleration_m_per_s2;
   measures.largest_turn_rate_rad_per_s = wire.largest_turn_rate_rad_per_s;
   measures.largest_turn_acceleration_rad_per_s2 = wire.largest_turn_acceleration_rad_per_s2;
+  measures.clearance_lower_bound_m = wire.clearance_lower_bound_m;
   return measures;
 }
 
@@ -77,8 +78,10 @@ std::optional<std::string> append_correction_lists(const plan_response_t& page,
   for (const correction_t& wire : page.corrections) {
     const std::optional<Correction::Method> method = method_of(wire.method);
     if (!method) return "a correction by method " + std::to_string(wire.method);
+    const Effort tried{wire.tried_directions, wire.tried_paths, wire.tried_lattice_points,
+                       wire.tried_tree_samples};
     response.corrections.push_back({wire.t_begin_s, wire.t_end_s, *method, wire.changed_t_begin_s,
-                                    wire.changed_t_end_s, wire.moved_m, wire.turned_rad});
+                                    wire.changed_t_end_s, wire.moved_m, wire.turned_rad, tried});
   }
   for (const slowed_stretch_t& wire : page.slowed) {
     response.slowed.push_back(

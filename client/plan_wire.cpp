@@ -28,6 +28,7 @@ keyframe_t to_wire(const Keyframe& keyframe) {
   std::copy(keyframe.orientation_wxyz.begin(), keyframe.orientation_wxyz.end(),
             wire.orientation_wxyz);
   wire.origin = keyframe.inserted ? keyframe_t::ORIGIN_INSERTED : keyframe_t::ORIGIN_GIVEN;
+  wire.repaired = keyframe.repaired ? 1 : 0;
   return wire;
 }
 
@@ -38,6 +39,7 @@ Keyframe from_wire(const keyframe_t& wire) {
   std::copy(std::begin(wire.orientation_wxyz), std::end(wire.orientation_wxyz),
             keyframe.orientation_wxyz.begin());
   keyframe.inserted = wire.origin == keyframe_t::ORIGIN_INSERTED;
+  keyframe.repaired = wire.repaired != 0;
   return keyframe;
 }
 

@@ -28,12 +28,12 @@ constexpr std::size_t kInt64 = 8;
 constexpr std::size_t kDouble = 8;
 
 constexpr std::size_t kCamera = 3 * kDouble;
-constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + kByte;
+constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + 2 * kByte;
 constexpr std::size_t kOrientation = kByte + (3 + 3 + 1) * kDouble + kByte + kDouble;
 constexpr std::size_t kMotionLimits = 3 * kDouble + kByte;
-constexpr std::size_t kMeasures = 7 * kDouble;
+constexpr std::size_t kMeasures = 8 * kDouble;
 constexpr std::size_t kCage = 12 * kDouble;
-constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble;
+constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble + 4 * kInt32;
 constexpr std::size_t kSlowedStretch = 4 * kDouble;
 constexpr std::size_t kKeyframeFault = kInt32 + kDouble + kByte + (3 + 4) * kDouble;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;

@@ -128,8 +128,12 @@ void draw_details(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
               palette::kInk, 0.0, true);
     const PlanPoint half =
         PlanPoint(detail.frame.width, detail.frame.height) / (2 * detail.px_per_m);
-    const PlanPoint low = layout.main.to_px(detail.center - half);
-    const PlanPoint high = layout.main.to_px(detail.center + half);
+    // A narrow column shows more above and below than there is in the plan.
+    const Frame& plan_frame = layout.main.frame;
+    const PlanPoint begin(plan_frame.x, plan_frame.y);
+    const PlanPoint end = begin + PlanPoint(plan_frame.width, plan_frame.height);
+    const PlanPoint low = layout.main.to_px(detail.center - half).cwiseMax(begin);
+    const PlanPoint high = layout.main.to_px(detail.center + half).cwiseMin(end);
     constexpr std::array kDashes{6.0, 4.0};
     cairo_set_dash(cr, kDashes.data(), static_cast<int>(kDashes.size()), 0.0);
     cairo_rectangle(cr, low.x(), low.y(), high.x() - low.x(), high.y() - low.y());

@@ -59,7 +59,7 @@ void read_keyframes(const Field& list, PlanRequest& request) {
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
     // Keyframes copied from a response have an origin, which is then "given".
-    item.allow_only({"time", "position", "orientation", "origin"});
+    item.allow_only({"time", "position", "orientation", "origin", "repaired"});
     Keyframe keyframe;
     const std::optional<Field> time = item.optional_member("time");
     if (time) keyframe.time_s = time->number();
@@ -113,6 +113,8 @@ std::vector<Keyframe> read_response_keyframes(const Field& list) {
     keyframe.pose.orientation =
         geometry::from_wxyz(read_vector<geometry::Vec4>(item.member("orientation")));
     keyframe.origin = read_origin(item.member("origin"));
+    if (const auto repaired = item.optional_member("repaired"))
+      keyframe.is_repaired = repaired->boolean();
     keyframes.push_back(keyframe);
   }
   return keyframes;

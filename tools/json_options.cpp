@@ -76,7 +76,7 @@ void refuse_without(std::string_view policy, const Field& field, std::string_vie
 OrientationPolicy read_orientation(const Field& field) {
   field.allow_only({"policy", "up", "target", "cone_deg", "max_turn_deg"});
   OrientationPolicy policy;
-  policy.rule = named(field.member("policy"), kPolicies);
+  if (const auto name = field.optional_member("policy")) policy.rule = named(*name, kPolicies);
   read_angle(field, "max_turn_deg", policy.max_turn_rad);
   if (policy.rule != OrientationRule::kLevel) {
     refuse_without("level", field, "up");

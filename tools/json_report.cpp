@@ -24,6 +24,14 @@ Rung read_method(const Field& field) {
   return Rung::kNone;
 }
 
+correction::Effort read_effort(const Field& field) {
+  const auto count = [&](const char* name) {
+    return static_cast<std::int32_t>(
+        field.member(name).integer(0, std::numeric_limits<std::int32_t>::max()));
+  };
+  return {count("directions"), count("paths"), count("lattice_points"), count("tree_samples")};
+}
+
 Correction read_correction(const Field& field) {
   Correction correction;
   correction.interval = {field.member("t_begin").number(), field.member("t_end").number()};
@@ -34,6 +42,7 @@ Correction read_correction(const Field& field) {
   correction.t_end_s = changed_s[1];
   correction.moved_m = field.member("moved_m").number();
   correction.turned_rad = radians(field.member("turned_deg").number());
+  if (const auto tried = field.optional_member("tried")) correction.tried = read_effort(*tried);
   return correction;
 }
 
@@ -48,6 +57,7 @@ PathMeasures read_measures(const Field& field) {
       radians(field.member("largest_turn_rate_deg_per_s").number());
   measures.largest_turn_acceleration_rad_per_s2 =
       radians(field.member("largest_turn_acceleration_deg_per_s2").number());
+  measures.clearance_lower_bound_m = field.member("clearance_lower_bound_m").number();
   return measures;
 }
 

@@ -98,7 +98,8 @@ void write_keyframe(Writer& w, const Keyframe& keyframe) {
   w.raw(", \"orientation\": ");
   w.vector(geometry::wxyz(keyframe.pose.orientation), "keyframes[].orientation");
   const bool inserted = keyframe.origin == motion::KeyframeOrigin::kInserted;
-  w.raw(inserted ? ", \"origin\": \"inserted\"}" : ", \"origin\": \"given\"}");
+  w.raw(inserted ? ", \"origin\": \"inserted\"" : ", \"origin\": \"given\"");
+  w.raw(keyframe.is_repaired ? ", \"repaired\": true}" : "}");
 }
 
 void write_witness(Writer& w, const collision::Witness& witness,
@@ -150,6 +151,13 @@ void write_numbers(Writer& w, std::initializer_list<std::pair<const char*, doubl
   w.raw("}");
 }
 
+void write_effort(Writer& w, const correction::Effort& effort) {
+  w.raw(",\n     \"tried\": {\"directions\": " + std::to_string(effort.directions) +
+        ", \"paths\": " + std::to_string(effort.paths) +
+        ", \"lattice_points\": " + std::to_string(effort.lattice_points) +
+        ", \"tree_samples\": " + std::to_string(effort.tree_samples) + "}");
+}
+
 void write_correction(Writer& w, const correction::Correction& correction) {
   constexpr std::string_view kWhat = "corrections";
   w.raw("{\"t_begin\": ");
@@ -166,6 +174,7 @@ void write_correction(Writer& w, const correction::Correction& correction) {
   w.number(correction.moved_m, kWhat);
   w.raw(", \"turned_deg\": ");
   w.number(degrees(correction.turned_rad), kWhat);
+  if (correction.rung == correction::Rung::kNone) write_effort(w, correction.tried);
   w.raw("}");
 }
 
@@ -191,7 +200,8 @@ void write_measures(Writer& w, const motion::PathMeasures& measures) {
                  {"largest_acceleration_m_per_s2", measures.largest_acceleration_m_per_s2},
                  {"largest_turn_rate_deg_per_s", degrees(measures.largest_turn_rate_rad_per_s)},
                  {"largest_turn_acceleration_deg_per_s2",
-                  degrees(measures.largest_turn_acceleration_rad_per_s2)}},
+                  degrees(measures.largest_turn_acceleration_rad_per_s2)},
+                 {"clearance_lower_bound_m", measures.clearance_lower_bound_m}},
                 "measures");
 }
 

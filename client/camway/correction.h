@@ -10,6 +10,14 @@
 
 namespace camway {
 
+/// How hard a correction was looked for. 0 where that was not tried at all.
+struct Effort {
+  std::int32_t directions = 0;      ///< to one side or about an axis, to move or turn the camera
+  std::int32_t paths = 0;           ///< changed paths that were checked for collisions
+  std::int32_t lattice_points = 0;  ///< at which there might have been room on a way round
+  std::int32_t tree_samples = 0;    ///< poses towards which ways round were looked for that turn
+};
+
 /// What became of one collision of the path as interpolated.
 struct Correction {
   enum class Method {
@@ -27,9 +35,11 @@ struct Correction {
   double changed_t_end_s = 0.0;
   double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
   double turned_rad = 0.0;  ///< most that the camera is turned from how it was
+  Effort tried = {};        ///< where it was not corrected
 };
 
-/// What a path is like, for comparing paths. Extrema are over samples; no part of any proof.
+/// What a path is like, for comparing paths. Extrema are over samples; no part of any
+/// proof but for the clearance.
 struct PathMeasures {
   double length_m = 0.0;             ///< of the way of the eye
   double largest_deviation_m = 0.0;  ///< of the eye from the path as interpolated
@@ -38,6 +48,7 @@ struct PathMeasures {
   double largest_acceleration_m_per_s2 = 0.0;
   double largest_turn_rate_rad_per_s = 0.0;
   double largest_turn_acceleration_rad_per_s2 = 0.0;
+  double clearance_lower_bound_m = 0.0;  ///< of the body; proved; 0 where the path collides
 };
 
 /// A stretch of the path that was made slower to meet limits.

@@ -32,6 +32,7 @@ struct Keyframe {
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
   bool inserted = false;  ///< in answers: put in by the daemon to avoid a collision
+  bool repaired = false;  ///< in answers: a given one that was moved because it collided
 };
 
 /// Which of the requests that wait goes first. A client's time counts four times for requests of

@@ -37,6 +37,12 @@ Deadline Deadline::not_before_s(double seconds) const {
   return later;
 }
 
+Deadline Deadline::share_of_rest(double share) const {
+  Deadline sooner = *this;
+  sooner.budget_ = Clock::now() - start_ + duration_of(share * remaining_s());
+  return sooner;
+}
+
 bool Deadline::passed() const { return stopped() || Clock::now() - start_ >= budget_; }
 
 double Deadline::remaining_s() const {

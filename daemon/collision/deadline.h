@@ -26,6 +26,9 @@ class Deadline {
   /// The same, but not before `seconds` from now, unless it is told to stop.
   [[nodiscard]] Deadline not_before_s(double seconds) const;
 
+  /// The same, that strikes when `share` of what is left is over. [Limit: 0 <= value <= 1]
+  [[nodiscard]] Deadline share_of_rest(double share) const;
+
   [[nodiscard]] bool passed() const;
 
   /// Whether somebody asked to stop, whatever the time.

@@ -108,6 +108,7 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
 
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const collision::Deadline& deadline) {
+  if (problem.effort != nullptr) ++problem.effort->paths;
   const std::optional<Span> changed = span_of(rows, problem);
   if (!changed) return {std::nullopt, problem.interval};
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};

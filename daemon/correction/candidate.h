@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/collision/deadline.h"
+#include "daemon/correction/correction.h"
 #include "daemon/correction/free_space.h"
 #include "daemon/motion/bump.h"
 
@@ -24,6 +25,7 @@ struct Problem {
   /// Collisions of that part that somebody else has to correct. They need not be mended, and must
   /// not grow.
   std::vector<collision::CollisionInterval> others;
+  Effort* effort = nullptr;  ///< where it is counted what is tried; may be null
 
   [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
   [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }

@@ -19,4 +19,12 @@ std::string_view to_string(Rung rung) {
   return "none";
 }
 
+Effort& Effort::operator+=(const Effort& other) {
+  directions += other.directions;
+  paths += other.paths;
+  lattice_points += other.lattice_points;
+  tree_samples += other.tree_samples;
+  return *this;
+}
+
 }  // namespace camway::correction

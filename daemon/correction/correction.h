@@ -20,6 +20,17 @@ enum class Rung : std::uint8_t {
 /// "none", "move", "turn", "go_round", "shrink".
 std::string_view to_string(Rung rung);
 
+/// How hard a correction was looked for. 0 where that was not tried at all.
+struct Effort {
+  std::int32_t directions = 0;      ///< to one side or about an axis, to move or turn the camera
+  std::int32_t paths = 0;           ///< changed paths that were checked for collisions
+  std::int32_t lattice_points = 0;  ///< at which there might have been room on a way round
+  std::int32_t tree_samples = 0;    ///< poses towards which ways round were looked for that turn
+
+  Effort& operator+=(const Effort& other);
+  bool operator==(const Effort&) const = default;
+};
+
 /// What became of one collision of the path as interpolated.
 struct Correction {
   collision::CollisionInterval interval;  ///< as it was found
@@ -28,6 +39,7 @@ struct Correction {
   double t_end_s = 0.0;
   double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
   double turned_rad = 0.0;  ///< most that the camera is turned from how it was
+  Effort tried = {};        ///< where it was not corrected
 };
 
 }  // namespace camway::correction

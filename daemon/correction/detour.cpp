@@ -201,6 +201,7 @@ class Detour {
       options.largest_turn_rad =
           std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
       options.interpolated = poses_as_interpolated();
+      options.effort = problem_.effort;
       const Guide guide = tree_way(space_, from_, to_, options, deadline_);
       if (auto found = follow(guide, Turning::kAsGuide)) return found;
     }
@@ -266,6 +267,9 @@ class Detour {
     LatticeResult found =
         lattice_way(space_, from_end ? ball.to_W : ball.from_W, from_end ? ball.from_W : ball.to_W,
                     {ball.radius_m, level.spacing * coarse_m, level.max_points}, deadline_);
+    if (problem_.effort != nullptr) {
+      problem_.effort->lattice_points += static_cast<std::int32_t>(found.points);
+    }
     if (from_end) std::ranges::reverse(found.way_W);
     return found;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "daemon/correction/free_space.h"
@@ -10,16 +11,24 @@ namespace camway::correction {
 /// A free pose next to one that collides, with the same orientation.
 struct FreePose {
   motion::Pose pose;
-  double moved_m = 0.0;
+  double moved_m = 0.0;  ///< every point of the body
 };
 
-/// The nearest free pose in any of 26 directions, about: within `kFreePosePrecision` of the least
-/// move in that direction from which on the body is free. Nothing within `kFreePoseReach` times the
-/// size of the body. `margin_m` is kept beside the required clearance, so that a path can leave it.
-std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
-                                          double margin_m);
+/// Whether a pose will do that is free; for what a search cannot know by itself.
+using PoseRule = std::function<bool(const motion::Pose&)>;
 
-inline constexpr double kFreePosePrecision = 0.05;  ///< as a share of the move
+/// The nearest pose that is free, will do, and is reached without turning. Shells of directions
+/// grow about `pose` until one of them holds such a pose, so no side is preferred; what was found
+/// is then drawn towards `pose` as far as it gets, by the length and by the direction of the move.
+/// Of moves that differ by less than the precision, one that leads to more room.
+///
+/// Nothing if there is none on the shells within `kFreePoseReach` radii of the ball about the body.
+/// `margin_m` is kept beside the required clearance, so that a path can leave it. A local search: a
+/// free place that is narrower than the shells are dense may be missed.
+std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
+                                          double margin_m, const PoseRule& will_do);
+
+inline constexpr double kFreePosePrecision = 0.02;  ///< as a share of the move
 inline constexpr double kFreePoseReach = 20.0;      ///< radii of the ball about the body
 
 }  // namespace camway::correction

@@ -25,12 +25,15 @@ class Ladder {
          const std::vector<CollisionInterval>& collisions, const LadderOptions& options,
          const collision::Deadline& deadline)
       : mesh_(mesh), space_(space), options_(options), deadline_(deadline), original_(path) {
-    for (const motion::Keyframe& keyframe : keyframes) {
-      keyframes_s_.push_back(keyframe.time_s);
-      keyframe_poses_.push_back(keyframe.pose);
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      keyframes_s_.push_back(keyframes[i].time_s);
+      if (keyframes[i].is_repaired) continue;
+      as_asked_.push_back(i);
+      poses_as_asked_.push_back(keyframes[i].pose);
     }
     result_.path = path;
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
+    is_beyond_limit_.resize(open_.size());
     std::vector<bool> is_hit(keyframes_s_.size() - 1);
     for (const CollisionInterval& interval : open_) is_hit[gap_of(interval)] = true;
     const auto gaps_hit = static_cast<int>(std::ranges::count(is_hit, true));
@@ -39,8 +42,9 @@ class Ladder {
   }
 
   LadderResult run() && {
+    if (options_.max_inserted_keyframes == 0) return std::move(result_);
     correct_all(Search::kWithRoom);
-    if (any_open() && !deadline_.passed()) {
+    if (any_without_way() && !deadline_.passed()) {
       prove_infeasible();
       if (result_.separation || result_.cage) return std::move(result_);
       if (space_.may_turn()) correct_all(Search::kTurning);
@@ -50,6 +54,9 @@ class Ladder {
     if (options_.objective != Objective::kClosest) pursue_objective();
     for (Correction& correction : result_.corrections) {
       if (correction.rung != Rung::kNone) measure(correction);
+    }
+    if (!beyond_limit_s_.empty()) {
+      result_.needed_keyframes = result_.inserted_s.size() + beyond_limit_s_.size();
     }
     std::ranges::sort(result_.inserted_s);
     return std::move(result_);
@@ -78,8 +85,9 @@ class Ladder {
     return std::clamp<std::size_t>(index, 1, keyframes_s_.size() - 1) - 1;
   }
 
-  [[nodiscard]] Problem problem(std::size_t index) const {
+  [[nodiscard]] Problem problem(std::size_t index) {
     Problem problem = problem_of_gap(gap_of(open_[index]));
+    problem.effort = &result_.corrections[index].tried;
     problem.interval = open_[index];
     std::erase(problem.others, open_[index]);
     return problem;
@@ -117,7 +125,7 @@ class Ladder {
         find_separation(*mesh_, surfaces, at_keyframes_W(point_C), kPointRounding_m);
     if (result_.separation && smallest < 1.0) {
       const auto way_W = [&](std::size_t keyframe) {
-        const motion::Pose& pose = keyframe_poses_[keyframe];
+        const motion::Pose& pose = poses_as_asked_[keyframe];
         return geometry::LineSegment{placed(pose, point_C), placed(pose, smallest * point_C)};
       };
       if (!keeps_clear(*result_.separation, *mesh_, way_W(result_.separation->inside),
@@ -128,6 +136,15 @@ class Ladder {
     if (!result_.separation && space_.body().is_camera() && !deadline_.passed()) {
       find_cage_of_camera(surfaces, smallest);
     }
+    if (result_.separation) name_keyframes(*result_.separation);
+    if (result_.cage) name_keyframes(*result_.cage);
+  }
+
+  // Those of a proof count among the ones that it was looked for with.
+  template <class Proof>
+  void name_keyframes(Proof& proof) const {
+    proof.inside = as_asked_[proof.inside];
+    proof.outside = as_asked_[proof.outside];
   }
 
   // The near quadrilateral is a rectangle parallel to two axes of the camera frame.
@@ -144,7 +161,7 @@ class Ladder {
 
   [[nodiscard]] std::vector<geometry::Vec3> at_keyframes_W(const geometry::Vec3& point_C) const {
     std::vector<geometry::Vec3> points_W;
-    for (const motion::Pose& pose : keyframe_poses_) points_W.push_back(placed(pose, point_C));
+    for (const motion::Pose& pose : poses_as_asked_) points_W.push_back(placed(pose, point_C));
     return points_W;
   }
 
@@ -158,11 +175,19 @@ class Ladder {
     });
   }
 
+  // Open, and not because of the limit of keyframes.
+  [[nodiscard]] bool any_without_way() const {
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (is_open(i) && !is_beyond_limit_[i]) return true;
+    }
+    return false;
+  }
+
   void correct_all(Search search) {
     std::vector<bool> has_no_way(keyframes_s_.size(), false);  // between a keyframe and the next
     for (std::size_t i = 0; i < open_.size() && !deadline_.passed(); ++i) {
-      if (!is_open(i)) continue;
-      if (search == Search::kWithRoom && nudge_away(i)) continue;
+      if (!is_open(i) || is_beyond_limit_[i]) continue;
+      if (search == Search::kWithRoom && (nudge_away(i) || is_beyond_limit_[i])) continue;
       const std::size_t gap = gap_of(open_[i]);
       // The way round would replace all of the gap: no need to look for it twice.
       if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
@@ -171,9 +196,10 @@ class Ladder {
 
   bool nudge_away(std::size_t index) {
     const Problem problem = this->problem(index);
-    return accept(index, Rung::kMove, nudge(problem, NudgeKind::kMove, space_, deadline_)) ||
-           (space_.may_turn() &&
-            accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline_)));
+    if (accept(index, Rung::kMove, nudge(problem, NudgeKind::kMove, space_, deadline_)))
+      return true;
+    if (!space_.may_turn() || is_beyond_limit_[index]) return false;
+    return accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline_));
   }
 
   // A way round replaces all that lies between the two keyframes.
@@ -186,9 +212,15 @@ class Ladder {
     std::erase_if(problem.others, [&](const CollisionInterval& other) {
       return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
     });
+    Effort effort;
+    problem.effort = &effort;
     const std::optional<Candidate> found =
         go_round(problem, search, improvement_, space_, options_.seed, deadline_);
-    if (!accept(index, Rung::kGoRound, found)) return false;
+    for (const std::size_t i : same_gap) result_.corrections[i].tried += effort;
+    if (!accept(index, Rung::kGoRound, found)) {
+      for (const std::size_t i : same_gap) is_beyond_limit_[i] = is_beyond_limit_[index];
+      return false;
+    }
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = result_.corrections[i].interval;
       result_.corrections[i] = result_.corrections[index];
@@ -267,9 +299,15 @@ class Ladder {
   }
 
   bool accept(std::size_t index, Rung rung, const std::optional<Candidate>& candidate) {
-    if (!candidate || !take(*candidate)) return false;
+    if (!candidate) return false;
+    if (!take(*candidate)) {
+      is_beyond_limit_[index] = true;
+      for (const motion::BumpRow& row : candidate->rows) add_keyframes(row, beyond_limit_s_);
+      return false;
+    }
     Correction& correction = result_.corrections[index];
     correction.rung = rung;
+    correction.tried = {};
     correction.t_begin_s = original_.end_s();
     correction.t_end_s = original_.begin_s();
     for (const motion::BumpRow& row : candidate->rows) {
@@ -350,8 +388,13 @@ class Ladder {
   const collision::Deadline& deadline_;
   const CubicPath& original_;
   std::vector<double> keyframes_s_;
-  std::vector<motion::Pose> keyframe_poses_;
-  std::vector<CollisionInterval> open_;  ///< as `result_.corrections`
+  /// What proofs stand on: keyframes that we moved ourselves say nothing of the request.
+  std::vector<std::size_t> as_asked_;
+  std::vector<motion::Pose> poses_as_asked_;  ///< of these
+  std::vector<CollisionInterval> open_;       ///< as `result_.corrections`
+  /// Of these, what a way was found for that takes too many keyframes; and their times.
+  std::vector<bool> is_beyond_limit_;
+  std::vector<double> beyond_limit_s_;
   Improvement improvement_;
   Improvement pursuit_;  ///< of another objective than the closest
   LadderResult result_;

@@ -21,8 +21,9 @@ struct LadderOptions {
   collision::DetectOptions detect;
   Objective objective = Objective::kClosest;
   OrientationPolicy orientation;
-  int max_inserted_keyframes = 200;  ///< for the whole path [Limit: 0 <= value]
-  std::uint64_t seed = 1;            ///< of the search for ways round
+  /// For the whole path; with 0 nothing is corrected, nor looked for. [Limit: 0 <= value]
+  int max_inserted_keyframes = 200;
+  std::uint64_t seed = 1;  ///< of the search for ways round
   /// By up to which share the camera may be made smaller, about its eye: there is no path only if
   /// there is none for any such size. [Limit: 0 <= value < 1]
   double max_shrink = 0.0;
@@ -36,6 +37,9 @@ struct LadderResult {
   std::optional<Separation> separation;
   std::optional<Cage> cage;
   bool timed_out = false;
+  /// How many inserted keyframes it would have taken where more than the limit were needed: those
+  /// of the corrections that were found, all together.
+  std::optional<std::size_t> needed_keyframes;
 };
 
 /// Corrects collisions one after the other, each by the first strategy that succeeds: move, turn,

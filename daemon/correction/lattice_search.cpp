@@ -33,6 +33,13 @@ class LatticeSearch {
         horizon_m_(std::max(kHorizon * options.spacing_m, comfort_m_)) {}
 
   LatticeResult run() {
+    LatticeResult result = search();
+    result.points = points_.size();
+    return result;
+  }
+
+ private:
+  LatticeResult search() {
     meet({0, 0, 0}, kNone, 0.0);
     LatticeResult result;
     while (!queue_.empty()) {
@@ -51,7 +58,6 @@ class LatticeSearch {
     return result;
   }
 
- private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   struct Point {

@@ -22,6 +22,7 @@ struct LatticeResult {
   std::vector<geometry::Vec3> way_W;
   /// All that can be reached at this spacing was looked at, and the end was not among it.
   bool exhausted = false;
+  std::size_t points = 0;  ///< of which the distance was asked for
 };
 
 /// A way for a ball, by A* (Hart, Nilsson & Raphael

@@ -177,6 +177,7 @@ class Nudger {
     const double farthest = kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : largest_turn_rad;
     std::optional<Way> best;
     for (const Vec3& direction_W : directions_W()) {
+      if (problem_.effort != nullptr) ++problem_.effort->directions;
       const std::optional<double> amount =
           least_amount(direction_W, best ? best->amount : farthest);
       if (amount && (!best || *amount < best->amount)) best = Way{direction_W, *amount};

@@ -85,6 +85,7 @@ class TreeSearch {
     if (grow(side, to_).reached) return {from_, to_};
     for (int i = 0; i < options_.max_samples && !deadline.passed(); ++i, side = 1 - side) {
       const Growth grown = grow(side, sample(i));
+      if (options_.effort != nullptr) ++options_.effort->tree_samples;
       if (!grown.node) continue;
       const SignedPose met = trees_[side].pose(*grown.node);
       const Growth other = grow(1 - side, met);

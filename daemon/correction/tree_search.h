@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "daemon/correction/correction.h"
 #include "daemon/correction/guide.h"
 
 namespace camway::correction {
@@ -19,6 +20,7 @@ struct TreeOptions {
   /// orientations is applied at the share of the way `about_W`. The path has to meet it afterwards.
   std::vector<motion::Pose> interpolated;
   std::uint64_t seed = 1;
+  Effort* effort = nullptr;  ///< where samples are counted; may be null
 };
 
 /// A way for the body itself, turning included: two trees of straight motions grow from both ends

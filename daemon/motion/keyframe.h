@@ -20,6 +20,8 @@ struct Keyframe {
   double time_s = 0.0;
   Pose pose;
   KeyframeOrigin origin = KeyframeOrigin::kGiven;
+  /// A given one that was moved because it collided (`PlanOptions::repair_keyframes`).
+  bool is_repaired = false;
 };
 
 }  // namespace camway::motion

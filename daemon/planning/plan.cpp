@@ -12,12 +12,15 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/collision/probe.h"
-#include "daemon/correction/free_pose.h"
+#include "daemon/correction/free_space.h"
 #include "daemon/correction/keyframe_insertion.h"
 #include "daemon/correction/ladder.h"
 #include "daemon/motion/interpolate.h"
 #include "daemon/planning/check.h"
+#include "daemon/planning/effort_text.h"
+#include "daemon/planning/keyframe_faults.h"
 #include "daemon/planning/limits.h"
+#include "daemon/planning/shrink.h"
 
 namespace camway::planning {
 
@@ -43,16 +46,13 @@ std::vector<Keyframe> prepared_keyframes(const PlanRequest& request) {
   for (Keyframe& keyframe : keyframes) {
     keyframe.pose.orientation.normalize();
     keyframe.origin = motion::KeyframeOrigin::kGiven;
+    keyframe.is_repaired = false;
     poses.push_back(keyframe.pose);
   }
   if (request.has_times) return keyframes;
   const std::vector<double> times_s = motion::derive_times_s(poses);
   for (std::size_t i = 0; i < keyframes.size(); ++i) keyframes[i].time_s = times_s[i];
   return keyframes;
-}
-
-std::string counted(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 double colliding_s(const std::vector<CollisionInterval>& intervals) {
@@ -66,7 +66,7 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 class Planner {
  public:
   Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
-      : mesh_(snapshot.mesh),
+      : snapshot_(snapshot),
         obstacles_(snapshot),
         request_(request),
         deadline_(deadline),
@@ -79,6 +79,7 @@ class Planner {
       keep_the_better_path();
       measure();
       meet_limits();
+      add_clearance();
       conclude();
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
@@ -106,39 +107,33 @@ class Planner {
     return true;
   }
 
-  // Finds all that are not, and where they could be. Those are moved there if that was asked for;
-  // else the request cannot be planned.
+  // Those that are not are moved to where they would be, if that was asked for; else the request
+  // cannot be planned.
   bool keyframes_are_free() {
-    correction::FreeSpace space(obstacles_, *body_, detect_);
-    for (std::size_t i = 0; i < result_.keyframes.size(); ++i) {
-      motion::Pose& pose = result_.keyframes[i].pose;
-      if (space.gap_m(pose, detect_.tolerance_m) > 0.0) continue;
-      const std::optional<correction::FreePose> free =
-          correction::nearest_free_pose(space, pose, kRepairMargin * detect_.tolerance_m);
-      KeyframeFault fault{i, depth_m(space, pose), std::nullopt};
-      if (free) fault.free_pose = free->pose;
-      result_.keyframe_faults.push_back(fault);
-      if (result_.keyframe_faults.size() == kMostFaults) break;
-      if (request_.options.repair_keyframes && free) pose = free->pose;
+    result_.keyframe_faults =
+        find_keyframe_faults(snapshot_, *body_, detect_, result_.keyframes, deadline_);
+    const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
+    const bool all_free = std::ranges::all_of(
+        faults, [](const KeyframeFault& fault) { return fault.free_pose.has_value(); });
+    if (!faults.empty() &&
+        !(request_.options.repair_keyframes && all_free && faults.size() < kMostKeyframeFaults)) {
+      refuse_keyframes();
+      return false;
     }
-    const bool all_repaired =
-        std::ranges::all_of(result_.keyframe_faults,
-                            [](const KeyframeFault& fault) { return fault.free_pose.has_value(); });
-    if (result_.keyframe_faults.empty() || (request_.options.repair_keyframes && all_repaired &&
-                                            result_.keyframe_faults.size() < kMostFaults)) {
-      return true;
+    for (const KeyframeFault& fault : faults) {
+      result_.keyframes[fault.keyframe].pose = *fault.free_pose;
+      result_.keyframes[fault.keyframe].is_repaired = true;
     }
-    refuse_keyframes();
-    return false;
-  }
-
-  [[nodiscard]] double depth_m(correction::FreeSpace& space, const motion::Pose& pose) const {
-    const std::optional<collision::Witness> contact = space.contact(pose, 0.0);
-    return contact ? contact->depth_m : 0.0;
+    return true;
   }
 
   void refuse_keyframes() {
-    const KeyframeFault& first = result_.keyframe_faults.front();
+    const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
+    // Where keyframes were to be repaired, one that could not be is what is wrong.
+    const auto lost = std::ranges::find_if(faults, [&](const KeyframeFault& fault) {
+      return request_.options.repair_keyframes && !fault.free_pose;
+    });
+    const KeyframeFault& first = lost == faults.end() ? faults.front() : *lost;
     const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
     const std::string rule =
         detect_.clearance_m > 0.0
@@ -152,10 +147,14 @@ class Planner {
       const geometry::Vec3& to = first.free_pose->position;
       message +=
           fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
+    } else {
+      message += lost == faults.end() ? "; " : "; it could not be repaired: ";
+      message += deadline_.passed() ? "the deadline came before a free pose was found"
+                                    : "no free pose was found near it";
     }
-    if (result_.keyframe_faults.size() > 1) {
-      message += fmt::format("; {} keyframes are at fault", result_.keyframe_faults.size());
-    }
+    if (faults.size() > 1) message += fmt::format("; {} keyframes are at fault", faults.size());
+    if (faults.size() >= kMostKeyframeFaults && request_.options.repair_keyframes)
+      message += ", too many to be repaired";
     refuse(std::move(message), first.keyframe);
   }
 
@@ -172,6 +171,7 @@ class Planner {
   void correct(const std::optional<std::vector<CollisionInterval>>& found) {
     if (!found) {
       timed_out_ = true;
+      is_searched_ = false;
       mark_all_as_remaining();
       return;
     }
@@ -195,9 +195,10 @@ class Planner {
     options.orientation = request_.options.orientation;
     options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
     correction::LadderResult corrected = correction::correct_by_ladder(
-        mesh_, obstacles_, *body_, result_.keyframes, motion::interpolate_cubic(result_.keyframes),
-        found, options, deadline_);
+        snapshot_.mesh, obstacles_, *body_, result_.keyframes,
+        motion::interpolate_cubic(result_.keyframes), found, options, deadline_);
     timed_out_ = corrected.timed_out;
+    needed_keyframes_ = corrected.needed_keyframes;
     result_.corrections = std::move(corrected.corrections);
     if (corrected.separation) {
       result_.infeasibility =
@@ -208,7 +209,11 @@ class Planner {
           Infeasibility{corrected.cage->inside, corrected.cage->outside,
                         std::move(corrected.cage->triangles), corrected.cage->box};
     }
-    if (corrected.inserted_s.empty()) return;
+    // Corrections of less than the tolerance insert no keyframes, and are corrections.
+    const bool any = std::ranges::any_of(result_.corrections, [](const auto& correction) {
+      return correction.rung != correction::Rung::kNone;
+    });
+    if (!any) return;
     is_as_interpolated_ = false;
     corrected_ = std::move(corrected.path);
     result_.path = corrected_->path();
@@ -285,8 +290,19 @@ class Planner {
     if (result_.path.empty()) return;
     const motion::Path before = motion::interpolate(given_keyframes());
     result_.measures_before = motion::measure(before, before);
+    if (result_.collisions.empty()) {
+      result_.measures_before->clearance_lower_bound_m =
+          result_.certificate.clearance_lower_bound_m;
+    }
     result_.measures =
         is_as_interpolated_ ? result_.measures_before : motion::measure(result_.path, before);
+  }
+
+  // Corrections and limits both change the path and its proof; this tells of what they left.
+  void add_clearance() {
+    if (result_.measures) {
+      result_.measures->clearance_lower_bound_m = result_.certificate.clearance_lower_bound_m;
+    }
   }
 
   // Slower where the path is faster than the limits allow. A path that collides is not worth a new
@@ -325,7 +341,7 @@ class Planner {
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
   // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
-    return note_of_bounds() + note_of_tilt() + note_of_tolerance();
+    return note_of_bounds() + note_of_tilt() + note_of_tolerance() + note_of_method(request_);
   }
 
   // What cannot be told from a collision at the tolerance counts as one, and for a tiny body that
@@ -365,11 +381,13 @@ class Planner {
     return {};
   }
 
+  [[nodiscard]] std::size_t inserted_keyframes() const {
+    return static_cast<std::size_t>(std::ranges::count(
+        result_.keyframes, motion::KeyframeOrigin::kInserted, &Keyframe::origin));
+  }
+
   void conclude() {
-    const std::size_t inserted = static_cast<std::size_t>(std::count_if(
-        result_.keyframes.begin(), result_.keyframes.end(), [](const Keyframe& keyframe) {
-          return keyframe.origin == motion::KeyframeOrigin::kInserted;
-        }));
+    const std::size_t inserted = inserted_keyframes();
     const std::size_t remaining = result_.remaining_collisions.size();
     if (remaining == 0 && breach_) {
       // It is proved free, and the certificate says so; it is not what was asked for.
@@ -379,11 +397,11 @@ class Planner {
     }
     if (remaining == 0) {
       result_.status = Status::kOk;
-      result_.message =
-          fmt::format("{} found, {} inserted, proved free with {:.3g} m clearance",
-                      counted(result_.collisions.size(), "collision"),
-                      counted(inserted, "keyframe"), result_.certificate.clearance_lower_bound_m) +
-          note_of_times() + note();
+      result_.message = fmt::format("{} found, {} inserted{}, proved free with {:.3g} m clearance",
+                                    counted(result_.collisions.size(), "collision"),
+                                    counted(inserted, "keyframe"), repaired(),
+                                    result_.certificate.clearance_lower_bound_m) +
+                        note_of_times() + note();
       return;
     }
     if (result_.infeasibility) {
@@ -392,11 +410,36 @@ class Planner {
       return;
     }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
-    result_.message = fmt::format("{}{} found, {} inserted, {} left on the path",
+    if (!is_searched_) {
+      result_.message =
+          "the deadline came before the path was searched for collisions: nothing is known of it" +
+          note();
+      return;
+    }
+    result_.message = fmt::format("{}{} found, {} inserted{}, {} left on the path",
                                   timed_out_ ? "the deadline came first: " : "",
                                   counted(result_.collisions.size(), "collision"),
-                                  counted(inserted, "keyframe"), remaining) +
+                                  counted(inserted, "keyframe"), repaired(), remaining) +
+                      note_of_keyframe_limit() + note_of_effort(result_.corrections) +
                       note_of_times() + note();
+  }
+
+  [[nodiscard]] std::string note_of_keyframe_limit() const {
+    const std::int32_t most = request_.options.max_inserted_keyframes;
+    if (result_.collisions.empty()) return {};
+    if (most == 0) return "; nothing was corrected, as options.max_inserted_keyframes is 0";
+    // The seed's method does not say what it would need.
+    const bool is_used_up = std::cmp_greater_equal(inserted_keyframes(), most);
+    if (!needed_keyframes_ && !is_used_up) return {};
+    if (!needed_keyframes_) return fmt::format("; options.max_inserted_keyframes allows {}", most);
+    return fmt::format(
+        "; options.max_inserted_keyframes allows {}, the corrections that were found need {}", most,
+        *needed_keyframes_);
+  }
+
+  [[nodiscard]] std::string repaired() const {
+    const std::size_t count = result_.keyframe_faults.size();
+    return count == 0 ? std::string() : fmt::format(", {} repaired", count);
   }
 
   [[nodiscard]] std::string why_too_fast() const {
@@ -459,10 +502,6 @@ class Planner {
 
   // A body that is fewer tolerances large is told so.
   static constexpr double kLeastTolerances = 10.0;
-  // Of the tolerance: what a repaired keyframe keeps, so that a path can leave it.
-  static constexpr double kRepairMargin = 10.0;
-  // A request of which more keyframes collide has its unit or its axes wrong.
-  static constexpr std::size_t kMostFaults = 100;
 
   // Cameras are seldom rolled by so much: 30 degrees.
   static constexpr double kNotableTilt_rad = 0.5236;
@@ -470,7 +509,7 @@ class Planner {
   // For the final check, however little of the deadline is left.
   static constexpr double kFinalCheckBudget_s = 1.0;
 
-  const scene::WholeMesh& mesh_;
+  const scene::Snapshot& snapshot_;
   const collision::Obstacles obstacles_;
   const PlanRequest& request_;
   const Deadline& deadline_;
@@ -481,49 +520,24 @@ class Planner {
   std::optional<motion::Body> body_;
   bool is_as_interpolated_ = true;
   bool timed_out_ = false;
-  std::optional<motion::CubicPath> corrected_;  ///< what the ladder made of the path, if anything
-  std::optional<LimitBreach> breach_;           ///< limits that are not met
-  bool slowed_everywhere_ = false;              ///< where `time_scale` is not 1
+  bool is_searched_ = true;                      ///< the path as interpolated, for collisions
+  std::optional<std::size_t> needed_keyframes_;  ///< set if more than allowed
+  std::optional<motion::CubicPath> corrected_;   ///< what the ladder made of the path, if anything
+  std::optional<LimitBreach> breach_;            ///< limits that are not met
+  bool slowed_everywhere_ = false;               ///< where `time_scale` is not 1
   PlanResult result_;
 };
-
-// Where nothing else helped, with a smaller and smaller near quadrilateral, as far as the request
-// allows.
-PlanResult shrunk(const scene::Snapshot& snapshot, const PlanRequest& request,
-                  const Deadline& deadline, PlanResult full) {
-  constexpr double kStep = 0.85;
-  const double least = 1.0 - request.options.max_shrink;
-  const double begun_ms = deadline.elapsed_ms();
-  for (double scale = 1.0; scale > least && !deadline.passed();) {
-    scale = std::max(least, kStep * scale);
-    PlanRequest smaller = request;
-    smaller.camera.near_m *= scale;
-    PlanResult result = Planner(snapshot, smaller, deadline).run();
-    if (result.status != Status::kOk) continue;
-    result.near_scale = scale;
-    result.message += fmt::format("; the near distance is {:.3g} m instead of {:.3g} m",
-                                  smaller.camera.near_m, request.camera.near_m);
-    result.corrections = std::move(full.corrections);
-    for (correction::Correction& correction : result.corrections) {
-      if (correction.rung == correction::Rung::kNone) correction.rung = correction::Rung::kShrink;
-    }
-    result.timing.total_ms = full.timing.total_ms + deadline.elapsed_ms() - begun_ms;
-    return result;
-  }
-  return full;
-}
 
 }  // namespace
 
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const Deadline& deadline) {
   try {
-    PlanResult result = Planner(snapshot, request, deadline).run();
-    const bool may_shrink = request.options.max_shrink > 0.0 && !request.body &&
-                            result.status == Status::kPartial &&
-                            !result.remaining_collisions.empty();
-    if (!may_shrink) return result;
-    return shrunk(snapshot, request, deadline, std::move(result));
+    const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
+      return Planner(snapshot, asked, until).run();
+    };
+    if (!(request.options.max_shrink > 0.0) || request.body) return plan_at_size(request, deadline);
+    return plan_with_shrinking(request, deadline, plan_at_size);
   } catch (const std::exception& error) {
     // Out of memory, or a mistake of ours: either must not take the caller's process with it.
     PlanResult result;

@@ -94,6 +94,9 @@ inline constexpr double kLeastIntervalTolerance_m = 1e-9;  ///< rounding far fro
 inline constexpr double kMaxTime_s = 1e10;                 ///< seconds since 1970 fit
 /// Times closer than this share of their size leave too few digits for a parameter between them.
 inline constexpr double kLeastRelativeTimeStep = 1e-12;
+/// Times closer than this share of the whole path's duration ask for speeds that no number on the
+/// way keeps digits of.
+inline constexpr double kLeastTimeStepOfPath = 1e-9;
 /// A shorter quaternion is meant to be zero, and its square would lose digits to underflow.
 inline constexpr double kLeastQuaternionLength = 1e-100;
 

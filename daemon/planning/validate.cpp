@@ -82,6 +82,7 @@ std::optional<InvalidRequest> check_pose(const Keyframe& keyframe, std::size_t i
 }
 
 std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes) {
+  const double duration_s = keyframes.back().time_s - keyframes.front().time_s;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     const double time_s = keyframes[i].time_s;
     const std::string field = fmt::format("keyframes[{}].time", i);
@@ -98,6 +99,13 @@ std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes
                      fmt::format("is {} s, not after the {} s of keyframe {}; times must increase",
                                  time_s, previous_s, i - 1),
                      i);
+    }
+    if (time_s - previous_s < kLeastTimeStepOfPath * duration_s) {
+      return invalid(
+          field,
+          fmt::format("is only {:.2g} s after keyframe {}, too little for a path of {:.3g} s",
+                      time_s - previous_s, i - 1, duration_s),
+          i);
     }
   }
   return std::nullopt;

@@ -30,6 +30,7 @@ keyframe_t wire_keyframe(const motion::Keyframe& keyframe) {
   put(geometry::wxyz(keyframe.pose.orientation), wire.orientation_wxyz);
   wire.origin = keyframe.origin == motion::KeyframeOrigin::kInserted ? keyframe_t::ORIGIN_INSERTED
                                                                      : keyframe_t::ORIGIN_GIVEN;
+  wire.repaired = keyframe.is_repaired ? 1 : 0;
   return wire;
 }
 
@@ -40,6 +41,7 @@ motion::Keyframe keyframe_of(const keyframe_t& wire) {
   keyframe.pose.orientation = geometry::from_wxyz(vec4(wire.orientation_wxyz));
   keyframe.origin = wire.origin == keyframe_t::ORIGIN_INSERTED ? motion::KeyframeOrigin::kInserted
                                                                : motion::KeyframeOrigin::kGiven;
+  keyframe.is_repaired = wire.repaired != 0;
   return keyframe;
 }
 
@@ -223,6 +225,7 @@ ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& lim
   for (const keyframe_t& keyframe : wire.keyframes) {
     request.keyframes.push_back(keyframe_of(keyframe));
     request.keyframes.back().origin = motion::KeyframeOrigin::kGiven;
+    request.keyframes.back().is_repaired = false;
   }
   return {std::move(request), {}};
 }

@@ -45,6 +45,10 @@ correction_t wire_correction(const Correction& correction) {
   wire.changed_t_end_s = correction.t_end_s;
   wire.moved_m = correction.moved_m;
   wire.turned_rad = correction.turned_rad;
+  wire.tried_directions = correction.tried.directions;
+  wire.tried_paths = correction.tried.paths;
+  wire.tried_lattice_points = correction.tried.lattice_points;
+  wire.tried_tree_samples = correction.tried.tree_samples;
   return wire;
 }
 
@@ -56,6 +60,8 @@ Correction correction_of(const correction_t& wire, Rung rung) {
   correction.t_end_s = wire.changed_t_end_s;
   correction.moved_m = wire.moved_m;
   correction.turned_rad = wire.turned_rad;
+  correction.tried = {wire.tried_directions, wire.tried_paths, wire.tried_lattice_points,
+                      wire.tried_tree_samples};
   return correction;
 }
 
@@ -68,6 +74,7 @@ path_measures_t wire_measures(const PathMeasures& measures) {
   wire.largest_acceleration_m_per_s2 = measures.largest_acceleration_m_per_s2;
   wire.largest_turn_rate_rad_per_s = measures.largest_turn_rate_rad_per_s;
   wire.largest_turn_acceleration_rad_per_s2 = measures.largest_turn_acceleration_rad_per_s2;
+  wire.clearance_lower_bound_m = measures.clearance_lower_bound_m;
   return wire;
 }
 
@@ -80,6 +87,7 @@ PathMeasures measures_of(const path_measures_t& wire) {
   measures.largest_acceleration_m_per_s2 = wire.largest_acceleration_m_per_s2;
   measures.largest_turn_rate_rad_per_s = wire.largest_turn_rate_rad_per_s;
   measures.largest_turn_acceleration_rad_per_s2 = wire.largest_turn_acceleration_rad_per_s2;
+  measures.clearance_lower_bound_m = wire.clearance_lower_bound_m;
   return measures;
 }
 

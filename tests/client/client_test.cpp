@@ -189,7 +189,11 @@ TEST_F(ClientTest, PagesALargeRequest) {
     return all ? encode_all(answer_pages(page, 1, 1)) : std::vector<Bytes>{};
   };
   daemon.start();
-  Client client(quick());
+  ClientOptions options = quick();
+  // So many pages take their time on a busy machine.
+  options.try_timeout_s = 2.0;
+  options.max_try_timeout_s = 4.0;
+  Client client(options);
   PlanRequest request = small_request();
   request.keyframes.resize(kKeyframes);
   const PlanResponse response = client.plan(request);

@@ -248,6 +248,7 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
     page.has_measures = 1;
     page.measures.length_m = 7.0;
     page.measures.largest_turn_acceleration_rad_per_s2 = 8.0;
+    page.measures.clearance_lower_bound_m = 9.0;
     page.has_infeasibility = 1;
     page.keyframe_inside = 3;
     page.keyframe_outside = 1;
@@ -264,6 +265,10 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   correction.changed_t_end_s = 1.5;
   correction.moved_m = 0.25;
   correction.turned_rad = 0.125;
+  correction.tried_directions = 1;
+  correction.tried_paths = 2;
+  correction.tried_lattice_points = 3;
+  correction.tried_tree_samples = 4;
   pages[0].corrections = {correction};
   pages[0].num_corrections = 1;
   pages[0].proof_triangles = {2, 4};
@@ -299,10 +304,15 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   EXPECT_EQ(response.corrections[0].changed_t_end_s, 1.5);
   EXPECT_EQ(response.corrections[0].moved_m, 0.25);
   EXPECT_EQ(response.corrections[0].turned_rad, 0.125);
+  EXPECT_EQ(response.corrections[0].tried.directions, 1);
+  EXPECT_EQ(response.corrections[0].tried.paths, 2);
+  EXPECT_EQ(response.corrections[0].tried.lattice_points, 3);
+  EXPECT_EQ(response.corrections[0].tried.tree_samples, 4);
   EXPECT_FALSE(response.measures_before);
   ASSERT_TRUE(response.measures);
   EXPECT_EQ(response.measures->length_m, 7.0);
   EXPECT_EQ(response.measures->largest_turn_acceleration_rad_per_s2, 8.0);
+  EXPECT_EQ(response.measures->clearance_lower_bound_m, 9.0);
   EXPECT_EQ(response.near_scale, 0.75);
   EXPECT_EQ(response.time_scale, 1.25);
   ASSERT_EQ(response.keyframe_faults.size(), 2u);

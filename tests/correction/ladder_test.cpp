@@ -129,6 +129,21 @@ TEST(Ladder, LeavesWhatItCannotCorrect) {
 }
 
 // What lies outside the stretches that were changed is the same bit for bit.
+// There is no path then, but who asked for another keyframe was not told so.
+TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2}), at(4, {0, 0, 0.1})});
+  ASSERT_TRUE(c.corrected().separation);
+  EXPECT_EQ(c.corrected().separation->inside, 1U);
+  c.keyframes[1].is_repaired = true;
+  ASSERT_TRUE(c.corrected().separation);
+  EXPECT_EQ(c.corrected().separation->inside, 2U);
+  c.keyframes[2].is_repaired = true;
+  EXPECT_FALSE(c.corrected().separation);
+  EXPECT_FALSE(c.corrected().cage);
+}
+
 TEST(Ladder, IsLocal) {
   Case c = column();
   for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));

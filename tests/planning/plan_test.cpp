@@ -247,6 +247,64 @@ TEST(Plan, RepairsKeyframesIfAsked) {
   const PlanResult repaired = planned(*snapshot, request);
   EXPECT_EQ(repaired.status, Status::kOk) << repaired.message;
   EXPECT_EQ(repaired.path.pose(2.0).position, refused.keyframe_faults[0].free_pose->position);
+  for (const motion::Keyframe& keyframe : repaired.keyframes) {
+    EXPECT_EQ(keyframe.is_repaired, keyframe.time_s == 2.0);
+    if (keyframe.is_repaired) {
+      EXPECT_EQ(keyframe.origin, motion::KeyframeOrigin::kGiven);
+    }
+  }
+}
+
+// Half of the second keyframe is in a floor, and the floor is nearer than what is above it.
+TEST(Plan, RepairsNoKeyframeIntoASolid) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-20, -1, -20}, {20, 0.02, 20});
+  const auto snapshot = snapshot_of(std::move(mesh));
+  PlanRequest request = bulging_tour();
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.pose.position.y() = 0.5;
+  request.keyframes[1].pose.position.y() = 0.0;
+  request.options.repair_keyframes = true;
+  const PlanResult result = planned(*snapshot, request);
+  EXPECT_EQ(result.status, Status::kOk) << result.message;
+  EXPECT_GT(result.path.pose(2.0).position.y(), 0.02);
+}
+
+// The second of three keyframes is inside of so much that nothing free is near it.
+TEST(Plan, SaysWhichKeyframeCouldNotBeRepaired) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-20, -1, -20}, {20, 0.02, 20});
+  PlanRequest request = bulging_tour();
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.pose.position.y() = 0.5;
+  request.keyframes[1].pose.position.y() = 0.0;
+  geometry::Vec3& last = request.keyframes[2].pose.position;
+  last.z() = -15.0;
+  for (int i = -150; i <= 150; ++i) {
+    for (const int axis : {0, 1, 2}) {
+      geometry::Vec3 half = geometry::Vec3::Constant(3.1);
+      half[axis] = 1e-3;
+      geometry::Vec3 center = last;
+      center[axis] += 0.02 * i;
+      testing::add_cuboid(mesh, center - half, center + half);
+    }
+  }
+  request.options.repair_keyframes = true;
+  const PlanResult result = planned(*snapshot_of(std::move(mesh)), request);
+  EXPECT_EQ(result.status, Status::kInvalid);
+  EXPECT_EQ(result.keyframe, 2U);
+  EXPECT_THAT(result.message, ::testing::HasSubstr("keyframes[2]"));
+  EXPECT_THAT(result.message,
+              ::testing::HasSubstr("could not be repaired: no free pose was found near it"));
+}
+
+// What moves the camera by less than the tolerance inserts no keyframe, and counts all the same.
+TEST(Plan, KeepsCorrectionsOfLessThanTheTolerance) {
+  PlanRequest request = bulging_tour();
+  request.options.interval_tolerance_m = 1.0;
+  const PlanResult result = planned(*column_scene(), request);
+  ASSERT_FALSE(result.corrections.empty());
+  const bool is_corrected = result.corrections[0].rung != correction::Rung::kNone;
+  EXPECT_EQ(is_corrected, result.measures->largest_deviation_m > 0.0);
+  EXPECT_EQ(is_corrected, result.status == Status::kOk) << result.message;
 }
 
 TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
@@ -257,6 +315,73 @@ TEST(Plan, SaysThatTheToleranceIsCoarseForATinyBody) {
   EXPECT_THAT(plan(*column_scene(), request).message, note);
   request.options.interval_tolerance_m = 1e-5;
   EXPECT_THAT(plan(*column_scene(), request).message, ::testing::Not(note));
+}
+
+TEST(Plan, MeasuresTheClearanceBeforeAndAfter) {
+  PlanRequest request = bulging_tour();
+  const PlanResult corrected = planned(*column_scene(), request);
+  ASSERT_EQ(corrected.status, Status::kOk);
+  EXPECT_EQ(corrected.measures_before->clearance_lower_bound_m, 0.0);
+  EXPECT_GT(corrected.measures->clearance_lower_bound_m, 0.0);
+  EXPECT_EQ(corrected.measures->clearance_lower_bound_m,
+            corrected.certificate.clearance_lower_bound_m);
+  request.keyframes[1].pose.position.x() = 0.0;
+  const PlanResult free = planned(*column_scene(), request);
+  ASSERT_TRUE(free.collisions.empty());
+  EXPECT_GT(free.measures_before->clearance_lower_bound_m, 0.0);
+  EXPECT_EQ(free.measures_before, free.measures);
+}
+
+TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
+  PlanRequest request = bulging_tour();
+  const auto needed = planned(*column_scene(), request).keyframes.size() - 3;
+  ASSERT_GT(needed, 0U);
+  request.options.max_inserted_keyframes = 0;
+  const PlanResult none = planned(*column_scene(), request);
+  EXPECT_EQ(none.status, Status::kPartial);
+  EXPECT_THAT(none.message, ::testing::HasSubstr("options.max_inserted_keyframes is 0"));
+  for (const correction::Correction& correction : none.corrections) {
+    EXPECT_EQ(correction.tried, correction::Effort{});
+  }
+  // Through a door: one keyframe is not enough.
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
+  testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
+  const auto wall = snapshot_of(std::move(mesh));
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  request.options.max_inserted_keyframes = 1;
+  const PlanResult few = planned(*wall, request);
+  EXPECT_EQ(few.status, Status::kPartial);
+  EXPECT_THAT(few.message,
+              ::testing::ContainsRegex("options.max_inserted_keyframes allows 1, .* need [1-9]"));
+}
+
+// The gap is narrower than the near quadrilateral however that turns, and the walls have no end.
+TEST(Plan, SaysHowHardItTried) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-80, -80, -0.05}, {-0.05, 80, 0.05});
+  testing::add_cuboid(mesh, {0.05, -80, -0.05}, {80, 80, 0.05});
+  PlanRequest request = bulging_tour();
+  request.keyframes.erase(request.keyframes.begin() + 1);
+  request.options.orientation.rule = correction::OrientationRule::kKeep;
+  const PlanResult result = planned(*snapshot_of(std::move(mesh)), request);
+  EXPECT_EQ(result.status, Status::kPartial);
+  ASSERT_EQ(result.corrections.size(), 1U);
+  EXPECT_GT(result.corrections[0].tried.directions, 0);
+  EXPECT_GT(result.corrections[0].tried.lattice_points, 1000);
+  EXPECT_EQ(result.corrections[0].tried.tree_samples, 0);
+  EXPECT_THAT(result.message, ::testing::ContainsRegex("tried without success: .*lattice points"));
+}
+
+TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {
+  PlanRequest request = bulging_tour();
+  request.options.method = Method::kKeyframeInsertion;
+  EXPECT_THAT(planned(*column_scene(), request).message,
+              ::testing::Not(::testing::HasSubstr("does not look at")));
+  request.options.orientation.rule = correction::OrientationRule::kKeep;
+  request.options.objective = correction::Objective::kSafest;
+  EXPECT_THAT(planned(*column_scene(), request).message,
+              ::testing::HasSubstr("does not look at options.objective, options.orientation"));
 }
 
 // The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide, and may not turn.
@@ -322,12 +447,15 @@ TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
   EXPECT_EQ(result.status, Status::kTimeout);
   ASSERT_EQ(result.remaining_collisions.size(), 1u);
   EXPECT_EQ(result.remaining_collisions[0], (collision::CollisionInterval{0.0, 4.0}));
+  EXPECT_THAT(result.message,
+              ::testing::StartsWith("the deadline came before the path was searched for "
+                                    "collisions: nothing is known of it"));
 }
 
 TEST(Plan, SaysHowFarItIs) {
   const auto progress = std::make_shared<collision::Progress>();
-  const PlanResult result = plan(*column_scene(), bulging_tour(),
-                                 collision::Deadline::never().watched({}, progress));
+  const PlanResult result =
+      plan(*column_scene(), bulging_tour(), collision::Deadline::never().watched({}, progress));
   ASSERT_FALSE(result.corrections.empty());
   const auto corrected =
       std::ranges::count_if(result.corrections, [](const correction::Correction& correction) {
@@ -342,9 +470,8 @@ TEST(Plan, ToldToStopItChecksNothingAnyMore) {
   std::stop_source stop;
   stop.request_stop();
   const auto progress = std::make_shared<collision::Progress>();
-  const PlanResult result =
-      plan(*column_scene(), bulging_tour(),
-           collision::Deadline::never().watched(stop.get_token(), progress));
+  const PlanResult result = plan(*column_scene(), bulging_tour(),
+                                 collision::Deadline::never().watched(stop.get_token(), progress));
   EXPECT_EQ(result.status, Status::kTimeout);
   EXPECT_FALSE(result.certificate.certified);
   ASSERT_EQ(result.remaining_collisions.size(), 1u);

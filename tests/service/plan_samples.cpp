@@ -60,7 +60,7 @@ correction::MotionLimits limits(Random& random) {
 
 motion::PathMeasures measures(Random& random) {
   return {number(random), number(random), number(random), number(random),
-          number(random), number(random), number(random)};
+          number(random), number(random), number(random), number(random)};
 }
 
 correction::Correction corrected(const collision::CollisionInterval& interval, Random& random) {
@@ -71,6 +71,8 @@ correction::Correction corrected(const collision::CollisionInterval& interval, R
   correction.t_end_s = number(random);
   correction.moved_m = number(random);
   correction.turned_rad = number(random);
+  const auto count = [&] { return static_cast<std::int32_t>(below(random, 100'000)); };
+  correction.tried = {count(), count(), count(), count()};
   return correction;
 }
 
@@ -160,6 +162,7 @@ planning::PlanResult sample_result(std::size_t segments, Random& random) {
          {motion::KeyframeOrigin::kGiven, motion::KeyframeOrigin::kInserted}) {
       result.keyframes.push_back(keyframe(t0_s, random));
       result.keyframes.back().origin = origin;
+      result.keyframes.back().is_repaired = below(random, 2) == 0;
     }
     result.collisions.push_back({t0_s, t0_s + 0.01});
     result.collision_names.emplace_back();

@@ -202,6 +202,8 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     EXPECT_EQ(back.result->remaining_names, result.remaining_names);
     EXPECT_FALSE(back.result->keyframe);
     EXPECT_EQ(back.result->corrections.size(), segments);
+    EXPECT_TRUE(std::ranges::equal(back.result->keyframes, result.keyframes, {},
+                                   &motion::Keyframe::is_repaired, &motion::Keyframe::is_repaired));
     EXPECT_EQ(back.result->measures_before, result.measures_before);
     EXPECT_EQ(back.result->measures, result.measures);
     EXPECT_EQ(back.result->near_scale, 0.75);
@@ -232,10 +234,12 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   correction.t_end_s = 2.5;
   correction.moved_m = 0.25;
   correction.turned_rad = 0.125;
+  correction.tried = {1, 2, 3, 4};
   result.corrections = {correction};
   motion::PathMeasures measures;
   measures.length_m = 7.0;
   measures.largest_turn_acceleration_rad_per_s2 = 8.0;
+  measures.clearance_lower_bound_m = 9.0;
   result.measures = measures;
   planning::KeyframeFault fault;
   fault.keyframe = 4;
@@ -251,11 +255,17 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   EXPECT_EQ(wire.corrections[0].changed_t_end_s, 2.5);
   EXPECT_EQ(wire.corrections[0].moved_m, 0.25);
   EXPECT_EQ(wire.corrections[0].turned_rad, 0.125);
+  EXPECT_EQ(wire.corrections[0].tried_directions, 1);
+  EXPECT_EQ(wire.corrections[0].tried_paths, 2);
+  EXPECT_EQ(wire.corrections[0].tried_lattice_points, 3);
+  EXPECT_EQ(wire.corrections[0].tried_tree_samples, 4);
+  EXPECT_EQ(from_wire(wire).result->corrections[0].tried, correction.tried);
   EXPECT_FALSE(from_wire(wire).result->corrections[0].interval.witness);
   EXPECT_EQ(wire.has_measures_before, 0);
   EXPECT_EQ(wire.has_measures, 1);
   EXPECT_EQ(wire.measures.length_m, 7.0);
   EXPECT_EQ(wire.measures.largest_turn_acceleration_rad_per_s2, 8.0);
+  EXPECT_EQ(wire.measures.clearance_lower_bound_m, 9.0);
   ASSERT_EQ(wire.num_slowed, 1);
   EXPECT_EQ(wire.slowed[0].t_begin_s, 1.5);
   EXPECT_EQ(wire.slowed[0].t_end_s, 2.5);

@@ -89,7 +89,8 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("near": 0.1)", R"("near": 0.1, "far": 9)",
        "camera.far: is unknown; camera has fov_x_deg, fov_y_deg, near"},
       {R"("_name": "door")", R"("name": "door")",
-       "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, origin"},
+       "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, origin, "
+       "repaired"},
       {R"("fov_x_deg": 90)", R"("fov_x_deg": "90")",
        "camera.fov_x_deg: must be a number, not a string"},
       {R"("keyframes": [)", R"("keyframes": 5, "_old": [)",
@@ -184,7 +185,8 @@ double any_angle(std::mt19937_64& random) {
 
 motion::PathMeasures any_measures(std::mt19937_64& random) {
   const auto number = [&] { return any_double(random); };
-  return {number(), number(), number(), number(), number(), any_angle(random), any_angle(random)};
+  return {number(), number(),          number(),          number(),
+          number(), any_angle(random), any_angle(random), number()};
 }
 
 /// All that a response may say of correction, each of it there or not.
@@ -198,6 +200,10 @@ void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
     correction.t_end_s = number();
     correction.moved_m = number();
     correction.turned_rad = any_angle(random);
+    const auto count = [&] { return static_cast<std::int32_t>(random() >> 33); };
+    if (correction.rung == correction::Rung::kNone) {
+      correction.tried = {count(), count(), count(), count()};
+    }
   }
   if (random() % 2 == 0) result.measures_before = any_measures(random);
   if (random() % 2 == 0) result.measures = any_measures(random);
@@ -244,6 +250,7 @@ planning::PlanResult any_result(std::mt19937_64& random) {
     keyframe.pose.position = {number(), number(), number()};
     keyframe.pose.orientation = geometry::from_wxyz({number(), number(), number(), number()});
     keyframe.origin = static_cast<motion::KeyframeOrigin>(random() % 2);
+    keyframe.is_repaired = random() % 2 == 0;
   }
   for (auto* list : {&result.collisions, &result.remaining_collisions}) {
     list->resize(random() % 4);
@@ -405,7 +412,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
     {"t_begin": 2.25, "t_end": 2.75, "method": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
   ],
   "measures": {
-    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0},
+    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
     "after": {"length_m": 5.0,)"));
   EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
   "time_scale": 1.5,

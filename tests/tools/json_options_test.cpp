@@ -51,6 +51,11 @@ TEST(JsonOptions, ReadsEveryField) {
 
 TEST(JsonOptions, HasDefaultsForAllThatMayBeMissing) {
   EXPECT_EQ(options_of("{}").value, PlanOptions{});
+  EXPECT_EQ(options_of(R"({"orientation": {}})").value, planning::PlanOptions{});
+  const auto parsed = options_of(R"({"orientation": {"max_turn_deg": 90}})");
+  ASSERT_TRUE(parsed.value) << parsed.error;
+  EXPECT_EQ(parsed.value->orientation.rule, correction::OrientationRule::kFree);
+  EXPECT_NEAR(parsed.value->orientation.max_turn_rad, std::numbers::pi / 2, 1e-15);
   EXPECT_EQ(options_of(R"({"orientation": {"policy": "free"}, "limits": {}})").value,
             PlanOptions{});
 }
@@ -79,7 +84,6 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
        "objective: 'cheapest' is unknown; there are closest, shortest, smoothest, safest"},
       {R"({"objective": 1})", "objective: must be a string"},
       {R"({"orientation": "free"})", "orientation: must be an object"},
-      {R"({"orientation": {}})", "orientation.policy: is missing"},
       {R"({"orientation": {"policy": "upside"}})",
        "orientation.policy: 'upside' is unknown; there are free, keep, level, target"},
       {R"({"orientation": {"policy": "free", "turn": 3}})", "orientation.turn: is unknown"},

@@ -77,9 +77,37 @@ TEST(PlanSummary, BeginsWithAllInOneLine) {
                          "remaining, planned in 1.2 ms, scene loaded in 0.0 ms: all is well\n"));
 }
 
-TEST(PlanSummary, CutsLongLists) {
+// A way round replaces all between two keyframes, whatever that collided with.
+TEST(PlanSummary, HasALineForEachChangeOfThePath) {
+  PlanResult result = result_with(
+      {corrected(1, 2, Rung::kGoRound, 0.5, 0.0), corrected(2.5, 2.75, Rung::kMove, 0.1, 0.0),
+       corrected(3, 4, Rung::kGoRound, 0.5, 0.0), corrected(5, 5, Rung::kGoRound, 0.5, 0.0)});
+  for (const std::size_t i : {0U, 2U, 3U}) result.collisions[i].witness.emplace();
+  result.collision_names[0] = {"sofa", "edge 2"};
+  result.collision_names[2] = {"lamp", "inside"};
+  result.collision_names[3] = {"sofa", "edge 2"};
+  EXPECT_THAT(
+      plan_summary(result, nullptr),
+      EndsWith("all is well\n"
+               "  1.00-2.00, 3.00-4.00, 5.00 s: goes round, moved 0.5 m (edge 2 met sofa, the "
+               "inside met lamp)\n"
+               "  2.50-2.75 s: moved 0.1 m"));
+}
+
+TEST(PlanSummary, SaysHowHardItTried) {
   PlanResult result =
-      result_with(std::vector<Correction>(23, corrected(1, 2, Rung::kMove, 0.1, 0.0)));
+      result_with({corrected(1, 2, Rung::kNone, 0, 0), corrected(3, 4, Rung::kNone, 0, 0)});
+  result.corrections[0].tried = {14, 1, 20000, 0};
+  EXPECT_THAT(plan_summary(result, nullptr),
+              EndsWith("  1.00-2.00 s: not corrected; tried 14 directions, 1 changed path, 20000 "
+                       "lattice points\n"
+                       "  3.00-4.00 s: not corrected"));
+}
+
+TEST(PlanSummary, CutsLongLists) {
+  std::vector<Correction> corrections;
+  for (int i = 0; i < 23; ++i) corrections.push_back(corrected(i, i + 1, Rung::kMove, 0.1 * i, 0));
+  const PlanResult result = result_with(std::move(corrections));
   const std::string text = plan_summary(result, nullptr);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 21);
   EXPECT_THAT(text, EndsWith("\n  and 3 more"));

@@ -40,7 +40,7 @@ bool same_segment(const Segment& a, const Segment& b) {
 }
 
 bool same_keyframe(const motion::Keyframe& a, const motion::Keyframe& b) {
-  return same(a.time_s, b.time_s) && a.origin == b.origin &&
+  return same(a.time_s, b.time_s) && a.origin == b.origin && a.is_repaired == b.is_repaired &&
          same_vector(a.pose.position, b.pose.position) &&
          same_vector(geometry::wxyz(a.pose.orientation), geometry::wxyz(b.pose.orientation));
 }
@@ -77,7 +77,8 @@ bool same_correction(const correction::Correction& a, const correction::Correcti
 bool same_measures(const std::optional<motion::PathMeasures>& a,
                    const std::optional<motion::PathMeasures>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
-  return same(a->length_m, b->length_m) && same(a->largest_deviation_m, b->largest_deviation_m) &&
+  return same(a->clearance_lower_bound_m, b->clearance_lower_bound_m) &&
+         same(a->length_m, b->length_m) && same(a->largest_deviation_m, b->largest_deviation_m) &&
          same(a->bending_energy_m2_per_s3, b->bending_energy_m2_per_s3) &&
          same(a->largest_speed_m_per_s, b->largest_speed_m_per_s) &&
          same(a->largest_acceleration_m_per_s2, b->largest_acceleration_m_per_s2) &&

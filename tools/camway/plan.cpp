@@ -313,7 +313,9 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "options.orientation and options.limits say how corrections may turn the camera and how fast "
       "it may move; README.md lists all options. Fields that are unknown are refused, but for "
       "comment and those that begin with '_'. Each collision of the response has a witness: time, "
-      "object, triangle, feature of the body, depth, point; corrections say what became of it.\n"
+      "object, triangle, feature of the body, depth, point; corrections say what became of it, and "
+      "how "
+      "hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "Example: camway plan --scene office.obj --request office-graze-1.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });

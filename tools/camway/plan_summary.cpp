@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/planning/effort_text.h"
 #include "tools/json_angle.h"
 
 namespace camway::tools {
@@ -58,11 +59,11 @@ std::string deed(const Correction& correction) {
   return "not corrected";
 }
 
-/// "2.31-2.65 s", or "2.31 s" where that is all to a hundredth.
+/// "2.31-2.65", or "2.31" where that is all to a hundredth.
 std::string span(const collision::CollisionInterval& interval) {
   const std::string begin = fmt::format("{:.2f}", interval.t_begin_s);
   const std::string end = fmt::format("{:.2f}", interval.t_end_s);
-  return begin == end ? begin + " s" : begin + "-" + end + " s";
+  return begin == end ? begin : begin + "-" + end;
 }
 
 /// "edge 2", "the inside".
@@ -71,25 +72,62 @@ std::string part_of_body(const std::string& feature) {
   return feature == "inside" || feature == "surface" ? "the " + feature : feature;
 }
 
-/// " (edge 2 met sofa_04)", or nothing if nobody saw what collided.
+/// "edge 2 met sofa_04", or nothing if nobody saw what collided.
 std::string meeting(const PlanResult& result, std::size_t collision) {
   if (collision >= result.collisions.size() || collision >= result.collision_names.size())
     return {};
   if (!result.collisions[collision].witness) return {};
   const planning::WitnessNames& names = result.collision_names[collision];
-  return fmt::format(" ({} met {})", part_of_body(names.feature),
+  return fmt::format("{} met {}", part_of_body(names.feature),
                      names.object.empty() ? "the scene" : names.object);
 }
 
+/// Whether one change of the path is what became of both.
+bool is_same_change(const Correction& a, const Correction& b) {
+  return a.rung != Rung::kNone && a.rung == b.rung && a.t_begin_s == b.t_begin_s &&
+         a.t_end_s == b.t_end_s && a.moved_m == b.moved_m && a.turned_rad == b.turned_rad;
+}
+
+/// The collisions that each change of the path was for, in order.
+std::vector<std::vector<std::size_t>> changes(const std::vector<Correction>& corrections) {
+  std::vector<std::vector<std::size_t>> changes;
+  for (std::size_t i = 0; i < corrections.size(); ++i) {
+    const auto same = std::ranges::find_if(changes, [&](const std::vector<std::size_t>& change) {
+      return is_same_change(corrections[change.front()], corrections[i]);
+    });
+    if (same == changes.end()) {
+      changes.push_back({i});
+    } else {
+      same->push_back(i);
+    }
+  }
+  return changes;
+}
+
+/// "2.31-2.65, 2.80-2.91 s: goes round, moved 1.3 m (edge 2 met sofa_04, corner 0 met lamp)".
+std::string change_line(const PlanResult& result, const std::vector<std::size_t>& change) {
+  std::string spans;
+  std::vector<std::string> meetings;
+  for (const std::size_t i : change) {
+    spans += (spans.empty() ? "" : ", ") + span(result.corrections[i].interval);
+    const std::string met = meeting(result, i);
+    if (!met.empty() && std::ranges::count(meetings, met) == 0) meetings.push_back(met);
+  }
+  const Correction& correction = result.corrections[change.front()];
+  std::string line = spans + " s: " + deed(correction);
+  const std::size_t shown = std::min(meetings.size(), kMostObjects);
+  for (std::size_t i = 0; i < shown; ++i) line += (i == 0 ? " (" : ", ") + meetings[i];
+  if (shown > 0) line += shown < meetings.size() ? ", ...)" : ")";
+  const std::string effort = planning::effort_text(correction.tried);
+  if (!effort.empty()) line += "; tried " + effort;
+  return line;
+}
+
 void add_corrections(const PlanResult& result, std::vector<std::string>& lines) {
-  const std::size_t shown = std::min(result.corrections.size(), kMostLines);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Correction& correction = result.corrections[i];
-    lines.push_back(span(correction.interval) + ": " + deed(correction) + meeting(result, i));
-  }
-  if (shown < result.corrections.size()) {
-    lines.push_back(fmt::format("and {} more", result.corrections.size() - shown));
-  }
+  const std::vector<std::vector<std::size_t>> all = changes(result.corrections);
+  const std::size_t shown = std::min(all.size(), kMostLines);
+  for (std::size_t i = 0; i < shown; ++i) lines.push_back(change_line(result, all[i]));
+  if (shown < all.size()) lines.push_back(fmt::format("and {} more", all.size() - shown));
 }
 
 void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lines) {

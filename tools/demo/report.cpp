@@ -25,6 +25,7 @@ motion::Keyframe to_motion(const Keyframe& keyframe) {
   converted.pose = {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
   converted.origin =
       keyframe.inserted ? motion::KeyframeOrigin::kInserted : motion::KeyframeOrigin::kGiven;
+  converted.is_repaired = keyframe.repaired;
   return converted;
 }
 

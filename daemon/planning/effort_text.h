@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/correction/correction.h"
+#include "daemon/planning/request.h"
+
+namespace camway::planning {
+
+/// "1 collision", "2 collisions".
+std::string counted(std::size_t count, std::string_view noun);
+
+/// "8 directions to move or turn in, 12 changed paths, 60000 lattice points, 3000 tree samples":
+/// what of that there was. Empty if nothing was tried.
+std::string effort_text(const correction::Effort& effort);
+
+/// "; tried without success: ..." over all that was not corrected; nothing where nothing was tried.
+std::string note_of_effort(const std::vector<correction::Correction>& corrections);
+
+/// "; note: ..." about options that the request's method does not look at; nothing where there are
+/// none.
+std::string note_of_method(const PlanRequest& request);
+
+}  // namespace camway::planning

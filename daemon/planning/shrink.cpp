@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/shrink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace camway::planning {
+
+namespace {
+
+using collision::Deadline;
+using correction::Rung;
+
+constexpr double kStep = 0.85;       // from one scale to the next
+constexpr double kFirstShare = 0.5;  // of the deadline, for the camera as it is; then for the least
+
+/// From the largest to the least. [Limit: max_shrink < 1]
+std::vector<double> scales(double max_shrink) {
+  const double least = 1.0 - max_shrink;
+  std::vector<double> scales;
+  for (double scale = kStep; scale > least; scale *= kStep) scales.push_back(scale);
+  scales.push_back(least);
+  return scales;
+}
+
+class Shrinking {
+ public:
+  Shrinking(const PlanRequest& request, const Deadline& deadline, const PlanAtSize& plan_at_size)
+      : request_(request), deadline_(deadline), plan_at_size_(plan_at_size) {}
+
+  PlanResult run() {
+    PlanResult full = plan_at_size_(request_, deadline_.share_of_rest(kFirstShare));
+    const bool is_open = full.status == Status::kPartial || full.status == Status::kTimeout;
+    if (!is_open || full.remaining_collisions.empty()) return full;
+    const double begun_ms = deadline_.elapsed_ms();
+    cut_off_ = full.status == Status::kTimeout;
+    // Not before: it may be that the first plan found the request invalid, and this with it.
+    scales_ = scales(request_.options.max_shrink);
+    search();
+    PlanResult result = best_ ? answer(std::move(full)) : refusal(std::move(full));
+    const double took_ms = deadline_.elapsed_ms() - begun_ms;
+    result.timing.correct_ms += took_ms;
+    result.timing.total_ms += took_ms;
+    return result;
+  }
+
+ private:
+  void search() {
+    const std::size_t least = scales_.size() - 1;
+    if (is_free(least, least == 0 ? 1.0 : kFirstShare)) {
+      std::size_t first = 0;
+      for (std::size_t free = least; first < free;) {
+        const std::size_t middle = (first + free) / 2;
+        if (is_free(middle, 1.0 / static_cast<double>(std::bit_width(free - first)))) {
+          free = middle;
+        } else {
+          first = middle + 1;
+        }
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < least; ++i) {
+      if (is_free(i, 1.0 / static_cast<double>(least - i))) return;
+    }
+  }
+
+  bool is_free(std::size_t index, double share) {
+    if (deadline_.passed()) {
+      cut_off_ = true;
+      return false;
+    }
+    PlanRequest smaller = request_;
+    smaller.camera.near_m *= scales_[index];
+    PlanResult result = plan_at_size_(smaller, deadline_.share_of_rest(share));
+    tried_.push_back(scales_[index]);
+    if (result.status == Status::kTimeout) cut_off_ = true;
+    if (result.status != Status::kOk) return false;
+    result.near_scale = scales_[index];
+    best_ = std::move(result);
+    return true;
+  }
+
+  // What collided, and what became of it, is told of the camera that was asked for; unless times
+  // were moved to meet limits, which are not those of the first plan then.
+  [[nodiscard]] PlanResult answer(PlanResult full) {
+    PlanResult result = std::move(*best_);
+    result.message = fmt::format("with a near distance of {:.3g} m instead of {:.3g} m: {}",
+                                 request_.camera.near_m * result.near_scale, request_.camera.near_m,
+                                 result.message);
+    result.timing = full.timing;
+    if (full.time_scale != 1.0 || result.time_scale != 1.0) return result;
+    result.collisions = std::move(full.collisions);
+    result.measures_before = full.measures_before;
+    result.corrections = std::move(full.corrections);
+    for (correction::Correction& correction : result.corrections) {
+      if (correction.rung != Rung::kNone) continue;
+      correction.rung = Rung::kShrink;
+      correction.tried = {};
+    }
+    return result;
+  }
+
+  [[nodiscard]] PlanResult refusal(PlanResult full) {
+    std::ranges::sort(tried_, std::ranges::greater());
+    std::string list;
+    for (const double scale : tried_) {
+      fmt::format_to(std::back_inserter(list), "{}{:.2g}", list.empty() ? "" : ", ", scale);
+    }
+    full.message += tried_.empty()
+                        ? "; the deadline left no time to make the near distance smaller"
+                        : "; nor was there a free path with the near distance times " + list;
+    if (cut_off_ && !tried_.empty()) full.message += ", as far as the deadline allowed to search";
+    if (cut_off_) full.status = Status::kTimeout;
+    return full;
+  }
+
+  const PlanRequest& request_;
+  const Deadline& deadline_;
+  const PlanAtSize& plan_at_size_;
+  std::vector<double> scales_;
+  std::vector<double> tried_;
+  std::optional<PlanResult> best_;
+  bool cut_off_ = false;
+};
+
+}  // namespace
+
+PlanResult plan_with_shrinking(const PlanRequest& request, const Deadline& deadline,
+                               const PlanAtSize& plan_at_size) {
+  return Shrinking(request, deadline, plan_at_size).run();
+}
+
+}  // namespace camway::planning

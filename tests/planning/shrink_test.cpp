@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/shrink.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace camway::planning {
+namespace {
+
+using collision::Deadline;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+PlanResult ended(Status status) {
+  PlanResult result;
+  result.status = status;
+  result.message = "this is how it ended";
+  if (status != Status::kOk) result.remaining_collisions = {{1, 2}};
+  result.collisions = {{1, 2}};
+  result.corrections = {{{1, 2}}};
+  return result;
+}
+
+struct Planned {
+  std::vector<double> scales;  ///< in the order in which they were tried
+  PlanResult result;
+};
+
+/// With a planner for which `fits` says at which scale all is free.
+template <class Fits>
+Planned planned(double max_shrink, const Fits& fits) {
+  PlanRequest request;
+  request.camera.near_m = 2.0;
+  request.options.max_shrink = max_shrink;
+  Planned planned;
+  planned.result = plan_with_shrinking(
+      request, Deadline::never(), [&](const PlanRequest& asked, const Deadline&) {
+        planned.scales.push_back(asked.camera.near_m / 2.0);
+        return ended(fits(planned.scales.back()) ? Status::kOk : Status::kPartial);
+      });
+  return planned;
+}
+
+Planned planned_with(double max_shrink, Status status) {
+  PlanRequest request;
+  request.options.max_shrink = max_shrink;
+  Planned planned;
+  planned.result =
+      plan_with_shrinking(request, Deadline::never(), [&](const PlanRequest&, const Deadline&) {
+        planned.scales.push_back(1.0);
+        return ended(status);
+      });
+  return planned;
+}
+
+TEST(PlanWithShrinking, LeavesTheCameraAsItIsWhereItFits) {
+  const Planned result = planned(0.7, [](double) { return true; });
+  EXPECT_EQ(result.scales.size(), 1U);
+  EXPECT_EQ(result.result.near_scale, 1.0);
+}
+
+// Between the steps of 0.85 below and above, whatever fits.
+TEST(PlanWithShrinking, TakesTheLargestStepThatFits) {
+  for (double limit = 0.3; limit < 1.0; limit += 0.01) {
+    const Planned result = planned(0.7, [&](double scale) { return scale <= limit + 1e-12; });
+    EXPECT_EQ(result.result.status, Status::kOk);
+    EXPECT_LE(result.result.near_scale, limit + 1e-12);
+    EXPECT_TRUE(result.result.near_scale > 0.85 * limit || result.result.near_scale < 0.301)
+        << limit << " " << result.result.near_scale;
+    EXPECT_LE(result.scales.size(), 6U);
+    EXPECT_EQ(result.result.corrections[0].rung, correction::Rung::kShrink);
+    EXPECT_THAT(result.result.message, HasSubstr(" m instead of 2 m"));
+  }
+}
+
+TEST(PlanWithShrinking, TriesThemAllIfNotEvenTheSmallestFits) {
+  const Planned one = planned(0.7, [](double scale) { return std::abs(scale - 0.7225) < 1e-9; });
+  EXPECT_EQ(one.result.status, Status::kOk);
+  EXPECT_NEAR(one.result.near_scale, 0.7225, 1e-9);
+  const Planned none = planned(0.5, [](double) { return false; });
+  EXPECT_EQ(none.result.status, Status::kPartial);
+  EXPECT_THAT(none.result.message,
+              HasSubstr("this is how it ended; nor was there a free path with the near distance "
+                        "times 0.85, 0.72, 0.61, 0.52, 0.5"));
+  EXPECT_THAT(none.result.message, Not(HasSubstr("deadline")));
+}
+
+// Each takes all of its time.
+TEST(PlanWithShrinking, UsesTheWholeDeadlineAndNoMore) {
+  PlanRequest request;
+  request.options.max_shrink = 0.5;
+  int tried = 0;
+  const Deadline deadline = Deadline::after_s(0.2);
+  const PlanResult result =
+      plan_with_shrinking(request, deadline, [&](const PlanRequest&, const Deadline& until) {
+        ++tried;
+        while (!until.passed()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return ended(Status::kTimeout);
+      });
+  EXPECT_GT(tried, 2);
+  EXPECT_GT(deadline.elapsed_ms(), 180.0);
+  EXPECT_EQ(result.status, Status::kTimeout);
+  EXPECT_THAT(result.message, HasSubstr("0.5, as far as the deadline allowed"));
+}
+
+TEST(PlanWithShrinking, GivesThoseThatAreSmallerTheirShare) {
+  PlanRequest request;
+  request.camera.near_m = 1.0;
+  request.options.max_shrink = 0.5;
+  const PlanResult result = plan_with_shrinking(
+      request, Deadline::after_s(0.2), [&](const PlanRequest& asked, const Deadline& until) {
+        if (asked.camera.near_m < 0.6) return ended(Status::kOk);
+        while (!until.passed()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return ended(Status::kTimeout);
+      });
+  EXPECT_EQ(result.status, Status::kOk);
+  EXPECT_GE(result.near_scale, 0.5);
+  EXPECT_LT(result.near_scale, 0.6);
+}
+
+// A request that is not valid goes in, and comes out as the planner judges it.
+TEST(PlanWithShrinking, DoesNotLookAtWhatIsNotValid) {
+  for (const double max_shrink : {1.0, 7.0, std::nan("")}) {
+    const Planned result = planned_with(max_shrink, Status::kInvalid);
+    EXPECT_EQ(result.result.status, Status::kInvalid);
+    EXPECT_EQ(result.scales.size(), 1U);
+  }
+}
+
+TEST(PlanWithShrinking, StopsWhenItIsToldTo) {
+  PlanRequest request;
+  request.options.max_shrink = 0.5;
+  std::stop_source stop;
+  const Deadline deadline = Deadline::never().watched(stop.get_token(), nullptr);
+  int tried = 0;
+  plan_with_shrinking(request, deadline, [&](const PlanRequest&, const Deadline& until) {
+    EXPECT_FALSE(until.passed());
+    stop.request_stop();
+    EXPECT_TRUE(until.passed());
+    ++tried;
+    return ended(Status::kTimeout);
+  });
+  EXPECT_EQ(tried, 1);
+}
+
+TEST(PlanWithShrinking, SaysSoWhereNoTimeWasLeftForIt) {
+  PlanRequest request;
+  request.options.max_shrink = 0.5;
+  const PlanResult result = plan_with_shrinking(
+      request, Deadline::after_s(0.0),
+      [&](const PlanRequest&, const Deadline&) { return ended(Status::kTimeout); });
+  EXPECT_EQ(result.status, Status::kTimeout);
+  EXPECT_THAT(result.message, HasSubstr("left no time to make the near distance smaller"));
+}
+
+}  // namespace
+}  // namespace camway::planning
