@@ -63,11 +63,12 @@ constexpr std::array<double, kSteps> kLengths = [] {
   return lengths;
 }();
 
-constexpr double kComfort = 0.5;                   // of the ball: gap from which a way is not near
+constexpr double kFarAway = 4.0;  // steps from the way that is to be kept to: further counts alike
+constexpr double kStray = 0.15;   // share of its length that a step there costs more
+constexpr double kComfort = 0.5;  // of the ball: gap from which a way is not near
 constexpr double kHorizon = 0.9;  // of a step: two gaps are more than the longest diagonal
 
-/// Numbers by keys, which are never 0: open addressing. A point is asked for up to 52 times, and
-/// the standard's table took half of the time of a search.
+/// Numbers by keys, which are never 0: open addressing, as a point is looked up some 50 times.
 class KeyTable {
  public:
   /// The number of `key`; if it has none, `number` from now on.
@@ -151,6 +152,7 @@ class LatticeSearch {
     /// What the way here costs: at least, before it is settled.
     double claim_m = std::numeric_limits<double>::infinity();
     double gap_m = kUnknown_m;  ///< before the scene is asked
+    double stray = 0.0;         ///< share that a step there costs more; told with the gap
     std::uint32_t parent = kNone;
     std::uint32_t settled_from = 0;  ///< a bit for each step that leads here from what is settled
     bool is_settled = false;
@@ -209,10 +211,25 @@ class LatticeSearch {
     queue_.push({cost_m + rest_m(point.key), index});
   }
 
-  /// By the gaps that are known: at least.
-  [[nodiscard]] double cost_of_step_m(std::size_t step, double gap_a_m, double gap_b_m) const {
-    const double near = std::max(0.0, 1.0 - std::min(gap_a_m, gap_b_m) / comfort_m_);
-    return options_.spacing_m * kLengths[step] * (1.0 + near);
+  /// By what is known: at least.
+  [[nodiscard]] double cost_of_step_m(std::size_t step, const Point& a, const Point& b) const {
+    const double near = std::max(0.0, 1.0 - std::min(a.gap_m, b.gap_m) / comfort_m_);
+    const double stray = 0.5 * (a.stray + b.stray);
+    return options_.spacing_m * kLengths[step] * (1.0 + near + stray);
+  }
+
+  void ask(Point& point) const {
+    const Vec3 place = place_W(point.key);
+    point.gap_m = gap_m(place);
+    double away_m = kFarAway * options_.spacing_m;
+    for (std::size_t i = 1; i < options_.about_W.size(); ++i) {
+      const Vec3 from = options_.about_W[i - 1];
+      const Vec3 leg = options_.about_W[i] - from;
+      const double square_m2 = leg.squaredNorm();
+      const double share = square_m2 > 0.0 ? leg.dot(place - from) / square_m2 : 0.0;
+      away_m = std::min(away_m, (from + std::clamp(share, 0.0, 1.0) * leg - place).norm());
+    }
+    if (!options_.about_W.empty()) point.stray = kStray * away_m / (kFarAway * options_.spacing_m);
   }
 
   void expand(std::uint32_t index) {
@@ -223,7 +240,7 @@ class LatticeSearch {
       Point& to = points_[next];
       if (to.is_settled || to.is_blocked()) continue;
       to.settled_from |= 1U << step;
-      claim(next, from.claim_m + cost_of_step_m(step, from.gap_m, to.gap_m));
+      claim(next, from.claim_m + cost_of_step_m(step, from, to));
     }
   }
 
@@ -234,7 +251,7 @@ class LatticeSearch {
     const std::uint32_t index = best.point;
     Point& point = points_[index];
     if (point.is_settled || point.is_blocked()) return false;
-    if (point.gap_m == kUnknown_m) point.gap_m = gap_m(place_W(point.key));
+    if (point.gap_m == kUnknown_m) ask(point);
     if (point.is_blocked() && index != 0) return false;
     if (index != 0) find_parent(point);
     const double estimate_m = point.claim_m + rest_m(point.key);
@@ -273,7 +290,7 @@ class LatticeSearch {
       const auto step = static_cast<std::size_t>(std::countr_zero(steps));
       const std::uint32_t index = point_at(point.key + kKeySteps[kSteps - 1 - step]);
       const Point& from = points_[index];
-      const double cost_m = from.claim_m + cost_of_step_m(step, from.gap_m, point.gap_m);
+      const double cost_m = from.claim_m + cost_of_step_m(step, from, point);
       if (cost_m < best.cost_m) best = {cost_m, index, step};
     }
     return best;

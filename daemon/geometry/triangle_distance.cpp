@@ -227,8 +227,9 @@ TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) 
   const Triangle la = to_local(a, a[0], unit_m);
   const Triangle lb = to_local(b, a[0], unit_m);
   Search search(la, lb, scale / unit_m, beyond_m / unit_m);
-  const bool is_settled = is_point(a) ? point_settles(search, la, lb)
-                                      : edges_settle(search, la, lb) || faces_settle(search, la, lb);
+  const bool is_settled = is_point(a)
+                              ? point_settles(search, la, lb)
+                              : edges_settle(search, la, lb) || faces_settle(search, la, lb);
   if (is_settled) {
     if (search.is_beyond()) return {std::numeric_limits<double>::infinity(), search.offset()};
     return {search.distance() * unit_m, search.offset()};
