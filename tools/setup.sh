@@ -13,6 +13,8 @@ readonly kPackages=(
   g++ cmake ninja-build ccache git pkg-config
   # the wire
   liblcm-dev liblcm-bin
+  # what confines the process that reads scene files
+  libseccomp-dev
   # geometry, scenes, the occupancy map
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
   # logs, flags, JSON, configuration files, pictures

@@ -82,8 +82,10 @@ TEST(Service, CountsAnswersByStatusLatenciesAndTraffic) {
   plan_request_t elsewhere = request_with(3);
   elsewhere.scene = "nowhere";
   daemon.send(elsewhere);
-  const std::optional<status_t> status =
-      status_with(daemon, [](const status_t& s) { return s.answered_requests == 4; });
+  const std::optional<status_t> status = status_with(daemon, [](const status_t& s) {
+    // An answer is counted before it is sent, and the status when it has been.
+    return s.answered_requests == 4 && s.sent_messages >= 5;
+  });
   ASSERT_TRUE(status);
   EXPECT_EQ(status->cache_hits, 1);
   EXPECT_EQ(status->repeated_requests, 1);
@@ -95,7 +97,7 @@ TEST(Service, CountsAnswersByStatusLatenciesAndTraffic) {
   EXPECT_GE(status->receipt_to_answer.sum_s, status->waiting.sum_s);
   EXPECT_EQ(status->received_messages, 4);
   EXPECT_GT(status->received_bytes, 0);
-  EXPECT_GE(status->sent_messages, 4);
+  EXPECT_GT(status->sent_bytes, 0);
   EXPECT_GT(statuses, 0);
 }
 
