@@ -1,29 +1,52 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/outbox.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace camway::service {
 
-bool Outbox::add(std::string channel, Pages pages, std::vector<std::size_t> which) {
-  const bool waits = std::any_of(answers_.begin(), answers_.end(),
-                                 [&](const Answer& answer) { return answer.pages == pages; });
-  if (waits || answers_.size() >= kCapacity) return false;
-  answers_.push_back({std::move(channel), std::move(pages), std::move(which), 0});
+bool Outbox::add(const std::string& channel, Pages pages, std::vector<std::size_t> which) {
+  if (here_.contains(pages.get())) return false;
+  const auto [position, is_new] = channels_.try_emplace(channel);
+  if (here_.size() >= kCapacity || position->second.size() >= kChannelCapacity) {
+    if (is_new) channels_.erase(position);
+    ++dropped_;
+    return false;
+  }
+  if (is_new) turns_.push_back(position);
+  here_.insert(pages.get());
+  position->second.push_back({std::move(pages), std::move(which), 0});
   return true;
 }
 
 void Outbox::send_burst() {
   std::size_t room = kBurstBytes;
-  for (int sent = 0; sent < kBurstMessages && !answers_.empty(); ++sent) {
-    Answer& answer = answers_.front();
-    const bool all = answer.which.empty();
-    const Bytes& page = (*answer.pages)[all ? answer.next : answer.which[answer.next]];
+  for (int sent = 0; sent < kBurstMessages && !turns_.empty(); ++sent) {
+    Answer& answer = turns_.front()->second.front();
+    const Bytes& page = answer.page();
     if (page.size() > room) return;
     room -= page.size();
-    if (!transport_.publish(answer.channel, page)) ++failed_;
-    if (++answer.next == (all ? answer.pages->size() : answer.which.size())) answers_.pop_front();
+    // What the transport does not take is lost, like what the network loses; it counts that itself.
+    static_cast<void>(transport_.publish(turns_.front()->first, page));
+    ++answer.next;
+    end_turn();
+  }
+}
+
+void Outbox::end_turn() {
+  const Channels::iterator channel = turns_.front();
+  turns_.pop_front();
+  std::deque<Answer>& answers = channel->second;
+  if (answers.front().sent()) {
+    here_.erase(answers.front().pages.get());
+  } else {
+    answers.push_back(std::move(answers.front()));
+  }
+  answers.pop_front();
+  if (answers.empty()) {
+    channels_.erase(channel);
+  } else {
+    turns_.push_back(channel);
   }
 }
 

@@ -3,7 +3,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,9 +15,10 @@
 
 namespace camway::service {
 
-/// Answers on their way out, in order, a few pages at a time: a receiver's socket buffer holds only
-/// about three messages of full size with Debian's default of 212,992 bytes, so a long answer that
-/// is sent at once is lost. For the loop thread.
+/// Answers on their way out, a few pages at a time: a receiver's socket buffer holds only about
+/// three messages of full size with Debian's default of 212,992 bytes, so a long answer that is
+/// sent at once is lost. Channels take turns, page by page, and so do the answers on a channel: a
+/// long one holds up neither other clients nor the short ones behind it. For the loop thread.
 class Outbox {
  public:
   /// Bytes that may be sent before the next pause: two messages of full size.
@@ -23,35 +27,46 @@ class Outbox {
   static constexpr int kBurstMessages = 16;
   /// How long the receiver is given to empty its buffer after a burst.
   static constexpr std::chrono::milliseconds kPause{2};
-  /// Answers that may wait; the rest is refused, its clients ask again.
+  /// Answers that may wait, on all channels and on one; the rest is refused, its clients ask again.
   static constexpr std::size_t kCapacity = 4096;
+  static constexpr std::size_t kChannelCapacity = 1024;
 
   explicit Outbox(Transport& transport) : transport_(transport) {}
 
-  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. False if it
-  /// is full, or if this very answer is still waiting to be sent.
+  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. False if
+  /// there is no room, or if this very answer is still waiting to be sent.
   /// Precondition: `which` counts pages that there are.
-  bool add(std::string channel, Pages pages, std::vector<std::size_t> which = {});
+  bool add(const std::string& channel, Pages pages, std::vector<std::size_t> which = {});
 
   /// Sends the next burst.
   void send_burst();
 
-  [[nodiscard]] bool empty() const { return answers_.empty(); }
+  [[nodiscard]] bool empty() const { return turns_.empty(); }
 
-  /// Messages that the transport did not take.
-  [[nodiscard]] std::size_t failed() const { return failed_; }
+  /// Answers for which there was no room.
+  [[nodiscard]] std::int64_t dropped() const { return dropped_; }
 
  private:
   struct Answer {
-    std::string channel;
     Pages pages;
     std::vector<std::size_t> which;
     std::size_t next = 0;  ///< in `which`, or in `pages` if that is empty
+
+    [[nodiscard]] const Bytes& page() const { return (*pages)[which.empty() ? next : which[next]]; }
+    [[nodiscard]] bool sent() const {
+      return next == (which.empty() ? pages->size() : which.size());
+    }
   };
+  using Channels = std::map<std::string, std::deque<Answer>>;
+
+  /// Who was served goes to the back.
+  void end_turn();
 
   Transport& transport_;
-  std::deque<Answer> answers_;
-  std::size_t failed_ = 0;
+  Channels channels_;                         ///< those on which answers wait
+  std::deque<Channels::iterator> turns_;      ///< the same, who is next first
+  std::set<const std::vector<Bytes>*> here_;  ///< the pages of all answers that wait
+  std::int64_t dropped_ = 0;
 };
 
 }  // namespace camway::service

@@ -345,6 +345,7 @@ occupancy_request_t random_message<occupancy_request_t>(Random& random) {
   message.num_spheres = fill_rows(message.spheres_m, 4, random);
   message.num_rays = fill_rows(message.rays_m, 7, random);
   message.num_distances = fill_rows(message.distances_m, 4, random);
+  message.num_sphere_paths = fill_rows(message.sphere_paths_m, 7, random);
   return message;
 }
 
@@ -365,7 +366,8 @@ occupancy_response_t random_message<occupancy_response_t>(Random& random) {
   message.num_boxes = fill_list(message.boxes_occupied, length(random, 2000), flag);
   message.num_spheres = fill_list(message.spheres_occupied, length(random, 2000), flag);
   message.num_rays = fill_list(message.rays_hit_m, length(random, 2000), distance);
-  message.num_distances = fill_list(message.distances_m, length(random, 2000), distance);
+  message.num_distances = fill_list(message.distances_m, length(random, 1000), distance);
+  message.num_sphere_paths = fill_list(message.sphere_paths_hit_m, length(random, 1000), distance);
   return message;
 }
 
@@ -455,10 +457,25 @@ status_t random_message<status_t>(Random& random) {
   message.num_workers = small(random);
   message.queued_requests = small(random);
   message.running_requests = small(random);
-  message.answered_requests = integer(random);
-  message.repeated_requests = integer(random);
-  message.overloaded_requests = integer(random);
-  message.malformed_messages = integer(random);
+  for (std::int64_t* const counter :
+       {&message.answered_requests, &message.repeated_requests, &message.cache_hits,
+        &message.overloaded_requests, &message.malformed_messages, &message.dropped_answers,
+        &message.unsent_messages, &message.request_pages_asked_again,
+        &message.answer_pages_asked_again, &message.scene_changes, &message.received_messages,
+        &message.received_bytes, &message.sent_messages, &message.sent_bytes}) {
+    *counter = integer(random);
+  }
+  for (auto* const answers :
+       {&message.plan_answers, &message.occupancy_answers, &message.scene_answers}) {
+    for (std::int64_t& count : *answers) count = integer(random);
+  }
+  for (latency_t* const latency :
+       {&message.receipt_to_answer, &message.waiting, &message.planning}) {
+    latency->count = integer(random);
+    latency->sum_s = number(random);
+    latency->num_buckets =
+        fill_list(latency->buckets, length(random, 96), [&] { return integer(random); });
+  }
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });
