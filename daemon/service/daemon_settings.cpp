@@ -108,6 +108,8 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.upload_bytes", &service.uploads.bytes, 1, 1e11},
       {"scenes.all_uploads_bytes", &service.uploads.total_bytes, 1, 1e12},
       {"status.period_s", &service.heartbeat_period, 0.01, 3600},
+      {"metrics.address", &options.metrics.ip},
+      {"metrics.port", &options.metrics.port, 0, 65'535},
       {"log.level", &options.log_level, 0, 0, true},
       {"log.warning_period_s", &service.warning_period, 0, kDayS},
   };
