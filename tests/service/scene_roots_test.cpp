@@ -108,9 +108,12 @@ TEST_F(SceneRootsTest, WritesBelowARootAndNowhereElse) {
   EXPECT_EQ(content(base_ / "root" / "link.bt"), "y");
   EXPECT_FALSE(fs::is_symlink(base_ / "root" / "link.bt"));
 
-  for (const std::string bad :
-       {"../map.bt", "up/map.bt", "a.obj", ".bt", ".hidden.bt", "", "missing/map.bt",
-        (base_ / "map.bt").string().c_str(), (base_ / "root2" / "map.bt").string().c_str()}) {
+  const std::string beside = (base_ / "map.bt").string();
+  const std::string in_another = (base_ / "root2" / "map.bt").string();
+  for (const std::string& bad :
+       {std::string("../map.bt"), std::string("up/map.bt"), std::string("a.obj"),
+        std::string(".bt"), std::string(".hidden.bt"), std::string(), std::string("missing/map.bt"),
+        beside, in_another}) {
     EXPECT_THAT(roots_.write(bad, ".bt", "z"), HasSubstr("file: '" + bad + "'"));
   }
   EXPECT_FALSE(fs::exists(base_ / "map.bt") || fs::exists(base_ / "root2" / "map.bt"));
