@@ -147,8 +147,8 @@ TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
 // A closed surface is asked for before the large lattices are searched.
 TEST(Ladder, ProvesBeforeItSearchesFar) {
   Mesh mesh;
-  testing::add_cuboid(mesh, {-2, -2, -2}, {2, 2, 2});
-  const Case c = case_with(mesh, {at(0, {0, 0, 0}), at(4, {0.3, 0.1, 5})});
+  testing::add_cuboid(mesh, {-20, -20, -20}, {20, 20, 20});
+  const Case c = case_with(mesh, {at(0, {0, 0, 19.4}), at(4, {0.3, 0.1, 20.6})});
   const LadderResult result = c.corrected();
   ASSERT_TRUE(result.separation);
   EXPECT_EQ(result.separation->triangles.size(), 12U);
