@@ -72,13 +72,18 @@ class CheapestLeaf {
     for (unsigned index = 0; index < 8; ++index) {
       if (!tree_.nodeChildExists(&node, index)) continue;
       const VoxelCube child = cube.child(index);
-      children[count++] = {tree_.getNodeChild(&node, index), child, cost_(grid_.box(child))};
+      const double child_cost = cost_(grid_.box(child));
+      if (!(child_cost <= limit_)) continue;
+      // In order of cost; what costs the same stays in the order of the octants.
+      std::size_t place = count++;
+      for (; place > 0 && children[place - 1].cost > child_cost; --place) {
+        children[place] = children[place - 1];
+      }
+      children[place] = {tree_.getNodeChild(&node, index), child, child_cost};
     }
-    const auto end = children.begin() + static_cast<std::ptrdiff_t>(count);
-    std::stable_sort(children.begin(), end,
-                     [](const Child& a, const Child& b) { return a.cost < b.cost; });
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
       visit(*children[i].node, children[i].cube, children[i].cost);
+    }
   }
 
   const OcTree& tree_;
@@ -134,12 +139,14 @@ std::string refusal(const Mesh& mesh, double resolution_m) {
 std::optional<VoxelSet> touched_voxels(const Mesh& mesh, const VoxelGrid& grid,
                                        std::uint64_t max_voxels) {
   VoxelSet voxels;
+  VoxelMarker marker(voxels);
+  const auto is_new = [&](const Voxel& voxel) { return !marker.contains(voxel); };
   const auto mark = [&](const Voxel& voxel) {
-    voxels.insert(voxel);
+    marker.insert(voxel);
     return voxels.size() <= max_voxels;
   };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!for_each_voxel_touched(grid, mesh.triangle(i), mark)) return std::nullopt;
+    if (!for_each_voxel_touched(grid, mesh.triangle(i), is_new, mark)) return std::nullopt;
   }
   return voxels;
 }
