@@ -97,6 +97,9 @@ inline constexpr double kLeastRelativeTimeStep = 1e-12;
 /// Times closer than this share of the whole path's duration ask for speeds that no number on the
 /// way keeps digits of.
 inline constexpr double kLeastTimeStepOfPath = 1e-9;
+/// And times closer than this for rates, and their squares, beyond the range of numbers.
+/// [Units: seconds]
+inline constexpr double kLeastTimeStep_s = 1e-9;
 /// A shorter quaternion is meant to be zero, and its square would lose digits to underflow.
 inline constexpr double kLeastQuaternionLength = 1e-100;
 

@@ -100,6 +100,12 @@ std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes
                                  time_s, previous_s, i - 1),
                      i);
     }
+    if (time_s - previous_s < kLeastTimeStep_s) {
+      return invalid(field,
+                     fmt::format("is only {:.2g} s after keyframe {}; it must be {:g} s or more",
+                                 time_s - previous_s, i - 1, kLeastTimeStep_s),
+                     i);
+    }
     if (time_s - previous_s < kLeastTimeStepOfPath * duration_s) {
       return invalid(
           field,

@@ -60,6 +60,10 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"keyframes[2].time", 2, [](PlanRequest& r) { r.keyframes[2].time_s = 0.5; }},
       {"keyframes[2].time", 2, [](PlanRequest& r) { r.keyframes[2].time_s = kNaN; }},
       {"keyframes[1].time", 1, [](PlanRequest& r) { r.keyframes[1].time_s = 1e-12; }},
+      {"keyframes[1].time", 1,
+       [](PlanRequest& r) {
+         for (motion::Keyframe& keyframe : r.keyframes) keyframe.time_s *= 1e-300;
+       }},
       {"options.deadline_s", {}, [](PlanRequest& r) { r.options.deadline_s = 0.0; }},
       {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = kNaN; }},
       {"options.interval_tolerance_m",
