@@ -21,6 +21,8 @@ DaemonStatus from_wire(const status_t& wire) {
   status.repeated_requests = wire.repeated_requests;
   status.overloaded_requests = wire.overloaded_requests;
   status.malformed_messages = wire.malformed_messages;
+  status.watched_paths = wire.watched_paths;
+  status.broken_paths = wire.broken_paths;
   status.total_scenes = wire.total_scenes;
   for (const scene_info_t& scene : wire.scenes) status.scenes.push_back(from_wire(scene));
   return status;

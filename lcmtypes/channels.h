@@ -72,6 +72,10 @@ struct Channels {
   [[nodiscard]] std::string upload_status(std::string_view client_id) const {
     return (prefix + "_UPLOAD_STATUS_").append(client_id);
   }
+  [[nodiscard]] std::string watch() const { return prefix + "_WATCH"; }
+  [[nodiscard]] std::string watch_report(std::string_view client_id) const {
+    return (prefix + "_WATCH_REPORT_").append(client_id);
+  }
   [[nodiscard]] std::string status() const { return prefix + "_STATUS"; }
   [[nodiscard]] std::string error() const { return prefix + "_ERROR"; }
 };

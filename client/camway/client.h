@@ -13,6 +13,7 @@
 #include "camway/plan.h"
 #include "camway/scene.h"
 #include "camway/status.h"
+#include "camway/watch.h"
 
 namespace camway {
 
@@ -32,7 +33,10 @@ struct ClientOptions {
   /// were refused at once do not come back at once. [Limit: 0 <= value < 1]
   double jitter = 0.2;
   std::uint64_t seed = 0;  ///< of that; 0: another one each time
-  int retries = 5;         ///< repetitions without a sign of life before the call gives up
+  /// A watched path is watched for so long after the client fell silent. The daemon may allow less.
+  /// [Limit: 1 <= value <= 86400]
+  double watch_lease_s = 30.0;
+  int retries = 5;  ///< repetitions without a sign of life before the call gives up
 };
 
 /// The daemon's heartbeat.
@@ -52,8 +56,10 @@ struct DaemonStatus {
   std::int64_t repeated_requests = 0;  ///< repetitions of requests that were known already
   std::int64_t overloaded_requests = 0;
   std::int64_t malformed_messages = 0;
-  std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
-  std::vector<SceneInfo> scenes;  ///< in order of name
+  std::int64_t broken_paths = 0;   ///< times that a change broke a watched path
+  std::int32_t watched_paths = 0;  ///< now
+  std::int32_t total_scenes = 0;   ///< may exceed `scenes.size()` if there are very many
+  std::vector<SceneInfo> scenes;   ///< in order of name
 };
 
 /// Asks a Camway daemon over LCM.
@@ -107,6 +113,15 @@ class Client {
   /// Calls off a request that was sent by this client. Its answer comes soon: `kCancelled`, or what
   /// it was if it was ready. Does nothing for other ids, and nothing the second time.
   void cancel(std::int64_t request_id);
+
+  /// Asks for a path and leaves it with the daemon: `on_event` hears of the answer, and from then
+  /// on of each change of the scene that breaks the path, and of the corrected path, until
+  /// `unwatch`. Lost messages and restarts of the daemon are seen to. Returns the id of the
+  /// request; 0, after `on_event` heard why, if it cannot be sent.
+  std::int64_t watch(const PlanRequest& request, WatchHandler on_event);
+
+  /// Ends it. An event that is on its way may still come. Does nothing for other ids.
+  void unwatch(std::int64_t request_id);
 
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);

@@ -35,6 +35,8 @@ struct Counters {
   std::int64_t repeated = 0;
   std::int64_t overloaded = 0;
   std::int64_t malformed = 0;
+  std::int32_t watched_paths = 0;  ///< now
+  std::int64_t broken_paths = 0;
 };
 
 /// Microseconds since 1970.

@@ -12,6 +12,7 @@
 #include "daemon/service/plan_service.h"
 #include "daemon/service/scene_service.h"
 #include "daemon/service/transport.h"
+#include "daemon/service/watches.h"
 
 namespace camway::service {
 
@@ -71,6 +72,7 @@ class Service {
   Transport& transport_;
   const ServiceHooks hooks_;
   Core core_;
+  Watches watches_;
   PlanService plans_;
   OccupancyService occupancy_;
   SceneService scenes_;

@@ -17,6 +17,8 @@ status_t make_status(const Core& core, std::chrono::duration<double> uptime) {
   status.repeated_requests = core.counters.repeated;
   status.overloaded_requests = core.counters.overloaded;
   status.malformed_messages = core.counters.malformed;
+  status.watched_paths = core.counters.watched_paths;
+  status.broken_paths = core.counters.broken_paths;
 
   const std::vector<std::shared_ptr<const scene::Snapshot>> scenes = core.scenes.list();
   status.total_scenes = static_cast<std::int32_t>(scenes.size());

@@ -226,6 +226,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.priority = static_cast<std::int8_t>(random());
   message.deadline_s = number(random);
   message.progress_period_s = number(random);
+  message.watch_lease_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
@@ -447,6 +448,48 @@ upload_status_t random_message<upload_status_t>(Random& random) {
 }
 
 template <>
+watch_t random_message<watch_t>(Random& random) {
+  watch_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.lease_s = number(random);
+  message.num_paths = fill_list(message.paths, length(random, 1000), [&] {
+    watched_path_t path{};
+    path.request_id = integer(random);
+    path.known_serial = integer(random);
+    return path;
+  });
+  return message;
+}
+
+template <>
+watch_report_t random_message<watch_report_t>(Random& random) {
+  watch_report_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  message.num_paths = fill_list(message.paths, length(random, 500), [&] {
+    path_state_t path{};
+    path.request_id = integer(random);
+    path.serial = integer(random);
+    path.state = static_cast<std::int8_t>(below(random, 6));
+    path.scene_revision = integer(random);
+    path.answer_revision = integer(random);
+    return path;
+  });
+  message.num_intervals = fill_list(message.intervals, length(random, 500), [&] {
+    broken_interval_t interval{};
+    interval.request_id = integer(random);
+    interval.t_begin_s = number(random);
+    interval.t_end_s = number(random);
+    return interval;
+  });
+  return message;
+}
+
+template <>
 status_t random_message<status_t>(Random& random) {
   status_t message{};
   message.utime = integer(random);
@@ -459,6 +502,8 @@ status_t random_message<status_t>(Random& random) {
   message.repeated_requests = integer(random);
   message.overloaded_requests = integer(random);
   message.malformed_messages = integer(random);
+  message.watched_paths = small(random);
+  message.broken_paths = integer(random);
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });

@@ -60,6 +60,8 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"repeated_requests", status.repeated_requests},
                    {"overloaded_requests", status.overloaded_requests},
                    {"malformed_messages", status.malformed_messages},
+                   {"watched_paths", status.watched_paths},
+                   {"broken_paths", status.broken_paths},
                    {"total_scenes", status.total_scenes}};
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_json(scene));
@@ -74,6 +76,8 @@ void print_text(const DaemonStatus& status) {
       "answered     {}, of them {} to requests that were known; {} refused for want of room\n",
       status.answered_requests, status.repeated_requests, status.overloaded_requests);
   fmt::print("malformed    {} messages\n", status.malformed_messages);
+  fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
+             status.broken_paths);
   fmt::print("scenes       {}\n", status.total_scenes);
   for (const SceneInfo& scene : status.scenes) {
     fmt::print("  {}: revision {}, {} triangles, {}, digest {}\n", scene.name, scene.revision,
