@@ -32,6 +32,11 @@ Numbers numbers_of(const OccupancyDistance& distance) {
   return {distance.point_m[0], distance.point_m[1], distance.point_m[2], distance.max_m};
 }
 
+Numbers numbers_of(const OccupancySpherePath& path) {
+  return {path.from_m[0], path.from_m[1], path.from_m[2], path.to_m[0],
+          path.to_m[1],   path.to_m[2],   path.radius_m};
+}
+
 /// Fills requests one after another; begins the next when one is full.
 class Splitter {
  public:
@@ -73,7 +78,8 @@ class Splitter {
 bool as_many(const occupancy_request_t& request, const occupancy_response_t& response) {
   return response.num_points == request.num_points && response.num_boxes == request.num_boxes &&
          response.num_spheres == request.num_spheres && response.num_rays == request.num_rays &&
-         response.num_distances == request.num_distances;
+         response.num_distances == request.num_distances &&
+         response.num_sphere_paths == request.num_sphere_paths;
 }
 
 void append(const std::vector<std::int8_t>& wire, std::vector<bool>& list) {
@@ -104,6 +110,7 @@ std::vector<occupancy_request_t> to_requests(const OccupancyBatch& batch,
   splitter.add(batch.spheres, &Request::num_spheres, &Request::spheres_m);
   splitter.add(batch.rays, &Request::num_rays, &Request::rays_m);
   splitter.add(batch.distances, &Request::num_distances, &Request::distances_m);
+  splitter.add(batch.sphere_paths, &Request::num_sphere_paths, &Request::sphere_paths_m);
   return splitter.take();
 }
 
@@ -130,7 +137,8 @@ std::optional<std::string> append(const occupancy_request_t& request,
   append(response.boxes_occupied, answer.boxes_occupied);
   append(response.spheres_occupied, answer.spheres_occupied);
   if (!append(response.rays_hit_m, answer.rays_hit_m) ||
-      !append(response.distances_m, answer.distances_m)) {
+      !append(response.distances_m, answer.distances_m) ||
+      !append(response.sphere_paths_hit_m, answer.sphere_paths_hit_m)) {
     return "a distance is not a finite number";
   }
   return std::nullopt;

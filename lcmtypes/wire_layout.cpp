@@ -164,6 +164,7 @@ constexpr std::array kOccupancyRequest{
     list("spheres_m", 4 * kDouble),
     list("rays_m", 7 * kDouble),
     list("distances_m", 4 * kDouble),
+    list("sphere_paths_m", 7 * kDouble),
 };
 
 constexpr std::array kOccupancyResponse{
@@ -180,6 +181,7 @@ constexpr std::array kOccupancyResponse{
     list("spheres_occupied", kByte),
     list("rays_hit_m", kDouble),
     list("distances_m", kDouble),
+    list("sphere_paths_hit_m", kDouble),
 };
 
 constexpr std::array kSceneInfo{

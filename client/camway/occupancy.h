@@ -33,15 +33,23 @@ struct OccupancyDistance {
   double max_m = 0.0;  ///< largest distance of interest
 };
 
+/// A ball that moves straight from one point to another.
+struct OccupancySpherePath {
+  std::array<double, 3> from_m{};
+  std::array<double, 3> to_m{};  ///< may be where it begins
+  double radius_m = 0.0;
+};
+
 /// Questions to the occupancy map of one scene, as many as you like: what does not fit one message
 /// is sent as several.
 struct OccupancyBatch {
   std::string scene;
-  std::vector<std::array<double, 3>> points_m;  ///< is the voxel that holds the point occupied?
-  std::vector<OccupancyBox> boxes;              ///< does an occupied voxel touch the box?
-  std::vector<OccupancySphere> spheres;         ///< does an occupied voxel touch the ball?
-  std::vector<OccupancyRay> rays;               ///< how far is the first occupied voxel?
-  std::vector<OccupancyDistance> distances;     ///< how far is the nearest occupied voxel?
+  std::vector<std::array<double, 3>> points_m;    ///< is the voxel that holds the point occupied?
+  std::vector<OccupancyBox> boxes;                ///< does an occupied voxel touch the box?
+  std::vector<OccupancySphere> spheres;           ///< does an occupied voxel touch the ball?
+  std::vector<OccupancyRay> rays;                 ///< how far is the first occupied voxel?
+  std::vector<OccupancyDistance> distances;       ///< how far is the nearest occupied voxel?
+  std::vector<OccupancySpherePath> sphere_paths;  ///< how far does the ball get?
 };
 
 /// Answers in the order of the batch and, when `ok()`, as many; otherwise the lists are empty. The
@@ -57,6 +65,9 @@ struct OccupancyAnswer {
   std::vector<bool> spheres_occupied;
   std::vector<std::optional<double>> rays_hit_m;   ///< along the ray; nothing within its range
   std::vector<std::optional<double>> distances_m;  ///< nothing within the distance of interest
+  /// Way of the centre to where the ball first touches an occupied voxel; nothing: all of it is
+  /// free
+  std::vector<std::optional<double>> sphere_paths_hit_m;
 
   double resolution_m = 0.0;        ///< edge of a voxel
   std::int64_t scene_revision = 0;  ///< one for all answers of a batch

@@ -21,7 +21,6 @@ using octomap::OcTreeKey;
 using octomap::OcTreeNode;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRoundDown = 1.0 - OccupancyMap::kDistanceRelativeError / 2.0;
 
 OcTreeKey key_of(const Voxel& voxel) {
   const auto key = [](std::int32_t v) {
@@ -39,9 +38,8 @@ VoxelCube cube_of(const OcTreeKey& key, unsigned levels_above_voxel) {
 }
 
 /// The least value that `cost` takes on the boxes of occupied leaves, or nothing if none is
-/// finite and <= `limit`. Branch and bound, cheapest octant first; needs that the cost of a box is
-/// never more than that of a box inside it, which holds bit for bit for the costs below: faces of
-/// nodes nest, and each operation of theirs is monotone under rounding.
+/// finite and <= `limit`. Branch and bound, cheapest octant first; see `box_costs.h` for what a
+/// cost has to keep.
 template <typename Cost>
 class CheapestLeaf {
  public:
@@ -97,74 +95,6 @@ std::optional<double> cheapest_leaf(const OcTree& tree, const VoxelGrid& grid, c
   if (bounds.isEmpty() || !(cost(bounds) <= limit)) return std::nullopt;
   return CheapestLeaf<Cost>(tree, grid, cost, limit).run();
 }
-
-/// Distance from a point to a box, rounded down.
-class PointDistance {
- public:
-  explicit PointDistance(const Vec3& point) : point_(point) {}
-
-  double operator()(const Box& box) const {
-    const auto gap = [&](Eigen::Index i) {
-      return std::max({0.0, box.min()[i] - point_[i], point_[i] - box.max()[i]});
-    };
-    const double x = gap(0);
-    const double y = gap(1);
-    const double z = gap(2);
-    double distance = std::sqrt(x * x + y * y + z * z);
-    if (!std::isfinite(distance)) distance = std::hypot(x, y, z);
-    return distance * kRoundDown;
-  }
-
- private:
-  Vec3 point_;
-};
-
-/// Distance along a ray to where it enters a box, rounded down; infinite if it misses.
-class RayEntry {
- public:
-  /// Precondition: finite, and `direction` is not zero.
-  RayEntry(const Vec3& origin, const Vec3& direction) : origin_(origin) {
-    // Exact scaling by a power of two: the length then neither overflows nor underflows, and the
-    // direction is not turned by a rounded division.
-    const int exponent = std::ilogb(direction.cwiseAbs().maxCoeff());
-    for (Eigen::Index i = 0; i < 3; ++i) direction_[i] = std::scalbn(direction[i], -exponent);
-    length_ = direction_.norm();
-  }
-
-  double operator()(const Box& box) const {
-    double enter = 0.0;
-    double leave = kInfinity;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      if (direction_[i] == 0.0) {
-        if (origin_[i] < box.min()[i] || origin_[i] > box.max()[i]) return kInfinity;
-        continue;
-      }
-      const double to_min = (box.min()[i] - origin_[i]) / direction_[i];
-      const double to_max = (box.max()[i] - origin_[i]) / direction_[i];
-      enter = std::max(enter, std::min(to_min, to_max));
-      leave = std::min(leave, std::max(to_min, to_max));
-    }
-    // Each side carries two roundings; a ray through an edge or corner must not slip between them.
-    if (enter * kRoundDown > leave * (1.0 + OccupancyMap::kDistanceRelativeError)) return kInfinity;
-    return enter * length_ * kRoundDown;
-  }
-
- private:
-  Vec3 origin_;
-  Vec3 direction_;
-  double length_ = 1.0;
-};
-
-/// 0 if two closed boxes touch, else infinite.
-class BoxTouch {
- public:
-  explicit BoxTouch(const Box& box) : box_(box) {}
-
-  double operator()(const Box& other) const { return box_.intersects(other) ? 0.0 : kInfinity; }
-
- private:
-  Box box_;
-};
 
 std::string describe(const Box& box) {
   std::ostringstream text;
@@ -281,6 +211,13 @@ std::optional<double> OccupancyMap::ray_hit_m(const Vec3& origin_W, const Vec3& 
 std::optional<double> OccupancyMap::distance_m(const Vec3& point_W, double max_distance_m) const {
   if (!point_W.allFinite()) return std::nullopt;
   return cheapest_leaf(*tree_, grid_, bounds_, PointDistance(point_W), max_distance_m);
+}
+
+std::optional<double> OccupancyMap::sphere_path_hit_m(const Vec3& from_W, const Vec3& to_W,
+                                                      double radius_m) const {
+  if (!from_W.allFinite() || !to_W.allFinite() || !(radius_m >= 0.0)) return std::nullopt;
+  const BallWay way(from_W, to_W, radius_m);
+  return cheapest_leaf(*tree_, grid_, bounds_, way, way.length_m());
 }
 
 void write_bt_of(const OcTree& tree, std::ostream& out) {

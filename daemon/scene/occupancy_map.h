@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/types.h"
+#include "daemon/scene/box_costs.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_grid.h"
 
@@ -40,8 +40,8 @@ class OccupancyMap {
   /// voxels.
   static constexpr std::int32_t kMaxKeyVoxels = 32768;
 
-  /// Distances are rounded down by up to this factor: ten roundings of half an ulp, doubled.
-  static constexpr double kDistanceRelativeError = 20 * geometry::kUnitRoundoff;
+  /// Distances are rounded down by up to this factor.
+  static constexpr double kDistanceRelativeError = kBoxCostRelativeError;
 
   struct BuildResult {
     std::shared_ptr<const OccupancyMap> map;  ///< null on error
@@ -84,6 +84,14 @@ class OccupancyMap {
   /// `max_distance_m`. Never more than the distance to the scene itself.
   [[nodiscard]] std::optional<double> distance_m(const geometry::Vec3& point_W,
                                                  double max_distance_m) const;
+
+  /// How far a ball gets on the straight way between two points: the way of its centre to where it
+  /// first touches an occupied voxel (0 if it does at once), or nothing: it never does. Rounded
+  /// down, and a ball that passes a voxel at less than the rounding of the numbers touches it. A
+  /// way may have no length.
+  [[nodiscard]] std::optional<double> sphere_path_hit_m(const geometry::Vec3& from_W,
+                                                        const geometry::Vec3& to_W,
+                                                        double radius_m) const;
 
   /// The map itself, for those in daemon/scene who know OctoMap.
   [[nodiscard]] const octomap::OcTree& tree() const { return *tree_; }

@@ -100,6 +100,16 @@ std::optional<double> OccupancyMirror::distance_m(const Vec3& point_W,
   return nearest;
 }
 
+std::optional<double> OccupancyMirror::sphere_path_hit_m(const Vec3& from_W, const Vec3& to_W,
+                                                         double radius_m) const {
+  std::optional<double> nearest;
+  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+    const std::optional<double> hit = map->sphere_path_hit_m(from_W, to_W, radius_m);
+    if (hit && (!nearest || *hit < *nearest)) nearest = hit;
+  }
+  return nearest;
+}
+
 void OccupancyMirror::write_bt(std::ostream& out) const {
   if (maps_.size() == 1) {
     write_bt_of(maps_.front()->tree(), out);

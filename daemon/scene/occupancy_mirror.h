@@ -35,6 +35,9 @@ class OccupancyMirror {
                                                 double max_range_m) const;
   [[nodiscard]] std::optional<double> distance_m(const geometry::Vec3& point_W,
                                                  double max_distance_m) const;
+  [[nodiscard]] std::optional<double> sphere_path_hit_m(const geometry::Vec3& from_W,
+                                                        const geometry::Vec3& to_W,
+                                                        double radius_m) const;
 
   /// Writes all voxels as one map in OctoMap's binary format, which octovis opens. Costs what there
   /// are voxels. Returns an error text, empty on success.

@@ -55,6 +55,12 @@ std::string_view distance_fault(const Numbers& distance) {
   return distance[3] >= 0.0 ? "" : "has a distance of interest that is not at least 0";
 }
 
+std::string_view sphere_path_fault(const Numbers& path) {
+  if (!finite(path, 6)) return "has an end that is not finite";
+  if (!std::isfinite((vec3(path, 3) - vec3(path, 0)).stableNorm())) return "is too long";
+  return path[6] >= 0.0 ? "" : "has a radius that is not at least 0";
+}
+
 template <class Rule>
 std::string list_fault(std::string_view name, const std::vector<Numbers>& list, const Rule& rule) {
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -91,6 +97,10 @@ void answer_on(const scene::OccupancyMirror& map, const occupancy_request_t& req
   answer.num_distances = answer_list(
       request.distances_m, answer.distances_m,
       [&](const Numbers& q) { return wire_distance(map.distance_m(vec3(q, 0), q[3])); });
+  answer.num_sphere_paths =
+      answer_list(request.sphere_paths_m, answer.sphere_paths_hit_m, [&](const Numbers& q) {
+        return wire_distance(map.sphere_path_hit_m(vec3(q, 0), vec3(q, 3), q[6]));
+      });
 }
 
 }  // namespace
@@ -101,7 +111,8 @@ std::string batch_fault(const occupancy_request_t& request) {
         list_fault("boxes_m", request.boxes_m, box_fault),
         list_fault("spheres_m", request.spheres_m, sphere_fault),
         list_fault("rays_m", request.rays_m, ray_fault),
-        list_fault("distances_m", request.distances_m, distance_fault)}) {
+        list_fault("distances_m", request.distances_m, distance_fault),
+        list_fault("sphere_paths_m", request.sphere_paths_m, sphere_path_fault)}) {
     if (!fault.empty()) return fault;
   }
   return {};

@@ -12,7 +12,8 @@ namespace camway::service {
 
 /// What is wrong with the values of a batch, naming list and index, or an empty text: every number
 /// must be finite, but a range, radius or distance of interest may be infinite and must not be
-/// negative; a box's minimum must not pass its maximum; a ray needs a direction.
+/// negative; a box's minimum must not pass its maximum; a ray needs a direction; the length of a
+/// path must be a number.
 std::string batch_fault(const occupancy_request_t& request);
 
 /// Answers a batch on the scene's occupancy map. `utime` is left 0. A pure function.

@@ -85,7 +85,7 @@ void OccupancyService::send(occupancy_response_t answer) {
   core_.log->info("occupancy client={} request={} scene={} status={} queries={}{}{}",
                   answer.client_id, answer.request_id, answer.scene, answer.status,
                   answer.num_points + answer.num_boxes + answer.num_spheres + answer.num_rays +
-                      answer.num_distances,
+                      answer.num_distances + answer.num_sphere_paths,
                   answer.message.empty() ? "" : ": ", answer.message);
   if (core_.outbox.add(core_.channels.occupancy_response(answer.client_id),
                        std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)))) {

@@ -20,8 +20,7 @@ using testing_support::quick;
 
 using AskOccupancyTest = testing_support::ClientTest;
 
-/// Answers every point and sphere by the sign of its first number, every box, ray and distance with
-/// it.
+/// Answers every point, box and sphere by the sign of its first number, all else with it.
 std::vector<Bytes> echo(const occupancy_request_t& request, std::int64_t revision) {
   occupancy_response_t response{};
   response.client_id = request.client_id;
@@ -33,11 +32,13 @@ std::vector<Bytes> echo(const occupancy_request_t& request, std::int64_t revisio
   for (const auto& q : request.spheres_m) response.spheres_occupied.push_back(q[0] > 0);
   for (const auto& q : request.rays_m) response.rays_hit_m.push_back(q[0]);
   for (const auto& q : request.distances_m) response.distances_m.push_back(q[0]);
+  for (const auto& q : request.sphere_paths_m) response.sphere_paths_hit_m.push_back(q[0]);
   response.num_points = request.num_points;
   response.num_boxes = request.num_boxes;
   response.num_spheres = request.num_spheres;
   response.num_rays = request.num_rays;
   response.num_distances = request.num_distances;
+  response.num_sphere_paths = request.num_sphere_paths;
   return {wire::encode(response)};
 }
 
@@ -50,6 +51,7 @@ OccupancyBatch large_batch() {
     batch.spheres.push_back({{x, 0, 0}, 1});
     batch.rays.push_back({{x, 0, 0}, {1, 0, 0}, 1});
     batch.distances.push_back({{x, 0, 0}, 1});
+    batch.sphere_paths.push_back({{x, 0, 0}, {x, 0, 0}, 1});
   }
   return batch;
 }
@@ -66,6 +68,7 @@ TEST_F(AskOccupancyTest, AsksOccupancyInPartsAndJoinsTheAnswers) {
   EXPECT_EQ(answer.resolution_m, 0.25);
   ASSERT_EQ(answer.points_occupied.size(), 3000u);
   ASSERT_EQ(answer.distances_m.size(), 3000u);
+  ASSERT_EQ(answer.sphere_paths_hit_m.size(), 3000u);
   for (std::size_t i = 0; i < 3000; ++i) {
     const bool even = i % 2 == 0;
     ASSERT_EQ(answer.points_occupied[i], even);
@@ -73,6 +76,7 @@ TEST_F(AskOccupancyTest, AsksOccupancyInPartsAndJoinsTheAnswers) {
     ASSERT_EQ(answer.spheres_occupied[i], even);
     ASSERT_EQ(answer.rays_hit_m[i].has_value(), even);
     ASSERT_EQ(answer.distances_m[i], even ? std::optional(1.0 + double(i)) : std::nullopt);
+    ASSERT_EQ(answer.sphere_paths_hit_m[i], answer.distances_m[i]);
   }
 }
 

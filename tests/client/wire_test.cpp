@@ -451,8 +451,9 @@ TEST(OccupancyRequests, SplitALargeBatchWithoutLossOrReordering) {
     batch.spheres.push_back({{number(i), 0, 0}, 0.5});
     batch.rays.push_back({{number(i), 0, 0}, {0, 0, 1}, 9});
     batch.distances.push_back({{number(i), 0, 0}, 3});
+    batch.sphere_paths.push_back({{0, 0, 0}, {number(i), 0, 0}, 3});
   }
-  std::size_t points = 0, boxes = 0, spheres = 0, rays = 0, distances = 0;
+  std::size_t points = 0, boxes = 0, spheres = 0, rays = 0, distances = 0, paths = 0;
   const auto requests = to_requests(batch, "me");
   for (const occupancy_request_t& request : requests) {
     const Bytes bytes = wire::encode(request);
@@ -463,10 +464,11 @@ TEST(OccupancyRequests, SplitALargeBatchWithoutLossOrReordering) {
     for (const auto& query : request.spheres_m) ASSERT_EQ(query[0], number(spheres++));
     for (const auto& query : request.rays_m) ASSERT_EQ(query[0], number(rays++));
     for (const auto& query : request.distances_m) ASSERT_EQ(query[0], number(distances++));
+    for (const auto& query : request.sphere_paths_m) ASSERT_EQ(query[3], number(paths++));
   }
-  EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances}), testing::Each(6000u));
+  EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances, paths}), testing::Each(6000u));
   // Not more messages than needed: only the last may be less than nearly full.
-  EXPECT_EQ(requests.size(), (6000u * (24 + 48 + 32 + 56 + 32) + 59'899) / 59'900);
+  EXPECT_EQ(requests.size(), (6000u * (24 + 48 + 32 + 56 + 32 + 56) + 59'899) / 59'900);
 }
 
 TEST(OccupancyRequests, AnEmptyBatchIsOneRequest) {

@@ -43,6 +43,7 @@ TEST_F(OccupancyTest, AnswersEveryKindOfQuestion) {
   batch.rays = {
       {{-3, 2, 2}, {1, 0, 0}, 10}, {{-3, 2, 2}, {-1, 0, 0}, 10}, {{2, 2, 2}, {0, 5, 0}, 9}};
   batch.distances = {{{7, 2, 2}, 10}, {{7, 2, 2}, 1}, {{2, 2, 2}, 10}};
+  batch.sphere_paths = {{{7, 2, 2}, {2, 2, 2}, 0.5}, {{2, 2, 2}, {3, 2, 2}, 0.5}};
   Client client(patient());
   const OccupancyAnswer answer = client.occupancy(batch);
   ASSERT_TRUE(answer.ok()) << answer.error;
@@ -64,6 +65,9 @@ TEST_F(OccupancyTest, AnswersEveryKindOfQuestion) {
   near(answer.distances_m[0], 3.0);
   EXPECT_EQ(answer.distances_m[1], std::nullopt);
   near(answer.distances_m[2], 2.0);
+  ASSERT_EQ(answer.sphere_paths_hit_m.size(), 2u);
+  near(answer.sphere_paths_hit_m[0], 2.5);
+  EXPECT_EQ(answer.sphere_paths_hit_m[1], std::nullopt);
 }
 
 TEST_F(OccupancyTest, AnswersABatchOfManyMessages) {

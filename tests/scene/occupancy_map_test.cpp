@@ -209,6 +209,45 @@ TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
   EXPECT_GT(hits, 1000);
 }
 
+/// Between the first touch of the voxels, and that of what is larger by more than all rounding.
+TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
+  std::cout << "seed " << kSeed << '\n';
+  std::mt19937_64 random(kSeed);
+  int hits = 0;
+  int misses = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Sample sample(random);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 from = sample.point(random);
+      Vec3 to = 0.3 * sample.point(random) - (i % 2 == 0 ? from : Vec3(Vec3::Zero()));
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        if (random() % 3 == 0) to[axis] = from[axis];
+      }
+      const double radius_m =
+          random() % 4 == 0 ? 0.0 : sample.resolution_m * oracle::log_uniform(random, 1e-3, 10.0);
+      // What a million roundings of the largest number here would come to.
+      const Real more_m = 1e6L * 0x1p-53L * (from.lpNorm<1>() + to.lpNorm<1>());
+      Real exact = HUGE_VALL;
+      Real grown = HUGE_VALL;
+      for (const Voxel& voxel : sample.occupied) {
+        const Real e = oracle::ball_way_m(from, to, radius_m, sample.box(voxel));
+        if (e >= 0) exact = std::min(exact, e);
+        const Real g = oracle::ball_way_m(from, to, radius_m + more_m,
+                                          sample.box(voxel, 2 * Real{sample.face_error_m}));
+        if (g >= 0) grown = std::min(grown, g);
+      }
+      const double hit = sample.map->sphere_path_hit_m(from, to, radius_m).value_or(kInfinity);
+      ASSERT_LE(hit, exact) << "trial " << trial << ": through an occupied voxel";
+      ASSERT_GE(hit, grown * (1 - 1e-9L)) << "trial " << trial << ": too short";
+      (hit == kInfinity ? misses : hits) += 1;
+      const double straight_m = sample.map->distance_m(from, kInfinity).value();
+      EXPECT_EQ(hit == 0.0, straight_m <= radius_m * (1 + 1e-9) + static_cast<double>(more_m));
+    }
+  }
+  EXPECT_GT(hits, 300);
+  EXPECT_GT(misses, 300);
+}
+
 /// One occupied voxel, [2, 3] x [2, 3] x [2, 3] m.
 class OneVoxel : public testing::Test {
  protected:
@@ -252,6 +291,32 @@ TEST_F(OneVoxel, RayFromOutsideTheKeysAndRanges) {
     const Vec3 direction = Vec3(2, 1.2, 2.5) * std::ldexp(1.0, exponent);
     EXPECT_EQ(map->ray_hit_m({0, 1, 0}, direction, kFar), unscaled) << "2^" << exponent;
   }
+}
+
+TEST_F(OneVoxel, SpherePathCornerCases) {
+  const auto hit_m = [&](const Vec3& from, const Vec3& to, double radius_m) {
+    return map->sphere_path_hit_m(from, to, radius_m);
+  };
+  // Rounded like the farthest number of the question, here 16 m, some 60 times.
+  const double way_error_m = 16.0 * 0x1p-53 * 60.0;
+  EXPECT_NEAR(hit_m({-6, 2.5, 2.5}, {10, 2.5, 2.5}, 0.5).value(), 7.5, way_error_m);
+  EXPECT_NEAR(hit_m({-6, 2.5, 2.5}, {10, 2.5, 2.5}, 0.0).value(), 8.0, way_error_m);
+  EXPECT_EQ(hit_m({2.1, 2.1, 2.1}, {9, 2.1, 2.1}, 0.0), 0.0) << "begins inside";
+  EXPECT_EQ(hit_m({4, 2.5, 2.5}, {9, 2.5, 2.5}, 1.0), 0.0) << "begins touching";
+  EXPECT_FALSE(hit_m({4, 2.5, 2.5}, {9, 2.5, 2.5}, 0.99)) << "moves away";
+  EXPECT_FALSE(hit_m({-6, 2.5, 2.5}, {1, 2.5, 2.5}, 0.99)) << "ends before";
+  EXPECT_TRUE(hit_m({-6, 2.5, 2.5}, {1, 2.5, 2.5}, 1.0)) << "ends touching";
+  EXPECT_FALSE(hit_m({-6, 3.6, 2.5}, {10, 3.6, 2.5}, 0.59)) << "passes by";
+  EXPECT_FALSE(hit_m({-6, 3.6, 3.6}, {10, 3.6, 3.6}, 0.6 * std::sqrt(2.0) - 1e-9));
+  EXPECT_NEAR(hit_m({-6, 3.6, 3.6}, {10, 3.6, 3.6}, 1.0).value(),
+              8.0 - std::sqrt(1.0 - 2 * 0.6 * 0.6), 1e-9)
+      << "by a corner";
+  EXPECT_EQ(hit_m({4, 2.5, 2.5}, {4, 2.5, 2.5}, 1.0), 0.0) << "does not move";
+  EXPECT_FALSE(hit_m({4, 2.5, 2.5}, {4, 2.5, 2.5}, 0.99)) << "does not move";
+  EXPECT_EQ(hit_m({1e308, 2.5, 2.5}, {-1e308, 2.5, 2.5}, 0.5), 0.0) << "nothing is known";
+  EXPECT_EQ(hit_m({4, 2.5, 2.5}, {9, 2.5, 2.5}, kInfinity), 0.0);
+  EXPECT_FALSE(hit_m({4, 2.5, 2.5}, {kNaN, 2.5, 2.5}, 1.0));
+  EXPECT_FALSE(hit_m({2.5, 2.5, 2.5}, {4, 2.5, 2.5}, -1.0));
 }
 
 TEST_F(OneVoxel, NonsenseIsAnsweredAsDocumented) {

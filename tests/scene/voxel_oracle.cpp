@@ -113,6 +113,40 @@ Real ray_entry_m(const geometry::Vec3& origin, const geometry::Vec3& direction,
   return enter <= leave ? enter * length : -1;
 }
 
+Real ball_way_m(const geometry::Vec3& from, const geometry::Vec3& to, Real radius_m,
+                const RealBox& box) {
+  const Point a = real(from);
+  const Point way = sub(real(to), a);
+  const auto distance_at = [&](Real share) {
+    const Point p = add_scaled(a, way, share);
+    Point gap{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      gap[axis] = std::max({Real{0}, box.min[axis] - p[axis], p[axis] - box.max[axis]});
+    }
+    return std::sqrt(dot(gap, gap));
+  };
+  Real low = 0;
+  Real high = 1;
+  for (int i = 0; i < 200; ++i) {
+    const Real third = (high - low) / 3;
+    if (distance_at(low + third) <= distance_at(high - third)) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  const Real nearest = high;
+  if (distance_at(0) <= radius_m) return 0;
+  if (distance_at(nearest) > radius_m && distance_at(1) > radius_m) return -1;
+  Real outside = 0;
+  Real touching = distance_at(nearest) <= radius_m ? nearest : Real{1};
+  for (int i = 0; i < 100; ++i) {
+    const Real middle = (outside + touching) / 2;
+    (distance_at(middle) <= radius_m ? touching : outside) = middle;
+  }
+  return touching * std::sqrt(dot(way, way));
+}
+
 std::vector<Voxel> voxels_around(const Mesh& mesh, double resolution_m, int margin) {
   geometry::Box bounds;
   for (const geometry::Vec3& vertex : mesh.vertices) bounds.extend(vertex);

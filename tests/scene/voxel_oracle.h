@@ -30,6 +30,11 @@ Real distance_m(const geometry::Vec3& point, const geometry::Triangle& triangle)
 /// Parameter in metres where the ray enters, or negative if it misses.
 Real ray_entry_m(const geometry::Vec3& origin, const geometry::Vec3& direction, const RealBox& box);
 
+/// Way of the centre of a ball to where it first touches the box, or negative if it never does. The
+/// distance is convex along the way: its least by ternary search, then by bisection.
+Real ball_way_m(const geometry::Vec3& from, const geometry::Vec3& to, Real radius_m,
+                const RealBox& box);
+
 /// All voxels within `margin` voxels of the bounds of `mesh`.
 std::vector<Voxel> voxels_around(const Mesh& mesh, double resolution_m, int margin);
 

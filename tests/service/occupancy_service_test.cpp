@@ -49,6 +49,7 @@ void count(occupancy_request_t& batch) {
   batch.num_spheres = static_cast<std::int32_t>(batch.spheres_m.size());
   batch.num_rays = static_cast<std::int32_t>(batch.rays_m.size());
   batch.num_distances = static_cast<std::int32_t>(batch.distances_m.size());
+  batch.num_sphere_paths = static_cast<std::int32_t>(batch.sphere_paths_m.size());
 }
 
 occupancy_request_t mixed_batch(const std::string& scene) {
@@ -58,6 +59,7 @@ occupancy_request_t mixed_batch(const std::string& scene) {
   batch.spheres_m = {{2, 0, 0, 1}, {2, 0, 0, 1.6}};
   batch.rays_m = {{-3, 0.1, 0.1, 2, 0, 0, 10}, {-3, 0.1, 0.1, -1, 0, 0, kInfinity}};
   batch.distances_m = {{2.5, 0.1, 0.1, 10}, {2.5, 0.1, 0.1, 1.5}};
+  batch.sphere_paths_m = {{-3, 0.1, 0.1, 9, 0.1, 0.1, 0.5}, {2, 0.1, 0.1, 9, 0.1, 0.1, 0.5}};
   count(batch);
   return batch;
 }
@@ -77,6 +79,9 @@ void expect_mixed_answers(const occupancy_response_t& answer) {
   ASSERT_EQ(answer.num_distances, 2);
   EXPECT_NEAR(answer.distances_m[0], 2.0, kMapRounding_m);
   EXPECT_EQ(answer.distances_m[1], -1.0);
+  ASSERT_EQ(answer.num_sphere_paths, 2);
+  EXPECT_NEAR(answer.sphere_paths_hit_m[0], 2.5, kMapRounding_m);
+  EXPECT_EQ(answer.sphere_paths_hit_m[1], -1.0);
 }
 
 TEST(AnswerBatch, AnswersEveryListInOrder) {
@@ -110,6 +115,15 @@ TEST(AnswerBatch, NamesTheQueryThatMakesNoSense) {
             "rays_m[1]: has a range that is not at least 0");
   EXPECT_EQ(fault_of([](auto& b) { b.distances_m[1][0] = kNaN; }),
             "distances_m[1]: has a point that is not finite");
+  EXPECT_EQ(fault_of([](auto& b) { b.sphere_paths_m[1][4] = kInfinity; }),
+            "sphere_paths_m[1]: has an end that is not finite");
+  EXPECT_EQ(fault_of([](auto& b) {
+              b.sphere_paths_m[0][0] = -1e308;
+              b.sphere_paths_m[0][3] = 1e308;
+            }),
+            "sphere_paths_m[0]: is too long");
+  EXPECT_EQ(fault_of([](auto& b) { b.sphere_paths_m[0][6] = kNaN; }),
+            "sphere_paths_m[0]: has a radius that is not at least 0");
   occupancy_request_t bad = mixed_batch("wall");
   bad.rays_m[0][0] = kNaN;
   const occupancy_response_t answer = answer_batch(*wall_scene(), bad);
@@ -151,7 +165,7 @@ TEST(OccupancyService, EveryFaultHasItsStatus) {
   const occupancy_response_t malformed = ask(daemon, truncated);
   EXPECT_EQ(malformed.status, occupancy_response_t::STATUS_MALFORMED);
   EXPECT_EQ(malformed.request_id, 4);
-  EXPECT_NE(malformed.message.find("distances_m"), std::string::npos) << malformed.message;
+  EXPECT_NE(malformed.message.find("sphere_paths_m"), std::string::npos) << malformed.message;
 }
 
 TEST(OccupancyService, TheLargestBatchGetsAnAnswerThatFits) {

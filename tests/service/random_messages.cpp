@@ -346,6 +346,7 @@ occupancy_request_t random_message<occupancy_request_t>(Random& random) {
   message.num_spheres = fill_rows(message.spheres_m, 4, random);
   message.num_rays = fill_rows(message.rays_m, 7, random);
   message.num_distances = fill_rows(message.distances_m, 4, random);
+  message.num_sphere_paths = fill_rows(message.sphere_paths_m, 7, random);
   return message;
 }
 
@@ -366,7 +367,8 @@ occupancy_response_t random_message<occupancy_response_t>(Random& random) {
   message.num_boxes = fill_list(message.boxes_occupied, length(random, 2000), flag);
   message.num_spheres = fill_list(message.spheres_occupied, length(random, 2000), flag);
   message.num_rays = fill_list(message.rays_hit_m, length(random, 2000), distance);
-  message.num_distances = fill_list(message.distances_m, length(random, 2000), distance);
+  message.num_distances = fill_list(message.distances_m, length(random, 1000), distance);
+  message.num_sphere_paths = fill_list(message.sphere_paths_hit_m, length(random, 1000), distance);
   return message;
 }
 

@@ -114,6 +114,8 @@ void add_queries(CLI::App& command, OccupancyTexts& queries) {
             "Origin, direction, range: how far is the first occupied voxel?");
   add_query(command, "--distance", queries.distances, "X,Y,Z,MAX",
             "Point and largest distance of interest: how far is the nearest occupied voxel?");
+  add_query(command, "--sphere-path", queries.sphere_paths, "X,Y,Z,X,Y,Z,R",
+            "Beginning, end, radius: how far does a ball get before it touches an occupied voxel?");
 }
 
 }  // namespace

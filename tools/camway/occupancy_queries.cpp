@@ -79,6 +79,15 @@ std::string parse_distances(const std::vector<std::string>& texts, OccupancyBatc
   });
 }
 
+std::string parse_sphere_paths(const std::vector<std::string>& texts, OccupancyBatch& batch) {
+  return parse_all<7>(
+      "sphere-path", texts, [&](const std::array<double, 7>& n) -> std::string_view {
+        if (n[6] < 0.0) return "the radius is negative";
+        batch.sphere_paths.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]});
+        return {};
+      });
+}
+
 geometry::Vec3 vec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 void describe_flags(std::string& out, std::string_view option,
@@ -111,6 +120,7 @@ ParsedBatch parse_batch(const OccupancyTexts& texts) {
   if (parsed.error.empty()) parsed.error = parse_spheres(texts.spheres, batch);
   if (parsed.error.empty()) parsed.error = parse_rays(texts.rays, batch);
   if (parsed.error.empty()) parsed.error = parse_distances(texts.distances, batch);
+  if (parsed.error.empty()) parsed.error = parse_sphere_paths(texts.sphere_paths, batch);
   return parsed;
 }
 
@@ -136,6 +146,10 @@ OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const Occupanc
   for (const OccupancyDistance& distance : batch.distances) {
     answer.distances_m.push_back(map.distance_m(vec3(distance.point_m), distance.max_m));
   }
+  for (const OccupancySpherePath& path : batch.sphere_paths) {
+    answer.sphere_paths_hit_m.push_back(
+        map.sphere_path_hit_m(vec3(path.from_m), vec3(path.to_m), path.radius_m));
+  }
   return answer;
 }
 
@@ -146,6 +160,8 @@ std::string describe(const OccupancyTexts& texts, const OccupancyAnswer& answer)
   describe_flags(out, "sphere", texts.spheres, answer.spheres_occupied);
   describe_lengths(out, "ray", texts.rays, answer.rays_hit_m, "nothing within range");
   describe_lengths(out, "distance", texts.distances, answer.distances_m, "nothing so near");
+  describe_lengths(out, "sphere-path", texts.sphere_paths, answer.sphere_paths_hit_m,
+                   "free all the way");
   return out;
 }
 

@@ -11,11 +11,12 @@ namespace camway::tools {
 
 /// Queries as they stand on the command line: numbers with commas between them.
 struct OccupancyTexts {
-  std::vector<std::string> points;     ///< x,y,z
-  std::vector<std::string> boxes;      ///< xmin,ymin,zmin,xmax,ymax,zmax
-  std::vector<std::string> spheres;    ///< x,y,z,radius
-  std::vector<std::string> rays;       ///< ox,oy,oz,dx,dy,dz,range
-  std::vector<std::string> distances;  ///< x,y,z,max
+  std::vector<std::string> points;        ///< x,y,z
+  std::vector<std::string> boxes;         ///< xmin,ymin,zmin,xmax,ymax,zmax
+  std::vector<std::string> spheres;       ///< x,y,z,radius
+  std::vector<std::string> rays;          ///< ox,oy,oz,dx,dy,dz,range
+  std::vector<std::string> distances;     ///< x,y,z,max
+  std::vector<std::string> sphere_paths;  ///< x,y,z,x,y,z,radius
 };
 
 /// The batch that `texts` ask for, in their order. Otherwise `error` names the option and the text:
