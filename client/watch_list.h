@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <camway/watch_report_t.hpp>
+#include <camway/watched_path_t.hpp>
 
 #include "camway/watch.h"
 #include "client/context.h"
