@@ -270,12 +270,27 @@ constexpr std::array kWatchReport{
     list("intervals", kBrokenInterval),
 };
 
+constexpr std::size_t kStatusCounters = 14;
+constexpr std::size_t kAnswerCounts = 3 * 16;
+
 constexpr std::array kStatus{
-    fixed("utime", kInt64),           text("version", kMaxVersionBytes),
-    fixed("uptime_s", kDouble),       fixed("num_workers", kInt32),
-    fixed("queued_requests", kInt32), fixed("running_requests", kInt32),
-    fixed("counters", 4 * kInt64),    fixed("watched_paths", kInt32),
-    fixed("broken_paths", kInt64),    fixed("total_scenes", kInt32),
+    fixed("utime", kInt64),
+    text("version", kMaxVersionBytes),
+    fixed("uptime_s", kDouble),
+    fixed("num_workers", kInt32),
+    fixed("queued_requests", kInt32),
+    fixed("running_requests", kInt32),
+    fixed("counters", kStatusCounters* kInt64),
+    fixed("answers", kAnswerCounts* kInt64),
+    fixed("receipt_to_answer", kInt64 + kDouble),
+    list("receipt_to_answer.buckets", kInt64),
+    fixed("waiting", kInt64 + kDouble),
+    list("waiting.buckets", kInt64),
+    fixed("planning", kInt64 + kDouble),
+    list("planning.buckets", kInt64),
+    fixed("watched_paths", kInt32),
+    fixed("broken_paths", kInt64),
+    fixed("total_scenes", kInt32),
     list_of("scenes", kSceneInfo),
 };
 

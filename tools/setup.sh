@@ -13,10 +13,14 @@ readonly kPackages=(
   g++ cmake ninja-build ccache git pkg-config
   # the wire
   liblcm-dev liblcm-bin
+  # what confines the process that reads scene files
+  libseccomp-dev
   # geometry, scenes, the occupancy map
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
+  # the page for Prometheus
+  libmicrohttpd-dev
   # tests
   libgtest-dev libgmock-dev
   # the private network namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "camway/body.h"
+#include "camway/daemon_status.h"
 #include "camway/occupancy.h"
 #include "camway/path.h"
 #include "camway/plan.h"
@@ -37,29 +38,6 @@ struct ClientOptions {
   /// [Limit: 1 <= value <= 86400]
   double watch_lease_s = 30.0;
   int retries = 5;  ///< repetitions without a sign of life before the call gives up
-};
-
-/// The daemon's heartbeat.
-struct DaemonStatus {
-  Status status = Status::kNoDaemon;
-  std::string error;  ///< what failed and what to do about it; empty when `ok()`
-
-  bool ok() const { return status == Status::kOk; }
-
-  std::string version;
-  double uptime_s = 0.0;
-  std::int32_t num_workers = 0;
-  std::int32_t queued_requests = 0;
-  std::int32_t running_requests = 0;
-  // Counted since the daemon's start:
-  std::int64_t answered_requests = 0;
-  std::int64_t repeated_requests = 0;  ///< repetitions of requests that were known already
-  std::int64_t overloaded_requests = 0;
-  std::int64_t malformed_messages = 0;
-  std::int64_t broken_paths = 0;   ///< times that a change broke a watched path
-  std::int32_t watched_paths = 0;  ///< now
-  std::int32_t total_scenes = 0;   ///< may exceed `scenes.size()` if there are very many
-  std::vector<SceneInfo> scenes;   ///< in order of name
 };
 
 /// Asks a Camway daemon over LCM.

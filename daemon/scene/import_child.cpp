@@ -33,6 +33,7 @@
 
 #include <assimp/Importer.hpp>
 
+#include "daemon/scene/import_confinement.h"
 #include "daemon/scene/import_format.h"
 #include "daemon/scene/mesh_readers/mesh_reader.h"
 
@@ -40,6 +41,9 @@ namespace {
 
 namespace format = camway::scene::import_format;
 namespace mesh_readers = camway::scene::mesh_readers;
+
+/// A scene file and what it refers to, one after the other.
+constexpr rlim_t kMaxOpenFiles = 64;
 
 bool set_limit(int resource, rlim_t value) {
   const rlimit limit{value, value};
@@ -54,7 +58,16 @@ bool limit_this_process(rlim_t memory_bytes, rlim_t cpu_s) {
   const bool address_space = set_limit(RLIMIT_AS, memory_bytes);
 #endif
   return address_space && set_limit(RLIMIT_CPU, cpu_s) && set_limit(RLIMIT_CORE, 0) &&
-         set_limit(RLIMIT_FSIZE, memory_bytes) && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0;
+         set_limit(RLIMIT_FSIZE, memory_bytes) && set_limit(RLIMIT_NOFILE, kMaxOpenFiles) &&
+         set_limit(RLIMIT_NPROC, 0) && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0;
+}
+
+bool confine([[maybe_unused]] const char* file) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;  // sanitizers need more of the system than is left
+#else
+  return camway::scene::confine_this_process(file, format::kOutputFd);
+#endif
 }
 
 bool write_all(const void* data, std::size_t size) {
@@ -283,6 +296,7 @@ int main(int argc, char** argv) {
   if (!memory_bytes || !cpu_s || !limit_this_process(*memory_bytes, *cpu_s)) {
     return format::kExitInternal;
   }
+  if (!confine(argv[1])) return format::kExitNotConfined;
   // assimp catches bad_alloc and calls it something else; this comes before.
   std::set_new_handler([] { _exit(format::kExitOutOfMemory); });
   int code = format::kExitInternal;

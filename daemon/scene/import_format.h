@@ -23,6 +23,7 @@ inline constexpr int kExitOk = 0;            ///< a mesh was written
 inline constexpr int kExitRefused = 40;      ///< `text` says why the file cannot be read
 inline constexpr int kExitOutOfMemory = 41;  ///< nothing was written
 inline constexpr int kExitInternal = 42;     ///< bad arguments, or writing failed
+inline constexpr int kExitNotConfined = 43;  ///< seccomp does not work here, so nothing was read
 
 struct Header {
   std::uint64_t magic = kMagic;

@@ -168,6 +168,10 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
       return {End::kOutOfMemory, {}, ""};
     case import_format::kExitInternal:
       return {End::kNotStarted, {}, std::string(kProgram) + " cannot set its limits or write"};
+    case import_format::kExitNotConfined:
+      return {End::kNotStarted,
+              {},
+              std::string(kProgram) + " cannot confine itself: seccomp is not permitted here"};
     default:
       return {End::kCrashed, {}, "exit code " + std::to_string(code)};
   }

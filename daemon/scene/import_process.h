@@ -24,7 +24,8 @@ struct ImportProcessResult {
 
 /// Runs `camway-import` on `file` and waits for it. The program is looked for beside the running
 /// executable, then in the absolute directories of PATH. The process gets nothing but the file's
-/// name: no standard streams, no descriptor of ours, default signals; it dies with us.
+/// name: no standard streams, no descriptor of ours, no environment, default signals; it dies with
+/// us, and confines itself before it looks at the file (`import_confinement.h`).
 /// May be called from any thread: nothing of this process runs in the child but exec.
 ImportProcessResult run_import_process(const std::filesystem::path& file,
                                        std::size_t memory_limit_bytes, double time_limit_s);

@@ -17,12 +17,13 @@ std::int64_t utime_now() {
   return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
 }
 
-Core::Core(Transport& transport, const scene::SceneStore& scene_store, ServiceConfig service_config,
-           std::shared_ptr<spdlog::logger> logger)
+Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
+           ServiceConfig service_config, std::shared_ptr<spdlog::logger> logger)
     : config(std::move(service_config)),
       channels{config.prefix},
       scenes(scene_store),
       log(std::move(logger)),
+      transport(inner_transport),
       malformed_warnings(log, config.warning_period),
       overload_warnings(log, config.warning_period),
       publish_warnings(log, config.warning_period),

@@ -16,7 +16,9 @@
 #include "daemon/scene/scene_store.h"
 #include "daemon/scene/snapshot.h"
 #include "daemon/service/config.h"
+#include "daemon/service/counters.h"
 #include "daemon/service/mailbox.h"
+#include "daemon/service/metered_transport.h"
 #include "daemon/service/outbox.h"
 #include "daemon/service/warnings.h"
 #include "daemon/service/worker_pool.h"
@@ -29,24 +31,14 @@ namespace camway::service {
 using Planner = std::function<planning::PlanResult(
     const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&)>;
 
-/// What was done since the start. Written and read by the loop thread only.
-struct Counters {
-  std::int64_t answered = 0;
-  std::int64_t repeated = 0;
-  std::int64_t overloaded = 0;
-  std::int64_t malformed = 0;
-  std::int32_t watched_paths = 0;  ///< now
-  std::int64_t broken_paths = 0;
-};
-
 /// Microseconds since 1970.
 std::int64_t utime_now();
 
 /// What the services for the different requests share. Owned by `Service`; all but `mailbox`,
 /// `workers`, `scenes` and `log` belong to the loop thread.
 struct Core {
-  Core(Transport& transport, const scene::SceneStore& scene_store, ServiceConfig service_config,
-       std::shared_ptr<spdlog::logger> logger);
+  Core(Transport& inner_transport, const scene::SceneStore& scene_store,
+       ServiceConfig service_config, std::shared_ptr<spdlog::logger> logger);
 
   /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
@@ -68,6 +60,7 @@ struct Core {
   const wire::Channels channels;
   const scene::SceneStore& scenes;
   const std::shared_ptr<spdlog::logger> log;
+  MeteredTransport transport;
   Counters counters;
   Warnings malformed_warnings;
   Warnings overload_warnings;

@@ -20,7 +20,8 @@ namespace {
 
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
-    "signal ends it at once), 1 LCM cannot be used or failed, 2 wrong command "
+    "signal ends it at once), 1 LCM or the port for metrics cannot be used, or LCM failed, 2 wrong "
+    "command "
     "line, configuration or scene file.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
     "is "

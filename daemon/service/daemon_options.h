@@ -12,6 +12,7 @@
 
 #include "daemon/scene/scene_store.h"
 #include "daemon/service/config.h"
+#include "daemon/service/http_page.h"
 #include "daemon/service/scene_argument.h"
 
 namespace camway::service {
@@ -32,6 +33,7 @@ struct DaemonOptions {
   std::string lcm_url;  ///< `--url`, else the file, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
   spdlog::level::level_enum log_level = spdlog::level::info;
   std::string scene_roots;  ///< folders with ':' between them; see `SceneRoots`
+  HttpAddress metrics;      ///< of the page for Prometheus; there is none if the port is 0
   scene::SceneStoreLimits store;
   ServiceConfig service;
 };

@@ -112,6 +112,8 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"watch.bytes", &service.watches.bytes, 0, kManyBytes},
       {"watch.longest_lease_s", &service.watches.longest_lease, 1, kDayS},
       {"status.period_s", &service.heartbeat_period, 0.01, 3600},
+      {"metrics.address", &options.metrics.ip},
+      {"metrics.port", &options.metrics.port, 0, 65'535},
       {"log.level", &options.log_level, 0, 0, true},
       {"log.warning_period_s", &service.warning_period, 0, kDayS},
   };

@@ -82,6 +82,7 @@ void OccupancyService::refuse(const occupancy_request_t& request, Refusal why) {
 
 void OccupancyService::send(occupancy_response_t answer) {
   answer.utime = utime_now();
+  core_.counters.occupancy_answers.add(answer.status);
   core_.log->info("occupancy client={} request={} scene={} status={} queries={}{}{}",
                   answer.client_id, answer.request_id, answer.scene, answer.status,
                   answer.num_points + answer.num_boxes + answer.num_spheres + answer.num_rays +

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <set>
@@ -42,8 +43,8 @@ class Outbox {
 
   [[nodiscard]] bool empty() const { return turns_.empty(); }
 
-  /// Messages that the transport did not take.
-  [[nodiscard]] std::size_t failed() const { return failed_; }
+  /// Answers for which there was no room.
+  [[nodiscard]] std::int64_t dropped() const { return dropped_; }
 
  private:
   struct Answer {
@@ -65,7 +66,7 @@ class Outbox {
   Channels channels_;                         ///< those on which answers wait
   std::deque<Channels::iterator> turns_;      ///< the same, who is next first
   std::set<const std::vector<Bytes>*> here_;  ///< the pages of all answers that wait
-  std::size_t failed_ = 0;
+  std::int64_t dropped_ = 0;
 };
 
 }  // namespace camway::service

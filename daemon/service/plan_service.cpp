@@ -16,6 +16,8 @@
 namespace camway::service {
 namespace {
 
+constexpr double kMillisecondsPerSecond = 1e3;
+
 /// Numbers that are none are refused once the request's turn comes.
 double deadline_in_queue_s(double wire_s, const DeadlineLimits& limits) {
   const double deadline_s = deadline_of(wire_s, limits);
@@ -130,6 +132,7 @@ void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
     }
   }
   if (which.empty()) return;
+  core_.counters.answer_pages_asked_again += static_cast<std::int64_t>(which.size());
   core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(answer),
                    {which.begin(), which.end()});
 }
@@ -143,6 +146,7 @@ void PlanService::tick(Clock::time_point now) {
                      one_page(wire::encode(progress)));
   }
   for (PageAssembly<plan_request_t>::Gap& gap : pages_.take_gaps(now)) {
+    core_.counters.request_pages_asked_again += static_cast<std::int64_t>(gap.missing.size());
     missing_pages_t question{};
     question.client_id = gap.client_id;
     question.request_id = gap.request_id;
@@ -173,6 +177,7 @@ void PlanService::take(plan_request_t request) {
         return;
       }
       ++core_.counters.repeated;
+      ++core_.counters.cache_hits;
       core_.log->info("repeated answer client={} request={} pages={}", key.client_id,
                       key.request_id, found.pages->size());
       send(key, found.pages);
@@ -217,12 +222,15 @@ void PlanService::run(const Pending& pending) {
     core_.mailbox.post([this, pending, why] { abandon(pending, why); });
     return;
   }
+  const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
   auto answer = std::make_shared<plan_response_t>(answer_of(
       planner_, *pending.snapshot, *pending.request, core_.config.deadline, pending.deadline));
   auto path = watchable_path(*pending.request, *answer, core_.config.deadline);
   Pages pages = encode_answer(*answer);
-  core_.mailbox.post([this, pending, answer = std::move(answer), pages = std::move(pages),
+  core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
                       path = std::move(path)] {
+    core_.counters.waiting.add(waited_s);
+    core_.counters.planning.add(answer->total_ms / kMillisecondsPerSecond);
     if (in_flight_.cancelled(pending.key)) {
       abandon(pending, Refusal::kCancelled);
     } else {
@@ -240,6 +248,8 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
       status_name(answer.status), pending.request->keyframes.size(), answer.segments.size(),
       answer.collisions.size(), answer.remaining.size(), pages->size(), answer.total_ms,
       pending.deadline.elapsed_ms(), answer.message);
+  core_.counters.plan_answers.add(answer.status);
+  core_.counters.receipt_to_answer.add(pending.deadline.elapsed_ms() / kMillisecondsPerSecond);
   in_flight_.end(pending.key);
   cache_.finish(pending.key, pages);
   send(pending.key, std::move(pages));
@@ -344,6 +354,7 @@ void PlanService::abandon(const Pending& pending, Refusal why) {
 void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,
                                   std::string_view message) {
   plan_response_t answer = plain_answer(status, message, header_of(request, nullptr));
+  core_.counters.plan_answers.add(status);
   send({request.client_id, request.request_id}, encode_answer(answer));
 }
 

@@ -87,6 +87,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
       return;
     case AnswerCache::Known::kAnswered:
       ++core_.counters.repeated;
+      ++core_.counters.cache_hits;
       core_.outbox.add(core_.channels.scene_response(key.client_id), found.pages);
       return;
     case AnswerCache::Known::kConflict:
@@ -119,6 +120,8 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
   core_.log->info("scene {} client={} request={} scene={} object={} status={} revision={}: {}",
                   name_of(request.operation), request.client_id, request.request_id, request.scene,
                   request.object, answer.status, answer.scene.revision, answer.message);
+  const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
+  if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
   if (!only_looks(request)) {
     cache_.finish({request.client_id, request.request_id}, std::move(pages));
@@ -127,6 +130,7 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
 
 Pages SceneService::send(scene_response_t answer) {
   answer.utime = utime_now();
+  core_.counters.scene_answers.add(answer.status);
   const std::string channel = core_.channels.scene_response(answer.client_id);
   auto pages = std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer));
   if (core_.outbox.add(channel, pages)) ++core_.counters.answered;

@@ -25,8 +25,7 @@ std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration du
 
 Service::Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config,
                  Planner planner, std::shared_ptr<spdlog::logger> log, ServiceHooks hooks)
-    : transport_(transport),
-      hooks_(std::move(hooks)),
+    : hooks_(std::move(hooks)),
       core_(transport, scenes, std::move(config), std::move(log)),
       watches_(core_, scenes),
       plans_(core_, watches_, std::move(planner)),
@@ -56,7 +55,7 @@ RunOutcome Service::run() {
 
 void Service::request_stop() noexcept {
   stop_.store(true);
-  transport_.wake();
+  core_.transport.wake();
 }
 
 bool Service::subscribe() {
@@ -64,8 +63,8 @@ bool Service::subscribe() {
     const auto handle = [&service, handler](std::span<const std::uint8_t> message) {
       (service.*handler)(message);
     };
-    return transport_.subscribe(channel, core_.config.subscription_capacity,
-                                guarded(handle, channel));
+    return core_.transport.subscribe(channel, core_.config.subscription_capacity,
+                                     guarded(handle, channel));
   };
   return to(core_.channels.plan_request(), plans_, &PlanService::on_request) &&
          to(core_.channels.cancel(), plans_, &PlanService::on_cancel) &&
@@ -88,7 +87,7 @@ void Service::turn(Clock::duration longest_wait) {
   if (next != Clock::time_point::max()) longest_wait = std::min(longest_wait, next - Clock::now());
   std::chrono::milliseconds wait = in_milliseconds(longest_wait);
   if (!core_.outbox.empty()) wait = std::min(wait, Outbox::kPause);
-  if (!transport_.poll(wait)) broken_ = true;
+  if (!core_.transport.poll(wait)) broken_ = true;
 }
 
 RunOutcome Service::drain() {
@@ -119,10 +118,11 @@ bool Service::idle() const {
 }
 
 void Service::heartbeat(Clock::time_point now) {
-  const Bytes status = wire::encode(make_status(core_, now - started_));
-  if (!transport_.publish(core_.channels.status(), status)) {
+  const status_t status = make_status(core_, now - started_);
+  if (!core_.transport.publish(core_.channels.status(), wire::encode(status))) {
     core_.publish_warnings.warn("the status could not be published");
   }
+  if (hooks_.status) hooks_.status(status);
   next_heartbeat_ = now + core_.config.heartbeat_period;
 }
 

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include <camway/status_t.hpp>
+
 #include "daemon/service/core.h"
 #include "daemon/service/occupancy_service.h"
 #include "daemon/service/plan_service.h"
@@ -29,6 +31,7 @@ enum class RunOutcome {
 struct ServiceHooks {
   std::function<void()> ready;     ///< subscriptions are in place, the first status is out
   std::function<void()> stopping;  ///< a stop was asked for
+  std::function<void(const status_t&)> status;  ///< each status, as it was published
   /// Every `alive_period`, as long as the loop turns and no worker has been at one request for
   /// longer than the longest deadline and `stuck_after`.
   std::function<void()> alive;
@@ -69,7 +72,6 @@ class Service {
   [[nodiscard]] std::function<void(std::span<const std::uint8_t>)> guarded(
       std::function<void(std::span<const std::uint8_t>)> handler, std::string channel);
 
-  Transport& transport_;
   const ServiceHooks hooks_;
   Core core_;
   Watches watches_;

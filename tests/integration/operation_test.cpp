@@ -3,24 +3,31 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/fixture.h"
+#include "tests/support/http_get.h"
 #include "tests/support/notify_socket.h"
+#include "tests/support/prometheus_checker.h"
 
 namespace camway::integration {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+
+/// Of the page for Prometheus; each test has a network of its own.
+constexpr int kMetricsPort = 9464;
 
 /// A daemon that is run as a service: by a configuration file and under a service manager.
 class OperationTest : public IntegrationTest {
@@ -40,7 +47,7 @@ class OperationTest : public IntegrationTest {
 
   void write_config(const std::string& level, const std::vector<std::string>& scenes) const {
     std::ofstream config(file("camwayd.toml"));
-    config << "[log]\nlevel = \"" << level << "\"\n";
+    config << "[metrics]\nport = " << kMetricsPort << "\n[log]\nlevel = \"" << level << "\"\n";
     for (const std::string& scene : scenes) {
       config << "[[scene]]\nname = \"" << scene << "\"\nfile = \"" << scene_file(scene) << "\"\n";
     }
@@ -74,11 +81,47 @@ TEST_F(OperationTest, TellsTheServiceManagerAndReloads) {
   daemon().signal(SIGHUP);
   EXPECT_NE(socket_->next_of("READY=1"), "");
   EXPECT_THAT(scenes_served(), ElementsAre("gallery", "maze"));
-  EXPECT_THAT(daemon().output(), HasSubstr("camwayd.toml:2: log.level: must be one of"));
+  EXPECT_THAT(daemon().output(), HasSubstr("camwayd.toml:4: log.level: must be one of"));
 
   daemon().signal(SIGTERM);
   EXPECT_EQ(socket_->next_of("STOPPING=1"), "STOPPING=1");
   EXPECT_EQ(daemon().wait(), 0) << daemon().output();
+}
+
+TEST_F(OperationTest, IsScrapedUnderLoad) {
+  write_config("info", {"office"});
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
+  const auto scrape = [] {
+    return testing::PrometheusChecker(
+        testing::body_of(testing::http_request(kMetricsPort, "GET", "/metrics")));
+  };
+  constexpr const char* kPlanned = R"(camway_answers_total{kind="plan",status="ok"})";
+  constexpr int kRequests = 40;
+  std::atomic<bool> done = false;
+  std::jthread load([&] {
+    Client client(patient());
+    for (int i = 0; i < kRequests; ++i) {
+      EXPECT_TRUE(client.plan(request_of("office-free-door", "office")).ok());
+    }
+    done = true;
+  });
+  double before = 0.0;
+  while (!done) {
+    const testing::PrometheusChecker page = scrape();
+    ASSERT_EQ(page.faults(), "");
+    const double planned = page.value(kPlanned).value_or(-1.0);
+    EXPECT_GE(planned, before);
+    before = planned;
+  }
+  EXPECT_TRUE(eventually([&] { return scrape().value(kPlanned) == kRequests; }));
+  EXPECT_EQ(scrape().value("camway_planning_seconds_count"), kRequests);
+
+  // Another daemon cannot have the port.
+  Process second({CAMWAYD_BINARY, "--config", file("camwayd.toml"), "--prefix", "OTHER"},
+                 file("second.log"));
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_THAT(second.output(), HasSubstr("metrics: cannot listen on 127.0.0.1 port 9464: Address "
+                                         "already in use"));
 }
 
 TEST_F(OperationTest, IsNotCalledAliveWhileItStandsStill) {
@@ -115,6 +158,7 @@ TEST_F(CommandTest, StatusSaysHowTheDaemonIs) {
   EXPECT_EQ(camway({"status", "--json"}, said), 0) << said;
   const auto json = nlohmann::json::parse(said);
   EXPECT_EQ(json.at("total_scenes"), 3);
+  EXPECT_GE(json.at("receipt_to_answer").at("p999_ms"), json.at("receipt_to_answer").at("p50_ms"));
   EXPECT_EQ(json.at("scenes").size(), 3u);
   EXPECT_EQ(camway({"status", "--watch", "--count", "2"}, said), 0) << said;
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;

@@ -6,11 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <string_view>
+#include <thread>
 
 #include "daemon/scene/import_process.h"
 
@@ -369,8 +372,8 @@ TEST_F(Import, EndsAReaderThatTakesTooLong) {
               HasSubstr("more than the limit of 0 s"));
 }
 
-TEST_F(Import, EndsAReaderThatTakesForEver) {
-  // A comb, so that ears are scarce: cutting it takes time that grows with the cube of its teeth.
+/// A comb, so that ears are scarce: cutting it takes time that grows with the cube of its teeth.
+std::string endless_comb() {
   std::string text;
   std::string face = "f";
   constexpr int kTeeth = 40'000;
@@ -380,8 +383,45 @@ TEST_F(Import, EndsAReaderThatTakesForEver) {
   }
   text += "v " + std::to_string(kTeeth) + " 2000 0\nv -1 2000 0\n";
   face += " " + std::to_string(kTeeth + 1) + " " + std::to_string(kTeeth + 2);
-  EXPECT_THAT(error_of(write("a.obj", text + face + "\n"), {.time_limit_s = 0.3}),
+  return text + face + "\n";
+}
+
+TEST_F(Import, EndsAReaderThatTakesForEver) {
+  EXPECT_THAT(error_of(write("a.obj", endless_comb()), {.time_limit_s = 0.3}),
               HasSubstr("more than the limit of 0.3 s"));
+}
+
+/// The /proc/PID/status of our child of that name, or an empty text.
+std::string status_of_child(const std::string& name) {
+  std::error_code error;
+  for (const auto& task : fs::directory_iterator("/proc/self/task", error)) {
+    std::ifstream children(task.path() / "children");
+    for (std::string pid; children >> pid;) {
+      std::ifstream file("/proc/" + pid + "/status");
+      const std::string status{std::istreambuf_iterator<char>(file), {}};
+      if (status.starts_with("Name:\t" + name)) return status;
+    }
+  }
+  return {};
+}
+
+TEST_F(Import, TheReaderIsConfinedBeforeItReads) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need more of the system than is left";
+#endif
+  const fs::path file = write("a.obj", endless_comb());
+  std::atomic<bool> done = false;
+  std::jthread importing([&] {
+    import_mesh(file, {.time_limit_s = 3.0});
+    done = true;
+  });
+  bool confined = false;
+  while (!confined && !done) {
+    const std::string status = status_of_child("camway-import");
+    confined = status.find("Seccomp:\t2") != std::string::npos &&
+               status.find("NoNewPrivs:\t1") != std::string::npos;
+  }
+  EXPECT_TRUE(confined);
 }
 
 TEST_F(Import, SurvivesAReaderThatCrashes) {

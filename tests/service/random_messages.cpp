@@ -500,12 +500,27 @@ status_t random_message<status_t>(Random& random) {
   message.num_workers = small(random);
   message.queued_requests = small(random);
   message.running_requests = small(random);
-  message.answered_requests = integer(random);
-  message.repeated_requests = integer(random);
-  message.overloaded_requests = integer(random);
-  message.malformed_messages = integer(random);
   message.watched_paths = small(random);
-  message.broken_paths = integer(random);
+  for (std::int64_t* const counter :
+       {&message.answered_requests, &message.repeated_requests, &message.cache_hits,
+        &message.overloaded_requests, &message.malformed_messages, &message.dropped_answers,
+        &message.unsent_messages, &message.request_pages_asked_again,
+        &message.answer_pages_asked_again, &message.scene_changes, &message.received_messages,
+        &message.received_bytes, &message.sent_messages, &message.sent_bytes,
+        &message.broken_paths}) {
+    *counter = integer(random);
+  }
+  for (auto* const answers :
+       {&message.plan_answers, &message.occupancy_answers, &message.scene_answers}) {
+    for (std::int64_t& count : *answers) count = integer(random);
+  }
+  for (latency_t* const latency :
+       {&message.receipt_to_answer, &message.waiting, &message.planning}) {
+    latency->count = integer(random);
+    latency->sum_s = number(random);
+    latency->num_buckets =
+        fill_list(latency->buckets, length(random, 96), [&] { return integer(random); });
+  }
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });

@@ -69,6 +69,38 @@ TEST(Service, PublishesAStatusAtOnceAndGoesOn) {
   EXPECT_NE(daemon.log_text().find("ready"), std::string::npos);
 }
 
+TEST(Service, CountsAnswersByStatusLatenciesAndTraffic) {
+  std::atomic<int> statuses = 0;
+  ServiceHooks hooks;
+  hooks.status = [&](const status_t&) { ++statuses; };
+  RunningService daemon(quick_heartbeats(), testing::echo_result, hooks);
+  for (const std::int64_t id : {1, 2}) {
+    daemon.send(request_with(id));
+    ASSERT_TRUE(daemon.answer_to(request_with(id)));
+  }
+  daemon.send(request_with(1));  // from the cache
+  plan_request_t elsewhere = request_with(3);
+  elsewhere.scene = "nowhere";
+  daemon.send(elsewhere);
+  const std::optional<status_t> status = status_with(daemon, [](const status_t& s) {
+    // An answer is counted before it is sent, and the status when it has been.
+    return s.answered_requests == 4 && s.sent_messages >= 5;
+  });
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->cache_hits, 1);
+  EXPECT_EQ(status->repeated_requests, 1);
+  EXPECT_EQ(status->plan_answers[plan_response_t::STATUS_OK], 2);
+  EXPECT_EQ(status->plan_answers[plan_response_t::STATUS_UNKNOWN_SCENE], 1);
+  EXPECT_EQ(status->receipt_to_answer.count, 3);
+  EXPECT_EQ(status->waiting.count, 2);
+  EXPECT_EQ(status->planning.count, 2);
+  EXPECT_GE(status->receipt_to_answer.sum_s, status->waiting.sum_s);
+  EXPECT_EQ(status->received_messages, 4);
+  EXPECT_GT(status->received_bytes, 0);
+  EXPECT_GT(status->sent_bytes, 0);
+  EXPECT_GT(statuses, 0);
+}
+
 TEST(Service, TellsWhenItIsReadyAndWhenItStops) {
   std::atomic<bool> ready = false;
   std::atomic<bool> stopping = false;

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -50,6 +52,29 @@ OrderedJson scene_json(const SceneInfo& scene) {
           {"occupancy_resolution_m", scene.occupancy_resolution_m}};
 }
 
+/// The quantiles that are shown, and what they are called.
+constexpr std::array<std::pair<const char*, double>, 3> kQuantiles{
+    {{"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}}};
+constexpr double kMillisecondsPerSecond = 1e3;
+
+/// With the times in milliseconds.
+OrderedJson latency_json(const Latency& latency) {
+  OrderedJson json{{"count", latency.count}, {"sum_s", latency.sum_s}};
+  for (const auto& [name, q] : kQuantiles) {
+    json[std::string(name) + "_ms"] = latency.quantile_s(q) * kMillisecondsPerSecond;
+  }
+  return json;
+}
+
+/// Only statuses that occurred, by name.
+OrderedJson answers_json(const std::array<std::int64_t, 16>& answers) {
+  OrderedJson json = OrderedJson::object();
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (answers.at(i) != 0) json[to_string(static_cast<Status>(i))] = answers.at(i);
+  }
+  return json;
+}
+
 OrderedJson status_json(const DaemonStatus& status) {
   OrderedJson json{{"version", status.version},
                    {"uptime_s", status.uptime_s},
@@ -60,6 +85,22 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"repeated_requests", status.repeated_requests},
                    {"overloaded_requests", status.overloaded_requests},
                    {"malformed_messages", status.malformed_messages},
+                   {"cache_hits", status.cache_hits},
+                   {"dropped_answers", status.dropped_answers},
+                   {"unsent_messages", status.unsent_messages},
+                   {"request_pages_asked_again", status.request_pages_asked_again},
+                   {"answer_pages_asked_again", status.answer_pages_asked_again},
+                   {"scene_changes", status.scene_changes},
+                   {"received_messages", status.received_messages},
+                   {"received_bytes", status.received_bytes},
+                   {"sent_messages", status.sent_messages},
+                   {"sent_bytes", status.sent_bytes},
+                   {"plan_answers", answers_json(status.plan_answers)},
+                   {"occupancy_answers", answers_json(status.occupancy_answers)},
+                   {"scene_answers", answers_json(status.scene_answers)},
+                   {"receipt_to_answer", latency_json(status.receipt_to_answer)},
+                   {"waiting", latency_json(status.waiting)},
+                   {"planning", latency_json(status.planning)},
                    {"watched_paths", status.watched_paths},
                    {"broken_paths", status.broken_paths},
                    {"total_scenes", status.total_scenes}};
@@ -68,17 +109,61 @@ OrderedJson status_json(const DaemonStatus& status) {
   return json;
 }
 
+/// "ok 12, partial 3"
+std::string answers_text(const std::array<std::int64_t, 16>& answers) {
+  std::string text;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (answers.at(i) == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(static_cast<Status>(i)),
+                        answers.at(i));
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// "p50 1.2 ms, p99 3.4 ms, p999 5.6 ms"
+std::string quantiles_text(const Latency& latency) {
+  std::string text;
+  for (const auto& [name, q] : kQuantiles) {
+    text += fmt::format("{}{} {:.3g} ms", text.empty() ? "" : ", ", name,
+                        latency.quantile_s(q) * kMillisecondsPerSecond);
+  }
+  return latency.count > 0 ? text : "-";
+}
+
+double per_second(std::int64_t count, double seconds) {
+  return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
+
+void print_traffic(const DaemonStatus& status) {
+  fmt::print("messages     {} in ({} bytes), {} out ({} bytes), {} not sent\n",
+             status.received_messages, status.received_bytes, status.sent_messages,
+             status.sent_bytes, status.unsent_messages);
+  fmt::print(
+      "lost         {} pages of requests and {} of answers were asked for again, {} answers "
+      "found no room\n",
+      status.request_pages_asked_again, status.answer_pages_asked_again, status.dropped_answers);
+  fmt::print("malformed    {} messages\n", status.malformed_messages);
+}
+
 void print_text(const DaemonStatus& status) {
   fmt::print("camwayd      {}, up {}\n", status.version, duration_text(status.uptime_s));
   fmt::print("workers      {} of {} plan, {} requests wait\n", status.running_requests,
              status.num_workers, status.queued_requests);
   fmt::print(
-      "answered     {}, of them {} to requests that were known; {} refused for want of room\n",
-      status.answered_requests, status.repeated_requests, status.overloaded_requests);
-  fmt::print("malformed    {} messages\n", status.malformed_messages);
+      "answered     {} ({:.3g}/s since the start), {} of {} that were known from the cache; {} "
+      "refused for want of room\n",
+      status.answered_requests, per_second(status.answered_requests, status.uptime_s),
+      status.cache_hits, status.repeated_requests, status.overloaded_requests);
+  fmt::print("plans        {}\n", answers_text(status.plan_answers));
+  fmt::print("occupancy    {}\n", answers_text(status.occupancy_answers));
+  fmt::print("changes      {}\n", answers_text(status.scene_answers));
+  fmt::print("to answer    {}\n", quantiles_text(status.receipt_to_answer));
+  fmt::print("waiting      {}\n", quantiles_text(status.waiting));
+  fmt::print("planning     {}\n", quantiles_text(status.planning));
+  print_traffic(status);
   fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
              status.broken_paths);
-  fmt::print("scenes       {}\n", status.total_scenes);
+  fmt::print("scenes       {}, changed {} times\n", status.total_scenes, status.scene_changes);
   for (const SceneInfo& scene : status.scenes) {
     fmt::print("  {}: revision {}, {} triangles, {}, digest {}\n", scene.name, scene.revision,
                scene.num_triangles,
@@ -93,16 +178,18 @@ void print_text(const DaemonStatus& status) {
 /// gone.
 void print_line(const DaemonStatus& status, const std::optional<DaemonStatus>& before) {
   std::string rate = "-";
+  std::string quantiles = "-";
   if (before && status.uptime_s > before->uptime_s) {
-    rate = fmt::format("{:.1f}",
-                       static_cast<double>(status.answered_requests - before->answered_requests) /
-                           (status.uptime_s - before->uptime_s));
+    rate = fmt::format("{:.1f}", per_second(status.answered_requests - before->answered_requests,
+                                            status.uptime_s - before->uptime_s));
+    quantiles = quantiles_text(status.receipt_to_answer.since(before->receipt_to_answer));
   }
   fmt::print(
       "{:%H:%M:%S} up {:<12} planning {:>3} waiting {:>5} answers/s {:>8} refused {:>6} "
-      "malformed {:>6}\n",
+      "malformed {:>6} to answer {}\n",
       fmt::localtime(std::time(nullptr)), duration_text(status.uptime_s), status.running_requests,
-      status.queued_requests, rate, status.overloaded_requests, status.malformed_messages);
+      status.queued_requests, rate, status.overloaded_requests, status.malformed_messages,
+      quantiles);
 }
 
 void print(const StatusFlags& flags, const DaemonStatus& status,

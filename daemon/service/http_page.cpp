@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/http_page.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <microhttpd.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+namespace camway::service {
+namespace {
+
+constexpr unsigned int kMaxConnections = 16;
+constexpr unsigned int kConnectionTimeout_s = 5;
+constexpr std::size_t kConnectionBytes = 16'384;
+constexpr int kBacklog = 16;
+
+/// A socket that is closed unless somebody takes it.
+class Socket {
+ public:
+  explicit Socket(int fd) : fd_(fd) {}
+  ~Socket() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+
+  [[nodiscard]] int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+struct Address {
+  sockaddr_storage storage{};
+  socklen_t size = 0;
+};
+
+/// False if the text is no address.
+bool parse(const HttpAddress& from, Address& to) {
+  auto* const v4 = reinterpret_cast<sockaddr_in*>(&to.storage);
+  auto* const v6 = reinterpret_cast<sockaddr_in6*>(&to.storage);
+  const auto port = htons(static_cast<std::uint16_t>(from.port));
+  if (inet_pton(AF_INET, from.ip.c_str(), &v4->sin_addr) == 1) {
+    v4->sin_family = AF_INET;
+    v4->sin_port = port;
+    to.size = sizeof *v4;
+    return true;
+  }
+  if (inet_pton(AF_INET6, from.ip.c_str(), &v6->sin6_addr) == 1) {
+    v6->sin6_family = AF_INET6;
+    v6->sin6_port = port;
+    to.size = sizeof *v6;
+    return true;
+  }
+  return false;
+}
+
+/// Listens; false with `errno` set if that is not possible. A port whose last user ended a moment
+/// ago is free; one that somebody listens on is not.
+bool listen_on(int socket, const Address& address) {
+  const int yes = 1;
+  return socket >= 0 && setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
+         bind(socket, reinterpret_cast<const sockaddr*>(&address.storage), address.size) == 0 &&
+         listen(socket, kBacklog) == 0;
+}
+
+int port_of(int socket) {
+  Address address;
+  address.size = sizeof address.storage;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&address.storage), &address.size) != 0) {
+    return 0;
+  }
+  const auto* const v4 = reinterpret_cast<const sockaddr_in*>(&address.storage);
+  const auto* const v6 = reinterpret_cast<const sockaddr_in6*>(&address.storage);
+  return ntohs(address.storage.ss_family == AF_INET ? v4->sin_port : v6->sin6_port);
+}
+
+class MicroHttpPage final : public HttpPage {
+ public:
+  MicroHttpPage(std::string path, std::string type, std::function<std::string()> text)
+      : path_(std::move(path)), type_(std::move(type)), text_(std::move(text)) {}
+  ~MicroHttpPage() override {
+    if (daemon_ != nullptr) MHD_stop_daemon(daemon_);
+  }
+  MicroHttpPage(const MicroHttpPage&) = delete;
+  MicroHttpPage& operator=(const MicroHttpPage&) = delete;
+
+  /// Takes over `socket`, which listens.
+  bool start(Socket& socket) {
+    port_ = port_of(socket.get());
+    daemon_ = MHD_start_daemon(
+        MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_AUTO, 0, nullptr, nullptr, &on_request, this,
+        MHD_OPTION_LISTEN_SOCKET, socket.get(), MHD_OPTION_CONNECTION_LIMIT, kMaxConnections,
+        MHD_OPTION_CONNECTION_TIMEOUT, kConnectionTimeout_s, MHD_OPTION_CONNECTION_MEMORY_LIMIT,
+        kConnectionBytes, MHD_OPTION_END);
+    if (daemon_ != nullptr) socket.release();
+    return daemon_ != nullptr;
+  }
+
+  [[nodiscard]] int port() const override { return port_; }
+
+ private:
+  static MHD_Result answer(MHD_Connection* connection, unsigned int code, const std::string& type,
+                           const std::string& body) {
+    MHD_Response* const response = MHD_create_response_from_buffer(
+        body.size(), const_cast<char*>(body.data()), MHD_RESPMEM_MUST_COPY);
+    if (response == nullptr) return MHD_NO;
+    MHD_add_response_header(response, "Content-Type", type.c_str());
+    if (code == MHD_HTTP_METHOD_NOT_ALLOWED)
+      MHD_add_response_header(response, "Allow", "GET, HEAD");
+    const MHD_Result queued = MHD_queue_response(connection, code, response);
+    MHD_destroy_response(response);
+    return queued;
+  }
+
+  static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
+                               const char* method, const char* /*version*/,
+                               const char* /*upload_data*/, std::size_t* /*upload_size*/,
+                               void** /*state*/) {
+    const auto& page = *static_cast<const MicroHttpPage*>(self);
+    const std::string_view verb(method);
+    if (verb != "GET" && verb != "HEAD") {
+      return answer(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "text/plain", "only GET and HEAD\n");
+    }
+    if (url != page.path_) {
+      return answer(connection, MHD_HTTP_NOT_FOUND, "text/plain", "see " + page.path_ + "\n");
+    }
+    return answer(connection, MHD_HTTP_OK, page.type_, page.text_());
+  }
+
+  const std::string path_;
+  const std::string type_;
+  const std::function<std::string()> text_;
+  MHD_Daemon* daemon_ = nullptr;
+  int port_ = 0;
+};
+
+}  // namespace
+
+OpenedHttpPage open_http_page(const HttpAddress& address, std::string path, std::string type,
+                              std::function<std::string()> text) {
+  Address parsed;
+  if (!parse(address, parsed)) {
+    return {nullptr, fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
+  }
+  const std::string where = fmt::format("cannot listen on {} port {}", address.ip, address.port);
+  Socket socket(::socket(parsed.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (!listen_on(socket.get(), parsed)) {
+    return {nullptr, fmt::format("{}: {}", where, std::strerror(errno))};
+  }
+  auto page = std::make_unique<MicroHttpPage>(std::move(path), std::move(type), std::move(text));
+  if (!page->start(socket)) {
+    return {nullptr, fmt::format("{}: the HTTP server does not start", where)};
+  }
+  return {std::move(page), {}};
+}
+
+}  // namespace camway::service
