@@ -73,6 +73,8 @@ bool WatchedPath::may_meet(const scene::SceneDifference& change) const {
 bool WatchedPath::stays_free(const scene::SceneDifference& change,
                              const collision::Deadline& deadline) const {
   if (!meets_added(all_swept_, change)) return true;
+  collision::Obstacles added(change.index);
+  added.solids = change.solids.get();
   for (std::size_t i = 0; i < swept_.size();) {
     if (!meets_added(swept_[i], change)) {
       ++i;
@@ -84,7 +86,7 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
     }
     const motion::Path stretch(std::move(near));
     const collision::FirstCollision found = collision::first_collision(
-        change.index, stretch, body_, stretch.begin_s(), stretch.end_s(), detect_, deadline);
+        added, stretch, body_, stretch.begin_s(), stretch.end_s(), detect_, deadline);
     if (!found.decided || found.interval) return false;
   }
   return true;

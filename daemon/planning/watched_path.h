@@ -20,7 +20,8 @@ namespace camway::planning {
 ///
 /// The proof: the scene after a change is what stayed, and what was added. A path that was proved
 /// free of the scene before is proved free of what stayed, since taking triangles away brings none
-/// nearer. So it is free in the new scene if it is free of what was added. A segment's eye lies in
+/// nearer, nor solids. So it is free in the new scene if it is free of what was added, whose box
+/// holds its triangles and its inside. A segment's eye lies in
 /// the convex hull of its four control points, in exact arithmetic, and every point of the body
 /// within `Body::radius_m` and the ball's radius of the eye: so the body stays in the box of the
 /// control points, grown by these, by `Body::slack_m` and the required clearance, all rounded up. A

@@ -38,6 +38,7 @@ void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, spdl
 bool same(const SceneArgument& a, const SceneArgument& b) {
   return a.name == b.name && a.file == b.file && a.options.import.scale == b.options.import.scale &&
          a.options.import.up == b.options.import.up &&
+         a.options.import.unknown == b.options.import.unknown &&
          a.options.occupancy_resolution_m == b.options.occupancy_resolution_m;
 }
 
@@ -128,9 +129,14 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene) {
     log_->warn("scene {}: {}; what was read before stays", scene.name, read.error);
     return false;
   }
-  if (scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->mesh_O)) return true;
-  const auto source = scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh),
-                                         std::move(read.report), before->options);
+  // Two maps may have the same faces, and one be solid where the other is not.
+  const bool is_same =
+      !read.map && !object->source->map_O &&
+      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->mesh_O);
+  if (is_same) return true;
+  const auto kind = read.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
+  const auto source = scene::make_source(kind, std::move(*read.mesh), std::move(read.report),
+                                         before->options, std::move(read.map));
   const scene::StoreResult changed = store_.change(
       scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement});
   if (!changed.snapshot) {

@@ -72,7 +72,8 @@ bool Service::subscribe() {
          to(core_.channels.watch(), watches_, &Watches::on_message) &&
          to(core_.channels.occupancy_request(), occupancy_, &OccupancyService::on_message) &&
          to(core_.channels.scene_request(), scenes_, &SceneService::on_request) &&
-         to(core_.channels.upload(), scenes_, &SceneService::on_upload);
+         to(core_.channels.upload(), scenes_, &SceneService::on_upload) &&
+         to(core_.channels.missing_map_pages(), scenes_, &SceneService::on_missing_map_pages);
 }
 
 // One round: finished answers go out, messages come in.

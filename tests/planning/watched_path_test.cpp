@@ -9,6 +9,7 @@
 #include "daemon/planning/plan.h"
 #include "daemon/scene/scene_store.h"
 #include "daemon/scene/shape_mesh.h"
+#include "daemon/scene/voxel_map.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -148,6 +149,34 @@ TEST(WatchedPath, TakingAwayNeverBreaks) {
   store.change("room", {SceneChange::Kind::kRemove, "a", nullptr, {}});
   EXPECT_TRUE(
       watched->stays_free(scene::difference(*before, *store.find("room")), Deadline::after_s(0.0)));
+}
+
+/// Far from all faces, but in the middle of what came.
+TEST(WatchedPath, SeesThatItIsInsideASolid) {
+  const auto empty = scene::assemble("room", 1, {}, {});
+  std::mt19937_64 random = testing::seeded(7356);
+  const PlanRequest request = random_request(random);
+  const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
+  ASSERT_TRUE(watched);
+  scene::VoxelSet voxels;
+  for (std::int32_t x = -30; x < 30; ++x) {
+    for (std::int32_t y = -30; y < 30; ++y) {
+      for (std::int32_t z = -30; z < 30; ++z) voxels.insert(scene::Voxel{x, y, z});
+    }
+  }
+  const auto map =
+      scene::VoxelMap::build(1.0, std::move(voxels), {}, scene::UnknownSpace::kFree).map;
+  ASSERT_TRUE(map);
+  scene::Mesh skin = *map->skin();
+  const scene::ImportReport report = scene::report_of(skin, "map");
+  const auto source = scene::make_source(scene::ObjectKind::kMap, std::move(skin), report, {}, map);
+  const auto placed = scene::place_object("map", source, at({0, 0, 0}), {});
+  ASSERT_TRUE(placed.object) << placed.error;
+  const auto after = scene::assemble("room", 2, {placed.object}, {});
+  const scene::SceneDifference change = scene::difference(*empty, *after);
+  EXPECT_TRUE(watched->may_meet(change));
+  EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
+  EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
 }
 
 TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
