@@ -183,6 +183,16 @@ SceneAnswer Client::remove_object(const std::string& scene, const std::string& o
   return impl_->ask(request_for(scene_request_t::REMOVE, scene, object));
 }
 
+SceneAnswer Client::insert_scan(const std::string& scene, const std::string& object,
+                                const std::vector<std::array<double, 3>>& points_m,
+                                const std::array<double, 3>& origin_m) {
+  if (points_m.empty()) return failed<SceneAnswer>({Status::kInvalid, "points_m: are none"});
+  scene_request_t request = request_for(scene_request_t::SCAN, scene, object);
+  std::copy(origin_m.begin(), origin_m.end(), request.position_m);
+  const Bytes upload = put_points(points_m, request);
+  return impl_->ask(std::move(request), upload);
+}
+
 SceneMap Client::export_map(const std::string& scene) {
   if (const auto why = impl_->failure_to_wait()) return failed<SceneMap>(*why);
   return ask_scene_map(impl_->context, *impl_->engine, request_for(scene_request_t::EXPORT, scene));

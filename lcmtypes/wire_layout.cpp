@@ -218,6 +218,7 @@ constexpr std::array kSceneRequest{
     fixed("occupancy_resolution_m", kDouble),
     fixed("kind", kByte),
     fixed("shape", 7 * kDouble),
+    fixed("sensor", 5 * kDouble),
     fixed("pose", 7 * kDouble),
     fixed("first", kInt32),
 };

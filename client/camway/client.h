@@ -120,6 +120,12 @@ class Client {
   SceneAnswer move_object(const std::string& scene, const std::string& object, const Pose& pose);
   SceneAnswer remove_object(const std::string& scene, const std::string& object);
 
+  /// Tells an object that is an OctoMap what a sensor at `origin_m` saw, all in the world's frame.
+  /// Each scan makes a new revision.
+  SceneAnswer insert_scan(const std::string& scene, const std::string& object,
+                          const std::vector<std::array<double, 3>>& points_m,
+                          const std::array<double, 3>& origin_m);
+
   /// Fetches a scene's occupancy map.
   SceneMap export_map(const std::string& scene);
   /// Has the daemon write it to a file below one of its scene roots, of which the name ends with

@@ -147,6 +147,40 @@ TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   EXPECT_TRUE(past.certified);
 }
 
+/// What a sensor sees is in the way of the very next plan, until it sees through.
+TEST_F(SceneTest, PlansAroundWhatASensorSees) {
+  Client client(patient());
+  ASSERT_TRUE(client.load_scene("world", {}).ok());
+  SceneVoxels voxels;
+  voxels.resolution_m = 0.5;
+  voxels.sensor.max_range_m = 30.0;
+  const SceneAnswer put = client.put_object("world", "seen", voxels, at(0, 0, 0.2));
+  ASSERT_TRUE(put.ok()) << put.error;
+  EXPECT_EQ(put.objects[0].kind, "occupancy map");
+  EXPECT_TRUE(client.plan(flight("world")).collisions.empty());
+
+  std::vector<std::array<double, 3>> wall;
+  for (double y = -3.0; y <= 7.0; y += 0.1) {
+    for (double z = 5.0; z <= 15.0; z += 0.1) wall.push_back({5.25, y, z});
+  }
+  const SceneAnswer scanned = client.insert_scan("world", "seen", wall, {-5, 2, 10});
+  ASSERT_TRUE(scanned.ok()) << scanned.error;
+  EXPECT_EQ(scanned.scene.revision, put.scene.revision + 1);
+  const PlanResponse round = client.plan(flight("world"));
+  EXPECT_FALSE(round.collisions.empty());
+  EXPECT_EQ(round.scene_revision, scanned.scene.revision);
+
+  std::vector<std::array<double, 3>> beyond;
+  for (const auto& point : wall) beyond.push_back({20.25, point[1], point[2]});
+  for (int i = 0; i < 8; ++i) {
+    const SceneAnswer again = client.insert_scan("world", "seen", beyond, {-5, 2, 10});
+    ASSERT_TRUE(again.ok()) << again.error;
+  }
+  EXPECT_TRUE(client.plan(flight("world")).collisions.empty());
+  EXPECT_EQ(client.insert_scan("world", "crate", wall, {-5, 2, 10}).status, Status::kInvalid);
+  EXPECT_EQ(client.insert_scan("world", "seen", {{1e9, 0, 0}}, {0, 0, 0}).status, Status::kInvalid);
+}
+
 TEST_F(SceneTest, ReadsNothingOutsideItsRoots) {
   Client client(patient());
   for (const std::string& name :

@@ -393,7 +393,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.client_id = client_id(random);
   message.request_id = integer(random);
   message.utime = integer(random);
-  message.operation = static_cast<std::int8_t>(below(random, 10));
+  message.operation = static_cast<std::int8_t>(below(random, 11));
   message.scene = text(random, wire::kMaxSceneNameBytes);
   message.object = text(random, wire::kMaxObjectNameBytes);
   message.file = text(random, wire::kMaxFileNameBytes);
@@ -404,12 +404,17 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.up = static_cast<std::int8_t>(below(random, 4));
   message.unknown = static_cast<std::int8_t>(below(random, 3));
   message.occupancy_resolution_m = number(random);
-  message.kind = static_cast<std::int8_t>(below(random, 6));
+  message.kind = static_cast<std::int8_t>(below(random, 7));
   fill(message.size_m, random);
   message.radius_m = number(random);
   message.height_m = number(random);
   message.chord_error_m = number(random);
   message.cell_m = number(random);
+  message.hit_probability = number(random);
+  message.miss_probability = number(random);
+  message.least_probability = number(random);
+  message.most_probability = number(random);
+  message.max_range_m = number(random);
   fill(message.position_m, random);
   fill(message.orientation_wxyz, random);
   message.first = small(random);
