@@ -96,7 +96,7 @@ class Told {
     return [this](const WatchChecker::News& news) {
       const std::lock_guard lock(mutex_);
       verdicts_ += news.verdicts.size();
-      for (const auto& verdict : news.verdicts) broken_ += verdict.collisions.empty() ? 0 : 1;
+      for (const auto& verdict : news.verdicts) broken_ += verdict.collisions.empty() ? 0U : 1U;
       if (news.is_last) revision_ = news.revision;
       changed_.notify_all();
     };
