@@ -13,12 +13,13 @@
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
 #include "daemon/service/service_manager.h"
+#include "lcmtypes/message_auth.h"
 
 namespace camway::service {
 
 /// Reads the configuration again while the daemon serves, on a thread of its own: takes over scenes
-/// and log level, says which other changes need a restart, and keeps all as it was if the
-/// configuration or a scene is bad.
+/// and log level, and the keys in their file, says which other changes need a restart, and keeps
+/// all as it was if the configuration or a scene is bad.
 class Reloader {
  public:
   using Read = std::function<ParsedOptions()>;
@@ -26,7 +27,8 @@ class Reloader {
   /// `running`: what the daemon was started with. `read` gives what holds now. `scenes` and
   /// `manager` must outlive this; nobody else may use `scenes` meanwhile.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
-           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log);
+           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+           std::shared_ptr<wire::MessageAuth> auth = nullptr);
   /// Waits for the scene that is being read, if any; the reload that it belongs to is given up.
   ~Reloader() = default;
   Reloader(const Reloader&) = delete;
@@ -46,7 +48,8 @@ class Reloader {
   ConfiguredScenes& scenes_;
   const ServiceManager& manager_;
   std::shared_ptr<spdlog::logger> log_;
-  std::mutex mutex_;  ///< guards requested_
+  std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
+  std::mutex mutex_;                         ///< guards requested_
   std::condition_variable_any changed_;
   bool requested_ = false;
   std::jthread thread_;  ///< last: uses all above

@@ -13,6 +13,7 @@
 #include "daemon/service/scene_argument.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 #include "tools/camway/load_run.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/client_request.h"
@@ -27,6 +28,7 @@ struct LoadFlags {
   std::string scene;
   std::vector<std::string> requests;
   LoadOptions run;
+  std::string key_file;
   double warm_up_s = 0.0;
   std::optional<double> max_growth_percent;
   std::string json_file;
@@ -129,9 +131,15 @@ ExitCode run_command(const LoadFlags& flags) {
   if (flags.run.daemon_pid != 0 && !(resident_mb(flags.run.daemon_pid) > 0.0)) {
     return invalid_input(fmt::format("--daemon-pid: there is no process {}", flags.run.daemon_pid));
   }
+  ClientOptions signing;
+  if (const std::string fault = use_key_file(flags.key_file, signing); !fault.empty()) {
+    return invalid_input(fault);
+  }
+  LoadOptions run = flags.run;
+  run.authentication = signing.authentication;
   const std::vector<LoadQuestion> questions = make_questions(flags);
   if (questions.empty()) return ExitCode::kInvalidInput;
-  const LoadResult result = run_load(questions, flags.run);
+  const LoadResult result = run_load(questions, run);
   if (!result.error.empty()) return invalid_input(result.error);
   fmt::print("{}", summary(flags, result));
   if (!flags.json_file.empty()) {
@@ -158,6 +166,7 @@ void add_run_flags(CLI::App& command, LoadFlags& flags) {
                   "Stop after so many requests of all clients together; 0: only by time")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  add_key_file(command, flags.key_file);
   command.add_option("--url", flags.run.url, "LCM network [LCM_DEFAULT_URL]");
   command.add_option("--prefix", flags.run.prefix, "Of the daemon's channels")
       ->capture_default_str();
