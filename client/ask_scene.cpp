@@ -5,12 +5,17 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
+
+#include <camway/map_page_t.hpp>
+#include <camway/missing_pages_t.hpp>
 
 #include "client/scene_wire.h"
 #include "client/text.h"
 #include "lcmtypes/checksum.h"
 #include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire_layout.h"
 
 namespace camway {
 namespace {
@@ -185,6 +190,127 @@ SceneAnswer ask_scene(Context& context, Engine& engine, scene_request_t request,
     }
   }
   return answer_of(ask_once(asker, std::move(request)));
+}
+
+namespace {
+
+/// Pages of a map on their way.
+class MapPages final : public Call {
+ public:
+  MapPages(Context& context, std::int64_t request_id, std::int32_t num_pages,
+           const std::vector<std::int32_t>& wanted, Clock::time_point deadline)
+      : Call(Kind::kMap, request_id, {}, context.retry(deadline)),
+        context_(context),
+        num_pages_(num_pages),
+        wanted_(wanted.begin(), wanted.end()) {
+    replace_question(missing());
+  }
+
+  /// Those that came, or why not all did.
+  struct Came {
+    std::vector<map_page_t> pages;
+    Failure failure{Status::kOk, {}};
+  };
+  std::future<Came> answer() { return promise_.get_future(); }
+
+  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) override {
+    wire::Decoded<map_page_t> decoded = wire::decode<map_page_t>(bytes);
+    if (!decoded.message) {
+      fault_ = decoded.fault.text("map_page_t");
+      return;
+    }
+    map_page_t& page = *decoded.message;
+    if (page.client_id != context_.options().client_id) return;
+    retry().note_life();
+    if (page.status != map_page_t::STATUS_OK) {
+      refusal_ = page.message;
+    } else if (page.num_pages != num_pages_ ||
+               wire::crc64(page.bytes.data(), page.bytes.size()) != page.page_checksum) {
+      fault_ = "map_page_t: is damaged";
+    } else if (wanted_.erase(page.page) == 1) {
+      retry().note_part(now);
+      came_.pages.push_back(std::move(page));
+    }
+  }
+  bool answered() const override { return wanted_.empty() || refusal_.has_value(); }
+  std::vector<Outgoing> missing() const override {
+    missing_pages_t message{};
+    message.client_id = context_.options().client_id;
+    message.request_id = request_id();
+    message.utime = microseconds_since_1970();
+    message.num_pages = num_pages_;
+    message.missing.assign(wanted_.begin(), wanted_.end());
+    message.num_missing = static_cast<std::int32_t>(message.missing.size());
+    return {{context_.channels().missing_map_pages(), wire::encode(message)}};
+  }
+  void finish(Outcome outcome) override {
+    if (outcome != Outcome::kAnswered) {
+      came_.failure = context_.explain(outcome, retry().ever_heard(), {}, fault_);
+    } else if (refusal_) {
+      came_.failure = {Status::kInvalid, *refusal_};
+    }
+    promise_.set_value(std::move(came_));
+  }
+
+ private:
+  Context& context_;
+  std::int32_t num_pages_;
+  std::set<std::int32_t> wanted_;
+  Came came_;
+  std::optional<std::string> refusal_;
+  std::string fault_;
+  std::promise<Came> promise_;
+};
+
+/// All bytes of the map that `exported` tells of.
+SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
+  SceneMap map;
+  map.scene = from_wire(exported.scene);
+  const auto size = static_cast<std::size_t>(std::max<std::int64_t>(0, exported.map_bytes));
+  const auto num_pages = static_cast<std::int32_t>(
+      std::max<std::size_t>(1, (size + wire::kMapPageBytes - 1) / wire::kMapPageBytes));
+  for (std::int32_t first = 0; first < num_pages;
+       first += static_cast<std::int32_t>(kPagesAtOnce)) {
+    std::vector<std::int32_t> wanted;
+    for (std::int32_t page = first; page < num_pages && wanted.size() < kPagesAtOnce; ++page) {
+      wanted.push_back(page);
+    }
+    const auto call = std::make_shared<MapPages>(asker.context, exported.request_id, num_pages,
+                                                 wanted, asker.deadline);
+    std::future<MapPages::Came> answer = call->answer();
+    asker.engine.start(call);
+    MapPages::Came came = answer.get();
+    if (came.failure.status != Status::kOk) return failed<SceneMap>(came.failure);
+    std::ranges::sort(came.pages, {}, &map_page_t::page);
+    for (const map_page_t& page : came.pages) {
+      map.bytes.insert(map.bytes.end(), page.bytes.begin(), page.bytes.end());
+    }
+  }
+  if (map.bytes.size() != size ||
+      wire::crc64(map.bytes.data(), map.bytes.size()) != exported.map_checksum) {
+    return failed<SceneMap>({Status::kBadAnswer, "the map's checksum is not that of its pages"});
+  }
+  map.status = Status::kOk;
+  return map;
+}
+
+}  // namespace
+
+SceneMap ask_scene_map(Context& context, Engine& engine, const scene_request_t& request) {
+  if (const auto fault = fault_in_form(request)) {
+    return failed<SceneMap>({Status::kInvalid, *fault});
+  }
+  const Asker asker{context, engine, after(context.options().deadline_s)};
+  SceneMap map;
+  // Another client's exports may have taken its room, or the daemon was started anew.
+  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
+    const Asked<scene_response_t> asked = ask_once(asker, request);
+    const SceneAnswer exported = answer_of(asked);
+    if (!exported.ok()) return failed<SceneMap>({exported.status, exported.error});
+    map = fetch_map(asker, *asked.response);
+    if (map.status != Status::kInvalid) return map;
+  }
+  return map;
 }
 
 SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t request) {

@@ -18,6 +18,9 @@ namespace camway {
 SceneAnswer ask_scene(Context& context, Engine& engine, scene_request_t request,
                       const std::vector<std::uint8_t>& upload = {});
 
+/// Asks for a map until all of it is here.
+SceneMap ask_scene_map(Context& context, Engine& engine, const scene_request_t& request);
+
 /// Asks for a list until all of it is here.
 SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t request);
 

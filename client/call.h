@@ -29,7 +29,7 @@ struct Outgoing {
 /// A question on its way. After it was handed to an engine only that engine's thread uses it.
 class Call {
  public:
-  enum class Kind { kPlan, kOccupancy, kScene, kUpload };
+  enum class Kind { kPlan, kOccupancy, kScene, kUpload, kMap };
 
   Call(Kind kind, std::int64_t request_id, std::vector<Outgoing> question, Retry retry)
       : kind_(kind), request_id_(request_id), question_(std::move(question)), retry_(retry) {}

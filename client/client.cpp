@@ -163,6 +163,18 @@ SceneAnswer Client::remove_object(const std::string& scene, const std::string& o
   return impl_->ask(request_for(scene_request_t::REMOVE, scene, object));
 }
 
+SceneMap Client::export_map(const std::string& scene) {
+  if (const auto why = impl_->failure_to_wait()) return failed<SceneMap>(*why);
+  return ask_scene_map(impl_->context, *impl_->engine, request_for(scene_request_t::EXPORT, scene));
+}
+
+SceneAnswer Client::export_map_to(const std::string& scene, const std::string& file) {
+  scene_request_t request = request_for(scene_request_t::EXPORT, scene);
+  request.file = file;
+  if (file.empty()) return failed<SceneAnswer>({Status::kInvalid, "file: is empty"});
+  return impl_->ask(std::move(request));
+}
+
 DaemonStatus Client::status(double timeout_s) {
   if (const auto failure = impl_->failure_to_wait()) return failed<DaemonStatus>(*failure);
   const std::optional<DaemonStatus> heartbeat =

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_response_t.hpp>
 #include <camway/plan_progress_t.hpp>
@@ -78,6 +79,7 @@ void Engine::listen(const std::string& client_id) {
                                  kSmallQueue);
   take_answers<upload_status_t>(Call::Kind::kUpload, channels_.upload_status(client_id),
                                 kSmallQueue);
+  take_answers<map_page_t>(Call::Kind::kMap, channels_.map_page(client_id), kSmallQueue);
   link_.listen(channels_.status(), kSmallQueue, [this](auto bytes) { take_heartbeat(bytes); });
 }
 

@@ -6,6 +6,7 @@
 #include <camway/cancel_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
+#include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
 #include <camway/occupancy_response_t.hpp>
@@ -149,6 +150,12 @@ constexpr std::array kMissingPages{
     list("missing", kInt32),
 };
 
+constexpr std::array kMapPage{
+    text("client_id", kMaxClientIdLength), fixed("request_id", kInt64), fixed("status", kInt32),
+    text("message", kMaxTextBytes),        fixed("page", kInt32),       fixed("num_pages", kInt32),
+    fixed("page_checksum", kInt64),        list("bytes", kByte),
+};
+
 constexpr std::array kOccupancyRequest{
     text("client_id", kMaxClientIdLength),
     fixed("request_id", kInt64),
@@ -202,6 +209,7 @@ constexpr std::array kSceneRequest{
     text("upload_format", kMaxFormatBytes),
     fixed("scale", kDouble),
     fixed("up", kByte),
+    fixed("unknown", kByte),
     fixed("occupancy_resolution_m", kDouble),
     fixed("kind", kByte),
     fixed("shape", 7 * kDouble),
@@ -223,6 +231,7 @@ constexpr std::array kSceneResponse{
     fixed("scene.occupancy_resolution_m", kDouble),
     fixed("first", kInt32),
     fixed("total", kInt32),
+    fixed("map", 2 * kInt64),
     list_of("scenes", kSceneInfo),
     list_of("objects", kSceneObject),
 };
@@ -307,6 +316,10 @@ Layout layout_of<plan_progress_t>() {
 template <>
 Layout layout_of<missing_pages_t>() {
   return {"missing_pages_t", missing_pages_t::getHash(), kMissingPages};
+}
+template <>
+Layout layout_of<map_page_t>() {
+  return {"map_page_t", map_page_t::getHash(), kMapPage};
 }
 template <>
 Layout layout_of<occupancy_request_t>() {

@@ -10,6 +10,7 @@ namespace camway {
 class cancel_t;
 class envelope_t;
 class error_t;
+class map_page_t;
 class missing_pages_t;
 class occupancy_request_t;
 class occupancy_response_t;
@@ -48,6 +49,8 @@ inline constexpr std::size_t kMaxKindBytes = 32;
 /// Every page of an upload has so many bytes but the last.
 inline constexpr std::size_t kUploadPageBytes = 48'000;
 inline constexpr std::size_t kMaxMissingPages = 4096;
+/// Likewise of an exported map.
+inline constexpr std::size_t kMapPageBytes = 48'000;
 
 /// Limits of a body, so that it fits page 0 of a request.
 inline constexpr std::size_t kMaxBodyPoints = 512;
@@ -93,6 +96,8 @@ template <>
 Layout layout_of<plan_progress_t>();
 template <>
 Layout layout_of<missing_pages_t>();
+template <>
+Layout layout_of<map_page_t>();
 template <>
 Layout layout_of<occupancy_request_t>();
 template <>

@@ -111,6 +111,12 @@ class Client {
   SceneAnswer move_object(const std::string& scene, const std::string& object, const Pose& pose);
   SceneAnswer remove_object(const std::string& scene, const std::string& object);
 
+  /// Fetches a scene's occupancy map.
+  SceneMap export_map(const std::string& scene);
+  /// Has the daemon write it to a file below one of its scene roots, of which the name ends with
+  /// ".bt". One that is there is replaced.
+  SceneAnswer export_map_to(const std::string& scene, const std::string& file);
+
   /// Waits for the daemon's next heartbeat; there is one each second.
   DaemonStatus status(double timeout_s = 3.0);
 

@@ -26,7 +26,7 @@ struct SceneInfo {
 /// An object of a scene.
 struct SceneObject {
   std::string name;
-  std::string kind;  ///< "mesh", "box", "sphere", "cylinder", "point cloud"
+  std::string kind;  ///< "mesh", "box", "sphere", "cylinder", "point cloud", "occupancy map"
   std::string digest;
   std::int64_t num_triangles = 0;
   Pose pose;  ///< of the object's own frame in the world
@@ -34,14 +34,17 @@ struct SceneObject {
   std::array<double, 3> bounds_max_m{};
 };
 
-/// A mesh that is a file in any format that Camway reads: one that the daemon finds below its scene
-/// roots, or bytes that are uploaded.
+/// A mesh, or an OctoMap, that is a file in any format that Camway reads: one that the daemon finds
+/// below its scene roots, or bytes that are uploaded.
 struct SceneMesh {
   std::string file;                 ///< relative to a scene root of the daemon; empty for bytes
   std::vector<std::uint8_t> bytes;  ///< the content of a file
-  std::string format;  ///< extension that says the format of `bytes`: "obj", "ply", ...
+  std::string format;  ///< extension that says the format of `bytes`: "obj", "ply", "bt", ...
   double scale = 1.0;  ///< file units to metres
   enum class Up { kAsInFile = 0, kZToY = 1, kYToZ = 2 } up = Up::kAsInFile;
+  /// Of an OctoMap: what it knows nothing of. Occupied: all within the box of what it knows, and a
+  /// layer of voxels about it.
+  enum class Unknown { kFree = 0, kOccupied = 1 } unknown = Unknown::kFree;
 };
 
 /// About the object's origin.
@@ -78,6 +81,17 @@ struct SceneAnswer {
   SceneInfo scene;                   ///< as it is now, after the change; not of `list_scenes`
   std::vector<SceneInfo> scenes;     ///< of `list_scenes`, in order of name
   std::vector<SceneObject> objects;  ///< of `describe_scene`, in order; else the one that changed
+};
+
+/// An occupancy map that the daemon sent.
+struct SceneMap {
+  Status status = Status::kNoAnswer;
+  std::string error;  ///< what failed and what to do about it; empty when `ok()`
+
+  bool ok() const { return status == Status::kOk; }
+
+  SceneInfo scene;                  ///< of which it is the map
+  std::vector<std::uint8_t> bytes;  ///< a file in OctoMap's binary format (.bt)
 };
 
 }  // namespace camway

@@ -67,8 +67,12 @@ std::span<const Triangle> Probe::place(const motion::Stretch& stretch) {
 
 double Probe::field_distance_m(const motion::Stretch& stretch) const {
   if (obstacles_.field == nullptr) return 0.0;
-  return obstacles_.field->clearance_at_least_m(to_world(stretch, center_C_)) -
-         center_radius_m_ * kRoundUp;
+  const Vec3 center_W = to_world(stretch, center_C_);
+  const double clearance_m = obstacles_.field->clearance_at_least_m(center_W);
+  if (!(clearance_m > 0.0)) return 0.0;
+  // Far from all faces, but inside.
+  if (obstacles_.solids != nullptr && obstacles_.solids->hold(center_W)) return 0.0;
+  return clearance_m - center_radius_m_ * kRoundUp;
 }
 
 scene::MovingBody Probe::move(const motion::Stretch& stretch, Way way) {
@@ -91,7 +95,8 @@ Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
   Look look;
   look.reach_m = reach_m(stretch);
   look.rounding_m = rounding_m(stretch);
-  // Of the ball about the triangles: what it holds cannot be inside a solid either.
+  // Of the ball about the triangles: what it holds cannot be inside a solid either, nor the ball in
+  // one with a part of it only.
   const double field_m = field_distance_m(stretch);
   if (field_m > (look.reach_m + margin_m + keep_m_) * kRoundUp) {
     look.free = true;
@@ -107,7 +112,7 @@ Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
   // Too large or not a number: then nothing is known, and the motion is at fault.
   if (!(body.bend_m + body.reach_m + body.keep_m < geometry::kLargestCoordinate_m)) return look;
   const scene::Passage passage = obstacles_.index.passage(body);
-  look.swallows = passage.is_clear && holds_scene(stretch);
+  look.swallows = passage.is_clear && (holds_scene(stretch) || is_in_solid());
   look.free = passage.is_clear && !look.swallows;
   look.is_measured = passage.nearest.has_value() || !look.free;
   look.ahead = passage.ahead;
@@ -141,6 +146,12 @@ bool Probe::holds_scene(const motion::Stretch& stretch) {
     return std::ranges::none_of(
         body_.solids_C(), [&](const motion::Solid& solid) { return is_inside(solid, point_C); });
   });
+}
+
+bool Probe::is_in_solid() const {
+  if (obstacles_.solids == nullptr) return false;
+  return std::ranges::any_of(
+      placed_, [&](const Triangle& part) { return obstacles_.solids->hold(part[0]); });
 }
 
 std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch& stretch,

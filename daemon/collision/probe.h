@@ -15,8 +15,9 @@ namespace camway::collision {
 struct Look {
   /// Proved: nowhere on the stretch is the body nearer to the scene than the required clearance.
   bool free = false;
-  /// Proved: everywhere on the stretch a part of the scene is inside a solid of the body, away from
-  /// its surface. Where this is false the body may collide everywhere as well.
+  /// Proved: everywhere on the stretch a part of the scene is inside a solid of the body, or a part
+  /// of the body inside a solid of the scene, away from its surface. Where this is false the body
+  /// may collide everywhere as well.
   bool swallows = false;
   /// Bound of the motion of the body's points from where they were looked at, rounding included.
   double reach_m = 0.0;
@@ -48,12 +49,12 @@ struct Look {
 /// is further away than required. Where it is not, the direction of the motion counts: a point is
 /// also within `motion::Stretch::bend_m`, which is much less, of the line between its two ends, and
 /// what these lines hold may keep away all the same (`scene::SceneIndex::passage`). What is inside
-/// a solid without touching its surface is asked for apart: if the surface is free all the time,
-/// nothing can have come in or gone out. Source: He & van den Berg 2014, "Efficient exact
-/// collision-checking of 3-D rigid body motions using linear transformations and distance
-/// computations in workspace", with our motion bounds; that of motion along a direction, for a
-/// slab, is after Mirtich 1996 ("Impulse-based dynamic simulation of rigid body systems",
-/// section 2.3).
+/// a solid without touching its surface, of the body or of the scene, is asked for apart: if the
+/// surface is free all the time, nothing can have come in or gone out. Source: He & van den Berg
+/// 2014, "Efficient exact collision-checking of 3-D rigid body motions using linear transformations
+/// and distance computations in workspace", with our motion bounds; that of motion along a
+/// direction, for a slab, is after Mirtich 1996 ("Impulse-based dynamic simulation of rigid body
+/// systems", section 2.3).
 class Probe {
  public:
   /// Refers to both, which must outlive it. [Limit: 0 <= clearance_m] [Units: metres]
@@ -109,6 +110,9 @@ class Probe {
   scene::MovingBody move(const motion::Stretch& stretch, Way way);
   [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
   [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
+  /// Whether a part of the body as it was placed last is inside a solid of the scene. Precondition:
+  /// none of them touches a triangle of the scene.
+  [[nodiscard]] bool is_in_solid() const;
   /// Of the body as it was placed last.
   [[nodiscard]] bool surely_meets(const geometry::Triangle& obstacle, double moved_m) const;
 

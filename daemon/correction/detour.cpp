@@ -26,6 +26,7 @@ constexpr int kFinest = 2048;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
 constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
+constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
 
@@ -55,7 +56,10 @@ class Detour {
         deadline_(deadline),
         radius_m_(space.ball_radius_m()),
         from_(signed_pose_at(problem.path, problem.gap_begin_s())),
-        to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
+        to_(signed_pose_at(problem.path, problem.gap_end_s())) {
+    for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated))
+      about_W_.push_back(space_.center_W(pose));
+  }
 
   std::optional<Candidate> run(Search search) {
     if (search == Search::kTurning) return with_turns();
@@ -200,7 +204,7 @@ class Detour {
       options.seed = seed_;
       options.largest_turn_rad =
           std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
-      options.interpolated = poses_as_interpolated();
+      options.interpolated = poses_as_interpolated(kPosesAsInterpolated);
       options.effort = problem_.effort;
       const Guide guide = tree_way(space_, from_, to_, options, deadline_);
       if (auto found = follow(guide, Turning::kAsGuide)) return found;
@@ -208,10 +212,10 @@ class Detour {
     return with_ball(kFinestLevel, kFinestLevel);
   }
 
-  [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated() const {
+  [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated(int steps) const {
     std::vector<motion::Pose> poses;
-    for (int i = 0; i <= kPosesAsInterpolated; ++i) {
-      const double share = static_cast<double>(i) / kPosesAsInterpolated;
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(i) / steps;
       poses.push_back(
           problem_.original.pose(std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), share)));
     }
@@ -264,9 +268,11 @@ class Detour {
 
   [[nodiscard]] LatticeResult searched(const Ball& ball, const Level& level, bool from_end) const {
     const double coarse_m = std::max(ball.radius_m, (ball.to_W - ball.from_W).norm() / 8.0);
-    LatticeResult found =
-        lattice_way(space_, from_end ? ball.to_W : ball.from_W, from_end ? ball.from_W : ball.to_W,
-                    {ball.radius_m, level.spacing * coarse_m, level.max_points}, deadline_);
+    LatticeOptions options{ball.radius_m, level.spacing * coarse_m, level.max_points};
+    // Who keeps to something sees more points on the way, and far away there is nothing to keep to.
+    if (!level.is_wide) options.about_W = about_W_;
+    LatticeResult found = lattice_way(space_, from_end ? ball.to_W : ball.from_W,
+                                      from_end ? ball.from_W : ball.to_W, options, deadline_);
     if (problem_.effort != nullptr) {
       problem_.effort->lattice_points += static_cast<std::int32_t>(found.points);
     }
@@ -340,6 +346,7 @@ class Detour {
   Turning turning_ = Turning::kAsGuide;
   const SignedPose from_;
   const SignedPose to_;
+  std::vector<Vec3> about_W_;  ///< the middle of the body on the path as interpolated
 };
 
 }  // namespace

@@ -73,6 +73,7 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
 
 double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
   const double keep_m = radius_m + detect_.clearance_m;
+  if (obstacles_.solids != nullptr && obstacles_.solids->hold(point_W)) return -keep_m;
   if (obstacles_.field != nullptr) {
     const double at_least_m = obstacles_.field->clearance_at_least_m(point_W) - keep_m;
     if (at_least_m >= up_to_m) return up_to_m;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "daemon/correction/detour.h"
@@ -51,6 +52,7 @@ class Ladder {
     }
     result_.timed_out = any_open() && deadline_.passed();
     polish();
+    come_closer();
     if (options_.objective != Objective::kClosest) pursue_objective();
     for (Correction& correction : result_.corrections) {
       if (correction.rung != Rung::kNone) measure(correction);
@@ -257,6 +259,38 @@ class Ladder {
     return gaps;
   }
 
+  // Ways round are smoothed more than they are drawn back to the original. Where they go far astray
+  // they are drawn back for a few steps more, the furthest first: most paths do not, and are
+  // answered without.
+  void come_closer() {
+    struct Astray {
+      double deviation_m;
+      std::size_t gap;
+    };
+    std::vector<Astray> astray;
+    const std::vector<bool> gaps = corrected_gaps();
+    for (std::size_t gap = 0; gap < gaps.size(); ++gap) {
+      if (!gaps[gap]) continue;
+      const Problem problem = problem_of_gap(gap);
+      const CubicPath part = problem.path.around(problem.gap_begin_s(), problem.gap_end_s());
+      const double deviation_m = cost(Objective::kClosest, part, problem).value;
+      if (deviation_m > kAstray * space_.ball_radius_m()) astray.push_back({deviation_m, gap});
+    }
+    std::ranges::stable_sort(astray, std::greater(), &Astray::deviation_m);
+    for (const Astray& place : astray) {
+      if (!deadline_.passed()) come_closer(place.gap);
+    }
+  }
+
+  void come_closer(std::size_t gap) {
+    const Problem problem = problem_of_gap(gap);
+    const std::optional<Candidate> other =
+        polished(problem, kCloserKnots, closer_, space_, deadline_);
+    if (!other) return;
+    if (bending_energy(other->path) > kMostBending * bending_energy(problem.path)) return;
+    take_if_better(gap, Objective::kClosest, *other, problem);
+  }
+
   // Every objective begins with the closest path, and only what is better by its own measure is
   // taken: so none ends with less of it than others have.
   void pursue_objective() {
@@ -271,12 +305,20 @@ class Ladder {
   void pursue_objective(std::size_t gap, int knots) {
     const Problem problem = problem_of_gap(gap);
     const std::optional<Candidate> other = polished(problem, knots, pursuit_, space_, deadline_);
-    if (!other) return;
-    const auto cost = [&](const CubicPath& path) {
-      return objective_cost(options_.objective, path, problem.original, space_, deadline_);
-    };
-    if (!is_better(cost(other->path), cost(problem.path)) || !take(*other)) return;
-    for (const motion::BumpRow& row : other->rows) widen_corrections(gap, row);
+    if (other) take_if_better(gap, options_.objective, *other, problem);
+  }
+
+  [[nodiscard]] ObjectiveCost cost(Objective objective, const CubicPath& path,
+                                   const Problem& problem) {
+    return objective_cost(objective, path, problem.original, space_, deadline_);
+  }
+
+  void take_if_better(std::size_t gap, Objective objective, const Candidate& other,
+                      const Problem& problem) {
+    if (!is_better(cost(objective, other.path, problem), cost(objective, problem.path, problem)))
+      return;
+    if (!take(other)) return;
+    for (const motion::BumpRow& row : other.rows) widen_corrections(gap, row);
   }
 
   // What is polished belongs to the corrections of that gap, or to those that reach into it.
@@ -376,6 +418,11 @@ class Ladder {
   static constexpr int kPolishingRounds = 2;
   static constexpr int kStepsAGap = 12;  ///< of improvement, for each gap that a collision is in
   static constexpr int kPolishedKnots = 12;
+  static constexpr double kAstray = 3.0;  ///< from the original, in radii of the ball
+  static constexpr double kCloserSpread = 0.25;
+  static constexpr int kCloserKnots = 16;
+  static constexpr int kCloserSteps = 24;      ///< for the whole path
+  static constexpr double kMostBending = 1.5;  ///< of what there was, for coming closer
   static constexpr int kPursuitStepsAGap = 40;
   static constexpr std::array<int, 3> kPursuitKnots = {12, 24, 48};
   /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
@@ -396,6 +443,7 @@ class Ladder {
   std::vector<bool> is_beyond_limit_;
   std::vector<double> beyond_limit_s_;
   Improvement improvement_;
+  Improvement closer_{Objective::kClosest, kCloserSteps, true, kCloserSpread};
   Improvement pursuit_;  ///< of another objective than the closest
   LadderResult result_;
 };

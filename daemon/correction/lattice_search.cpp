@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <queue>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace camway::correction {
 
@@ -15,10 +18,93 @@ namespace {
 
 using geometry::Vec3;
 using Cell = std::array<std::int32_t, 3>;
+using Key = std::uint64_t;  ///< of a cell
 
-constexpr std::int32_t kFarthest = (1 << 20) - 1;  // so that a key takes 63 bits
-constexpr double kComfort = 0.5;                   // of the ball: gap from which a way is not near
+// Nobody gets further from where it begins than there are points to be met.
+constexpr std::int32_t kFarthest = (1 << 20) - 1;
+constexpr int kKeyBits = 21;  // of a coordinate, so that a key takes 63
+
+constexpr Key key_of(const Cell& cell) {
+  Key key = 0;
+  for (const std::int32_t c : cell) key = (key << kKeyBits) | static_cast<Key>(c + kFarthest);
+  return key;
+}
+
+constexpr Cell cell_of(Key key) {
+  constexpr Key kMask = (Key{1} << kKeyBits) - 1;
+  const auto number = [&](int place) {
+    return static_cast<std::int32_t>(key >> (place * kKeyBits) & kMask) - kFarthest;
+  };
+  return {number(2), number(1), number(0)};
+}
+
+constexpr int kSteps = 27;
+constexpr int kHere = 13;  // the one of them that leads nowhere
+// The one back has the number `kSteps - 1 - step`.
+
+/// What to add to the key of a cell.
+constexpr std::array<Key, kSteps> kKeySteps = [] {
+  std::array<Key, kSteps> steps{};
+  for (int i = 0; i < kSteps; ++i) {
+    steps[static_cast<std::size_t>(i)] =
+        key_of({i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}) - key_of({0, 0, 0});
+  }
+  return steps;
+}();
+
+/// How long each is. [Units: spacing of the lattice]
+constexpr std::array<double, kSteps> kLengths = [] {
+  constexpr std::array<double, 4> kRoots = {0.0, 1.0, std::numbers::sqrt2, std::numbers::sqrt3};
+  std::array<double, kSteps> lengths{};
+  for (int i = 0; i < kSteps; ++i) {
+    const int axes = (i % 3 != 1 ? 1 : 0) + (i / 3 % 3 != 1 ? 1 : 0) + (i / 9 != 1 ? 1 : 0);
+    lengths[static_cast<std::size_t>(i)] = kRoots[static_cast<std::size_t>(axes)];
+  }
+  return lengths;
+}();
+
+constexpr double kFarAway = 4.0;  // steps from the way that is to be kept to: further counts alike
+constexpr double kStray = 0.15;   // share of its length that a step there costs more
+constexpr double kComfort = 0.5;  // of the ball: gap from which a way is not near
 constexpr double kHorizon = 0.9;  // of a step: two gaps are more than the longest diagonal
+
+/// Numbers by keys, which are never 0: open addressing, as a point is looked up some 50 times.
+class KeyTable {
+ public:
+  /// The number of `key`; if it has none, `number` from now on.
+  std::uint32_t find_or_add(std::uint64_t key, std::uint32_t number) {
+    Slot& slot = slot_of(key);
+    if (slot.key == key) return slot.number;
+    slot = {key, number};
+    if (2 * ++used_ > slots_.size()) grow();
+    return number;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t number = 0;
+  };
+
+  /// That of the key, or where it belongs.
+  Slot& slot_of(std::uint64_t key) {
+    constexpr std::uint64_t kMixer = 0x9E3779B97F4A7C15U;  // 2^64 by the golden ratio (Knuth)
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = (key * kMixer) >> 32U & mask;
+    while (slots_[at].key != 0 && slots_[at].key != key) at = (at + 1) & mask;
+    return slots_[at];
+  }
+
+  void grow() {
+    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
+    for (const Slot& slot : old) {
+      if (slot.key != 0) slot_of(slot.key) = slot;
+    }
+  }
+
+  std::vector<Slot> slots_ = std::vector<Slot>(1024);  // always a power of two
+  std::size_t used_ = 0;
+};
 
 class LatticeSearch {
  public:
@@ -40,13 +126,13 @@ class LatticeSearch {
 
  private:
   LatticeResult search() {
-    meet({0, 0, 0}, kNone, 0.0);
+    points_[point_at(key_of({0, 0, 0}))].claim_m = 0.0;
+    queue_.push({rest_m(points_[0].key), 0});
     LatticeResult result;
     while (!queue_.empty()) {
       const Waiting best = queue_.top();
       queue_.pop();
-      if (points_[best.point].is_settled) continue;
-      points_[best.point].is_settled = true;
+      if (!settles(best)) continue;
       if (is_goal(best.point)) {
         result.way_W = way(best.point);
         return result;
@@ -59,13 +145,19 @@ class LatticeSearch {
   }
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr double kUnknown_m = std::numeric_limits<double>::infinity();
 
   struct Point {
-    Cell cell;
-    std::uint32_t parent;
-    double cost_m;
-    double gap_m;
+    Key key;
+    /// What the way here costs: at least, before it is settled.
+    double claim_m = std::numeric_limits<double>::infinity();
+    double gap_m = kUnknown_m;  ///< before the scene is asked
+    double stray = 0.0;         ///< share that a step there costs more; told with the gap
+    std::uint32_t parent = kNone;
+    std::uint32_t settled_from = 0;  ///< a bit for each step that leads here from what is settled
     bool is_settled = false;
+
+    [[nodiscard]] bool is_blocked() const { return gap_m <= 0.0; }
   };
   struct Waiting {
     double estimate_m;
@@ -90,56 +182,118 @@ class LatticeSearch {
     return FreeSpace::kBallShare * (gap_m + keep_m) - keep_m;
   }
 
-  [[nodiscard]] Vec3 place_W(const Cell& cell) const {
+  [[nodiscard]] Vec3 place_W(Key key) const {
+    const Cell cell = cell_of(key);
     return from_W_ + options_.spacing_m * Vec3(cell[0], cell[1], cell[2]);
   }
 
-  static std::uint64_t key(const Cell& cell) {
-    std::uint64_t key = 0;
-    for (const std::int32_t c : cell) key = (key << 21) | static_cast<std::uint64_t>(c + kFarthest);
-    return key;
+  /// How far it is to the end for who steps as on the lattice: along the diagonals of cells as far
+  /// as that gets nearer, then along those of their sides, then along their edges.
+  [[nodiscard]] double rest_m(Key key) const {
+    std::array<double, 3> away;
+    Eigen::Map<Vec3>(away.data()) = (place_W(key) - to_W_).cwiseAbs();
+    std::ranges::sort(away);
+    return away[2] + (std::numbers::sqrt2 - 1.0) * away[1] +
+           (std::numbers::sqrt3 - std::numbers::sqrt2) * away[0];
   }
 
-  // The point of `cell`, asked for its gap if it is new.
-  std::uint32_t point_at(const Cell& cell) {
-    const auto [entry, is_new] =
-        known_.try_emplace(key(cell), static_cast<std::uint32_t>(points_.size()));
-    if (is_new) {
-      points_.push_back(
-          {cell, kNone, std::numeric_limits<double>::infinity(), gap_m(place_W(cell))});
+  std::uint32_t point_at(Key key) {
+    const auto next = static_cast<std::uint32_t>(points_.size());
+    const std::uint32_t index = known_.find_or_add(key, next);
+    if (index == next) points_.push_back({key});
+    return index;
+  }
+
+  void claim(std::uint32_t index, double cost_m) {
+    Point& point = points_[index];
+    if (!(cost_m < point.claim_m)) return;
+    point.claim_m = cost_m;
+    queue_.push({cost_m + rest_m(point.key), index});
+  }
+
+  /// By what is known: at least.
+  [[nodiscard]] double cost_of_step_m(std::size_t step, const Point& a, const Point& b) const {
+    const double near = std::max(0.0, 1.0 - std::min(a.gap_m, b.gap_m) / comfort_m_);
+    const double stray = 0.5 * (a.stray + b.stray);
+    return options_.spacing_m * kLengths[step] * (1.0 + near + stray);
+  }
+
+  void ask(Point& point) const {
+    const Vec3 place = place_W(point.key);
+    point.gap_m = gap_m(place);
+    double away_m = kFarAway * options_.spacing_m;
+    for (std::size_t i = 1; i < options_.about_W.size(); ++i) {
+      const Vec3 from = options_.about_W[i - 1];
+      const Vec3 leg = options_.about_W[i] - from;
+      const double square_m2 = leg.squaredNorm();
+      const double share = square_m2 > 0.0 ? leg.dot(place - from) / square_m2 : 0.0;
+      away_m = std::min(away_m, (from + std::clamp(share, 0.0, 1.0) * leg - place).norm());
     }
-    return entry->second;
-  }
-
-  void meet(const Cell& cell, std::uint32_t parent, double cost_m) {
-    Point& point = points_[point_at(cell)];
-    point.parent = parent;
-    point.cost_m = cost_m;
-    const auto index = static_cast<std::uint32_t>(&point - points_.data());
-    queue_.push({cost_m + (place_W(cell) - to_W_).norm(), index});
+    if (!options_.about_W.empty()) point.stray = kStray * away_m / (kFarAway * options_.spacing_m);
   }
 
   void expand(std::uint32_t index) {
-    for (int code = 0; code < 27; ++code) {
-      const Cell step = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
-      const Cell at = points_[index].cell;
-      const Cell next = {at[0] + step[0], at[1] + step[1], at[2] + step[2]};
-      if (code == 13 ||
-          std::ranges::any_of(next, [](std::int32_t c) { return std::abs(c) >= kFarthest; })) {
-        continue;
-      }
-      const std::uint32_t neighbour = point_at(next);
-      const Point& from = points_[index];
-      const Point& to = points_[neighbour];
-      if (to.is_settled || !(to.gap_m > 0.0)) continue;
-      const double length_m =
-          options_.spacing_m * std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
-      const double near = std::clamp(1.0 - std::min(from.gap_m, to.gap_m) / comfort_m_, 0.0, 1.0);
-      const double cost_m = from.cost_m + length_m * (1.0 + near);
-      if (!(cost_m < to.cost_m)) continue;
-      if (!step_is_free(place_W(at), from.gap_m, place_W(next), to.gap_m)) continue;
-      meet(next, index, cost_m);
+    const Point from = points_[index];
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      if (step == kHere) continue;
+      const std::uint32_t next = point_at(from.key + kKeySteps[step]);
+      Point& to = points_[next];
+      if (to.is_settled || to.is_blocked()) continue;
+      to.settled_from |= 1U << step;
+      claim(next, from.claim_m + cost_of_step_m(step, from, to));
     }
+  }
+
+  /// Only now, when a point is the next, the scene is asked about it: most that are met never are.
+  /// Whether it is settled with what it claimed; else it waits with what it costs, or for another
+  /// neighbour.
+  bool settles(const Waiting& best) {
+    const std::uint32_t index = best.point;
+    Point& point = points_[index];
+    if (point.is_settled || point.is_blocked()) return false;
+    if (point.gap_m == kUnknown_m) ask(point);
+    if (point.is_blocked() && index != 0) return false;
+    if (index != 0) find_parent(point);
+    const double estimate_m = point.claim_m + rest_m(point.key);
+    if (!(estimate_m <= best.estimate_m)) {
+      if (std::isfinite(estimate_m)) queue_.push({estimate_m, index});
+      return false;
+    }
+    point.is_settled = true;
+    return true;
+  }
+
+  /// The settled neighbour over which it is cheapest, and what it costs then.
+  void find_parent(Point& point) {
+    while (point.settled_from != 0) {
+      const Entry best = cheapest_entry(point);
+      const Point& from = points_[best.from];
+      if (step_is_free(place_W(from.key), from.gap_m, place_W(point.key), point.gap_m)) {
+        point.parent = best.from;
+        point.claim_m = best.cost_m;
+        return;
+      }
+      point.settled_from &= ~(1U << best.step);
+    }
+    point.claim_m = std::numeric_limits<double>::infinity();
+  }
+
+  struct Entry {
+    double cost_m = std::numeric_limits<double>::infinity();
+    std::uint32_t from = kNone;
+    std::size_t step = 0;
+  };
+
+  [[nodiscard]] Entry cheapest_entry(const Point& point) {
+    Entry best;
+    for (std::uint32_t steps = point.settled_from; steps != 0; steps &= steps - 1) {
+      const auto step = static_cast<std::size_t>(std::countr_zero(steps));
+      const std::uint32_t index = point_at(point.key + kKeySteps[kSteps - 1 - step]);
+      const Point& from = points_[index];
+      const double cost_m = from.claim_m + cost_of_step_m(step, from, point);
+      if (cost_m < best.cost_m) best = {cost_m, index, step};
+    }
+    return best;
   }
 
   [[nodiscard]] bool step_is_free(const Vec3& a_W, double gap_a_m, const Vec3& b_W,
@@ -150,7 +304,7 @@ class LatticeSearch {
 
   [[nodiscard]] bool is_goal(std::uint32_t index) const {
     const Point& point = points_[index];
-    const Vec3 place = place_W(point.cell);
+    const Vec3 place = place_W(point.key);
     const double reach_m = 1.8 * options_.spacing_m;  // more than the diagonal of a cell
     return (place - to_W_).norm() <= reach_m &&
            step_is_free(place, point.gap_m, to_W_, gap_m(to_W_));
@@ -159,7 +313,7 @@ class LatticeSearch {
   [[nodiscard]] std::vector<Vec3> way(std::uint32_t last) const {
     std::vector<Vec3> way_W = {to_W_};
     for (std::uint32_t i = last; i != kNone; i = points_[i].parent) {
-      way_W.push_back(place_W(points_[i].cell));
+      way_W.push_back(place_W(points_[i].key));
     }
     std::ranges::reverse(way_W);
     return way_W;
@@ -173,7 +327,7 @@ class LatticeSearch {
   const double comfort_m_;
   const double horizon_m_;
   std::vector<Point> points_;
-  std::unordered_map<std::uint64_t, std::uint32_t> known_;  ///< looked up, never gone through
+  KeyTable known_;  ///< numbers of points, by the keys of their cells
   std::priority_queue<Waiting> queue_;
   std::size_t settled_ = 0;
 };

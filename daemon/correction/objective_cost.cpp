@@ -64,12 +64,6 @@ double bending_energy(const CubicPiece& piece) {
   return duration_s / 3.0 * (begin.squaredNorm() + begin.dot(end) + end.squaredNorm());
 }
 
-double bending_energy(const motion::CubicPath& path) {
-  double sum = 0.0;
-  for (const CubicPiece& piece : path.pieces) sum += bending_energy(piece);
-  return sum;
-}
-
 /// Calls `use(gap, way)` with the gap, or `up_to_m`, and how far the eye came since the last time.
 template <class Use>
 void for_each_gap(const motion::CubicPath& path, double step_m, double up_to_m, FreeSpace& space,
@@ -112,12 +106,18 @@ ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
 
 }  // namespace
 
+double bending_energy(const motion::CubicPath& path) {
+  double sum = 0.0;
+  for (const CubicPiece& piece : path.pieces) sum += bending_energy(piece);
+  return sum;
+}
+
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
                              const motion::CubicPath& original, FreeSpace& space,
                              const collision::Deadline& deadline) {
   switch (objective) {
     case Objective::kClosest:
-      return {largest_deviation_m(path, original), least_gap_m(path, space)};
+      return {largest_deviation_m(path, original), 0.0};
     case Objective::kShortest:
       return {length_m(path), least_gap_m(path, space)};
     case Objective::kSmoothest:

@@ -16,7 +16,8 @@ struct ObjectiveCost {
   /// share of that gap, integrated over the way of the eye [Units: metres].
   double value = 0.0;
   /// The least gap, or one that is wide enough for the objective: of samples, but for `kSafest`
-  /// `collision::path_clearance`. [Units: metres]
+  /// `collision::path_clearance`. 0 for `kClosest`, which is asked often, and keeps what gaps
+  /// relaxation leaves. [Units: metres]
   double least_gap_m = 0.0;
 };
 
@@ -27,6 +28,9 @@ inline constexpr double kComfort = 3.0;
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
                              const motion::CubicPath& original, FreeSpace& space,
                              const collision::Deadline& deadline);
+
+/// Integral of the squared acceleration of the eye. [Units: m²/s³]
+double bending_energy(const motion::CubicPath& path);
 
 /// Whether `now` is better by more than what it takes to be worth a change, and nowhere nearer than
 /// the nearest before, where that was near, rounding and sampling apart.

@@ -11,7 +11,6 @@
 #include "daemon/correction/contact_bounds.h"
 #include "daemon/correction/objective_cost.h"
 #include "daemon/correction/orientation_rule.h"
-#include "daemon/correction/smoothing_form.h"
 
 namespace camway::correction {
 
@@ -20,9 +19,9 @@ namespace {
 using motion::CubicPoint;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr int kSamplesAStep = 2;     // between two knots
-constexpr double kFloor = 0.03;      // least gap that a step may leave, ...
-constexpr double kKeptShare = 0.8;   // ... or this share of what there was, where that is less
+constexpr int kSamplesAStep = 2;      // between two knots
+constexpr double kFloor = 0.03;       // least gap that a step may leave, ...
+constexpr double kKeptShare = 0.8;    // ... or this share of what there was, where that is less
 constexpr double kLeastKept = 0.995;  // of the least gap, by `kSafest`
 constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
 constexpr double kFirstTrust = 2.0;                              // how far a step may move the body
@@ -72,7 +71,7 @@ class Relaxation {
         bounds_(improvement.objective, radius_m_),
         horizon_m_((is_safest_ ? kComfort + kHorizon : kHorizon) * radius_m_),
         free_(problem, offsets.knots, ends),
-        form_(problem, free_, improvement.objective, lever_m_),
+        form_(problem, free_, improvement.objective, lever_m_, improvement.spread),
         variables_(free_.variables_of(offsets, lever_m_)),
         steps_left_(steps_left) {
     const double step_s = offsets.knots.spacing_s();

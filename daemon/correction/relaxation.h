@@ -4,6 +4,7 @@
 #include "daemon/correction/candidate.h"
 #include "daemon/correction/constraints.h"
 #include "daemon/correction/guide.h"
+#include "daemon/correction/smoothing_form.h"
 
 namespace camway::correction {
 
@@ -12,7 +13,8 @@ namespace camway::correction {
 struct Improvement {
   Objective objective = Objective::kClosest;
   int steps_left = 0;
-  bool may_turn = true;  ///< else orientations stay as they are, whatever the request allows
+  bool may_turn = true;     ///< else orientations stay as they are, whatever the request allows
+  double spread = kSpread;  ///< of `SmoothingForm`
 };
 
 /// A correction that is proved free: `problem.path` with `bumps_for(offsets, ends)`.

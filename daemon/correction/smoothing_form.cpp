@@ -13,8 +13,7 @@ namespace {
 using motion::CubicPoint;
 
 constexpr int kBumpReach = 2;      // knots from a bump's peak to the end of its support
-constexpr double kSpread = 1.5;    // of the gap: over how much of it an offset fades out
-constexpr double kSwerve = 0.2;   // the same for `kSafest`, by a weight that outweighs distances
+constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
 constexpr double kRounding = 0.1;  // of the gap: how wide `kShortest` turns about a corner
 
 /// Weights of the squared distance from the original, and of squared first and second differences
@@ -25,10 +24,10 @@ struct Weights {
   double bend;
 };
 
-Weights weights_of(Objective objective, int count) {
+Weights weights_of(Objective objective, int count, double spread) {
   switch (objective) {
     case Objective::kClosest:
-      return {1.0, 0.0, std::pow(kSpread * count, 4.0)};
+      return {1.0, 0.0, std::pow(spread * count, 4.0)};
     case Objective::kSafest:
       return {1.0, 0.0, std::pow(kSwerve * count, 4.0)};
     case Objective::kShortest:
@@ -134,10 +133,10 @@ Offsets FreeCoefficients::offsets_of(const StackedPoints& variables, double leve
 }
 
 SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& free,
-                             Objective objective, double lever_m)
+                             Objective objective, double lever_m, double spread)
     : hessian_(Eigen::MatrixXd::Zero(free.size(), free.size())),
       slope_(StackedPoints::Zero(free.size(), 7)) {
-  const Weights weights = weights_of(objective, free.knots().count);
+  const Weights weights = weights_of(objective, free.knots().count, spread);
   const auto path_at = [&](int k) {
     return stacked(extended(problem.path, free.knots().knot_s(k)), lever_m);
   };

@@ -77,6 +77,10 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
   return sum;
 }
 
+/// Over how much of the gap an offset from the original fades out, for `kClosest`: what bends less
+/// goes further astray. [Units: share of the gap]
+inline constexpr double kSpread = 1.5;
+
 /// An objective as a sum of squares, linear in the free coefficients (Farin 2002, section 9.4, for
 /// bending): distances of control points from the original and their second differences for
 /// `kClosest`, and for `kSafest`, which wants gaps besides; first differences, and a little of the
@@ -84,7 +88,7 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
 class SmoothingForm {
  public:
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
-                double lever_m);
+                double lever_m, double spread = kSpread);
 
   [[nodiscard]] double value(const StackedPoints& variables) const;
   /// Where it is least.

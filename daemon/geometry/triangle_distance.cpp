@@ -117,6 +117,19 @@ bool faces_settle(Search& search, const Triangle& a, const Triangle& b) {
   return false;
 }
 
+bool is_point(const Triangle& triangle) {
+  return triangle[0] == triangle[1] && triangle[0] == triangle[2];
+}
+
+/// The same where `a` is a point, for which most of that would be asked again and again.
+bool point_settles(Search& search, const Triangle& a, const Triangle& b) {
+  if (search.is_final(-offset_from_face(b, a[0]))) return true;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (search.is_final(-offset_from_segment(b[j], b[(j + 1) % 3] - b[j], a[0]))) return true;
+  }
+  return false;
+}
+
 /// Every vertex against every edge. In exact arithmetic `edges_settle` has covered these.
 bool vertices_settle(Search& search, const Triangle& a, const Triangle& b) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -214,7 +227,10 @@ TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) 
   const Triangle la = to_local(a, a[0], unit_m);
   const Triangle lb = to_local(b, a[0], unit_m);
   Search search(la, lb, scale / unit_m, beyond_m / unit_m);
-  if (edges_settle(search, la, lb) || faces_settle(search, la, lb)) {
+  const bool is_settled = is_point(a)
+                              ? point_settles(search, la, lb)
+                              : edges_settle(search, la, lb) || faces_settle(search, la, lb);
+  if (is_settled) {
     if (search.is_beyond()) return {std::numeric_limits<double>::infinity(), search.offset()};
     return {search.distance() * unit_m, search.offset()};
   }

@@ -20,6 +20,11 @@ double bending_energy(const Segment& segment) {
   return duration_s / 3.0 * (begin.squaredNorm() + begin.dot(end) + end.squaredNorm());
 }
 
+Vec3 position(const Path& path, double time_s) {
+  const Segment& segment = path.segments()[path.segment_index(time_s)];
+  return position_at(segment, segment_parameter(segment, time_s));
+}
+
 }  // namespace
 
 PathMeasures measure(const Path& path, const Path& original) {
@@ -33,13 +38,13 @@ PathMeasures measure(const Path& path, const Path& original) {
     for (int i = 0; i <= kSamples; ++i) {
       const double u = static_cast<double>(i) / kSamples;
       const SegmentDerivatives at = derivatives_at(segment, u);
-      const Vec3 position = position_at(segment, u);
-      measures.length_m += (position - last).norm();
-      last = position;
+      const Vec3 here = position_at(segment, u);
+      measures.length_m += (here - last).norm();
+      last = here;
       const double share = (segment_time_s(segment, u) - begin_s) / duration_s;
-      const Vec3 before = original.pose(original.begin_s() + share * original_duration_s).position;
+      const Vec3 before = position(original, original.begin_s() + share * original_duration_s);
       const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };
-      raise(measures.largest_deviation_m, (position - before).norm());
+      raise(measures.largest_deviation_m, (here - before).norm());
       raise(measures.largest_speed_m_per_s, at.velocity_m_per_s.norm());
       raise(measures.largest_acceleration_m_per_s2, at.acceleration_m_per_s2.norm());
       // A quaternion moves on the sphere at half the rate of the rotation. Of its second

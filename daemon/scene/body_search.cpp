@@ -22,7 +22,13 @@ bool BodySearch::Candidates::was_met(std::uint32_t triangle) {
 
 BodySearch::BodySearch(std::span<const Triangle> hull, std::size_t of_part, const Box& box,
                        double error_m)
-    : hull_(hull), of_part_(of_part), sides_(box), box_(hull), oblique_(box_), error_m_(error_m) {}
+    : hull_(hull),
+      of_part_(of_part),
+      sides_(box),
+      is_point_(box.min() == box.max()),
+      box_(hull),
+      oblique_(box_),
+      error_m_(error_m) {}
 
 // A distance asked may be `error_m_` below the true one, and a bound `error_m_` above it.
 void BodySearch::shrink_to(double reach_m) {

@@ -22,7 +22,8 @@ class BodySearch {
   BodySearch& operator=(const BodySearch&) = delete;
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
-  [[nodiscard]] const ObliqueSides* oblique() const { return &oblique_; }
+  /// Nothing where it would tell no more than `sides()`.
+  [[nodiscard]] const ObliqueSides* oblique() const { return is_point_ ? nullptr : &oblique_; }
   /// Boxes further than this from `sides()` hold nothing of interest.
   [[nodiscard]] double squared_reach_m2() const { return squared_reach_m2_; }
   [[nodiscard]] bool is_beyond(double squared_box_m2) const {
@@ -100,6 +101,7 @@ class BodySearch {
   std::size_t of_part_;
   const IndexedPart* part_ = nullptr;
   BoxSides sides_;
+  bool is_point_;  ///< the body, and it stands
   geometry::OrientedBox box_;
   ObliqueSides oblique_;
   double error_m_;

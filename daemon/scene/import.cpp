@@ -87,7 +87,10 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   report.objects = mesh.objects.size();
   report.bounds_m = mesh.bounds();
   report.rounding_m = rounding_m(record, mesh, options.scale);
-  if (mesh.triangles.empty()) return "holds no triangle with an area";
+  if (mesh.triangles.empty()) {
+    return record.map ? "holds no occupied voxel" : "holds no triangle with an area";
+  }
+  result.map = std::move(record.map);
   result.mesh = std::move(record.mesh);
   return "";
 }

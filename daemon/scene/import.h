@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "daemon/scene/mesh.h"
+#include "daemon/scene/voxel_map.h"
 
 namespace camway::scene {
 
@@ -23,6 +25,7 @@ enum class UpAxis {
 struct ImportOptions {
   double scale = 1.0;  ///< file units to metres; multiplies every coordinate [Limit: 0 < value]
   UpAxis up = UpAxis::kAsInFile;
+  UnknownSpace unknown = UnknownSpace::kFree;             ///< of an occupancy map
   std::size_t memory_limit_bytes = std::size_t{4} << 30;  ///< address space of the import process
   double time_limit_s = 60.0;                             ///< wall clock of the import process
 };
@@ -62,14 +65,16 @@ std::string_view importer_note(std::string_view format);
 /// Either a mesh or a reason. `report` is filled as far as the import came.
 struct ImportResult {
   std::optional<Mesh> mesh;
+  std::shared_ptr<const VoxelMap> map;  ///< of which the mesh is the faces; null for a mesh
   ImportReport report;
   std::string error;  ///< names the file; empty exactly when `mesh` holds a value
 };
 
-/// Reads OBJ, OFF, PLY and STL itself (`mesh_readers/mesh_reader.h`) and any other format that
-/// assimp reads, in a child process with limits of memory and time, since a hostile file of a few
-/// bytes can cost gigabytes or crash the reader; then checks what came back again (indices,
-/// finiteness, counts). Never throws for a bad file. May be called from any thread.
+/// Reads OBJ, OFF, PLY and STL itself (`mesh_readers/mesh_reader.h`), occupancy maps (.bt and .ot)
+/// with OctoMap and any other format that assimp reads, in a child process with limits of memory
+/// and time, since a hostile file of a few bytes can cost gigabytes or crash the reader; then
+/// checks what came back again (indices, finiteness, counts). Never throws for a bad file. May be
+/// called from any thread.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace camway::scene

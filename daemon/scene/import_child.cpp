@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 
 /// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE, OBJ, OFF, PLY and STL by our own
-/// readers and all else with assimp, and writes what `import_format.h` describes to file descriptor
+/// readers, occupancy maps with OctoMap and all else with assimp, and writes what `import_format.h`
+/// describes to file descriptor
 /// 3. Started by `import_mesh` only. The one place that sees assimp; a process of its own, because
 /// a file of a few bytes can make assimp crash or take all memory.
 
@@ -35,6 +36,7 @@
 
 #include "daemon/scene/import_confinement.h"
 #include "daemon/scene/import_format.h"
+#include "daemon/scene/map_reader.h"
 #include "daemon/scene/mesh_readers/mesh_reader.h"
 
 namespace {
@@ -92,10 +94,13 @@ bool write_record(format::Record& record) {
   record.header.triangles = record.triangles.size();
   record.header.objects = record.objects.size();
   record.header.name_bytes = record.names.size();
+  record.header.occupied = record.occupied.size();
+  record.header.free = record.free.size();
   return write_all(&record.header, sizeof record.header) &&
          write_all(record.text.data(), record.text.size()) && write_all(record.vertices) &&
          write_all(record.triangles) && write_all(record.objects) &&
-         write_all(record.names.data(), record.names.size());
+         write_all(record.names.data(), record.names.size()) && write_all(record.occupied) &&
+         write_all(record.free);
 }
 
 int refuse(std::string reason) {
@@ -274,9 +279,17 @@ int import_directly(const std::string& file, const std::string& extension) {
   return write_record(read.record) ? format::kExitOk : format::kExitInternal;
 }
 
+int import_map(const std::string& file, const std::string& extension) {
+  format::Record record;
+  std::string refusal = camway::scene::read_map(file, extension, record);
+  if (!refusal.empty()) return refuse(std::move(refusal));
+  return write_record(record) ? format::kExitOk : format::kExitInternal;
+}
+
 int import_file(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (mesh_readers::is_known_extension(extension)) return import_directly(file, extension);
+  if (camway::scene::is_map_extension(extension)) return import_map(file, extension);
   return import_with_assimp(file);
 }
 

@@ -9,12 +9,12 @@
 /// What the import process hands back to the process that started it: one flat record in the byte
 /// order of the machine, since both are the same build on the same machine.
 ///
-///     Header · text · vertices · triangles · objects · names
+///     Header · text · vertices · triangles · objects · names · occupied cubes · free cubes
 ///
 /// The reader of an untrusted file may have been taken over, so the receiver trusts no count.
 namespace camway::scene::import_format {
 
-inline constexpr std::uint64_t kMagic = 0x334D'5941'574D'4143;  // "CAMWAYM3"
+inline constexpr std::uint64_t kMagic = 0x344D'5941'574D'4143;  // "CAMWAYM4"
 inline constexpr int kOutputFd = 3;
 
 /// Exit codes of `camway-import`. Any other is a crash: sanitizers and abort handlers use small
@@ -40,6 +40,10 @@ struct Header {
   double relative_rounding = 0.0;
   double absolute_rounding = 0.0;
   std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
+  /// Edge of a voxel in file units, of an occupancy map, which has nothing but cubes; else 0.
+  double map_resolution = 0.0;
+  std::uint64_t occupied = 0;
+  std::uint64_t free = 0;
 };
 
 using Vertex = std::array<double, 3>;  ///< node transforms applied, in file units
@@ -48,6 +52,12 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Object {
   std::uint32_t triangles = 0;  ///< follow those of the object before
   std::uint32_t name_bytes = 0;
+};
+
+/// Voxels of an occupancy map, numbered as `VoxelGrid` does.
+struct Cube {
+  std::array<std::int32_t, 3> min{};
+  std::int32_t size = 1;  ///< per edge
 };
 
 /// The whole of it in memory, in the order in which it is written. The header's counts are those of
@@ -59,6 +69,8 @@ struct Record {
   std::vector<Triangle> triangles;
   std::vector<Object> objects;
   std::string names;
+  std::vector<Cube> occupied;
+  std::vector<Cube> free;
 };
 
 }  // namespace camway::scene::import_format

@@ -2,8 +2,10 @@
 #include "daemon/scene/import_record.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "daemon/geometry/exact_triangles.h"
 #include "daemon/geometry/rounding.h"
@@ -54,7 +56,9 @@ bool parse(std::span<const std::byte> bytes, Record& record) {
          reader.read(record.vertices, record.header.vertices) &&
          reader.read(record.triangles, record.header.triangles) &&
          reader.read(record.objects, record.header.objects) &&
-         reader.read(record.names, record.header.name_bytes) && reader.at_end();
+         reader.read(record.names, record.header.name_bytes) &&
+         reader.read(record.occupied, record.header.occupied) &&
+         reader.read(record.free, record.header.free) && reader.at_end();
 }
 
 /// Texts out of a file end up in logs and JSON: what is not printable ASCII becomes '?'.
@@ -162,6 +166,64 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
+bool is_sound(const format::Cube& cube) {
+  const auto size = static_cast<std::uint32_t>(cube.size);
+  if (cube.size < 1 || cube.size > VoxelGrid::kRoot.size || !std::has_single_bit(size))
+    return false;
+  return std::ranges::all_of(cube.min, [&](std::int32_t low) {
+    return low >= VoxelGrid::kMinVoxel && low <= VoxelGrid::kMaxVoxel + 1 - cube.size &&
+           (low - VoxelGrid::kMinVoxel) % cube.size == 0;
+  });
+}
+
+/// As `to_scene`, for voxels: what goes the other way ends at the voxel before its beginning.
+VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
+  const auto turned = [&](std::int32_t low) { return -low - cube.size; };
+  switch (up) {
+    case UpAxis::kZToY:
+      return {{cube.min[0], cube.min[2], turned(cube.min[1])}, cube.size};
+    case UpAxis::kYToZ:
+      return {{cube.min[0], turned(cube.min[2]), cube.min[1]}, cube.size};
+    case UpAxis::kAsInFile:
+      break;
+  }
+  return {cube.min, cube.size};
+}
+
+/// The voxels of the cubes, or nothing if they are not sound or too many.
+std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up) {
+  std::uint64_t voxels = 0;
+  for (const format::Cube& cube : cubes) {
+    if (!is_sound(cube)) return std::nullopt;
+    const auto edge = static_cast<std::uint64_t>(cube.size);
+    voxels += edge * edge * edge;
+    if (voxels > VoxelMap::kMostVoxels) return std::nullopt;
+  }
+  VoxelSet set;
+  for (const format::Cube& cube : cubes) set.insert(to_scene(cube, up));
+  return set;
+}
+
+/// Makes map and mesh of a record with cubes, or says why not.
+std::string read_map(const Record& record, const ImportOptions& options,
+                     ImportRecordResult& result) {
+  std::optional<VoxelSet> occupied = voxels_of(record.occupied, options.up);
+  std::optional<VoxelSet> free = voxels_of(record.free, options.up);
+  if (!occupied || !free) {
+    return "has voxels that OctoMap cannot have, or more than " +
+           std::to_string(VoxelMap::kMostVoxels) + " that are occupied or free";
+  }
+  VoxelMapResult built = VoxelMap::build(options.scale * record.header.map_resolution,
+                                         *std::move(occupied), *std::move(free), options.unknown);
+  if (!built.map) return built.error;
+  result.mesh = built.map->skin();
+  if (!result.mesh) {
+    return "has more than " + std::to_string(VoxelMap::kMostTriangles) + " triangles";
+  }
+  result.map = std::move(built.map);
+  return {};
+}
+
 }  // namespace
 
 ImportRecordResult read_import_record(std::span<const std::byte> bytes,
@@ -170,7 +232,8 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   ImportRecordResult result;
   result.broken = !parse(bytes, record);
   if (result.broken) return result;
-  if (record.header.objects == 0) {
+  const bool is_map = record.header.map_resolution != 0.0;
+  if (record.header.objects == 0 && !is_map) {
     result.refusal = printable(record.text);
     return result;
   }
@@ -181,7 +244,11 @@ ImportRecordResult read_import_record(std::span<const std::byte> bytes,
   report.single_precision = record.header.single_precision != 0;
   result.relative_rounding = record.header.relative_rounding;
   result.absolute_rounding = record.header.absolute_rounding;
-  result.mesh = MeshBuilder(record, options, report).build();
+  if (is_map) {
+    result.refusal = read_map(record, options, result);
+  } else {
+    result.mesh = MeshBuilder(record, options, report).build();
+  }
   return result;
 }
 

@@ -130,31 +130,67 @@ std::string refusal(const Mesh& mesh, double resolution_m) {
   return {};
 }
 
-/// Marks the voxels of all triangles; false as soon as there are more than `max_voxels`.
-bool mark_occupied(const Mesh& mesh, const VoxelGrid& grid, std::uint64_t max_voxels,
-                   OcTree& tree) {
-  const float occupied = tree.getClampingThresMaxLog();
-  std::uint64_t voxels = 0;
+/// The voxels of all triangles; nothing if there are more than `max_voxels`.
+std::optional<VoxelSet> touched_voxels(const Mesh& mesh, const VoxelGrid& grid,
+                                       std::uint64_t max_voxels) {
+  VoxelSet voxels;
   const auto mark = [&](const Voxel& voxel) {
-    const std::size_t nodes_before = tree.size();
-    tree.setNodeValue(key_of(voxel), occupied, true);
-    if (tree.size() != nodes_before) ++voxels;  // nothing is pruned yet: a new leaf, a new voxel
-    return voxels <= max_voxels;
+    voxels.insert(voxel);
+    return voxels.size() <= max_voxels;
   };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!for_each_voxel_touched(grid, mesh.triangle(i), mark)) return false;
+    if (!for_each_voxel_touched(grid, mesh.triangle(i), mark)) return std::nullopt;
+  }
+  return voxels;
+}
+
+/// Adds the voxels with their middle in the solid: what no face touches is inside with all of it.
+/// False if there are more than `max_voxels`, or too many to look at.
+bool fill(const PlacedVoxelMap& solid, const VoxelGrid& grid, std::uint64_t max_voxels,
+          VoxelSet& voxels) {
+  constexpr double kMostLooks = 1e9;
+  if (voxels.empty()) return true;
+  const VoxelSet::Range range = voxels.bounds();
+  double looks = 1.0;
+  for (const VoxelRange& along : range) looks *= double{1} + along.last - along.first;
+  if (looks > kMostLooks) return false;
+  Voxel voxel{};
+  for (voxel[2] = range[2].first; voxel[2] <= range[2].last; ++voxel[2]) {
+    for (voxel[1] = range[1].first; voxel[1] <= range[1].last; ++voxel[1]) {
+      for (voxel[0] = range[0].first; voxel[0] <= range[0].last; ++voxel[0]) {
+        if (!voxels.contains(voxel) && solid.holds(grid.box({voxel, 1}).center())) {
+          voxels.insert(voxel);
+        }
+      }
+      if (voxels.size() > max_voxels) return false;
+    }
   }
   return true;
+}
+
+/// What is occupied, or nothing if it is too much.
+std::optional<VoxelSet> occupied_voxels(const Mesh& mesh, const VoxelGrid& grid,
+                                        const std::optional<PlacedVoxelMap>& solid,
+                                        std::uint64_t max_voxels) {
+  if (solid && solid->placement.is_identity() &&
+      solid->map->resolution_m() == grid.resolution_m()) {
+    const VoxelSet& voxels = solid->map->solid();
+    return voxels.size() <= max_voxels ? std::optional(voxels) : std::nullopt;
+  }
+  std::optional<VoxelSet> voxels = touched_voxels(mesh, grid, max_voxels);
+  if (voxels && solid && !fill(*solid, grid, max_voxels, *voxels)) return std::nullopt;
+  return voxels;
 }
 
 }  // namespace
 
 OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolution_m,
+                                              const std::optional<PlacedVoxelMap>& solid,
                                               std::uint64_t max_voxels) {
   if (std::string error = refusal(mesh, resolution_m); !error.empty()) return {nullptr, error};
   const VoxelGrid grid(resolution_m);
-  auto tree = std::make_unique<OcTree>(resolution_m);
-  if (!mark_occupied(mesh, grid, max_voxels, *tree)) {
+  const std::optional<VoxelSet> voxels = occupied_voxels(mesh, grid, solid, max_voxels);
+  if (!voxels) {
     Box bounds;
     for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
     std::ostringstream text;
@@ -162,6 +198,10 @@ OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolutio
          << max_voxels << " voxels for the scene extent " << describe(bounds);
     return {nullptr, text.str()};
   }
+  auto tree = std::make_unique<OcTree>(resolution_m);
+  const float occupied = tree->getClampingThresMaxLog();
+  voxels->for_each(
+      [&](const Voxel& voxel) { tree->setNodeValue(key_of(voxel), occupied, /*lazy_eval=*/true); });
   tree->updateInnerOccupancy();
   tree->prune();
   return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(std::move(tree), grid)), {}};

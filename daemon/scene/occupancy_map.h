@@ -11,6 +11,7 @@
 #include "daemon/scene/box_costs.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_grid.h"
+#include "daemon/scene/voxel_map.h"
 
 namespace octomap {
 class OcTree;
@@ -52,7 +53,10 @@ class OccupancyMap {
   /// names extent and resolution, a resolution outside `VoxelGrid`'s limits, a mesh that OctoMap's
   /// keys cannot hold, and one whose mirror would pass `max_voxels` (found while building, so that
   /// memory stays below about 50 bytes for each voxel allowed).
+  /// Of a solid, of which `mesh` is the faces, what is inside is occupied, too; one of the same
+  /// resolution that is not moved gives its own voxels, and no others.
   static BuildResult build(const Mesh& mesh, double resolution_m,
+                           const std::optional<PlacedVoxelMap>& solid = std::nullopt,
                            std::uint64_t max_voxels = 50'000'000);
 
   ~OccupancyMap();

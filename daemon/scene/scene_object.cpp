@@ -56,6 +56,8 @@ const char* to_string(ObjectKind kind) {
       return "cylinder";
     case ObjectKind::kPointCloud:
       return "point cloud";
+    case ObjectKind::kMap:
+      return "occupancy map";
   }
   return "unknown";
 }
@@ -63,7 +65,7 @@ const char* to_string(ObjectKind kind) {
 std::uint64_t ObjectSource::memory_bytes() const {
   return mesh_O->vertices.size() * sizeof(geometry::Vec3) +
          mesh_O->triangles.size() * sizeof(mesh_O->triangles[0]) +
-         (field_O ? field_O->statistics().memory_bytes : 0);
+         (field_O ? field_O->statistics().memory_bytes : 0) + (map_O ? map_O->memory_bytes() : 0);
 }
 
 ImportReport report_of(const Mesh& mesh, std::string format) {
@@ -77,11 +79,14 @@ ImportReport report_of(const Mesh& mesh, std::string format) {
 }
 
 std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, ImportReport report,
-                                                const ObjectOptions& options) {
+                                                const ObjectOptions& options,
+                                                std::shared_ptr<const VoxelMap> map_O) {
+  assert((kind == ObjectKind::kMap) == (map_O != nullptr));
   auto source = std::make_shared<ObjectSource>();
   source->kind = kind;
   source->bounds_O = mesh_O.bounds();
   source->report = std::move(report);
+  source->map_O = std::move(map_O);
   if (options.field) {
     DistanceFieldResult result = DistanceField::build(mesh_O, *options.field);
     source->field_O = std::move(result.field);
@@ -93,6 +98,11 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
   return source;
 }
 
+std::optional<PlacedVoxelMap> SceneObject::solid() const {
+  if (!source->map_O) return std::nullopt;
+  return PlacedVoxelMap{source->map_O, placement, placed->tree.bounds()};
+}
+
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
                           const Placement& placement, const ObjectOptions& options) {
   assert(source);
@@ -102,17 +112,18 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   if (!placement.is_identity() && is_too_far(mesh_W->bounds())) {
     return {nullptr, name + ": would lie more than 1e9 m from the origin"};
   }
+  object->digest = mesh_digest(*mesh_W);
+  if (source->map_O) object->digest = text_digest({object->digest, "solid"});
+  object->placed = IndexedMesh::build(mesh_W, options.index);
+  object->source = std::move(source);
+  object->placement = placement;
   if (options.occupancy_resolution_m) {
     OccupancyMap::BuildResult mirror =
-        OccupancyMap::build(*mesh_W, *options.occupancy_resolution_m);
+        OccupancyMap::build(*mesh_W, *options.occupancy_resolution_m, object->solid());
     if (!mirror.map) return {nullptr, name + ": " + mirror.error};
     object->occupancy = std::move(mirror.map);
   }
-  object->digest = mesh_digest(*mesh_W);
-  object->placed = IndexedMesh::build(mesh_W, options.index);
   object->name = std::move(name);
-  object->source = std::move(source);
-  object->placement = placement;
   return {std::move(object), ""};
 }
 

@@ -12,6 +12,7 @@
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/occupancy_map.h"
 #include "daemon/scene/placement.h"
+#include "daemon/scene/voxel_map.h"
 
 namespace camway::scene {
 
@@ -22,9 +23,9 @@ struct ObjectOptions {
   std::optional<double> occupancy_resolution_m;                        ///< no mirror without it
 };
 
-enum class ObjectKind : std::uint8_t { kMesh, kBox, kSphere, kCylinder, kPointCloud };
+enum class ObjectKind : std::uint8_t { kMesh, kBox, kSphere, kCylinder, kPointCloud, kMap };
 
-/// The word for a kind: "mesh", "box", "sphere", "cylinder", "point cloud".
+/// The word for a kind: "mesh", "box", "sphere", "cylinder", "point cloud", "occupancy map".
 const char* to_string(ObjectKind kind);
 
 /// What an object is, wherever it is. Immutable, so that scenes, revisions and their history share
@@ -32,6 +33,7 @@ const char* to_string(ObjectKind kind);
 struct ObjectSource {
   ObjectKind kind = ObjectKind::kMesh;
   std::shared_ptr<const Mesh> mesh_O;            ///< in the object's own frame; never null
+  std::shared_ptr<const VoxelMap> map_O;         ///< of kMap: what the mesh is the faces of
   geometry::Box bounds_O;                        ///< of it
   std::shared_ptr<const DistanceField> field_O;  ///< null where it is off
   std::string why_no_field;                      ///< empty exactly when `field_O` is set
@@ -40,9 +42,11 @@ struct ObjectSource {
   [[nodiscard]] std::uint64_t memory_bytes() const;
 };
 
-/// Builds what does not depend on where the object is. `report` says how the mesh came to be.
+/// Builds what does not depend on where the object is. `report` says how the mesh came to be; of an
+/// occupancy map it is the faces of `map_O`.
 std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, ImportReport report,
-                                                const ObjectOptions& options);
+                                                const ObjectOptions& options,
+                                                std::shared_ptr<const VoxelMap> map_O = nullptr);
 
 /// What an import would have reported of a mesh that is already there.
 ImportReport report_of(const Mesh& mesh, std::string format);
@@ -54,7 +58,11 @@ struct SceneObject {
   Placement placement;
   std::shared_ptr<const IndexedMesh> placed;      ///< its triangles in the world, and their tree
   std::shared_ptr<const OccupancyMap> occupancy;  ///< null unless a resolution was given
-  std::string digest;                             ///< `mesh_digest` of the triangles in the world
+  /// `mesh_digest` of the triangles in the world; of a solid another one than of its surface.
+  std::string digest;
+
+  /// Of an occupancy map: where it is.
+  [[nodiscard]] std::optional<PlacedVoxelMap> solid() const;
 };
 
 struct ObjectResult {

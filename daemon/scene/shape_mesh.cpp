@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/geometry/rounding.h"
+#include "daemon/scene/voxel_set.h"
 
 namespace camway::scene {
 namespace {
@@ -185,89 +186,13 @@ ShapeMesh cylinder_mesh(double radius_m, double height_m, double chord_error_m) 
 
 namespace {
 
-/// A cube of a grid by its number along each axis, in one number that sorts.
-using CellKey = std::uint64_t;
-constexpr int kAxisBits = 21;
-
-CellKey key_of(const std::array<std::int64_t, 3>& cell) {
-  CellKey key = 0;
-  for (const std::int64_t c : cell) {
-    key = (key << kAxisBits) | static_cast<CellKey>(c + kMaxCloudCells);
-  }
-  return key;
-}
-
-std::array<std::int64_t, 3> cell_of(CellKey key) {
-  std::array<std::int64_t, 3> cell{};
-  for (std::size_t k = 3; k-- > 0; key >>= kAxisBits) {
-    cell[k] = static_cast<std::int64_t>(key & ((CellKey{1} << kAxisBits) - 1)) - kMaxCloudCells;
-  }
-  return cell;
-}
-
-/// Two triangles for every face between a cube that is there and one that is not.
-class CubeSkin {
- public:
-  CubeSkin(const std::vector<CellKey>& cells, double cell_m) : cells_(cells), cell_m_(cell_m) {}
-
-  /// False if there are more than kMaxShapeTriangles.
-  bool build(Mesh& mesh) {
-    for (const CellKey key : cells_) {
-      const std::array<std::int64_t, 3> cell = cell_of(key);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const std::int64_t side : {0, 1}) {
-          std::array<std::int64_t, 3> neighbour = cell;
-          neighbour[axis] += 2 * side - 1;
-          if (!std::ranges::binary_search(cells_, key_of(neighbour))) {
-            add_face(cell, axis, side, mesh);
-          }
-        }
-      }
-      if (mesh.triangles.size() > kMaxShapeTriangles) return false;
-    }
-    return true;
-  }
-
- private:
-  void add_face(const std::array<std::int64_t, 3>& cell, std::size_t axis, std::int64_t side,
-                Mesh& mesh) {
-    std::array<std::uint32_t, 4> corner{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      std::array<std::int64_t, 3> at = cell;
-      at[axis] += side;
-      at[(axis + 1) % 3] += static_cast<std::int64_t>(i & 1U);
-      at[(axis + 2) % 3] += static_cast<std::int64_t>(i >> 1U);
-      corner[i] = vertex(at, mesh);
-    }
-    if (side == 0) std::swap(corner[1], corner[2]);
-    mesh.triangles.push_back({corner[0], corner[1], corner[3]});
-    mesh.triangles.push_back({corner[0], corner[3], corner[2]});
-  }
-
-  std::uint32_t vertex(const std::array<std::int64_t, 3>& at, Mesh& mesh) {
-    const auto [found, is_new] =
-        vertices_.try_emplace(at, static_cast<std::uint32_t>(mesh.vertices.size()));
-    if (is_new) {
-      mesh.vertices.emplace_back(cell_m_ * static_cast<double>(at[0]),
-                                 cell_m_ * static_cast<double>(at[1]),
-                                 cell_m_ * static_cast<double>(at[2]));
-    }
-    return found->second;
-  }
-
-  const std::vector<CellKey>& cells_;
-  double cell_m_;
-  std::map<std::array<std::int64_t, 3>, std::uint32_t> vertices_;
-};
-
 /// The cell of each coordinate, or nothing if it is beyond the grid or no number.
-std::optional<std::array<std::int64_t, 3>> cell_at(const Vec3& point, double cell_m) {
-  std::array<std::int64_t, 3> cell{};
+std::optional<Voxel> cell_at(const Vec3& point, double cell_m) {
+  Voxel cell{};
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double number = std::floor(point[k] / cell_m);
-    // One less than the keys hold, for the neighbours.
-    if (!(std::abs(number) < static_cast<double>(kMaxCloudCells - 2))) return std::nullopt;
-    cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(number);
+    if (!(std::abs(number) < kMaxCloudCells)) return std::nullopt;
+    cell[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(number);
   }
   return cell;
 }
@@ -278,24 +203,21 @@ ShapeMesh cloud_mesh(std::span<const Vec3> points, double cell_m) {
   if (std::string fault = length_fault("cell_m", cell_m); !fault.empty()) {
     return {std::nullopt, std::move(fault)};
   }
-  std::vector<CellKey> cells;
-  cells.reserve(points.size());
+  VoxelSet cells;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto cell = cell_at(points[i], cell_m);
+    const std::optional<Voxel> cell = cell_at(points[i], cell_m);
     if (!cell) {
       return {std::nullopt, "points_m[" + std::to_string(i) + "]: is not finite or more than " +
-                                std::to_string(kMaxCloudCells - 2) + " cells from the origin"};
+                                std::to_string(kMaxCloudCells) + " cells from the origin"};
     }
-    cells.push_back(key_of(*cell));
+    cells.insert(*cell);
   }
-  std::ranges::sort(cells);
-  cells.erase(std::ranges::unique(cells).begin(), cells.end());
-  Mesh mesh;
-  if (!CubeSkin(cells, cell_m).build(mesh)) {
+  std::optional<Mesh> mesh = skin_of(cells, cell_m, kMaxShapeTriangles);
+  if (!mesh) {
     return {std::nullopt, "cell_m: the points need more than " +
                               std::to_string(kMaxShapeTriangles) + " triangles"};
   }
-  return finished(std::move(mesh));
+  return {std::move(mesh), {}};
 }
 
 }  // namespace camway::scene

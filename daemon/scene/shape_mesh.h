@@ -42,6 +42,6 @@ ShapeMesh cylinder_mesh(double radius_m, double height_m, double chord_error_m);
 /// within kMaxCloudCells of the origin on each axis]
 ShapeMesh cloud_mesh(std::span<const geometry::Vec3> points, double cell_m);
 
-inline constexpr std::int64_t kMaxCloudCells = std::int64_t{1} << 20;
+inline constexpr std::int32_t kMaxCloudCells = (std::int32_t{1} << 20) - 2;
 
 }  // namespace camway::scene

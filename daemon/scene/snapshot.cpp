@@ -8,10 +8,11 @@
 namespace camway::scene {
 namespace {
 
-SnapshotResult build(std::string name, Mesh mesh, ImportReport report,
-                     const ObjectOptions& options) {
+SnapshotResult build(std::string name, Mesh mesh, ImportReport report, const ObjectOptions& options,
+                     std::shared_ptr<const VoxelMap> map = nullptr) {
+  const ObjectKind kind = map ? ObjectKind::kMap : ObjectKind::kMesh;
   ObjectResult result = place_object(
-      name, make_source(ObjectKind::kMesh, std::move(mesh), std::move(report), options), {},
+      name, make_source(kind, std::move(mesh), std::move(report), options, std::move(map)), {},
       options);
   if (!result.object) return {nullptr, result.error};
   return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
@@ -96,11 +97,13 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
   std::vector<WholeMesh::Part> meshes;
   std::vector<std::shared_ptr<const IndexedMesh>> indexed;
   std::vector<std::shared_ptr<const OccupancyMap>> maps;
+  std::vector<PlacedVoxelMap> solids;
   for (const auto& object : objects) {
     assert(object->occupancy || !options.occupancy_resolution_m);
     meshes.push_back({object->name, object->placed->mesh});
     indexed.push_back(object->placed);
     if (object->occupancy) maps.push_back(object->occupancy);
+    if (auto solid = object->solid()) solids.push_back(*std::move(solid));
   }
   snapshot->mesh = WholeMesh(std::move(meshes));
   snapshot->index = SceneIndex::of(indexed);
@@ -108,6 +111,7 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
     snapshot->occupancy =
         std::make_shared<const OccupancyMirror>(*options.occupancy_resolution_m, std::move(maps));
   }
+  if (!solids.empty()) snapshot->solids = std::make_shared<const SceneSolids>(std::move(solids));
   snapshot->objects = std::move(objects);
   make_field(*snapshot);
   return snapshot;
@@ -122,8 +126,8 @@ SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file
                              const SnapshotOptions& options) {
   ImportResult import = import_mesh(file, options.import);
   if (!import.mesh) return {nullptr, import.error};
-  SnapshotResult result =
-      build(std::move(name), std::move(*import.mesh), std::move(import.report), options);
+  SnapshotResult result = build(std::move(name), std::move(*import.mesh), std::move(import.report),
+                                options, std::move(import.map));
   if (!result.snapshot) result.error = file.string() + ": " + result.error;
   return result;
 }

@@ -38,6 +38,7 @@ struct Snapshot {
   ObjectOptions options;  ///< what objects are built with
   WholeMesh mesh;         ///< numbered as `index` is
   SceneIndex index;
+  std::shared_ptr<const SceneSolids> solids;         ///< null if nothing has an inside
   std::shared_ptr<const ClearanceField> field;       ///< null where it is off
   std::string why_no_field;                          ///< empty exactly when `field` is set
   std::shared_ptr<const OccupancyMirror> occupancy;  ///< null unless a resolution was given

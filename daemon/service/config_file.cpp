@@ -20,8 +20,8 @@
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 5> kSceneKeys{"name", "file", "scale", "up",
-                                                     "occupancy_resolution_m"};
+constexpr std::array<std::string_view, 6> kSceneKeys{"name", "file",    "scale",
+                                                     "up",   "unknown", "occupancy_resolution_m"};
 
 constexpr double kMaxSceneNumber = 1e9;
 
@@ -122,6 +122,12 @@ std::string apply_to_scene(std::string_view key, const toml::node& node, SceneAr
   if (key == "file") {
     scene.file = text->get();
     return scene.file.empty() ? "must name a file" : std::string();
+  }
+  if (key == "unknown") {
+    const std::optional<scene::UnknownSpace> unknown = unknown_space_named(text->get());
+    if (!unknown) return "must be free or occupied";
+    scene.options.import.unknown = *unknown;
+    return {};
   }
   const std::optional<scene::UpAxis> up = up_axis_named(text->get());
   if (!up) return "must be as-in-file, z-to-y or y-to-z";

@@ -10,7 +10,7 @@
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 3> kOptionNames{"scale", "up", "occupancy"};
+constexpr std::array<std::string_view, 4> kOptionNames{"scale", "up", "unknown", "occupancy"};
 
 std::optional<double> positive_number(std::string_view text) {
   double value = 0.0;
@@ -26,6 +26,12 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
     const std::optional<scene::UpAxis> up = up_axis_named(value);
     if (!up) return "up=" + std::string(value) + ": must be as-in-file, z-to-y or y-to-z";
     scene.options.import.up = *up;
+    return {};
+  }
+  if (key == "unknown") {
+    const std::optional<scene::UnknownSpace> unknown = unknown_space_named(value);
+    if (!unknown) return "unknown=" + std::string(value) + ": must be free or occupied";
+    scene.options.import.unknown = *unknown;
     return {};
   }
   const std::optional<double> number = positive_number(value);
@@ -50,7 +56,8 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
     if (equals == std::string_view::npos) return {};
     const std::string_view key = last.substr(0, equals);
     if (std::find(kOptionNames.begin(), kOptionNames.end(), key) == kOptionNames.end()) {
-      return "'" + std::string(key) + "' is no option of a scene (scale, up, occupancy are)";
+      return "'" + std::string(key) +
+             "' is no option of a scene (scale, up, unknown, occupancy are)";
     }
     if (std::string error = apply_option(key, last.substr(equals + 1), scene); !error.empty()) {
       return error;
@@ -74,6 +81,12 @@ std::optional<scene::UpAxis> up_axis_named(std::string_view word) {
   if (word == "as-in-file") return scene::UpAxis::kAsInFile;
   if (word == "z-to-y") return scene::UpAxis::kZToY;
   if (word == "y-to-z") return scene::UpAxis::kYToZ;
+  return std::nullopt;
+}
+
+std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word) {
+  if (word == "free") return scene::UnknownSpace::kFree;
+  if (word == "occupied") return scene::UnknownSpace::kOccupied;
   return std::nullopt;
 }
 

@@ -28,6 +28,9 @@ static_assert(wire::kMaxSceneNameBytes == 128);
 /// "as-in-file", "z-to-y" or "y-to-z"; nothing for another word.
 std::optional<scene::UpAxis> up_axis_named(std::string_view word);
 
+/// "free" or "occupied"; nothing for another word.
+std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word);
+
 /// A scene argument, or what is wrong with the text.
 struct ParsedSceneArgument {
   std::optional<SceneArgument> scene;
@@ -36,7 +39,7 @@ struct ParsedSceneArgument {
 
 /// One line for `--help`.
 inline constexpr char kSceneArgumentForm[] =
-    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,occupancy=RESOLUTION_M]";
+    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]";
 
 /// Reads `text` of the form above. Options are taken off the end, so a FILE may hold commas unless
 /// what follows one looks like an option. NAME is of [A-Za-z0-9_.-], at most

@@ -29,6 +29,12 @@ class SceneRoots {
   /// link between this and the reading of the file: roots are for people that one trusts.
   [[nodiscard]] RootedFile resolve(std::string_view asked) const;
 
+  /// Writes `bytes` as the file that `asked` names, in a folder below a root that is there already.
+  /// A file of that name is replaced, when all is written. The name must end with `extension`, so
+  /// that nothing else can be. Returns what is wrong, or an empty text.
+  [[nodiscard]] std::string write(std::string_view asked, std::string_view extension,
+                                  std::string_view bytes) const;
+
  private:
   std::vector<std::filesystem::path> folders_;  ///< canonical
 };

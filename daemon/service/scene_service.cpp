@@ -5,7 +5,10 @@
 #include <xxhash.h>
 
 #include <exception>
+#include <set>
 #include <utility>
+
+#include <camway/missing_pages_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 
@@ -21,13 +24,14 @@ RequestDigest digest_of(scene_request_t request) {
 }
 
 /// The answer, whatever happens.
-scene_response_t answer_of(const scene_request_t& request, const UploadedBytes& upload,
-                           const SceneRoots& roots, scene::SceneStore& scenes) {
+Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
+                    const SceneRoots& roots, scene::SceneStore& scenes) {
   try {
     return perform(request, upload, roots, scenes);
   } catch (const std::exception& exception) {
-    return plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
-                              std::string("internal error: ") + exception.what());
+    return {plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
+                               std::string("internal error: ") + exception.what()),
+            {}};
   }
 }
 
@@ -47,6 +51,8 @@ const char* name_of(std::int8_t operation) {
       return "move";
     case scene_request_t::REMOVE:
       return "remove";
+    case scene_request_t::EXPORT:
+      return "export";
     default:
       return "unknown";
   }
@@ -76,7 +82,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   decoded.message->object = wire::printable(decoded.message->object);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
   if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, roots_, scenes_));
+    finish(*request, answer_of(*request, nullptr, roots_, scenes_).answer);
     return;
   }
   const RequestKey key{request->client_id, request->request_id};
@@ -107,8 +113,14 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
   Job work;
   work.client = request->client_id;
   work.run = [this, request, upload] {
-    auto answer = std::make_shared<scene_response_t>(answer_of(*request, upload, roots_, scenes_));
-    core_.mailbox.post([this, request, answer] { finish(*request, std::move(*answer)); });
+    auto done = std::make_shared<Performed>(answer_of(*request, upload, roots_, scenes_));
+    Pages map;
+    if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
+    core_.mailbox.post([this, request, done, map] {
+      if (map)
+        exports_.keep({request->client_id, request->request_id}, map, MapExports::Clock::now());
+      finish(*request, std::move(done->answer));
+    });
   };
   work.abandon = [this, request](Refusal why) { refuse(*request, why); };
   if (std::optional<FairQueue::Refused> refused = thread_.submit(std::move(work))) {
@@ -182,6 +194,36 @@ void SceneService::on_upload(std::span<const std::uint8_t> message) {
   taken.status.message = clipped(taken.status.message, wire::kMaxTextBytes);
   core_.outbox.add(core_.channels.upload_status(taken.status.client_id),
                    std::make_shared<const std::vector<Bytes>>(1, wire::encode(taken.status)));
+}
+
+void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
+  const wire::Decoded<missing_pages_t> decoded = wire::decode<missing_pages_t>(message);
+  std::string reason;
+  if (!decoded.message) {
+    reason = decoded.fault.text("missing_pages_t");
+  } else if (!wire::is_client_id(decoded.message->client_id)) {
+    reason = "missing_pages_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
+  }
+  if (!reason.empty()) {
+    core_.note_malformed(core_.channels.missing_map_pages(), message.size(), reason);
+    core_.report_unanswerable(core_.channels.missing_map_pages(), message, reason);
+    return;
+  }
+  const RequestKey key{decoded.message->client_id, decoded.message->request_id};
+  const std::string channel = core_.channels.map_page(key.client_id);
+  const Pages pages = exports_.find(key, MapExports::Clock::now());
+  if (!pages) {
+    core_.outbox.add(channel,
+                     std::make_shared<const std::vector<Bytes>>(1, wire::encode(no_such_map(key))));
+    return;
+  }
+  std::set<std::size_t> which;
+  for (const std::int32_t page : decoded.message->missing) {
+    if (page >= 0 && static_cast<std::size_t>(page) < pages->size()) {
+      which.insert(static_cast<std::size_t>(page));
+    }
+  }
+  if (!which.empty()) core_.outbox.add(channel, pages, {which.begin(), which.end()});
 }
 
 void SceneService::close() {

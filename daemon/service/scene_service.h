@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "daemon/service/core.h"
+#include "daemon/service/map_exports.h"
 #include "daemon/service/scene_work.h"
 
 namespace camway::service {
@@ -27,6 +28,9 @@ class SceneService {
   /// A message on the upload channel. Throws only for want of memory.
   void on_upload(std::span<const std::uint8_t> message);
 
+  /// A message on the channel for missing pages of maps. Throws only for want of memory.
+  void on_missing_map_pages(std::span<const std::uint8_t> message);
+
   /// Takes no more changes, and refuses those that nobody has begun.
   void close();
   /// Whether nothing is being done.
@@ -45,6 +49,7 @@ class SceneService {
   scene::SceneStore& scenes_;
   const SceneRoots roots_;
   Uploads uploads_;
+  MapExports exports_;
   AnswerCache cache_;
   WorkerPool thread_;
 };

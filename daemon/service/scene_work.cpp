@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "daemon/planning/request.h"
@@ -18,6 +19,7 @@
 #include "daemon/service/scene_argument.h"
 #include "daemon/service/wire_convert.h"
 #include "lcmtypes/channels.h"
+#include "lcmtypes/checksum.h"
 #include "lcmtypes/wire_layout.h"
 
 namespace camway::service {
@@ -70,10 +72,19 @@ struct Made {
   std::string error;
 };
 
-struct MeshAndReport {
+/// What an object will be made of.
+struct Content {
+  scene::ObjectKind kind;
   scene::Mesh mesh;
   scene::ImportReport report;
+  std::shared_ptr<const scene::VoxelMap> map = nullptr;
 };
+
+std::shared_ptr<const scene::ObjectSource> source_of(Content content,
+                                                     const scene::ObjectOptions& options) {
+  return scene::make_source(content.kind, std::move(content.mesh), std::move(content.report),
+                            options, std::move(content.map));
+}
 
 Vec3 vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
 
@@ -87,6 +98,15 @@ Made<scene::ImportOptions> import_options(const Request& request) {
   if (request.scale != 0.0) options.scale = request.scale;
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
     return {std::nullopt, "scale: must be a number above 0"};
+  }
+  switch (request.unknown) {
+    case Request::UNKNOWN_FREE:
+      break;
+    case Request::UNKNOWN_OCCUPIED:
+      options.unknown = scene::UnknownSpace::kOccupied;
+      break;
+    default:
+      return {std::nullopt, fmt::format("unknown: {} is unknown", request.unknown)};
   }
   switch (request.up) {
     case Request::UP_AS_IN_FILE:
@@ -103,10 +123,13 @@ Made<scene::ImportOptions> import_options(const Request& request) {
   return {options, {}};
 }
 
-Made<MeshAndReport> imported(const std::filesystem::path& file, const std::string& shown,
-                             const scene::ImportOptions& options) {
+Made<Content> imported(const std::filesystem::path& file, const std::string& shown,
+                       const scene::ImportOptions& options) {
   scene::ImportResult result = scene::import_mesh(file, options);
-  if (result.mesh) return {MeshAndReport{std::move(*result.mesh), std::move(result.report)}, {}};
+  if (result.mesh) {
+    const scene::ObjectKind kind = result.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
+    return {Content{kind, std::move(*result.mesh), std::move(result.report), result.map}, {}};
+  }
   // Where the daemon keeps things is nobody's business: the name is that of the request.
   std::string error = std::move(result.error);
   if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
@@ -115,8 +138,8 @@ Made<MeshAndReport> imported(const std::filesystem::path& file, const std::strin
   return {std::nullopt, std::move(error)};
 }
 
-Made<MeshAndReport> read_mesh(const Request& request, const UploadedBytes& upload,
-                              const SceneRoots& roots) {
+Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
+                        const SceneRoots& roots) {
   const Made<scene::ImportOptions> options = import_options(request);
   if (!options.value) return {std::nullopt, options.error};
   if (request.upload_bytes == 0) {
@@ -148,10 +171,10 @@ Made<std::vector<Vec3>> read_points(const UploadedBytes& upload) {
   return {std::move(points), {}};
 }
 
-Made<MeshAndReport> of_shape(scene::ShapeMesh shape, scene::ObjectKind kind) {
+Made<Content> of_shape(scene::ShapeMesh shape, scene::ObjectKind kind) {
   if (!shape.mesh) return {std::nullopt, std::move(shape.error)};
   scene::ImportReport report = scene::report_of(*shape.mesh, scene::to_string(kind));
-  return {MeshAndReport{std::move(*shape.mesh), std::move(report)}, {}};
+  return {Content{kind, std::move(*shape.mesh), std::move(report)}, {}};
 }
 
 std::optional<scene::ObjectKind> kind_of(const Request& request) {
@@ -171,8 +194,8 @@ std::optional<scene::ObjectKind> kind_of(const Request& request) {
   }
 }
 
-Made<MeshAndReport> make_mesh(const Request& request, scene::ObjectKind kind,
-                              const UploadedBytes& upload, const SceneRoots& roots) {
+Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
+                        const SceneRoots& roots) {
   constexpr double kDefaultChordShare = 0.01;
   const double chord_error_m =
       request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;
@@ -186,6 +209,8 @@ Made<MeshAndReport> make_mesh(const Request& request, scene::ObjectKind kind,
     case scene::ObjectKind::kCylinder:
       return of_shape(scene::cylinder_mesh(request.radius_m, request.height_m, chord_error_m),
                       kind);
+    case scene::ObjectKind::kMap:
+      break;  // is a file's content
     case scene::ObjectKind::kPointCloud: {
       const Made<std::vector<Vec3>> points = read_points(upload);
       if (!points.value) return {std::nullopt, points.error};
@@ -281,10 +306,15 @@ class Work {
         return move();
       case Request::REMOVE:
         return change({SceneChange::Kind::kRemove, request_.object, nullptr, {}}, "");
+      case Request::EXPORT:
+        return export_map();
       default:
         return invalid(fmt::format("operation: {} is unknown", request_.operation));
     }
   }
+
+  /// What is exported to the client.
+  std::vector<std::uint8_t> take_map() { return std::move(map_); }
 
  private:
   [[nodiscard]] Answer invalid(std::string_view reason) const {
@@ -324,14 +354,11 @@ class Work {
       }
       return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
     }
-    Made<MeshAndReport> made = read_mesh(request_, upload_, roots_);
+    Made<Content> made = read_mesh(request_, upload_, roots_);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed = scene::place_object(
-        request_.scene,
-        scene::make_source(scene::ObjectKind::kMesh, std::move(made.value->mesh),
-                           std::move(made.value->report), options),
-        {}, options);
+        request_.scene, source_of(*std::move(made.value), options), {}, options);
     if (!placed.object) return invalid(placed.error);
     return answer_to(
         scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options)),
@@ -374,11 +401,10 @@ class Work {
     if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
-    Made<MeshAndReport> made = make_mesh(request_, *kind, upload_, roots_);
+    Made<Content> made = make_mesh(request_, *kind, upload_, roots_);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
-    const auto source = scene::make_source(*kind, std::move(made.value->mesh),
-                                           std::move(made.value->report), snapshot->options);
+    const auto source = source_of(*std::move(made.value), snapshot->options);
     return change({SceneChange::Kind::kPut, request_.object, source, *placement.value}, warnings);
   }
 
@@ -386,6 +412,29 @@ class Work {
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
     return change({SceneChange::Kind::kMove, request_.object, nullptr, *placement.value}, "");
+  }
+
+  Answer export_map() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    if (!snapshot->occupancy) {
+      return plain_scene_answer(request_, Answer::STATUS_NO_MAP,
+                                "scene: it was loaded without an occupancy resolution");
+    }
+    std::ostringstream out;
+    snapshot->occupancy->write_bt(out);
+    const std::string_view bytes = out.view();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*snapshot);
+    answer.map_bytes = static_cast<std::int64_t>(bytes.size());
+    answer.map_checksum =
+        wire::crc64(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    if (request_.file.empty()) {
+      map_.assign(bytes.begin(), bytes.end());
+      return answer;
+    }
+    const std::string fault = roots_.write(request_.file, ".bt", bytes);
+    return fault.empty() ? answer : invalid(fault);
   }
 
   Answer change(SceneChange change, std::string_view message) {
@@ -396,6 +445,7 @@ class Work {
   const UploadedBytes& upload_;
   const SceneRoots& roots_;
   scene::SceneStore& scenes_;
+  std::vector<std::uint8_t> map_;
 };
 
 }  // namespace
@@ -429,9 +479,11 @@ bool only_looks(const scene_request_t& request) {
          request.operation == scene_request_t::DESCRIBE;
 }
 
-scene_response_t perform(const scene_request_t& request, const UploadedBytes& upload,
-                         const SceneRoots& roots, scene::SceneStore& scenes) {
-  return Work(request, upload, roots, scenes).run();
+Performed perform(const scene_request_t& request, const UploadedBytes& upload,
+                  const SceneRoots& roots, scene::SceneStore& scenes) {
+  Work work(request, upload, roots, scenes);
+  Answer answer = work.run();
+  return {std::move(answer), work.take_map()};
 }
 
 }  // namespace camway::service

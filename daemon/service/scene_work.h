@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include <camway/scene_info_t.hpp>
 #include <camway/scene_request_t.hpp>
@@ -26,7 +28,11 @@ bool only_looks(const scene_request_t& request);
 /// Does what a request asks for and says how it went; a file or an upload is read by the import
 /// process. `upload` is the one that the request names, null if it is not there. `utime` is left 0.
 /// For a thread that has time: a file may take as long as its import may.
-scene_response_t perform(const scene_request_t& request, const UploadedBytes& upload,
-                         const SceneRoots& roots, scene::SceneStore& scenes);
+struct Performed {
+  scene_response_t answer;
+  std::vector<std::uint8_t> map;  ///< of an export that goes to the client
+};
+Performed perform(const scene_request_t& request, const UploadedBytes& upload,
+                  const SceneRoots& roots, scene::SceneStore& scenes);
 
 }  // namespace camway::service

@@ -287,6 +287,45 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
     EXPECT_GT(count, kRuns / 2) << static_cast<int>(objective);
 }
 
+// Two walls with doors that are not where the path would go.
+Case two_walls(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Mesh mesh;
+  for (const double z : {0.8, -0.8}) {
+    const double door = 1.2 * unit(random);
+    testing::add_cuboid(mesh, {-6, -8, z - 0.05}, {door - 0.4, 8, z + 0.05});
+    testing::add_cuboid(mesh, {door + 0.4, -8, z - 0.05}, {6, 8, z + 0.05});
+  }
+  return case_with(mesh, {at(0, {unit(random), 0, 2.5}), at(3, {unit(random), 0, 0}),
+                          at(6, {unit(random), 0, -2.5})});
+}
+
+// Sums of squares say little of the furthest point, so others may stray less, but seldom and
+// little.
+TEST(Ladder, ClosestStraysTheLeast) {
+  std::mt19937_64 random = testing::seeded(4504);
+  int compared = 0;
+  int beaten = 0;
+  for (int run = 0; run < 24; ++run) {
+    Case c = two_walls(random);
+    const CubicPath original = c.path();
+    FreeSpace space(c.index, c.body, c.options.detect, c.options.orientation);
+    const auto deviation_m = [&](Objective objective) {
+      c.options.objective = objective;
+      return objective_cost(Objective::kClosest, c.corrected().path, original, space,
+                            Deadline::never())
+          .value;
+    };
+    const double closest_m = deviation_m(Objective::kClosest);
+    for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
+      const double other_m = deviation_m(objective);
+      ++compared;
+      beaten += other_m < 0.95 * closest_m ? 1 : 0;
+    }
+  }
+  EXPECT_LE(beaten, compared / 8);
+}
+
 TEST(Ladder, InsertsKeyframesWithinThePathAndBesideThoseGiven) {
   std::mt19937_64 random = testing::seeded(4502);
   int inserted = 0;

@@ -69,7 +69,7 @@ void exercise(const scene_request_t& message) {
   options.field.reset();
   scenes.put(
       scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh, options).snapshot);
-  const scene_response_t answer = service::perform(message, nullptr, {}, scenes);
+  const scene_response_t answer = service::perform(message, nullptr, {}, scenes).answer;
   require(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
           "a refusal has a reason");
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "tests/integration/fixture.h"
@@ -80,6 +81,56 @@ TEST_F(SceneTest, PlansAroundWhatIsMoved) {
   ASSERT_EQ(described.objects.size(), 1U);
   EXPECT_EQ(described.objects[0].name, "world");
   EXPECT_EQ(described.scene.digest, loaded.scene.digest) << "all is as it was";
+}
+
+/// A scene's occupancy map goes out as a file and comes back as a scene.
+TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
+  Client client(patient());
+  SceneMesh mesh;
+  mesh.file = "cube.obj";
+  ASSERT_TRUE(client.load_scene("world", mesh, 0.05).ok());
+  const SceneMap map = client.export_map("world");
+  ASSERT_TRUE(map.ok()) << map.error;
+  EXPECT_GT(map.bytes.size(), 48'000U) << "several pages";
+  EXPECT_EQ(map.scene.name, "world");
+  const SceneAnswer written = client.export_map_to("world", "voxels.bt");
+  ASSERT_TRUE(written.ok()) << written.error;
+  std::ifstream in(file("root/voxels.bt"), std::ios::binary);
+  EXPECT_EQ(std::vector<std::uint8_t>(std::istreambuf_iterator<char>(in), {}), map.bytes);
+  EXPECT_EQ(client.export_map_to("world", "../voxels.bt").status, Status::kInvalid);
+  EXPECT_EQ(client.export_map_to("world", "cube.obj").status, Status::kInvalid);
+
+  SceneMesh uploaded;
+  uploaded.bytes = map.bytes;
+  uploaded.format = "bt";
+  ASSERT_TRUE(client.load_scene("copy", uploaded, 0.05).ok());
+  SceneMesh below;
+  below.file = "voxels.bt";
+  const SceneAnswer loaded = client.load_scene("again", below, 0.05);
+  ASSERT_TRUE(loaded.ok()) << loaded.error;
+  const SceneAnswer copy = client.describe_scene("copy");
+  EXPECT_EQ(copy.scene.digest, loaded.scene.digest);
+  ASSERT_EQ(copy.objects.size(), 1U);
+  EXPECT_EQ(copy.objects[0].kind, "occupancy map");
+  EXPECT_EQ(client.export_map("again").bytes, map.bytes) << "the very same voxels";
+
+  // A camera much smaller than a voxel: in the wall, through the wall, and past it.
+  const auto plan = [&](double from_z, double to_z) {
+    PlanRequest request = flight("again");
+    request.camera = {1.0, 1.0, 0.001};
+    request.keyframes[0].position_m = {2.01, 2.01, from_z};
+    request.keyframes[1].position_m = {2.02, 2.02, to_z};
+    return client.plan(request);
+  };
+  const PlanResponse inside = plan(0.02, 0.03);
+  EXPECT_EQ(inside.status, Status::kInvalid);
+  EXPECT_EQ(inside.keyframe_faults.size(), 2U);
+  const PlanResponse through = plan(-2.0, 2.0);
+  EXPECT_NE(through.status, Status::kOk);
+  EXPECT_FALSE(through.collisions.empty());
+  const PlanResponse past = plan(-2.0, -1.0);
+  EXPECT_TRUE(past.ok()) << past.error;
+  EXPECT_TRUE(past.certified);
 }
 
 TEST_F(SceneTest, ReadsNothingOutsideItsRoots) {

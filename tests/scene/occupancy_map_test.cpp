@@ -359,7 +359,7 @@ TEST(OccupancyMap, RefusesWhatItCannotHold) {
   EXPECT_THAT(beyond.error, HasSubstr("1638.4 m"));
   EXPECT_TRUE(OccupancyMap::build(far, 0.1).map);
 
-  const OccupancyMap::BuildResult many = OccupancyMap::build(far, 0.1, 1000);
+  const OccupancyMap::BuildResult many = OccupancyMap::build(far, 0.1, std::nullopt, 1000);
   EXPECT_EQ(many.map, nullptr);
   EXPECT_THAT(many.error, HasSubstr("more than 1000 voxels"));
   EXPECT_THAT(many.error, HasSubstr("1700"));
@@ -375,8 +375,8 @@ TEST(OccupancyMap, TheVoxelLimitIsExact) {
   std::mt19937_64 random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   const std::uint64_t voxels = build(mesh, 0.1)->statistics().occupied_voxels;
-  EXPECT_TRUE(OccupancyMap::build(mesh, 0.1, voxels).map);
-  EXPECT_FALSE(OccupancyMap::build(mesh, 0.1, voxels - 1).map);
+  EXPECT_TRUE(OccupancyMap::build(mesh, 0.1, std::nullopt, voxels).map);
+  EXPECT_FALSE(OccupancyMap::build(mesh, 0.1, std::nullopt, voxels - 1).map);
 }
 
 /// Leaves of a tree as OctoMap sees them: key of the lowest voxel and depth.

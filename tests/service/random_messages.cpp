@@ -279,6 +279,21 @@ missing_pages_t random_message<missing_pages_t>(Random& random) {
 }
 
 template <>
+map_page_t random_message<map_page_t>(Random& random) {
+  map_page_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.status = small(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  message.page = small(random);
+  message.num_pages = small(random);
+  message.page_checksum = integer(random);
+  message.num_bytes = fill_list(message.bytes, length(random, 40'000),
+                                [&] { return static_cast<std::uint8_t>(random()); });
+  return message;
+}
+
+template <>
 plan_response_t random_message<plan_response_t>(Random& random) {
   plan_response_t message{};
   message.client_id = client_id(random);
@@ -377,7 +392,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.client_id = client_id(random);
   message.request_id = integer(random);
   message.utime = integer(random);
-  message.operation = static_cast<std::int8_t>(below(random, 9));
+  message.operation = static_cast<std::int8_t>(below(random, 10));
   message.scene = text(random, wire::kMaxSceneNameBytes);
   message.object = text(random, wire::kMaxObjectNameBytes);
   message.file = text(random, wire::kMaxFileNameBytes);
@@ -386,6 +401,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.upload_format = text(random, wire::kMaxFormatBytes);
   message.scale = number(random);
   message.up = static_cast<std::int8_t>(below(random, 4));
+  message.unknown = static_cast<std::int8_t>(below(random, 3));
   message.occupancy_resolution_m = number(random);
   message.kind = static_cast<std::int8_t>(below(random, 6));
   fill(message.size_m, random);
@@ -410,6 +426,8 @@ scene_response_t random_message<scene_response_t>(Random& random) {
   message.scene = scene_info(random);
   message.first = small(random);
   message.total = small(random);
+  message.map_bytes = integer(random);
+  message.map_checksum = integer(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 80), [&] { return scene_info(random); });
   message.num_objects =

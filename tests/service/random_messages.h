@@ -7,6 +7,7 @@
 #include <camway/cancel_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
+#include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
 #include <camway/occupancy_response_t.hpp>
@@ -43,6 +44,8 @@ template <>
 plan_progress_t random_message<plan_progress_t>(Random& random);
 template <>
 missing_pages_t random_message<missing_pages_t>(Random& random);
+template <>
+map_page_t random_message<map_page_t>(Random& random);
 template <>
 occupancy_request_t random_message<occupancy_request_t>(Random& random);
 template <>

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <iterator>
+#include <optional>
 
 namespace camway::service {
 namespace {
@@ -83,6 +85,43 @@ TEST_F(SceneRootsTest, AsksItsRootsInTurn) {
   error.clear();
   EXPECT_TRUE(SceneRoots::make({base_ / "root/a.obj"}, error).empty());
   EXPECT_THAT(error, HasSubstr("not a folder"));
+}
+
+/// What a file holds; nothing if there is none.
+std::optional<std::string> content(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+TEST_F(SceneRootsTest, WritesBelowARootAndNowhereElse) {
+  EXPECT_EQ(roots_.write("map.bt", ".bt", "first"), "");
+  EXPECT_EQ(roots_.write("map.bt", ".bt", "second"), "");
+  EXPECT_EQ(content(base_ / "root" / "map.bt"), "second");
+  EXPECT_EQ(roots_.write((base_ / "root" / "inner" / "deep.bt").string(), ".bt", "x"), "");
+  EXPECT_EQ(content(base_ / "root" / "inner" / "deep.bt"), "x");
+
+  fs::create_symlink(base_ / "secret.bt", base_ / "root" / "link.bt");
+  std::ofstream(base_ / "secret.bt") << "secret";
+  EXPECT_EQ(roots_.write("link.bt", ".bt", "y"), "") << "the link is replaced, not followed";
+  EXPECT_EQ(content(base_ / "secret.bt"), "secret");
+  EXPECT_EQ(content(base_ / "root" / "link.bt"), "y");
+  EXPECT_FALSE(fs::is_symlink(base_ / "root" / "link.bt"));
+
+  const std::string beside = (base_ / "map.bt").string();
+  const std::string in_another = (base_ / "root2" / "map.bt").string();
+  for (const std::string& bad :
+       {std::string("../map.bt"), std::string("up/map.bt"), std::string("a.obj"),
+        std::string(".bt"), std::string(".hidden.bt"), std::string(), std::string("missing/map.bt"),
+        beside, in_another}) {
+    EXPECT_THAT(roots_.write(bad, ".bt", "z"), HasSubstr("file: '" + bad + "'"));
+  }
+  EXPECT_FALSE(fs::exists(base_ / "map.bt") || fs::exists(base_ / "root2" / "map.bt"));
+  EXPECT_EQ(content(base_ / "root" / "a.obj"), "v 0 0 0\n");
+  EXPECT_THAT(SceneRoots().write("map.bt", ".bt", "z"), HasSubstr("no scene roots"));
+  for (const auto& entry : fs::recursive_directory_iterator(base_ / "root")) {
+    EXPECT_THAT(entry.path().string(), Not(HasSubstr("unfinished")));
+  }
 }
 
 }  // namespace

@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <vector>
+
+#include <camway/map_page_t.hpp>
+#include <camway/missing_pages_t.hpp>
 
 #include "lcmtypes/checksum.h"
 #include "tests/service/running_service.h"
@@ -168,6 +172,47 @@ TEST_F(SceneServiceTest, LoadsWhatIsUploaded) {
   ASSERT_EQ(put.status, scene_response_t::STATUS_OK) << put.message;
   EXPECT_EQ(put.scene.num_triangles, 2 + 2 * 10);
   EXPECT_EQ(put.objects[0].kind, "point cloud");
+}
+
+/// The pages of an exported map come as often as they are asked for, to whom it belongs.
+TEST_F(SceneServiceTest, SendsAnExportedMapPageByPage) {
+  scene_request_t load = request_for(1, scene_request_t::LOAD, "yard");
+  load.occupancy_resolution_m = 0.1;
+  ASSERT_EQ(ask(load).status, scene_response_t::STATUS_OK);
+  ASSERT_EQ(ask(put_box(2, "yard", "crate", 20.0)).status, scene_response_t::STATUS_OK);
+  const scene_response_t exported = ask(request_for(3, scene_request_t::EXPORT, "yard"));
+  ASSERT_EQ(exported.status, scene_response_t::STATUS_OK) << exported.message;
+  ASSERT_GT(exported.map_bytes, static_cast<std::int64_t>(wire::kMapPageBytes));
+
+  missing_pages_t wanted{};
+  wanted.client_id = "tester";
+  wanted.request_id = 3;
+  const auto page = [&](std::int32_t number) {
+    wanted.missing = {number, number, -1, 1'000'000};
+    wanted.num_missing = 4;
+    return ask_on<map_page_t>(running_.channels.missing_map_pages(), wire::encode(wanted),
+                              running_.channels.map_page("tester"));
+  };
+  std::vector<std::uint8_t> bytes;
+  for (std::int32_t i = 0; i < page(0).num_pages; ++i) {
+    const map_page_t got = page(i);
+    ASSERT_EQ(got.page, i);
+    ASSERT_EQ(got.status, map_page_t::STATUS_OK);
+    bytes.insert(bytes.end(), got.bytes.begin(), got.bytes.end());
+  }
+  EXPECT_EQ(static_cast<std::int64_t>(bytes.size()), exported.map_bytes);
+  EXPECT_EQ(wire::crc64(bytes.data(), bytes.size()), exported.map_checksum);
+  wanted.request_id = 4;
+  EXPECT_EQ(page(0).status, map_page_t::STATUS_INVALID) << "nothing was exported by that id";
+
+  EXPECT_EQ(ask(request_for(5, scene_request_t::EXPORT, "attic")).status,
+            scene_response_t::STATUS_UNKNOWN_SCENE);
+  ASSERT_EQ(ask(request_for(6, scene_request_t::LOAD, "bare")).status, scene_response_t::STATUS_OK);
+  EXPECT_EQ(ask(request_for(7, scene_request_t::EXPORT, "bare")).status,
+            scene_response_t::STATUS_NO_MAP);
+  scene_request_t to_file = request_for(8, scene_request_t::EXPORT, "yard");
+  to_file.file = "yard.bt";
+  EXPECT_THAT(ask(to_file).message, HasSubstr("no scene roots"));
 }
 
 TEST_F(SceneServiceTest, SaysWhatIsWrongWithARequest) {

@@ -288,7 +288,8 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "plan", "Plan a path through the keyframes of a request and write the response");
   add_scene_flags(*command, flags->scene)
       ->description(
-          "Scene file (OBJ, OFF, PLY, STL, glTF, ...); instead of the request's own, which is "
+          "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...); instead of the request's own, "
+          "which is "
           "relative to the request's folder");
   command->add_option("--request", flags->requests, "Request file, '-' for standard input")
       ->required()

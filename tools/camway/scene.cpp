@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -24,8 +25,10 @@ struct SceneCommandFlags {
   std::string object;
   std::string file;         ///< below a root of the daemon
   std::string upload_file;  ///< here
+  std::string to_file;      ///< here, written
   double scale = 1.0;
   SceneMesh::Up up = SceneMesh::Up::kAsInFile;
+  SceneMesh::Unknown unknown = SceneMesh::Unknown::kFree;
   double occupancy_m = 0.0;
   std::vector<double> box_m;
   std::vector<double> cylinder_m;
@@ -44,6 +47,7 @@ ExitCode exit_code_of(Status status) {
       return ExitCode::kSuccess;
     case Status::kInvalid:
     case Status::kUnknownScene:
+    case Status::kNoMap:
     case Status::kLimit:
       return ExitCode::kInvalidInput;
     default:
@@ -111,6 +115,7 @@ std::optional<SceneMesh> mesh_of(const SceneCommandFlags& flags) {
   mesh.file = flags.file;
   mesh.scale = flags.scale;
   mesh.up = flags.up;
+  mesh.unknown = flags.unknown;
   if (!flags.upload_file.empty() && !read_upload(flags.upload_file, mesh)) return std::nullopt;
   return mesh;
 }
@@ -170,6 +175,40 @@ ExitCode run_add(const SceneCommandFlags& flags) {
   });
 }
 
+ExitCode save_map(const SceneMap& map, const std::string& file) {
+  const std::string unfinished = file + ".unfinished";
+  std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(map.bytes.data()),
+            static_cast<std::streamsize>(map.bytes.size()));
+  out.close();
+  if (!out || std::rename(unfinished.c_str(), file.c_str()) != 0) {
+    print_error("cannot write '" + file + "'");
+    return ExitCode::kInvalidInput;
+  }
+  print_scene(map.scene);
+  return ExitCode::kSuccess;
+}
+
+ExitCode run_export(const SceneCommandFlags& flags) {
+  if (flags.to_file.empty() == flags.file.empty()) {
+    print_error("either --to or --file says where the map goes");
+    return ExitCode::kInvalidInput;
+  }
+  if (!flags.file.empty()) {
+    return with_client(
+        flags, [&](Client& client) { return client.export_map_to(flags.scene, flags.file); });
+  }
+  SceneMap map;
+  const ExitCode code = with_client(flags, [&](Client& client) {
+    map = client.export_map(flags.scene);
+    SceneAnswer asked;
+    asked.status = map.status;
+    asked.error = map.error;
+    return asked;
+  });
+  return map.ok() ? save_map(map, flags.to_file) : code;
+}
+
 CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, const char* help) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->add_option("--url", flags->url, "LCM network [LCM_DEFAULT_URL]");
@@ -194,9 +233,10 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
   CLI::Option* file =
       command
           .add_option("--file", flags->file,
-                      "Mesh file that the daemon reads, below one of its --scene-roots")
+                      "Mesh or OctoMap file that the daemon reads, below one of its --scene-roots")
           ->type_name("FILE");
-  command.add_option("--upload", flags->upload_file, "Mesh file here, sent to the daemon")
+  command
+      .add_option("--upload", flags->upload_file, "Mesh or OctoMap file here, sent to the daemon")
       ->type_name("FILE")
       ->excludes(file);
   command.add_option("--scale", flags->scale, "Metres per unit of the file")
@@ -205,6 +245,13 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
   command.add_option("--up", flags->up, "Turn the axes: z-to-y or y-to-z [as-in-file]")
       ->transform(CLI::CheckedTransformer(kUpAxes).description("as-in-file|z-to-y|y-to-z"))
       ->type_name("AXES");
+  static const std::map<std::string, SceneMesh::Unknown> kUnknown{
+      {"free", SceneMesh::Unknown::kFree}, {"occupied", SceneMesh::Unknown::kOccupied}};
+  command
+      .add_option("--unknown", flags->unknown,
+                  "What an OctoMap knows nothing of counts as free or occupied [free]")
+      ->transform(CLI::CheckedTransformer(kUnknown).description("free|occupied"))
+      ->type_name("STATE");
 }
 
 void add_pose_flags(CLI::App& command, const Flags& flags) {
@@ -288,6 +335,17 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
     exit_code =
         with_client(*flags, [&](Client& client) { return client.describe_scene(flags->scene); });
   });
+
+  CLI::App* out =
+      add_command(parent, flags, "export",
+                  "Write a scene's occupancy map as OctoMap's .bt, which octovis opens");
+  add_scene_name(*out, flags);
+  CLI::Option* to = out->add_option("--to", flags->to_file, "File here")->type_name("FILE");
+  out->add_option("--file", flags->file,
+                  "File that the daemon writes, below one of its --scene-roots; NAME.bt")
+      ->type_name("FILE")
+      ->excludes(to);
+  out->callback([flags, &exit_code] { exit_code = run_export(*flags); });
 
   CLI::App* unload = add_command(parent, flags, "unload", "Let the daemon forget a scene");
   add_scene_name(*unload, flags);

@@ -10,12 +10,16 @@ const std::map<std::string, scene::UpAxis> kUpAxes{{"as-in-file", scene::UpAxis:
                                                    {"z-to-y", scene::UpAxis::kZToY},
                                                    {"y-to-z", scene::UpAxis::kYToZ}};
 
+const std::map<std::string, scene::UnknownSpace> kUnknown{
+    {"free", scene::UnknownSpace::kFree}, {"occupied", scene::UnknownSpace::kOccupied}};
+
 }  // namespace
 
 scene::ImportOptions SceneFlags::import_options() const {
   scene::ImportOptions options;
   options.scale = scale;
   options.up = up;
+  options.unknown = unknown;
   return options;
 }
 
@@ -31,7 +35,13 @@ CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
                   "the reverse [as-in-file]")
       ->transform(CLI::CheckedTransformer(kUpAxes).description("as-in-file|z-to-y|y-to-z"))
       ->type_name("AXES");
-  return command.add_option("--scene", flags.file, "Scene file (OBJ, OFF, PLY, STL, glTF, ...)")
+  command
+      .add_option("--unknown", flags.unknown,
+                  "What an OctoMap (.bt, .ot) knows nothing of counts as free or occupied [free]")
+      ->transform(CLI::CheckedTransformer(kUnknown).description("free|occupied"))
+      ->type_name("STATE");
+  return command
+      .add_option("--scene", flags.file, "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...)")
       ->type_name("FILE");
 }
 

@@ -15,12 +15,13 @@ struct SceneFlags {
   std::string file;
   double scale = 1.0;
   scene::UpAxis up = scene::UpAxis::kAsInFile;
+  scene::UnknownSpace unknown = scene::UnknownSpace::kFree;
 
   [[nodiscard]] scene::ImportOptions import_options() const;
 };
 
-/// Adds --scene, --scale and --up. Returns the option of --scene, for the caller to say whether it
-/// is required.
+/// Adds --scene, --scale, --up and --unknown. Returns the option of --scene, for the caller to say
+/// whether it is required.
 CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags);
 
 /// `as-in-file`, `z-to-y` or `y-to-z`, as on the command line.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "daemon/scene/mesh.h"
+#include "daemon/scene/placement.h"
+#include "daemon/scene/voxel_set.h"
+
+namespace camway::scene {
+
+/// What the voxels of a map count as of which nothing is known.
+enum class UnknownSpace : std::uint8_t {
+  kFree,
+  /// All within the box of what is known, and a layer about it: so nothing that is in the map can
+  /// leave what is known to be free. Beyond that layer the map says nothing.
+  kOccupied,
+};
+
+struct VoxelMapResult;
+
+/// An occupancy map as a thing in a scene: a solid that consists of voxels, and what is known of
+/// the space about them. Its faces are an ordinary mesh, but only those between solid voxels and
+/// others; so what is inside must be asked for apart, or a body that is there would meet nothing.
+/// Immutable; safe from any thread.
+class VoxelMap {
+ public:
+  /// A map with more voxels that are known to be occupied, or known to be free, or with more in the
+  /// box of both where the unknown counts as occupied, is refused.
+  static constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 27;
+  static constexpr std::size_t kMostTriangles = 8'000'000;
+
+  /// A voxel in both sets is occupied. Precondition: within the limits of `VoxelGrid`.
+  static VoxelMapResult build(double resolution_m, VoxelSet occupied, VoxelSet free,
+                              UnknownSpace unknown);
+
+  [[nodiscard]] double resolution_m() const { return resolution_m_; }
+  [[nodiscard]] UnknownSpace unknown() const { return unknown_; }
+  [[nodiscard]] const VoxelSet& occupied() const { return occupied_; }
+  [[nodiscard]] const VoxelSet& free() const { return free_; }
+  /// The voxels that nothing may be in.
+  [[nodiscard]] const VoxelSet& solid() const {
+    return unknown_ == UnknownSpace::kFree ? occupied_ : solid_;
+  }
+  [[nodiscard]] std::uint64_t memory_bytes() const;
+
+  /// The faces of the solid, in the frame of the map.
+  [[nodiscard]] std::optional<Mesh> skin() const {
+    return skin_of(solid(), resolution_m_, kMostTriangles);
+  }
+
+  /// Whether a point of the solid is within `error_m` of `point_O` on every axis, or may be. True
+  /// for what is not finite.
+  [[nodiscard]] bool is_solid_near(const geometry::Vec3& point_O, double error_m) const;
+
+ private:
+  VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, UnknownSpace unknown);
+
+  double resolution_m_;
+  UnknownSpace unknown_;
+  VoxelSet occupied_;
+  VoxelSet free_;
+  VoxelSet solid_;  ///< where the unknown is occupied
+};
+
+/// A map, or why there is none.
+struct VoxelMapResult {
+  std::shared_ptr<const VoxelMap> map;
+  std::string error;  ///< empty exactly when `map` is set
+};
+
+/// A map in its place.
+struct PlacedVoxelMap {
+  std::shared_ptr<const VoxelMap> map;
+  Placement placement;
+  geometry::Box bounds_W;  ///< of its mesh
+
+  /// Whether `point_W` is inside the solid, or so near to it that rounding hides the difference.
+  [[nodiscard]] bool holds(const geometry::Vec3& point_W) const;
+};
+
+/// What of a scene has an inside. Immutable; safe from any thread.
+class SceneSolids {
+ public:
+  explicit SceneSolids(std::vector<PlacedVoxelMap> maps) : maps_(std::move(maps)) {}
+
+  /// Whether `point_W` is inside one of them. Something that is connected and touches no triangle
+  /// of the scene is inside with all of its points or with none.
+  [[nodiscard]] bool hold(const geometry::Vec3& point_W) const;
+
+ private:
+  std::vector<PlacedVoxelMap> maps_;
+};
+
+}  // namespace camway::scene

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "daemon/scene/mesh.h"
+#include "daemon/scene/voxel_grid.h"
+
+namespace camway::scene {
+
+/// A set of voxels of a grid, as bits in blocks of 8 x 8 x 8: a look-up costs one of a hash table,
+/// and neighbours share what they cost. A value type; const calls are safe from any thread.
+class VoxelSet {
+ public:
+  /// Voxels from -kMostVoxels to kMostVoxels - 1 on each axis.
+  static constexpr std::int32_t kMostVoxels = std::int32_t{1} << 20;
+
+  /// The first and the last voxel on each axis.
+  using Range = std::array<VoxelRange, 3>;
+
+  /// Whether it was not in the set. Precondition: within kMostVoxels.
+  bool insert(const Voxel& voxel);
+  /// All voxels of the cube. Precondition: it is aligned to its size, and within kMostVoxels.
+  void insert(const VoxelCube& cube);
+
+  [[nodiscard]] bool contains(const Voxel& voxel) const;
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::uint64_t memory_bytes() const;
+  /// Of its voxels. Precondition: not empty.
+  [[nodiscard]] Range bounds() const;
+
+  /// The voxels of `range` that are not in this set. Precondition: within kMostVoxels.
+  [[nodiscard]] VoxelSet complement_in(const Range& range) const;
+
+  /// Calls `visit` for every voxel, in an order that depends on the set only.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const std::uint64_t key : sorted_keys()) {
+      const Voxel low = low_of(key);
+      const Bits& bits = blocks_.find(key)->second;
+      for (std::int32_t z = 0; z < 8; ++z) {
+        for (std::uint64_t left = bits[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
+          const int bit = std::countr_zero(left);
+          visit(Voxel{low[0] + bit % 8, low[1] + bit / 8, low[2] + z});
+        }
+      }
+    }
+  }
+
+ private:
+  friend class VoxelSkin;
+
+  /// Bit y * 8 + x of word z.
+  using Bits = std::array<std::uint64_t, 8>;
+
+  static std::uint64_t key_of(const Voxel& voxel);
+  static Voxel low_of(std::uint64_t key);
+  [[nodiscard]] std::vector<std::uint64_t> sorted_keys() const;
+  [[nodiscard]] const Bits* find(std::uint64_t key) const;
+  void add(std::uint64_t key, const Bits& bits);
+
+  std::unordered_map<std::uint64_t, Bits> blocks_;
+  std::uint64_t size_ = 0;
+};
+
+/// The faces between the voxels of `set`, of edge `voxel_m`, and all others: of each two triangles,
+/// turned outwards, that share vertices with their neighbours. A closed surface up to the rounding
+/// of i * voxel_m. Nothing if there would be more than `max_triangles`.
+std::optional<Mesh> skin_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles);
+
+}  // namespace camway::scene
