@@ -63,15 +63,18 @@ class CageSearch {
   }
 
   [[nodiscard]] std::optional<Cage> run() {
+    const std::size_t points = std::min(centers_.size(), kMaxPoints);
     const CageBoxes boxes(scene_);
+    std::vector<std::vector<Box>> around;
+    for (std::size_t i = 0; i < points; ++i) around.push_back(boxes.around(centers_[i]));
+    parities_of_.assign(points, {});
     int tried = 0;
-    for (std::size_t i = 0; i < std::min(centers_.size(), kMaxPoints); ++i) {
-      parities_.assign(scene_.barriers().size(), Parity::kNotAsked);
-      for (const Box& box : boxes.around(centers_[i])) {
-        const std::optional<std::size_t> outside = first_outside(box);
-        if (!outside || !is_inside(box, i)) continue;
-        if (std::optional<Cage> cage = verified(box, i, *outside)) return cage;
-        if (++tried == kMaxBoxes || steps_ > kMaxSteps) return std::nullopt;
+    // The likeliest of each point first: many are inside of nothing, and use the steps up.
+    for (std::size_t rank = 0; rank < CageBoxes::kMost; ++rank) {
+      for (std::size_t i = 0; i < points; ++i) {
+        if (rank >= around[i].size()) continue;
+        if (std::optional<Cage> cage = tried_as_cage(around[i][rank], i, tried)) return cage;
+        if (tried == kMaxBoxes || steps_ > kMaxSteps) return std::nullopt;
       }
     }
     return std::nullopt;
@@ -79,6 +82,15 @@ class CageSearch {
 
  private:
   enum class Parity : std::uint8_t { kNotAsked, kUnknown, kEven, kOdd };
+
+  [[nodiscard]] std::optional<Cage> tried_as_cage(const Box& box, std::size_t inside, int& tried) {
+    const std::optional<std::size_t> outside = first_outside(box);
+    if (!outside || !is_inside(box, inside)) return std::nullopt;
+    parities_of_[inside].resize(scene_.barriers().size(), Parity::kNotAsked);
+    parities_ = parities_of_[inside];
+    ++tried;
+    return verified(box, inside, *outside);
+  }
 
   [[nodiscard]] std::optional<std::size_t> first_outside(const Box& box) const {
     for (std::size_t i = 0; i < centers_.size(); ++i) {
@@ -201,8 +213,9 @@ class CageSearch {
     const std::vector<std::size_t> barriers = barriers_at(box, centers_[inside]);
     const std::array<FaceGrid::Lines, 3> along = lines(box, barriers);
     // Both sides of a face may have many lines: surfaces' on one, and it is long on the other.
-    for (std::size_t k = 0; k < 3; ++k) steps_ += 2 * along[k].size() * along[(k + 1) % 3].size();
-    if (steps_ > kMaxSteps) return std::nullopt;
+    std::size_t cells = 0;
+    for (std::size_t k = 0; k < 3; ++k) cells += 2 * along[k].size() * along[(k + 1) % 3].size();
+    if (steps_ + cells > kMaxSteps) return std::nullopt;
     Cage cage{.inside = inside,
               .outside = outside,
               .box = {.box = box,
@@ -216,6 +229,7 @@ class CageSearch {
                          std::array{along[static_cast<std::size_t>((face.axis + 1) % 3)],
                                     along[static_cast<std::size_t>((face.axis + 2) % 3)]},
                          scene_.margin_m());
+      steps_ += grids.back().cells();
       block(face, box, barriers, grids.back(), cage.triangles);
       if (steps_ > kMaxSteps) return std::nullopt;
       // Too wide whatever the faces beside it are: nothing more to ask.
@@ -272,7 +286,8 @@ class CageSearch {
   double chord_m_;
   double within_m_ = 0.0;
   std::size_t& steps_;
-  std::vector<Parity> parities_;  ///< by barrier, of the body that is inside
+  std::vector<std::vector<Parity>> parities_of_;  ///< by point and barrier; empty until asked
+  std::span<Parity> parities_;                    ///< of the body that is inside
 };
 
 }  // namespace

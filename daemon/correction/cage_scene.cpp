@@ -178,7 +178,6 @@ std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const ClosedSurfaces
     if (turn.bars < kLeastBars) continue;
     result.emplace_back(mesh, surfaces, shortest_chord_m, turn.axis, turn.angle_rad);
   }
-  std::erase_if(result, [](const CageScene& scene) { return scene.bars() < kLeastBars; });
   return result;
 }
 

@@ -78,7 +78,7 @@ class CageScene {
 };
 
 /// The scene in the frame of the world and in those, turned about one axis of it, that the most of
-/// its thin closed surfaces are parallel to: at most three, and only where there are enough bars to
+/// its thin closed surfaces are parallel to: at most two, and only where there are enough bars to
 /// make a face. They refer to `mesh`.
 std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                                    double shortest_chord_m);
@@ -86,6 +86,8 @@ std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const ClosedSurfaces
 /// Boxes that may be cages around a point, the likely ones first.
 class CageBoxes {
  public:
+  static constexpr std::size_t kMost = 9;  ///< boxes around a point
+
   /// Refers to `scene`, which must outlive it.
   explicit CageBoxes(const CageScene& scene);
   [[nodiscard]] std::vector<geometry::Box> around(const geometry::Vec3& center) const;

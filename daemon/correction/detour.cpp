@@ -43,16 +43,18 @@ constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
                                            {0.25, 60000, false},
                                            {0.125, 120000, false}}};
 constexpr int kOftenRunOut = 2;  // lattices in a row from which on wider ones are searched
+constexpr std::size_t kFirstCostlyLevel = 2;
 constexpr std::size_t kFinestLevel = kLevels.size() - 1;
 
 class Detour {
  public:
   Detour(const Problem& problem, Improvement& improvement, FreeSpace& space, std::uint64_t seed,
-         const collision::Deadline& deadline)
+         const std::function<bool()>& is_hopeless, const collision::Deadline& deadline)
       : problem_(problem),
         improvement_(improvement),
         space_(space),
         seed_(seed),
+        is_hopeless_(is_hopeless),
         deadline_(deadline),
         radius_m_(space.ball_radius_m()),
         from_(signed_pose_at(problem.path, problem.gap_begin_s())),
@@ -253,6 +255,7 @@ class Detour {
     int times_run_out = 0;
     for (std::size_t i = first_level; i <= last_level && !deadline_.passed(); ++i) {
       const Level& level = kLevels[i];
+      if (i == kFirstCostlyLevel && is_hopeless_()) return;
       if (level.is_wide && times_run_out < kOftenRunOut) continue;
       const LatticeResult found = searched(ball, level, from_end);
       if (!found.way_W.empty() && use(found.way_W)) return;
@@ -341,6 +344,7 @@ class Detour {
   Improvement& improvement_;
   FreeSpace& space_;
   const std::uint64_t seed_;
+  const std::function<bool()>& is_hopeless_;
   const collision::Deadline& deadline_;
   const double radius_m_;
   Turning turning_ = Turning::kAsGuide;
@@ -353,8 +357,9 @@ class Detour {
 
 std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
                                   FreeSpace& space, std::uint64_t seed,
+                                  const std::function<bool()>& is_hopeless,
                                   const collision::Deadline& deadline) {
-  return Detour(problem, improvement, space, seed, deadline).run(search);
+  return Detour(problem, improvement, space, seed, is_hopeless, deadline).run(search);
 }
 
 }  // namespace camway::correction

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "daemon/correction/candidate.h"
@@ -21,9 +22,11 @@ enum class Search : std::uint8_t {
 /// more knots, until it is proved free; then it is improved under the objective (`relaxation.h`).
 ///
 /// Nothing if no guide was found within the bounds of the search, or none that the path could
-/// follow.
+/// follow. `is_hopeless` is asked before the search with room becomes costly; if it is, that is
+/// all.
 std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
                                   FreeSpace& space, std::uint64_t seed,
+                                  const std::function<bool()>& is_hopeless,
                                   const collision::Deadline& deadline);
 
 }  // namespace camway::correction

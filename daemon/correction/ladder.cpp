@@ -45,6 +45,7 @@ class Ladder {
   LadderResult run() && {
     if (options_.max_inserted_keyframes == 0) return std::move(result_);
     correct_all(Search::kWithRoom);
+    if (result_.separation) return std::move(result_);
     if (any_without_way() && !deadline_.passed()) {
       prove_infeasible();
       if (result_.separation || result_.cage) return std::move(result_);
@@ -118,8 +119,23 @@ class Ladder {
   }
 
   void prove_infeasible() {
-    const ClosedSurfaces surfaces = find_closed_surfaces(*mesh_);
-    const double smallest = 1.0 - options_.max_shrink;
+    if (is_separated() || deadline_.passed() || !space_.body().is_camera()) return;
+    find_cage_of_camera(*surfaces_, smallest_share());
+    if (result_.cage) name_keyframes(*result_.cage);
+  }
+
+  [[nodiscard]] double smallest_share() const { return 1.0 - options_.max_shrink; }
+
+  // Whether a closed surface is between keyframes. It takes a moment to tell, once.
+  bool is_separated() {
+    if (!surfaces_) {
+      surfaces_ = find_closed_surfaces(*mesh_);
+      find_separation_of_body(*surfaces_, smallest_share());
+    }
+    return result_.separation.has_value();
+  }
+
+  void find_separation_of_body(const ClosedSurfaces& surfaces, double smallest) {
     // A point of the body itself, which the eye is not.
     const geometry::Triangle& part = space_.body().triangles_C().front();
     const geometry::Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
@@ -135,11 +151,7 @@ class Ladder {
         result_.separation.reset();
       }
     }
-    if (!result_.separation && space_.body().is_camera() && !deadline_.passed()) {
-      find_cage_of_camera(surfaces, smallest);
-    }
     if (result_.separation) name_keyframes(*result_.separation);
-    if (result_.cage) name_keyframes(*result_.cage);
   }
 
   // Those of a proof count among the ones that it was looked for with.
@@ -189,6 +201,7 @@ class Ladder {
     std::vector<bool> has_no_way(keyframes_s_.size(), false);  // between a keyframe and the next
     for (std::size_t i = 0; i < open_.size() && !deadline_.passed(); ++i) {
       if (!is_open(i) || is_beyond_limit_[i]) continue;
+      if (result_.separation) return;
       if (search == Search::kWithRoom && (nudge_away(i) || is_beyond_limit_[i])) continue;
       const std::size_t gap = gap_of(open_[i]);
       // The way round would replace all of the gap: no need to look for it twice.
@@ -216,8 +229,9 @@ class Ladder {
     });
     Effort effort;
     problem.effort = &effort;
-    const std::optional<Candidate> found =
-        go_round(problem, search, improvement_, space_, options_.seed, deadline_);
+    const std::optional<Candidate> found = go_round(
+        problem, search, improvement_, space_, options_.seed, [this] { return is_separated(); },
+        deadline_);
     for (const std::size_t i : same_gap) result_.corrections[i].tried += effort;
     if (!accept(index, Rung::kGoRound, found)) {
       for (const std::size_t i : same_gap) is_beyond_limit_[i] = is_beyond_limit_[index];
@@ -444,7 +458,8 @@ class Ladder {
   std::vector<double> beyond_limit_s_;
   Improvement improvement_;
   Improvement closer_{Objective::kClosest, kCloserSteps, true, kCloserSpread};
-  Improvement pursuit_;  ///< of another objective than the closest
+  Improvement pursuit_;                     ///< of another objective than the closest
+  std::optional<ClosedSurfaces> surfaces_;  ///< of the scene, once somebody asked
   LadderResult result_;
 };
 

@@ -306,6 +306,36 @@ TEST(Cage, PlatesMakeFaces) {
   EXPECT_FALSE(cage(mesh_of(bars), centers, 0.5)) << "a plate for half of the face";
 }
 
+// There is not a bar in it, whatever the size of the body, and boxes about the points outside,
+// which come first, are none.
+TEST(Cage, PlatesAreEnough) {
+  const double thick_m = 0.2;
+  std::vector<Box> plates;
+  for (int axis = 0; axis < 3; ++axis) {
+    Box low(kBox.min() - Vec3::Constant(thick_m), kBox.max() + Vec3::Constant(thick_m));
+    Box high = low;
+    low.max()[axis] = kBox.min()[axis];
+    high.min()[axis] = kBox.max()[axis];
+    // Beside those that came before, not through them.
+    for (int done = 0; done < axis; ++done) {
+      low.min()[done] = high.min()[done] = kBox.min()[done];
+      low.max()[done] = high.max()[done] = kBox.max()[done];
+    }
+    plates.insert(plates.end(), {low, high});
+  }
+  const std::vector<Vec3> centers = {kOutside, kOutside + Vec3(0.5, 0.1, 0.2), kInside};
+  const scene::Mesh mesh = mesh_of(plates);
+  for (const double chord_m : {1.0, 0.05, 0.001}) {
+    const std::optional<Cage> found = cage(mesh, centers, chord_m);
+    ASSERT_TRUE(found) << chord_m;
+    EXPECT_EQ(found->inside, 2U);
+    EXPECT_EQ(found->box.widest_hole_m, 0.0);
+    EXPECT_EQ(fault_in(*found, mesh, centers), "");
+  }
+  plates.pop_back();
+  EXPECT_FALSE(cage(mesh_of(plates), centers, 0.05)) << "a plate is missing";
+}
+
 TEST(Cage, StandsAtAnyAngle) {
   for (const double angle_rad : {0.3, -0.7}) {
     for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(0, 1, 0)}) {

@@ -144,6 +144,18 @@ TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
   EXPECT_FALSE(c.corrected().cage);
 }
 
+// A closed surface is asked for before the large lattices are searched.
+TEST(Ladder, ProvesBeforeItSearchesFar) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-2, -2, -2}, {2, 2, 2});
+  const Case c = case_with(mesh, {at(0, {0, 0, 0}), at(4, {0.3, 0.1, 5})});
+  const LadderResult result = c.corrected();
+  ASSERT_TRUE(result.separation);
+  EXPECT_EQ(result.separation->triangles.size(), 12U);
+  for (const Correction& correction : result.corrections)
+    EXPECT_LT(correction.tried.lattice_points, 40'000);
+}
+
 TEST(Ladder, IsLocal) {
   Case c = column();
   for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));
