@@ -46,7 +46,7 @@ class Client::Impl {
     if (const auto& authentication = context.options().authentication) {
       link.authenticate(authentication->begin());
     }
-    if (error.empty()) engine.emplace(link, context.channels(), context.options().client_id);
+    if (error.empty()) engine.emplace(link, context);
   }
 
   /// Why a call cannot be made, if it cannot.
@@ -119,6 +119,29 @@ void Client::cancel(std::int64_t request_id) {
   if (impl_->engine) impl_->engine->cancel(Call::Kind::kPlan, request_id);
 }
 
+std::int64_t Client::watch(const PlanRequest& request, WatchHandler on_event) {
+  std::optional<Failure> failure = impl_->failure();
+  if (!failure) {
+    if (auto fault = fault_in_form(request)) failure = Failure{Status::kInvalid, *fault};
+  }
+  if (failure) {
+    WatchEvent event;
+    event.kind = WatchEvent::Kind::kEnded;
+    event.error = failure->error;
+    if (on_event) on_event(event);
+    return 0;
+  }
+  PlanRequest sent = request;
+  if (sent.request_id == 0) sent.request_id = impl_->context.new_request_id();
+  sent.watch_lease_s = impl_->context.options().watch_lease_s;
+  impl_->engine->watch(sent, std::move(on_event));
+  return sent.request_id;
+}
+
+void Client::unwatch(std::int64_t request_id) {
+  if (impl_->engine) impl_->engine->unwatch(request_id);
+}
+
 OccupancyAnswer Client::occupancy(const OccupancyBatch& batch) {
   if (const auto failure = impl_->failure_to_wait()) return failed<OccupancyAnswer>(*failure);
   return ask_occupancy(impl_->context, *impl_->engine, batch);
@@ -161,6 +184,16 @@ SceneAnswer Client::move_object(const std::string& scene, const std::string& obj
 
 SceneAnswer Client::remove_object(const std::string& scene, const std::string& object) {
   return impl_->ask(request_for(scene_request_t::REMOVE, scene, object));
+}
+
+SceneAnswer Client::insert_scan(const std::string& scene, const std::string& object,
+                                const std::vector<std::array<double, 3>>& points_m,
+                                const std::array<double, 3>& origin_m) {
+  if (points_m.empty()) return failed<SceneAnswer>({Status::kInvalid, "points_m: are none"});
+  scene_request_t request = request_for(scene_request_t::SCAN, scene, object);
+  std::copy(origin_m.begin(), origin_m.end(), request.position_m);
+  const Bytes upload = put_points(points_m, request);
+  return impl_->ask(std::move(request), upload);
 }
 
 SceneMap Client::export_map(const std::string& scene) {

@@ -73,9 +73,18 @@ struct ShapeWriter {
   Bytes operator()(const ScenePoints& points) const {
     request.kind = scene_request_t::POINTS;
     request.cell_m = points.cell_m;
-    Bytes bytes = little_endian(points.points_m);
-    name_upload(bytes, request);
-    return bytes;
+    return put_points(points.points_m, request);
+  }
+  Bytes operator()(const SceneVoxels& voxels) const {
+    request.kind = scene_request_t::MAP;
+    request.cell_m = voxels.resolution_m;
+    request.unknown = static_cast<std::int8_t>(voxels.unknown);
+    request.hit_probability = voxels.sensor.hit_probability;
+    request.miss_probability = voxels.sensor.miss_probability;
+    request.least_probability = voxels.sensor.least_probability;
+    request.most_probability = voxels.sensor.most_probability;
+    request.max_range_m = voxels.sensor.max_range_m;
+    return {};
   }
 };
 
@@ -119,6 +128,12 @@ Bytes put_mesh(const SceneMesh& mesh, scene_request_t& request) {
 
 Bytes put_shape(const SceneShape& shape, scene_request_t& request) {
   return std::visit(ShapeWriter{request}, shape);
+}
+
+Bytes put_points(const std::vector<std::array<double, 3>>& points, scene_request_t& request) {
+  Bytes bytes = little_endian(points);
+  name_upload(bytes, request);
+  return bytes;
 }
 
 void put_pose(const Pose& pose, scene_request_t& request) {

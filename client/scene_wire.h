@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,6 +25,10 @@ std::vector<std::uint8_t> put_shape(const SceneShape& shape, scene_request_t& re
 
 /// Likewise for a mesh.
 std::vector<std::uint8_t> put_mesh(const SceneMesh& mesh, scene_request_t& request);
+
+/// Names the upload of points that is returned.
+std::vector<std::uint8_t> put_points(const std::vector<std::array<double, 3>>& points,
+                                     scene_request_t& request);
 
 /// Writes a pose into `request`.
 void put_pose(const Pose& pose, scene_request_t& request);

@@ -62,6 +62,8 @@ DaemonStatus from_wire(const status_t& wire) {
   status.receipt_to_answer = from_wire(wire.receipt_to_answer);
   status.waiting = from_wire(wire.waiting);
   status.planning = from_wire(wire.planning);
+  status.watched_paths = wire.watched_paths;
+  status.broken_paths = wire.broken_paths;
   status.total_scenes = wire.total_scenes;
   for (const scene_info_t& scene : wire.scenes) status.scenes.push_back(from_wire(scene));
   return status;

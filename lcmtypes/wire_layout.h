@@ -22,6 +22,8 @@ class scene_response_t;
 class status_t;
 class upload_page_t;
 class upload_status_t;
+class watch_report_t;
+class watch_t;
 }  // namespace camway
 
 namespace camway::wire {
@@ -110,6 +112,10 @@ template <>
 Layout layout_of<upload_page_t>();
 template <>
 Layout layout_of<upload_status_t>();
+template <>
+Layout layout_of<watch_t>();
+template <>
+Layout layout_of<watch_report_t>();
 template <>
 Layout layout_of<status_t>();
 template <>

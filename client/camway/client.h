@@ -15,6 +15,7 @@
 #include "camway/plan.h"
 #include "camway/scene.h"
 #include "camway/status.h"
+#include "camway/watch.h"
 
 namespace camway {
 
@@ -37,7 +38,10 @@ struct ClientOptions {
   /// were refused at once do not come back at once. [Limit: 0 <= value < 1]
   double jitter = 0.2;
   std::uint64_t seed = 0;  ///< of that; 0: another one each time
-  int retries = 5;         ///< repetitions without a sign of life before the call gives up
+  /// A watched path is watched for so long after the client fell silent. The daemon may allow less.
+  /// [Limit: 1 <= value <= 86400]
+  double watch_lease_s = 30.0;
+  int retries = 5;  ///< repetitions without a sign of life before the call gives up
 };
 
 /// Asks a Camway daemon over LCM.
@@ -92,6 +96,15 @@ class Client {
   /// it was if it was ready. Does nothing for other ids, and nothing the second time.
   void cancel(std::int64_t request_id);
 
+  /// Asks for a path and leaves it with the daemon: `on_event` hears of the answer, and from then
+  /// on of each change of the scene that breaks the path, and of the corrected path, until
+  /// `unwatch`. Lost messages and restarts of the daemon are seen to. Returns the id of the
+  /// request; 0, after `on_event` heard why, if it cannot be sent.
+  std::int64_t watch(const PlanRequest& request, WatchHandler on_event);
+
+  /// Ends it. An event that is on its way may still come. Does nothing for other ids.
+  void unwatch(std::int64_t request_id);
+
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);
 
@@ -110,6 +123,12 @@ class Client {
                          const SceneShape& shape, const Pose& pose = {});
   SceneAnswer move_object(const std::string& scene, const std::string& object, const Pose& pose);
   SceneAnswer remove_object(const std::string& scene, const std::string& object);
+
+  /// Tells an object that is an OctoMap what a sensor at `origin_m` saw, all in the world's frame.
+  /// Each scan makes a new revision.
+  SceneAnswer insert_scan(const std::string& scene, const std::string& object,
+                          const std::vector<std::array<double, 3>>& points_m,
+                          const std::array<double, 3>& origin_m);
 
   /// Fetches a scene's occupancy map.
   SceneMap export_map(const std::string& scene);

@@ -70,6 +70,8 @@ struct DaemonStatus {
   Latency receipt_to_answer;
   Latency waiting;
   Latency planning;
+  std::int64_t broken_paths = 0;   ///< times that a change broke a watched path
+  std::int32_t watched_paths = 0;  ///< now
 
   std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
   std::vector<SceneInfo> scenes;  ///< in order of name

@@ -68,7 +68,22 @@ struct ScenePoints {
   std::vector<std::array<double, 3>> points_m;
   double cell_m = 0.0;
 };
-using SceneShape = std::variant<SceneMesh, SceneBox, SceneSphere, SceneCylinder, ScenePoints>;
+/// How far the scans of a sensor are to be believed, as OctoMap has it.
+struct SceneSensor {
+  double hit_probability = 0.7;       ///< of a voxel that was seen [Limit: 0.5 < value < 1]
+  double miss_probability = 0.4;      ///< of one that was seen through [Limit: 0 < value < 0.5]
+  double least_probability = 0.1192;  ///< nothing is surer to be free [Limit: 0 < value < 0.5]
+  double most_probability = 0.971;    ///< nor occupied [Limit: 0.5 < value < 1]
+  double max_range_m = 0.0;  ///< points further away only say what is free up to there; 0: no limit
+};
+/// An OctoMap that knows nothing before it is scanned.
+struct SceneVoxels {
+  double resolution_m = 0.0;  ///< edge of a voxel
+  SceneMesh::Unknown unknown = SceneMesh::Unknown::kFree;
+  SceneSensor sensor;
+};
+using SceneShape =
+    std::variant<SceneMesh, SceneBox, SceneSphere, SceneCylinder, ScenePoints, SceneVoxels>;
 
 /// What a call about scenes came to.
 struct SceneAnswer {

@@ -134,12 +134,14 @@ std::string refusal(const Mesh& mesh, double resolution_m) {
 std::optional<VoxelSet> touched_voxels(const Mesh& mesh, const VoxelGrid& grid,
                                        std::uint64_t max_voxels) {
   VoxelSet voxels;
+  VoxelMarker marker(voxels);
+  const auto is_new = [&](const Voxel& voxel) { return !marker.contains(voxel); };
   const auto mark = [&](const Voxel& voxel) {
-    voxels.insert(voxel);
+    marker.insert(voxel);
     return voxels.size() <= max_voxels;
   };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!for_each_voxel_touched(grid, mesh.triangle(i), mark)) return std::nullopt;
+    if (!for_each_voxel_touched(grid, mesh.triangle(i), is_new, mark)) return std::nullopt;
   }
   return voxels;
 }

@@ -45,11 +45,26 @@ VoxelCube enclosing_cube(const VoxelRanges& ranges) {
 class Descent {
  public:
   Descent(const VoxelGrid& grid, const geometry::Triangle& triangle, const VoxelRanges& ranges,
+          const std::function<bool(const Voxel&)>& wanted,
           const std::function<bool(const Voxel&)>& visit)
-      : grid_(grid), triangle_(triangle), ranges_(ranges), visit_(visit) {}
+      : grid_(grid), triangle_(triangle), ranges_(ranges), wanted_(wanted), visit_(visit) {}
+
+  /// Every voxel of the ranges.
+  bool run_through() const {
+    Voxel voxel{};
+    for (voxel[2] = ranges_[2].first; voxel[2] <= ranges_[2].last; ++voxel[2]) {
+      for (voxel[1] = ranges_[1].first; voxel[1] <= ranges_[1].last; ++voxel[1]) {
+        for (voxel[0] = ranges_[0].first; voxel[0] <= ranges_[0].last; ++voxel[0]) {
+          if (!run({voxel, 1})) return false;
+        }
+      }
+    }
+    return true;
+  }
 
   bool run(const VoxelCube& cube) const {
     if (outside(cube, ranges_)) return true;
+    if (cube.size == 1 && !wanted_(cube.min)) return true;
     if (!geometry::triangle_touches_box(triangle_, grid_.box(cube))) return true;
     if (cube.size == 1) return visit_(cube.min);
     for (unsigned index = 0; index < 8; ++index) {
@@ -62,8 +77,18 @@ class Descent {
   const VoxelGrid& grid_;
   const geometry::Triangle& triangle_;
   const VoxelRanges& ranges_;
+  const std::function<bool(const Voxel&)>& wanted_;
   const std::function<bool(const Voxel&)>& visit_;
 };
+
+/// Below this the way down from the root costs more than it spares.
+constexpr std::int64_t kFewVoxels = 64;
+
+std::int64_t voxels_in(const VoxelRanges& ranges) {
+  std::int64_t voxels = 1;
+  for (const VoxelRange& range : ranges) voxels *= std::int64_t{1} + range.last - range.first;
+  return voxels;
+}
 
 }  // namespace
 
@@ -130,6 +155,7 @@ std::optional<VoxelRange> voxels_touching(const VoxelGrid& grid, double low_m, d
 }
 
 bool for_each_voxel_touched(const VoxelGrid& grid, const geometry::Triangle& triangle,
+                            const std::function<bool(const Voxel&)>& wanted,
                             const std::function<bool(const Voxel&)>& visit) {
   const geometry::Box box = geometry::bounds(triangle);
   VoxelRanges ranges;
@@ -139,7 +165,15 @@ bool for_each_voxel_touched(const VoxelGrid& grid, const geometry::Triangle& tri
     if (!range) return false;
     ranges[axis] = *range;
   }
-  return Descent(grid, triangle, ranges, visit).run(enclosing_cube(ranges));
+  const Descent descent(grid, triangle, ranges, wanted, visit);
+  return voxels_in(ranges) <= kFewVoxels ? descent.run_through()
+                                         : descent.run(enclosing_cube(ranges));
+}
+
+bool for_each_voxel_touched(const VoxelGrid& grid, const geometry::Triangle& triangle,
+                            const std::function<bool(const Voxel&)>& visit) {
+  return for_each_voxel_touched(
+      grid, triangle, [](const Voxel&) { return true; }, visit);
 }
 
 }  // namespace camway::scene

@@ -78,13 +78,19 @@ struct VoxelRange {
 };
 std::optional<VoxelRange> voxels_touching(const VoxelGrid& grid, double low_m, double high_m);
 
-/// Calls `visit` once for every voxel that `triangle` touches (faces, edges and corners count, so a
-/// triangle in a face plane touches the voxels of both sides), in an order that depends on the
-/// arguments only, until it returns false. Descends octant by octant, so that the cost follows the
-/// number of voxels touched and not the volume of the triangle's box. Conservative: rounding may
-/// add a voxel that is `VoxelGrid::kFaceErrorUnits` and the error of `triangle_touches_box` away,
-/// and never loses one. Returns false if `visit` did, or if voxels beyond the keys would be touched
-/// (none is visited then).
+/// Calls `visit` once for every voxel that `triangle` touches and that is `wanted` (faces, edges
+/// and corners count, so a triangle in a face plane touches the voxels of both sides), in an order
+/// that depends on the arguments only, until it returns false. Large triangles are followed octant
+/// by octant, so that the cost follows the number of voxels touched and not the volume of the
+/// triangle's box; of small ones all voxels about them are asked. What is not wanted, as it is
+/// known already, costs less. Conservative: rounding may add a voxel that is
+/// `VoxelGrid::kFaceErrorUnits` and the error of `triangle_touches_box` away, and never loses one.
+/// Returns false if `visit` did, or if voxels beyond the keys would be touched (none is visited
+/// then).
+bool for_each_voxel_touched(const VoxelGrid& grid, const geometry::Triangle& triangle,
+                            const std::function<bool(const Voxel&)>& wanted,
+                            const std::function<bool(const Voxel&)>& visit);
+/// All of them.
 bool for_each_voxel_touched(const VoxelGrid& grid, const geometry::Triangle& triangle,
                             const std::function<bool(const Voxel&)>& visit);
 

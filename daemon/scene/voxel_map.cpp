@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/voxel_map.h"
 
+#include <octomap/OcTree.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -61,6 +63,20 @@ std::string too_many(const char* what) {
 
 }  // namespace
 
+std::string fault_in(const SensorModel& sensor) {
+  const auto above_half = [](double p) { return p > 0.5 && p < 1.0; };
+  const auto below_half = [](double p) { return p > 0.0 && p < 0.5; };
+  if (!above_half(sensor.hit_probability)) return "hit_probability: must be above 0.5 and below 1";
+  if (!below_half(sensor.miss_probability))
+    return "miss_probability: must be above 0 and below 0.5";
+  if (!below_half(sensor.least_probability)) {
+    return "least_probability: must be above 0 and below 0.5";
+  }
+  if (!above_half(sensor.most_probability))
+    return "most_probability: must be above 0.5 and below 1";
+  return sensor.max_range_m > 0.0 ? "" : "max_range_m: must be above 0";
+}
+
 VoxelMap::VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, UnknownSpace unknown)
     : resolution_m_(resolution_m),
       unknown_(unknown),
@@ -68,7 +84,8 @@ VoxelMap::VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, Unknow
       free_(std::move(free)) {}
 
 VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet free,
-                               UnknownSpace unknown) {
+                               UnknownSpace unknown, const SensorModel& sensor,
+                               std::shared_ptr<const octomap::OcTree> beliefs) {
   if (!VoxelGrid::valid_resolution(resolution_m)) {
     return {nullptr, "has a resolution that is not between 1e-9 and 1e9 m"};
   }
@@ -77,6 +94,8 @@ VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet 
   }
   std::shared_ptr<VoxelMap> map(
       new VoxelMap(resolution_m, std::move(occupied), std::move(free), unknown));
+  map->sensor_ = sensor;
+  map->beliefs_ = std::move(beliefs);
   const bool knows_something = !map->occupied_.empty() || !map->free_.empty();
   if (unknown == UnknownSpace::kOccupied && knows_something) {
     const VoxelSet::Range range = with_a_layer_about(joined(map->occupied_, map->free_));
@@ -90,7 +109,8 @@ VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet 
 }
 
 std::uint64_t VoxelMap::memory_bytes() const {
-  return occupied_.memory_bytes() + free_.memory_bytes() + solid_.memory_bytes();
+  return occupied_.memory_bytes() + free_.memory_bytes() + solid_.memory_bytes() +
+         (beliefs_ ? beliefs_->memoryUsage() : 0);
 }
 
 bool VoxelMap::is_solid_near(const Vec3& point_O, double error_m) const {

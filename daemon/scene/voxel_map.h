@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,10 @@
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/placement.h"
 #include "daemon/scene/voxel_set.h"
+
+namespace octomap {
+class OcTree;
+}
 
 namespace camway::scene {
 
@@ -19,6 +24,20 @@ enum class UnknownSpace : std::uint8_t {
   /// leave what is known to be free. Beyond that layer the map says nothing.
   kOccupied,
 };
+
+/// How far a scan is to be believed, as OctoMap has it: a voxel is occupied if it is so with a
+/// probability of a half or more.
+struct SensorModel {
+  double hit_probability = 0.7;       ///< of a voxel that was seen [Limit: 0.5 < value < 1]
+  double miss_probability = 0.4;      ///< of one that was seen through [Limit: 0 < value < 0.5]
+  double least_probability = 0.1192;  ///< nothing is surer to be free [Limit: 0 < value < 0.5]
+  double most_probability = 0.971;    ///< nor occupied [Limit: 0.5 < value < 1]
+  /// Points further away say only that there is nothing up to there. [Limit: 0 < value]
+  double max_range_m = std::numeric_limits<double>::infinity();
+};
+
+/// Which of its numbers cannot be, or an empty text.
+std::string fault_in(const SensorModel& sensor);
 
 struct VoxelMapResult;
 
@@ -33,12 +52,17 @@ class VoxelMap {
   static constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 27;
   static constexpr std::size_t kMostTriangles = 8'000'000;
 
-  /// A voxel in both sets is occupied. Precondition: within the limits of `VoxelGrid`.
+  /// A voxel in both sets is occupied. `beliefs`: of a map that was scanned, what the sets follow
+  /// from. Preconditions: within the limits of `VoxelGrid`; the sensor has no `fault_in`.
   static VoxelMapResult build(double resolution_m, VoxelSet occupied, VoxelSet free,
-                              UnknownSpace unknown);
+                              UnknownSpace unknown, const SensorModel& sensor = {},
+                              std::shared_ptr<const octomap::OcTree> beliefs = nullptr);
 
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   [[nodiscard]] UnknownSpace unknown() const { return unknown_; }
+  [[nodiscard]] const SensorModel& sensor() const { return sensor_; }
+  /// Null for a map that was never scanned. For those in daemon/scene who know OctoMap.
+  [[nodiscard]] const std::shared_ptr<const octomap::OcTree>& beliefs() const { return beliefs_; }
   [[nodiscard]] const VoxelSet& occupied() const { return occupied_; }
   [[nodiscard]] const VoxelSet& free() const { return free_; }
   /// The voxels that nothing may be in.
@@ -64,6 +88,8 @@ class VoxelMap {
   VoxelSet occupied_;
   VoxelSet free_;
   VoxelSet solid_;  ///< where the unknown is occupied
+  SensorModel sensor_;
+  std::shared_ptr<const octomap::OcTree> beliefs_;
 };
 
 /// A map, or why there is none.

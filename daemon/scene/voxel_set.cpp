@@ -66,12 +66,22 @@ void VoxelSet::add(std::uint64_t key, const Bits& bits) {
   }
 }
 
-bool VoxelSet::insert(const Voxel& voxel) {
-  std::uint64_t& word = blocks_[key_of(voxel)][static_cast<std::size_t>(voxel[2] & 7)];
-  const std::uint64_t bit = std::uint64_t{1} << ((voxel[1] & 7) * 8 + (voxel[0] & 7));
-  const bool is_new = (word & bit) == 0;
-  word |= bit;
-  size_ += is_new ? 1 : 0;
+bool VoxelSet::insert(const Voxel& voxel) { return VoxelMarker(*this).insert(voxel); }
+
+std::uint64_t& VoxelMarker::word_of(const Voxel& voxel) {
+  const std::uint64_t key = VoxelSet::key_of(voxel);
+  if (bits_ == nullptr || key != key_) {
+    bits_ = &set_.blocks_[key];  // stays where it is when others come
+    key_ = key;
+  }
+  return (*bits_)[static_cast<std::size_t>(voxel[2] & 7)];
+}
+
+bool VoxelMarker::insert(const Voxel& voxel) {
+  std::uint64_t& word = word_of(voxel);
+  const bool is_new = (word & bit_of(voxel)) == 0;
+  word |= bit_of(voxel);
+  set_.size_ += is_new ? 1 : 0;
   return is_new;
 }
 

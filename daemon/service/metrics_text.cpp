@@ -137,6 +137,9 @@ void add_scenes(const status_t& status, Page& page) {
   page.gauge("scenes", status.total_scenes, "Scenes that are held.");
   page.counter("scene_changes_total", status.scene_changes,
                "Revisions of scenes that clients made.");
+  page.gauge("watched_paths", status.watched_paths, "Paths that clients left to be watched.");
+  page.counter("broken_paths_total", status.broken_paths,
+               "Times that a change of a scene broke a watched path.");
   if (status.scenes.empty()) return;
   page.head("scene_revision", "gauge", "Newest revision of a scene.");
   for (const scene_info_t& scene : status.scenes) {

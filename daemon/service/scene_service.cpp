@@ -51,6 +51,8 @@ const char* name_of(std::int8_t operation) {
       return "move";
     case scene_request_t::REMOVE:
       return "remove";
+    case scene_request_t::SCAN:
+      return "scan";
     case scene_request_t::EXPORT:
       return "export";
     default:

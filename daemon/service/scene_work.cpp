@@ -15,6 +15,7 @@
 
 #include "daemon/planning/request.h"
 #include "daemon/scene/import_warnings.h"
+#include "daemon/scene/map_scan.h"
 #include "daemon/scene/shape_mesh.h"
 #include "daemon/service/scene_argument.h"
 #include "daemon/service/wire_convert.h"
@@ -93,21 +94,26 @@ bool is_extension(std::string_view text) {
   return !text.empty() && text.size() <= 8 && std::ranges::all_of(text, is_plain);
 }
 
+Made<scene::UnknownSpace> unknown_space(const Request& request) {
+  switch (request.unknown) {
+    case Request::UNKNOWN_FREE:
+      return {scene::UnknownSpace::kFree, {}};
+    case Request::UNKNOWN_OCCUPIED:
+      return {scene::UnknownSpace::kOccupied, {}};
+    default:
+      return {std::nullopt, fmt::format("unknown: {} is unknown", request.unknown)};
+  }
+}
+
 Made<scene::ImportOptions> import_options(const Request& request) {
   scene::ImportOptions options;
   if (request.scale != 0.0) options.scale = request.scale;
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
     return {std::nullopt, "scale: must be a number above 0"};
   }
-  switch (request.unknown) {
-    case Request::UNKNOWN_FREE:
-      break;
-    case Request::UNKNOWN_OCCUPIED:
-      options.unknown = scene::UnknownSpace::kOccupied;
-      break;
-    default:
-      return {std::nullopt, fmt::format("unknown: {} is unknown", request.unknown)};
-  }
+  const Made<scene::UnknownSpace> unknown = unknown_space(request);
+  if (!unknown.value) return {std::nullopt, unknown.error};
+  options.unknown = *unknown.value;
   switch (request.up) {
     case Request::UP_AS_IN_FILE:
       break;
@@ -189,9 +195,49 @@ std::optional<scene::ObjectKind> kind_of(const Request& request) {
       return scene::ObjectKind::kCylinder;
     case Request::POINTS:
       return scene::ObjectKind::kPointCloud;
+    case Request::MAP:
+      return scene::ObjectKind::kMap;
     default:
       return std::nullopt;
   }
+}
+
+Made<scene::SensorModel> sensor_of(const Request& request) {
+  scene::SensorModel sensor;
+  const auto take = [](double asked, double& value) {
+    if (asked != 0.0) value = asked;
+  };
+  take(request.hit_probability, sensor.hit_probability);
+  take(request.miss_probability, sensor.miss_probability);
+  take(request.least_probability, sensor.least_probability);
+  take(request.most_probability, sensor.most_probability);
+  take(request.max_range_m, sensor.max_range_m);
+  std::string fault = scene::fault_in(sensor);
+  if (!fault.empty()) return {std::nullopt, std::move(fault)};
+  return {sensor, {}};
+}
+
+/// The object that is a map; its faces are made here.
+Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
+  std::optional<scene::Mesh> mesh = map->skin();
+  if (!mesh) {
+    return {std::nullopt,
+            fmt::format("the map has more than {} triangles", scene::VoxelMap::kMostTriangles)};
+  }
+  scene::ImportReport report = scene::report_of(*mesh, "OctoMap");
+  return {Content{scene::ObjectKind::kMap, *std::move(mesh), std::move(report), std::move(map)},
+          {}};
+}
+
+Made<Content> empty_map(const Request& request) {
+  const Made<scene::UnknownSpace> unknown = unknown_space(request);
+  if (!unknown.value) return {std::nullopt, unknown.error};
+  const Made<scene::SensorModel> sensor = sensor_of(request);
+  if (!sensor.value) return {std::nullopt, sensor.error};
+  scene::VoxelMapResult built =
+      scene::VoxelMap::build(request.cell_m, {}, {}, *unknown.value, *sensor.value);
+  if (!built.map) return {std::nullopt, "cell_m: the map " + built.error};
+  return of_map(std::move(built.map));
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
@@ -210,7 +256,7 @@ Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const Up
       return of_shape(scene::cylinder_mesh(request.radius_m, request.height_m, chord_error_m),
                       kind);
     case scene::ObjectKind::kMap:
-      break;  // is a file's content
+      return empty_map(request);
     case scene::ObjectKind::kPointCloud: {
       const Made<std::vector<Vec3>> points = read_points(upload);
       if (!points.value) return {std::nullopt, points.error};
@@ -306,6 +352,8 @@ class Work {
         return move();
       case Request::REMOVE:
         return change({SceneChange::Kind::kRemove, request_.object, nullptr, {}}, "");
+      case Request::SCAN:
+        return scan();
       case Request::EXPORT:
         return export_map();
       default:
@@ -412,6 +460,28 @@ class Work {
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
     return change({SceneChange::Kind::kMove, request_.object, nullptr, *placement.value}, "");
+  }
+
+  Answer scan() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    const scene::SceneObject* const object = snapshot->find(request_.object);
+    if (object == nullptr || !object->source->map_O) {
+      return invalid(fmt::format("object: '{}' is no occupancy map of scene '{}'", request_.object,
+                                 request_.scene));
+    }
+    Made<std::vector<Vec3>> points = read_points(upload_);
+    if (!points.value) return invalid(points.error);
+    const scene::Placement placement = object->placement;
+    for (Vec3& point : *points.value) point = placement.to_object(point);
+    const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points.value};
+    scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen);
+    if (!next.map) return invalid(next.error);
+    Made<Content> made = of_map(std::move(next.map));
+    if (!made.value) return invalid(made.error);
+    return change({SceneChange::Kind::kPut, request_.object,
+                   source_of(*std::move(made.value), snapshot->options), placement},
+                  "");
   }
 
   Answer export_map() {

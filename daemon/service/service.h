@@ -14,6 +14,7 @@
 #include "daemon/service/plan_service.h"
 #include "daemon/service/scene_service.h"
 #include "daemon/service/transport.h"
+#include "daemon/service/watches.h"
 
 namespace camway::service {
 
@@ -74,6 +75,7 @@ class Service {
 
   const ServiceHooks hooks_;
   Core core_;
+  Watches watches_;
   PlanService plans_;
   OccupancyService occupancy_;
   SceneService scenes_;

@@ -53,6 +53,23 @@ TEST_F(LoadTest, EveryAnswerIsWhatPlanningGives) {
   EXPECT_THAT(output_, HasSubstr("0 wrong, 0 lost"));
 }
 
+/// Batches of all kinds of queries, of several messages each, from clients at the same time.
+TEST_F(LoadTest, EveryOccupancyAnswerIsThatOfTheSameMapHere) {
+  start_daemon({"--workers", "2"});
+  const auto ask = [&](const std::string& scene) {
+    Process process({CAMWAY_BINARY, "load", "--scene", scene, "--occupancy", "3000", "--clients",
+                     "3", "--seconds", "1"},
+                    file("load.log"));
+    const std::optional<int> code = process.wait();
+    output_ = process.output();
+    return code.value_or(-1);
+  };
+  EXPECT_EQ(ask("office=" + scene_file("office") + ",occupancy=0.2"), 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("0 batches wrong, 0 lost"));
+  EXPECT_EQ(ask("office=" + scene_file("maze") + ",occupancy=0.2"), 3) << output_;
+  EXPECT_EQ(ask("office=" + scene_file("office")), 2) << output_;
+}
+
 TEST_F(LoadTest, AnotherSceneUnderTheSameNameIsFoundOut) {
   start_daemon_with_scenes({"office=" + scene_file("gallery")});
   EXPECT_EQ(load({"--clients", "1", "--requests", "3"}), 3) << output_;

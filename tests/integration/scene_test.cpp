@@ -83,6 +83,20 @@ TEST_F(SceneTest, PlansAroundWhatIsMoved) {
   EXPECT_EQ(described.scene.digest, loaded.scene.digest) << "all is as it was";
 }
 
+TEST_F(SceneTest, AFileThatIsWatchedIsReadAgain) {
+  stop_daemon();
+  start_daemon_with_scenes({"cube=" + file("root/cube.obj") + ",watch=yes"});
+  Client client(patient());
+  const SceneAnswer before = client.describe_scene("cube");
+  ASSERT_TRUE(before.ok()) << before.error;
+  std::string next = kCube;
+  next.replace(next.find("f 1 4"), std::string::npos, "f 1 4 3\n");
+  std::ofstream(file("next.obj")) << next;
+  std::filesystem::rename(file("next.obj"), file("root/cube.obj"));
+  ASSERT_TRUE(eventually([&] { return client.describe_scene("cube").scene.num_triangles == 1; }));
+  EXPECT_EQ(client.describe_scene("cube").scene.revision, before.scene.revision + 1);
+}
+
 /// A scene's occupancy map goes out as a file and comes back as a scene.
 TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   Client client(patient());
@@ -131,6 +145,40 @@ TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   const PlanResponse past = plan(-2.0, -1.0);
   EXPECT_TRUE(past.ok()) << past.error;
   EXPECT_TRUE(past.certified);
+}
+
+/// What a sensor sees is in the way of the very next plan, until it sees through.
+TEST_F(SceneTest, PlansAroundWhatASensorSees) {
+  Client client(patient());
+  ASSERT_TRUE(client.load_scene("world", {}).ok());
+  SceneVoxels voxels;
+  voxels.resolution_m = 0.5;
+  voxels.sensor.max_range_m = 30.0;
+  const SceneAnswer put = client.put_object("world", "seen", voxels, at(0, 0, 0.2));
+  ASSERT_TRUE(put.ok()) << put.error;
+  EXPECT_EQ(put.objects[0].kind, "occupancy map");
+  EXPECT_TRUE(client.plan(flight("world")).collisions.empty());
+
+  std::vector<std::array<double, 3>> wall;
+  for (double y = -3.0; y <= 7.0; y += 0.1) {
+    for (double z = 5.0; z <= 15.0; z += 0.1) wall.push_back({5.25, y, z});
+  }
+  const SceneAnswer scanned = client.insert_scan("world", "seen", wall, {-5, 2, 10});
+  ASSERT_TRUE(scanned.ok()) << scanned.error;
+  EXPECT_EQ(scanned.scene.revision, put.scene.revision + 1);
+  const PlanResponse round = client.plan(flight("world"));
+  EXPECT_FALSE(round.collisions.empty());
+  EXPECT_EQ(round.scene_revision, scanned.scene.revision);
+
+  std::vector<std::array<double, 3>> beyond;
+  for (const auto& point : wall) beyond.push_back({20.25, point[1], point[2]});
+  for (int i = 0; i < 8; ++i) {
+    const SceneAnswer again = client.insert_scan("world", "seen", beyond, {-5, 2, 10});
+    ASSERT_TRUE(again.ok()) << again.error;
+  }
+  EXPECT_TRUE(client.plan(flight("world")).collisions.empty());
+  EXPECT_EQ(client.insert_scan("world", "crate", wall, {-5, 2, 10}).status, Status::kInvalid);
+  EXPECT_EQ(client.insert_scan("world", "seen", {{1e9, 0, 0}}, {0, 0, 0}).status, Status::kInvalid);
 }
 
 TEST_F(SceneTest, ReadsNothingOutsideItsRoots) {

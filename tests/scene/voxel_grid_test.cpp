@@ -147,5 +147,22 @@ TEST(ForEachVoxelTouched, StopsWhenToldAndRefusesWhatKeysCannotHold) {
   EXPECT_EQ(calls, 0);
 }
 
+TEST(ForEachVoxelTouched, LeavesOutWhatIsNotWanted) {
+  std::mt19937_64 random(7707);
+  const VoxelGrid grid(0.25);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Mesh mesh = oracle::random_mesh(random, grid.resolution_m(), 1);
+    std::set<Voxel> all;
+    std::set<Voxel> odd;
+    const auto is_odd = [](const Voxel& v) { return (v[0] + v[1] + v[2]) % 2 != 0; };
+    for_each_voxel_touched(grid, mesh.triangle(0),
+                           [&](const Voxel& voxel) { return all.insert(voxel).second; });
+    for_each_voxel_touched(grid, mesh.triangle(0), is_odd,
+                           [&](const Voxel& voxel) { return odd.insert(voxel).second; });
+    std::erase_if(all, [&](const Voxel& voxel) { return !is_odd(voxel); });
+    ASSERT_EQ(odd, all);
+  }
+}
+
 }  // namespace
 }  // namespace camway::scene

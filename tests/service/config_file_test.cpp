@@ -69,6 +69,10 @@ TEST_F(ConfigFile, TheSceneOfTheSampleIsRight) {
   EXPECT_EQ(options_.scenes[0].options.import.scale, 1.0);
   EXPECT_EQ(options_.scenes[0].options.import.up, scene::UpAxis::kAsInFile);
   EXPECT_EQ(options_.scenes[0].options.occupancy_resolution_m, 0.1);
+  EXPECT_FALSE(options_.scenes[0].watch);
+  ASSERT_EQ(read("[[scene]]\nname = \"a\"\nfile = \"f\"\nwatch = true\n"),
+            std::vector<std::string>{});
+  EXPECT_TRUE(options_.scenes.back().watch);
 }
 
 TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
@@ -95,6 +99,7 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
       {"[[scene]]\nname = \"a\"\nfile = \"\"\n", ":3: scene.file: must name a file"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\nscale = 0\n", ":4: scene.scale: must be a number"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\nup = \"x\"\n", ":4: scene.up: must be as-in-file"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\nwatch = 1\n", ":4: scene.watch: must be true or"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\ncolour = 1\n", ":4: 'colour' is no setting of a"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\n[[scene]]\nname = \"a\"\nfile = \"g\"\n",
        ":4: scene.name: 'a' is there twice"},

@@ -226,6 +226,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.priority = static_cast<std::int8_t>(random());
   message.deadline_s = number(random);
   message.progress_period_s = number(random);
+  message.watch_lease_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
@@ -392,7 +393,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.client_id = client_id(random);
   message.request_id = integer(random);
   message.utime = integer(random);
-  message.operation = static_cast<std::int8_t>(below(random, 10));
+  message.operation = static_cast<std::int8_t>(below(random, 11));
   message.scene = text(random, wire::kMaxSceneNameBytes);
   message.object = text(random, wire::kMaxObjectNameBytes);
   message.file = text(random, wire::kMaxFileNameBytes);
@@ -403,12 +404,17 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.up = static_cast<std::int8_t>(below(random, 4));
   message.unknown = static_cast<std::int8_t>(below(random, 3));
   message.occupancy_resolution_m = number(random);
-  message.kind = static_cast<std::int8_t>(below(random, 6));
+  message.kind = static_cast<std::int8_t>(below(random, 7));
   fill(message.size_m, random);
   message.radius_m = number(random);
   message.height_m = number(random);
   message.chord_error_m = number(random);
   message.cell_m = number(random);
+  message.hit_probability = number(random);
+  message.miss_probability = number(random);
+  message.least_probability = number(random);
+  message.most_probability = number(random);
+  message.max_range_m = number(random);
   fill(message.position_m, random);
   fill(message.orientation_wxyz, random);
   message.first = small(random);
@@ -467,6 +473,48 @@ upload_status_t random_message<upload_status_t>(Random& random) {
 }
 
 template <>
+watch_t random_message<watch_t>(Random& random) {
+  watch_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.lease_s = number(random);
+  message.num_paths = fill_list(message.paths, length(random, 1000), [&] {
+    watched_path_t path{};
+    path.request_id = integer(random);
+    path.known_serial = integer(random);
+    return path;
+  });
+  return message;
+}
+
+template <>
+watch_report_t random_message<watch_report_t>(Random& random) {
+  watch_report_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  message.num_paths = fill_list(message.paths, length(random, 500), [&] {
+    path_state_t path{};
+    path.request_id = integer(random);
+    path.serial = integer(random);
+    path.state = static_cast<std::int8_t>(below(random, 6));
+    path.scene_revision = integer(random);
+    path.answer_revision = integer(random);
+    return path;
+  });
+  message.num_intervals = fill_list(message.intervals, length(random, 500), [&] {
+    broken_interval_t interval{};
+    interval.request_id = integer(random);
+    interval.t_begin_s = number(random);
+    interval.t_end_s = number(random);
+    return interval;
+  });
+  return message;
+}
+
+template <>
 status_t random_message<status_t>(Random& random) {
   status_t message{};
   message.utime = integer(random);
@@ -475,6 +523,7 @@ status_t random_message<status_t>(Random& random) {
   message.num_workers = small(random);
   message.queued_requests = small(random);
   message.running_requests = small(random);
+  message.watched_paths = small(random);
   for (std::int64_t* const counter : {&message.answered_requests,
                                       &message.repeated_requests,
                                       &message.cache_hits,
@@ -495,7 +544,8 @@ status_t random_message<status_t>(Random& random) {
                                       &message.received_messages,
                                       &message.received_bytes,
                                       &message.sent_messages,
-                                      &message.sent_bytes}) {
+                                      &message.sent_bytes,
+                                      &message.broken_paths}) {
     *counter = integer(random);
   }
   for (auto* const answers :

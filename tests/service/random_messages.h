@@ -19,6 +19,8 @@
 #include <camway/status_t.hpp>
 #include <camway/upload_page_t.hpp>
 #include <camway/upload_status_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
 
 /// Messages that are right on the wire but otherwise arbitrary: every string length and list length
 /// within the limits is possible, numbers are any bits, NaN among them.
@@ -58,6 +60,10 @@ template <>
 upload_page_t random_message<upload_page_t>(Random& random);
 template <>
 upload_status_t random_message<upload_status_t>(Random& random);
+template <>
+watch_t random_message<watch_t>(Random& random);
+template <>
+watch_report_t random_message<watch_report_t>(Random& random);
 template <>
 status_t random_message<status_t>(Random& random);
 template <>

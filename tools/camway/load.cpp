@@ -14,6 +14,7 @@
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/key_file.h"
+#include "tools/camway/load_occupancy.h"
 #include "tools/camway/load_run.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/client_request.h"
@@ -27,6 +28,7 @@ using OrderedJson = nlohmann::ordered_json;
 struct LoadFlags {
   std::string scene;
   std::vector<std::string> requests;
+  std::size_t occupancy_queries = 0;  ///< of a batch; 0: plan requests are asked
   LoadOptions run;
   std::string key_file;
   double warm_up_s = 0.0;
@@ -123,7 +125,31 @@ std::string summary(const LoadFlags& flags, const LoadResult& result) {
   return text;
 }
 
-ExitCode run_command(const LoadFlags& flags) {
+ExitCode load_occupancy(const LoadFlags& flags) {
+  const auto parsed = service::parse_scene_argument(flags.scene);
+  if (!parsed.scene) return invalid_input("--scene " + flags.scene + ": " + parsed.error);
+  if (!parsed.scene->options.occupancy_resolution_m) {
+    return invalid_input("--scene " + flags.scene + ": needs ,occupancy=RESOLUTION_M");
+  }
+  const LoadedScene scene =
+      load_timed(parsed.scene->name, parsed.scene->file.string(), parsed.scene->options);
+  if (!scene.result.snapshot) return invalid_input(scene.result.error);
+  const scene::Snapshot& snapshot = *scene.result.snapshot;
+  const OccupancyLoad load = run_occupancy_load(*snapshot.occupancy, snapshot.index.bounds(),
+                                                snapshot.name, flags.occupancy_queries, flags.run);
+  if (load.batches == 0) return invalid_input(load.error);
+  const Percentiles latency = percentiles(load.latency_ms);
+  fmt::print(
+      "{} batches of {} queries by {} clients in {:.1f} s: {:.0f} queries a second, {} batches "
+      "wrong, {} lost\nlatency of a batch, ms: p50 {:.3f}  p99 {:.3f}  max {:.3f}\n",
+      load.batches, flags.occupancy_queries, flags.run.clients, load.elapsed_s,
+      static_cast<double>(load.queries) / load.elapsed_s, load.wrong, load.lost, latency.p50,
+      latency.p99, latency.max);
+  if (!load.error.empty()) print_error(load.error);
+  return load.wrong + load.lost > 0 ? ExitCode::kNegative : ExitCode::kSuccess;
+}
+
+ExitCode run_command(LoadFlags flags) {
   if (!wire::is_prefix(flags.run.prefix)) {
     return invalid_input("--prefix " + flags.run.prefix +
                          ": must be 1 to 11 letters, digits, '-' or '_'");
@@ -135,11 +161,14 @@ ExitCode run_command(const LoadFlags& flags) {
   if (const std::string fault = use_key_file(flags.key_file, signing); !fault.empty()) {
     return invalid_input(fault);
   }
-  LoadOptions run = flags.run;
-  run.authentication = signing.authentication;
+  flags.run.authentication = signing.authentication;
+  if (flags.occupancy_queries > 0) return load_occupancy(flags);
+  if (flags.requests.empty()) {
+    return invalid_input("either --request or --occupancy says what is asked");
+  }
   const std::vector<LoadQuestion> questions = make_questions(flags);
   if (questions.empty()) return ExitCode::kInvalidInput;
-  const LoadResult result = run_load(questions, run);
+  const LoadResult result = run_load(questions, flags.run);
   if (!result.error.empty()) return invalid_input(result.error);
   fmt::print("{}", summary(flags, result));
   if (!flags.json_file.empty()) {
@@ -203,13 +232,19 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name(service::kSceneArgumentForm)
       ->required();
   command->add_option("--request", flags->requests, "Request files, asked in turn")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
+  command
+      ->add_option("--occupancy", flags->occupancy_queries,
+                   "Ask the scene's occupancy map instead, in batches of so many queries of all "
+                   "kinds")
+      ->check(CLI::Range(1, 1'000'000))
+      ->excludes("--request");
   add_run_flags(*command, *flags);
   add_memory_flags(*command, *flags);
   command->add_option("--json", flags->json_file, "Write the measurements to this file");
   command->footer(
-      "Answers count as wrong unless every number of path, keyframes and collisions has the bits "
+      "Answers to plan requests count as wrong unless every number of path, keyframes and "
+      "collisions has the bits "
       "that planning here gives.\n" +
       exit_code_help("an answer was wrong or lost, or memory grew by more than allowed") +
       "\nExample: camway load --scene office=scenes/office.obj --request "

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
@@ -34,6 +35,10 @@ struct SceneCommandFlags {
   std::vector<double> cylinder_m;
   std::optional<double> sphere_m;
   double chord_error_m = 0.0;
+  std::optional<double> map_m;
+  SceneSensor sensor;
+  std::string points_file;
+  std::vector<double> origin_m;
   std::vector<double> position_m{0.0, 0.0, 0.0};
   std::vector<double> orientation_wxyz{1.0, 0.0, 0.0, 0.0};
 };
@@ -126,8 +131,9 @@ std::optional<SceneShape> shape_of(const SceneCommandFlags& flags) {
   if (!flags.cylinder_m.empty()) {
     return SceneCylinder{flags.cylinder_m[0], flags.cylinder_m[1], flags.chord_error_m};
   }
+  if (flags.map_m) return SceneVoxels{*flags.map_m, flags.unknown, flags.sensor};
   if (flags.file.empty() && flags.upload_file.empty()) {
-    print_error("one of --file, --upload, --box, --sphere and --cylinder says what to add");
+    print_error("one of --file, --upload, --box, --sphere, --cylinder and --map says what to add");
     return std::nullopt;
   }
   if (std::optional<SceneMesh> mesh = mesh_of(flags)) return *std::move(mesh);
@@ -172,6 +178,35 @@ ExitCode run_add(const SceneCommandFlags& flags) {
   if (!shape) return ExitCode::kInvalidInput;
   return with_client(flags, [&](Client& client) {
     return client.put_object(flags.scene, flags.object, *shape, pose_of(flags));
+  });
+}
+
+/// The points of a file with three numbers a line; nothing, and said why, if it is none.
+std::optional<std::vector<std::array<double, 3>>> read_points(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::array<double, 3>> points;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    std::array<double, 3> point{};
+    if ((words >> std::ws).eof() || words.peek() == '#') continue;
+    if (!(words >> point[0] >> point[1] >> point[2])) {
+      print_error(fmt::format("{}:{}: is no point: x y z", file, number));
+      return std::nullopt;
+    }
+    points.push_back(point);
+  }
+  if (!points.empty()) return points;
+  print_error("'" + file + "' holds no point, or cannot be read");
+  return std::nullopt;
+}
+
+ExitCode run_scan(const SceneCommandFlags& flags) {
+  const auto points = read_points(flags.points_file);
+  if (!points) return ExitCode::kInvalidInput;
+  const std::array<double, 3> origin{flags.origin_m[0], flags.origin_m[1], flags.origin_m[2]};
+  return with_client(flags, [&](Client& client) {
+    return client.insert_scan(flags.scene, flags.object, *points, origin);
   });
 }
 
@@ -279,6 +314,20 @@ void add_shape_flags(CLI::App& command, const Flags& flags) {
       ->type_name("RADIUS,HEIGHT")
       ->delimiter(',')
       ->expected(2);
+  command.add_option("--map", flags->map_m, "An OctoMap of this resolution, for scans; metres")
+      ->type_name("RESOLUTION");
+  command
+      .add_option("--hit", flags->sensor.hit_probability, "With --map: of a voxel that was seen")
+      ->capture_default_str();
+  command
+      .add_option("--miss", flags->sensor.miss_probability,
+                  "With --map: of a voxel that was seen through")
+      ->capture_default_str();
+  command
+      .add_option("--max-range", flags->sensor.max_range_m,
+                  "With --map: points further away only say what is free up to there, metres [all "
+                  "count]")
+      ->check(CLI::PositiveNumber);
   command.add_option("--chord-error", flags->chord_error_m,
                      "How far the triangles about a sphere or cylinder may stand out, metres [a "
                      "hundredth of the radius]");
@@ -335,6 +384,20 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
     exit_code =
         with_client(*flags, [&](Client& client) { return client.describe_scene(flags->scene); });
   });
+
+  CLI::App* scan =
+      add_command(parent, flags, "scan", "Tell an object that is an OctoMap what a sensor saw");
+  add_scene_name(*scan, flags);
+  add_object_name(*scan, flags);
+  scan->add_option("--points", flags->points_file, "Three numbers a line, metres in the world")
+      ->type_name("FILE")
+      ->required();
+  scan->add_option("--origin", flags->origin_m, "Where the sensor was, metres in the world")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->required();
+  scan->callback([flags, &exit_code] { exit_code = run_scan(*flags); });
 
   CLI::App* out =
       add_command(parent, flags, "export",

@@ -110,6 +110,8 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"receipt_to_answer", latency_json(status.receipt_to_answer)},
                    {"waiting", latency_json(status.waiting)},
                    {"planning", latency_json(status.planning)},
+                   {"watched_paths", status.watched_paths},
+                   {"broken_paths", status.broken_paths},
                    {"total_scenes", status.total_scenes}};
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_json(scene));
@@ -174,6 +176,8 @@ void print_text(const DaemonStatus& status) {
   fmt::print("waiting      {}\n", quantiles_text(status.waiting));
   fmt::print("planning     {}\n", quantiles_text(status.planning));
   print_traffic(status);
+  fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
+             status.broken_paths);
   fmt::print("scenes       {}, changed {} times\n", status.total_scenes, status.scene_changes);
   for (const SceneInfo& scene : status.scenes) {
     fmt::print("  {}: revision {}, {} triangles, {}, digest {}\n", scene.name, scene.revision,
