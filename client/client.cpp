@@ -43,6 +43,9 @@ class Client::Impl {
     error_status = Status::kNetworkUnusable;
     error = link.open(context.options().url);
     context.set_url(link.url());
+    if (const auto& authentication = context.options().authentication) {
+      link.authenticate(authentication->begin());
+    }
     if (error.empty()) engine.emplace(link, context);
   }
 

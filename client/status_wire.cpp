@@ -31,6 +31,13 @@ void read_counters(const status_t& wire, DaemonStatus& status) {
   status.request_pages_asked_again = wire.request_pages_asked_again;
   status.answer_pages_asked_again = wire.answer_pages_asked_again;
   status.scene_changes = wire.scene_changes;
+  status.unsigned_messages = wire.unsigned_messages;
+  status.broken_envelopes = wire.broken_envelopes;
+  status.unknown_key_messages = wire.unknown_key_messages;
+  status.altered_messages = wire.altered_messages;
+  status.stale_messages = wire.stale_messages;
+  status.replayed_messages = wire.replayed_messages;
+  status.crowded_messages = wire.crowded_messages;
   status.received_messages = wire.received_messages;
   status.received_bytes = wire.received_bytes;
   status.sent_messages = wire.sent_messages;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include <camway/cancel_t.hpp>
+#include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
@@ -280,7 +281,7 @@ constexpr std::array kWatchReport{
     list("intervals", kBrokenInterval),
 };
 
-constexpr std::size_t kStatusCounters = 14;
+constexpr std::size_t kStatusCounters = 21;
 constexpr std::size_t kAnswerCounts = 3 * 16;
 
 constexpr std::array kStatus{
@@ -311,8 +312,17 @@ constexpr std::array kError{
     text("message", kMaxTextBytes),
 };
 
+constexpr std::size_t kEnvelopeHead = kInt32 + 3 * kInt64 + sizeof(envelope_t::tag);
+constexpr std::array kEnvelope{fixed("head", kEnvelopeHead), list("payload", kByte)};
+// Fingerprint and count of the payload beside it.
+static_assert(kMaxMessageBytes + kInt64 + kEnvelopeHead + kInt32 <= kMaxEnvelopeBytes);
+
 }  // namespace
 
+template <>
+Layout layout_of<envelope_t>() {
+  return {"envelope_t", envelope_t::getHash(), kEnvelope, kMaxEnvelopeBytes};
+}
 template <>
 Layout layout_of<plan_request_t>() {
   return {"plan_request_t", plan_request_t::getHash(), kPlanRequest};

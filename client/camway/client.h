@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "camway/authentication.h"
 #include "camway/body.h"
 #include "camway/daemon_status.h"
 #include "camway/occupancy.h"
@@ -23,7 +24,10 @@ struct ClientOptions {
   /// To reach other hosts: "udpm://239.255.76.67:7667?ttl=1", the daemon's `--url` likewise.
   std::string url;
   std::string prefix = "CAMWAY";  ///< of all channels, as the daemon's [Limit: [A-Za-z0-9_-]{1,11}]
-  std::string client_id;          ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one
+  /// How client and daemon know each other's messages; null: what is sent is not signed, and what
+  /// comes is believed.
+  std::shared_ptr<const Authentication> authentication;
+  std::string client_id;  ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one
 
   /// A call ends by then, whatever happens (planning calls: not before the request's own deadline).
   double deadline_s = 60.0;

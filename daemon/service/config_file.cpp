@@ -51,6 +51,12 @@ std::string apply(const Setting& setting, const toml::node& node) {
     const auto* const text = node.as_string();
     return text == nullptr ? "must be a text in quotes" : setting.set(text->get());
   }
+  if (setting.is_switch()) {
+    const auto* const on = node.as_boolean();
+    if (on == nullptr) return "must be true or false";
+    setting.turn(on->get());
+    return {};
+  }
   if (const auto* const whole = node.as_integer()) {
     return setting.set(static_cast<double>(whole->get()));
   }

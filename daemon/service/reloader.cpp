@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/reloader.h"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <utility>
 
@@ -10,12 +12,13 @@ namespace camway::service {
 
 Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
                    const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
-                   std::chrono::milliseconds look_every)
+                   std::shared_ptr<wire::MessageAuth> auth, std::chrono::milliseconds look_every)
     : running_(std::move(running)),
       read_(std::move(read)),
       scenes_(scenes),
       manager_(manager),
       log_(std::move(log)),
+      auth_(std::move(auth)),
       look_every_(look_every),
       thread_([this](const std::stop_token& stop) { serve(stop); }) {}
 
@@ -72,9 +75,20 @@ void Reloader::reload(const std::stop_token& stop) {
     log_->error("reload: the configuration is bad, all stays as it was:\n{}", parsed.text);
     return;
   }
+  wire::MessageKeys::Read keys;
+  if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
+  if (!keys.error.empty()) {
+    log_->error("reload: auth.key_file: {}; all stays as it was", keys.error);
+    return;
+  }
   if (!scenes_.update(parsed.options->scenes, stop)) {
     log_->error("reload: not all scenes could be taken over, so no setting is");
     return;
+  }
+  if (keys.keys) {
+    log_->info("reload: keys with the ids {}, of which the first signs",
+               fmt::join(keys.keys->ids(), ", "));
+    auth_->set_keys(std::move(keys.keys));
   }
   take_over(*parsed.options);
 }

@@ -14,13 +14,14 @@
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
 #include "daemon/service/service_manager.h"
+#include "lcmtypes/message_auth.h"
 
 namespace camway::service {
 
 /// Reads the configuration again while the daemon serves, on a thread of its own: takes over scenes
-/// and log level, says which other changes need a restart, and keeps all as it was if the
-/// configuration or a scene is bad. In between it looks at the files of scenes that are to be
-/// watched.
+/// and log level, and the keys in their file, says which other changes need a restart, and keeps
+/// all as it was if the configuration or a scene is bad. In between it looks at the files of scenes
+/// that are to be watched.
 class Reloader {
  public:
   using Read = std::function<ParsedOptions()>;
@@ -30,6 +31,7 @@ class Reloader {
   /// Files of scenes that are to be watched are looked at every `look_every`.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
            const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+           std::shared_ptr<wire::MessageAuth> auth = nullptr,
            std::chrono::milliseconds look_every = std::chrono::seconds(1));
   /// Waits for the scene that is being read, if any; the reload that it belongs to is given up.
   ~Reloader() = default;
@@ -53,6 +55,7 @@ class Reloader {
   ConfiguredScenes& scenes_;
   const ServiceManager& manager_;
   std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
   const std::chrono::milliseconds look_every_;
   std::mutex mutex_;  ///< guards requested_
   std::condition_variable_any changed_;

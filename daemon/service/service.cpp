@@ -119,11 +119,11 @@ bool Service::idle() const {
 }
 
 void Service::heartbeat(Clock::time_point now) {
-  const status_t status = make_status(core_, now - started_);
+  status_t status = make_status(core_, now - started_);
+  if (hooks_.status) hooks_.status(status);
   if (!core_.transport.publish(core_.channels.status(), wire::encode(status))) {
     core_.publish_warnings.warn("the status could not be published");
   }
-  if (hooks_.status) hooks_.status(status);
   next_heartbeat_ = now + core_.config.heartbeat_period;
 }
 

@@ -524,13 +524,28 @@ status_t random_message<status_t>(Random& random) {
   message.queued_requests = small(random);
   message.running_requests = small(random);
   message.watched_paths = small(random);
-  for (std::int64_t* const counter :
-       {&message.answered_requests, &message.repeated_requests, &message.cache_hits,
-        &message.overloaded_requests, &message.malformed_messages, &message.dropped_answers,
-        &message.unsent_messages, &message.request_pages_asked_again,
-        &message.answer_pages_asked_again, &message.scene_changes, &message.received_messages,
-        &message.received_bytes, &message.sent_messages, &message.sent_bytes,
-        &message.broken_paths}) {
+  for (std::int64_t* const counter : {&message.answered_requests,
+                                      &message.repeated_requests,
+                                      &message.cache_hits,
+                                      &message.overloaded_requests,
+                                      &message.malformed_messages,
+                                      &message.dropped_answers,
+                                      &message.unsent_messages,
+                                      &message.request_pages_asked_again,
+                                      &message.answer_pages_asked_again,
+                                      &message.scene_changes,
+                                      &message.unsigned_messages,
+                                      &message.broken_envelopes,
+                                      &message.unknown_key_messages,
+                                      &message.altered_messages,
+                                      &message.stale_messages,
+                                      &message.replayed_messages,
+                                      &message.crowded_messages,
+                                      &message.received_messages,
+                                      &message.received_bytes,
+                                      &message.sent_messages,
+                                      &message.sent_bytes,
+                                      &message.broken_paths}) {
     *counter = integer(random);
   }
   for (auto* const answers :
@@ -547,6 +562,19 @@ status_t random_message<status_t>(Random& random) {
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });
+  return message;
+}
+
+template <>
+envelope_t random_message<envelope_t>(Random& random) {
+  envelope_t message{};
+  message.key_id = small(random);
+  message.sender = integer(random);
+  message.counter = integer(random);
+  message.utime = integer(random);
+  for (std::uint8_t& byte : message.tag) byte = static_cast<std::uint8_t>(below(random, 256));
+  message.num_bytes = fill_list(message.payload, length(random, wire::kMaxMessageBytes),
+                                [&] { return static_cast<std::uint8_t>(below(random, 256)); });
   return message;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include <camway/cancel_t.hpp>
+#include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
@@ -67,6 +68,8 @@ template <>
 status_t random_message<status_t>(Random& random);
 template <>
 error_t random_message<error_t>(Random& random);
+template <>
+envelope_t random_message<envelope_t>(Random& random);
 
 /// Changes `bytes` in one to four places: bits, bytes, 32-bit numbers of the dangerous kind, cuts,
 /// insertions, repetitions.

@@ -73,7 +73,7 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
   running_.scenes.front().watch = true;
   ASSERT_TRUE(scenes_.update(running_.scenes));
   reloader_.emplace(
-      running_, [this] { return read_(); }, scenes_, manager_, log_.logger(),
+      running_, [this] { return read_(); }, scenes_, manager_, log_.logger(), nullptr,
       std::chrono::milliseconds(5));
   folder_.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
