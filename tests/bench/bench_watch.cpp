@@ -13,7 +13,8 @@
 #include <random>
 #include <thread>
 
-#include "daemon/planning/plan.h"
+#include "daemon/motion/interpolate.h"
+#include "daemon/planning/check.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/scene_store.h"
 #include "daemon/scene/shape_mesh.h"
@@ -70,21 +71,25 @@ std::vector<std::shared_ptr<const WatchedPath>> free_paths(const scene::Snapshot
   const geometry::Box& bounds = scene.index.bounds();
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::normal_distribution<double> normal;
-  planning::PlanRequest request;
-  request.options.max_inserted_keyframes = 0;
-  request.keyframes.resize(3);
+  const motion::Body body{motion::Camera{}};
+  const collision::DetectOptions detect = planning::detect_options({});
+  std::vector<motion::Keyframe> keyframes(3);
   std::vector<std::shared_ptr<const WatchedPath>> paths;
   while (paths.size() < options.paths) {
     Vec3 eye = bounds.min() +
                Vec3(share(random), share(random), share(random)).cwiseProduct(bounds.sizes());
-    for (motion::Keyframe& keyframe : request.keyframes) {
+    double time_s = 0.0;
+    for (motion::Keyframe& keyframe : keyframes) {
+      keyframe.time_s = time_s++;
       keyframe.pose = {
           eye, Quat(normal(random), normal(random), normal(random), normal(random)).normalized()};
       eye += 0.5 * options.keyframe_step_m *
              Vec3(normal(random), 0.1 * normal(random), normal(random));
     }
-    auto path = WatchedPath::of(request, planning::plan(scene, request));
-    if (path) paths.push_back(std::make_shared<const WatchedPath>(std::move(*path)));
+    const WatchedPath path(motion::interpolate(keyframes), body, detect);
+    if (path.collisions(scene, collision::Deadline::never()).empty()) {
+      paths.push_back(std::make_shared<const WatchedPath>(path));
+    }
   }
   return paths;
 }
