@@ -43,7 +43,10 @@ class Client::Impl {
     error_status = Status::kNetworkUnusable;
     error = link.open(context.options().url);
     context.set_url(link.url());
-    if (error.empty()) engine.emplace(link, context.channels(), context.options().client_id);
+    if (const auto& authentication = context.options().authentication) {
+      link.authenticate(authentication->begin());
+    }
+    if (error.empty()) engine.emplace(link, context);
   }
 
   /// Why a call cannot be made, if it cannot.
@@ -114,6 +117,29 @@ PendingPlan Client::plan_async(const PlanRequest& request, PlanHandlers handlers
 
 void Client::cancel(std::int64_t request_id) {
   if (impl_->engine) impl_->engine->cancel(Call::Kind::kPlan, request_id);
+}
+
+std::int64_t Client::watch(const PlanRequest& request, WatchHandler on_event) {
+  std::optional<Failure> failure = impl_->failure();
+  if (!failure) {
+    if (auto fault = fault_in_form(request)) failure = Failure{Status::kInvalid, *fault};
+  }
+  if (failure) {
+    WatchEvent event;
+    event.kind = WatchEvent::Kind::kEnded;
+    event.error = failure->error;
+    if (on_event) on_event(event);
+    return 0;
+  }
+  PlanRequest sent = request;
+  if (sent.request_id == 0) sent.request_id = impl_->context.new_request_id();
+  sent.watch_lease_s = impl_->context.options().watch_lease_s;
+  impl_->engine->watch(sent, std::move(on_event));
+  return sent.request_id;
+}
+
+void Client::unwatch(std::int64_t request_id) {
+  if (impl_->engine) impl_->engine->unwatch(request_id);
 }
 
 OccupancyAnswer Client::occupancy(const OccupancyBatch& batch) {

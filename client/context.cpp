@@ -45,6 +45,9 @@ std::string fault_in(const ClientOptions& options) {
   if (!(options.jitter >= 0.0 && options.jitter < 1.0)) {
     return "ClientOptions.jitter: must be within 0 and 1, less than 1";
   }
+  if (!(options.watch_lease_s >= 1.0 && options.watch_lease_s <= 86'400.0)) {
+    return "ClientOptions.watch_lease_s: must be within 1 and 86400";
+  }
   if (options.retries < 0) return "ClientOptions.retries: must not be negative";
   return {};
 }

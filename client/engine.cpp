@@ -40,9 +40,12 @@ std::optional<std::int64_t> request_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Engine::Engine(Link& link, const wire::Channels& channels, const std::string& client_id)
-    : link_(link), channels_(channels) {
-  listen(client_id);
+Engine::Engine(Link& link, Context& context)
+    : link_(link),
+      channels_(context.channels()),
+      watches_(context, {[this](Outgoing message) { outgoing_.push_back(std::move(message)); },
+                         [this](std::shared_ptr<Call> call) { start(std::move(call)); }}) {
+  listen(context.options().client_id);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -60,6 +63,7 @@ void Engine::take_answers(Call::Kind kind, const std::string& channel, int queue
     for (auto& [key, call] : calls_) {
       if (key.first == kind && (!id || *id == key.second)) call->take_answer(bytes, Clock::now());
     }
+    if (kind == Call::Kind::kPlan && id) watches_.take_answer(*id, bytes);
   });
 }
 
@@ -79,6 +83,8 @@ void Engine::listen(const std::string& client_id) {
                                  kSmallQueue);
   take_answers<upload_status_t>(Call::Kind::kUpload, channels_.upload_status(client_id),
                                 kSmallQueue);
+  link_.listen(channels_.watch_report(client_id), kSmallQueue,
+               [this](auto bytes) { watches_.take_report(bytes, Clock::now()); });
   take_answers<map_page_t>(Call::Kind::kMap, channels_.map_page(client_id), kSmallQueue);
   link_.listen(channels_.status(), kSmallQueue, [this](auto bytes) { take_heartbeat(bytes); });
 }
@@ -104,6 +110,14 @@ void Engine::cancel(Call::Kind kind, std::int64_t request_id) {
   });
 }
 
+void Engine::watch(const PlanRequest& request, WatchHandler handler) {
+  post([this, request, handler = std::move(handler)] { watches_.add(request, handler); });
+}
+
+void Engine::unwatch(std::int64_t request_id) {
+  post([this, request_id] { watches_.remove(request_id); });
+}
+
 std::future<std::optional<DaemonStatus>> Engine::next_heartbeat(Clock::time_point until) {
   auto promise = std::make_shared<std::promise<std::optional<DaemonStatus>>>();
   std::future<std::optional<DaemonStatus>> heartbeat = promise->get_future();
@@ -124,6 +138,7 @@ void Engine::run() {
     run_tasks();
     const Clock::time_point now = Clock::now();
     step(now);
+    watches_.step(now);
     end_waiters(now);
     send_some(now);
     if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
@@ -190,7 +205,7 @@ void Engine::send_some(Clock::time_point now) {
 }
 
 Clock::time_point Engine::next_wake() const {
-  Clock::time_point next = Clock::now() + std::chrono::seconds(1);
+  Clock::time_point next = std::min(watches_.wake(), Clock::now() + std::chrono::seconds(1));
   if (!outgoing_.empty()) next = std::min(next, send_at_);
   for (const auto& [key, call] : calls_) {
     next = std::min(next, call->answered() ? Clock::time_point{} : call->retry().wake());
@@ -241,6 +256,7 @@ void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
   if (!status) return;
   const Clock::time_point now = Clock::now();
   for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
+  watches_.take_heartbeat(status->uptime_s, now);
   std::vector<Waiter> waiters;
   waiters.swap(waiters_);
   for (Waiter& waiter : waiters) waiter.promise.set_value(status);

@@ -17,6 +17,7 @@
 #include "camway/client.h"
 #include "client/call.h"
 #include "client/link.h"
+#include "client/watch_list.h"
 #include "lcmtypes/channels.h"
 
 namespace camway {
@@ -25,8 +26,8 @@ namespace camway {
 /// to the calls that it is for. Any thread may start and cancel calls.
 class Engine {
  public:
-  /// `link` is open. Subscribes, then starts the thread.
-  Engine(Link& link, const wire::Channels& channels, const std::string& client_id);
+  /// `link` is open; both must outlive this. Subscribes, then starts the thread.
+  Engine(Link& link, Context& context);
   /// Ends all calls with `Outcome::kClosed`.
   ~Engine();
   Engine(const Engine&) = delete;
@@ -34,6 +35,10 @@ class Engine {
 
   void start(std::shared_ptr<Call> call);
   void cancel(Call::Kind kind, std::int64_t request_id);
+
+  /// As those of `WatchList`.
+  void watch(const PlanRequest& request, WatchHandler handler);
+  void unwatch(std::int64_t request_id);
 
   /// The next heartbeat; none if `until` passes or the network breaks.
   std::future<std::optional<DaemonStatus>> next_heartbeat(Clock::time_point until);
@@ -74,6 +79,7 @@ class Engine {
 
   // All else belongs to the thread.
   std::map<Key, std::shared_ptr<Call>> calls_;
+  WatchList watches_;
   std::vector<Waiter> waiters_;
   std::deque<Outgoing> outgoing_;
   Clock::time_point send_at_{};  ///< no message leaves before

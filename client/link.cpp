@@ -9,9 +9,12 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include <lcm/lcm-cpp.hpp>
+
+#include "lcmtypes/envelope.h"
 
 namespace camway {
 namespace {
@@ -26,16 +29,6 @@ std::string url_or_default(const std::string& url) {
   if (!url.empty()) return url;
   const char* const from_environment = std::getenv("LCM_DEFAULT_URL");
   return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
-}
-
-void pass_on(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/,
-             Link::Handler* handler) {
-  try {
-    (*handler)({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
-  } catch (...) {
-    // Out of memory, say. LCM's C code must not be unwound; the message is as good as lost, and
-    // lost messages are asked for again.
-  }
 }
 
 }  // namespace
@@ -63,15 +56,37 @@ std::string Link::open(const std::string& url) {
          "multicast on; ip route add 224.0.0.0/4 dev lo";
 }
 
+void Link::authenticate(std::unique_ptr<Authentication::Session> session) {
+  authentication_ = std::move(session);
+}
+
+void Link::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                      Listener* listener) {
+  try {
+    const auto* const bytes = static_cast<const std::uint8_t*>(buffer->data);
+    const auto& authentication = listener->link->authentication_;
+    const std::optional<Bytes> message =
+        authentication ? authentication->open(channel, bytes, buffer->data_size)
+                       : wire::payload_unchecked({bytes, buffer->data_size});
+    if (message) listener->handler(*message);
+  } catch (...) {
+    // Out of memory, say. LCM's C code must not be unwound; the message is as good as lost, and
+    // lost messages are asked for again.
+  }
+}
+
 void Link::listen(const std::string& channel, int capacity, Handler handler) {
-  handlers_.push_back(std::move(handler));
+  listeners_.push_back({this, std::move(handler)});
   lcm::Subscription* const subscription =
-      lcm_->subscribeFunction(channel, &pass_on, &handlers_.back());
+      lcm_->subscribeFunction(channel, &Link::on_message, &listeners_.back());
   subscription->setQueueCapacity(capacity);
 }
 
 bool Link::publish(const std::string& channel, const Bytes& bytes) {
-  return lcm_->publish(channel, bytes.data(), static_cast<unsigned>(bytes.size())) == 0;
+  const auto send = [&](const Bytes& message) {
+    return lcm_->publish(channel, message.data(), static_cast<unsigned>(message.size())) == 0;
+  };
+  return authentication_ ? send(authentication_->seal(channel, bytes)) : send(bytes);
 }
 
 Link::Wait Link::wait(Clock::time_point until) {

@@ -10,9 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "camway/authentication.h"
+
 namespace lcm {
 class LCM;
-}
+struct ReceiveBuffer;
+}  // namespace lcm
 
 namespace camway {
 
@@ -37,8 +40,12 @@ class Link {
   /// The network in use.
   const std::string& url() const { return url_; }
 
+  /// From now on messages are signed and checked. Before `listen`.
+  void authenticate(std::unique_ptr<Authentication::Session> session);
+
   /// Calls `handler` in `wait` for every message on `channel`, of which up to `capacity` wait for
-  /// their turn. What `handler` throws is swallowed. Precondition: open.
+  /// their turn: with what stands in it, where it is signed; those that are not to be trusted are
+  /// dropped. What `handler` throws is swallowed. Precondition: open.
   void listen(const std::string& channel, int capacity, Handler handler);
 
   /// Whether the network took the bytes. Precondition: open.
@@ -59,13 +66,22 @@ class Link {
     int write_end = -1;
   };
 
+  /// A channel that is listened to.
+  struct Listener {
+    Link* link;
+    Handler handler;
+  };
+
+  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                         Listener* listener);
   void clear_wake() const;
 
   std::string url_;
   Pipe wake_;
   bool broken_ = false;
   std::unique_ptr<lcm::LCM> lcm_;
-  std::list<Handler> handlers_;  ///< LCM keeps their addresses
+  std::unique_ptr<Authentication::Session> authentication_;  ///< null: nothing is signed
+  std::list<Listener> listeners_;                            ///< LCM keeps their addresses
 };
 
 }  // namespace camway

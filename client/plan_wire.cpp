@@ -84,6 +84,7 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.priority = static_cast<std::int8_t>(request.priority);
   wire.deadline_s = request.deadline_s;
   wire.progress_period_s = request.progress_period_s;
+  wire.watch_lease_s = request.watch_lease_s;
   wire.chord_error_m = request.chord_error_m;
   wire.interval_tolerance_m = request.interval_tolerance_m;
   wire.clearance_m = request.clearance_m;

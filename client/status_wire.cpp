@@ -31,6 +31,13 @@ void read_counters(const status_t& wire, DaemonStatus& status) {
   status.request_pages_asked_again = wire.request_pages_asked_again;
   status.answer_pages_asked_again = wire.answer_pages_asked_again;
   status.scene_changes = wire.scene_changes;
+  status.unsigned_messages = wire.unsigned_messages;
+  status.broken_envelopes = wire.broken_envelopes;
+  status.unknown_key_messages = wire.unknown_key_messages;
+  status.altered_messages = wire.altered_messages;
+  status.stale_messages = wire.stale_messages;
+  status.replayed_messages = wire.replayed_messages;
+  status.crowded_messages = wire.crowded_messages;
   status.received_messages = wire.received_messages;
   status.received_bytes = wire.received_bytes;
   status.sent_messages = wire.sent_messages;
@@ -55,6 +62,8 @@ DaemonStatus from_wire(const status_t& wire) {
   status.receipt_to_answer = from_wire(wire.receipt_to_answer);
   status.waiting = from_wire(wire.waiting);
   status.planning = from_wire(wire.planning);
+  status.watched_paths = wire.watched_paths;
+  status.broken_paths = wire.broken_paths;
   status.total_scenes = wire.total_scenes;
   for (const scene_info_t& scene : wire.scenes) status.scenes.push_back(from_wire(scene));
   return status;

@@ -72,6 +72,10 @@ struct Channels {
   [[nodiscard]] std::string upload_status(std::string_view client_id) const {
     return (prefix + "_UPLOAD_STATUS_").append(client_id);
   }
+  [[nodiscard]] std::string watch() const { return prefix + "_WATCH"; }
+  [[nodiscard]] std::string watch_report(std::string_view client_id) const {
+    return (prefix + "_WATCH_REPORT_").append(client_id);
+  }
   [[nodiscard]] std::string missing_map_pages() const { return prefix + "_MISSING_MAP_PAGES"; }
   [[nodiscard]] std::string map_page(std::string_view client_id) const {
     return (prefix + "_MAP_PAGE_").append(client_id);

@@ -144,9 +144,9 @@ std::string Fault::text(std::string_view type) const {
 bool is_other_version(const Fault& fault) { return fault.field == kFingerprint; }
 
 std::optional<Fault> check(const Layout& layout, std::span<const std::uint8_t> bytes) {
-  if (bytes.size() > kMaxMessageBytes) {
+  if (bytes.size() > layout.max_bytes) {
     return Fault{"", std::to_string(bytes.size()) + " bytes are more than a message may have (" +
-                         std::to_string(kMaxMessageBytes) + ")"};
+                         std::to_string(layout.max_bytes) + ")"};
   }
   Reader reader(bytes);
   if (std::optional<Fault> fault = check_fingerprint(layout, reader)) return fault;

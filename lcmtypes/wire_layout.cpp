@@ -4,6 +4,7 @@
 #include <array>
 
 #include <camway/cancel_t.hpp>
+#include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
@@ -17,6 +18,8 @@
 #include <camway/status_t.hpp>
 #include <camway/upload_page_t.hpp>
 #include <camway/upload_status_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
 
 #include "lcmtypes/channels.h"
 
@@ -37,6 +40,9 @@ constexpr std::size_t kCage = 12 * kDouble;
 constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble + 4 * kInt32;
 constexpr std::size_t kSlowedStretch = 4 * kDouble;
 constexpr std::size_t kKeyframeFault = kInt32 + kDouble + kByte + (3 + 4) * kDouble;
+constexpr std::size_t kWatchedPath = 2 * kInt64;
+constexpr std::size_t kPathState = 2 * kInt64 + kByte + 2 * kInt64;
+constexpr std::size_t kBrokenInterval = kInt64 + 2 * kDouble;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
 
 constexpr Field fixed(std::string_view name, std::size_t bytes) {
@@ -71,6 +77,7 @@ constexpr std::array kPlanRequest{
     fixed("priority", kByte),
     fixed("deadline_s", kDouble),
     fixed("progress_period_s", kDouble),
+    fixed("watch_lease_s", kDouble),
     fixed("chord_error_m", kDouble),
     fixed("interval_tolerance_m", kDouble),
     fixed("clearance_m", kDouble),
@@ -257,7 +264,24 @@ constexpr std::array kUploadStatus{
     list("missing", kInt32),
 };
 
-constexpr std::size_t kStatusCounters = 14;
+constexpr std::array kWatch{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    fixed("lease_s", kDouble),
+    list("paths", kWatchedPath),
+};
+
+constexpr std::array kWatchReport{
+    text("client_id", kMaxClientIdLength),
+    fixed("request_id", kInt64),
+    fixed("utime", kInt64),
+    text("message", kMaxTextBytes),
+    list("paths", kPathState),
+    list("intervals", kBrokenInterval),
+};
+
+constexpr std::size_t kStatusCounters = 21;
 constexpr std::size_t kAnswerCounts = 3 * 16;
 
 constexpr std::array kStatus{
@@ -275,6 +299,8 @@ constexpr std::array kStatus{
     list("waiting.buckets", kInt64),
     fixed("planning", kInt64 + kDouble),
     list("planning.buckets", kInt64),
+    fixed("watched_paths", kInt32),
+    fixed("broken_paths", kInt64),
     fixed("total_scenes", kInt32),
     list_of("scenes", kSceneInfo),
 };
@@ -286,8 +312,17 @@ constexpr std::array kError{
     text("message", kMaxTextBytes),
 };
 
+constexpr std::size_t kEnvelopeHead = kInt32 + 3 * kInt64 + sizeof(envelope_t::tag);
+constexpr std::array kEnvelope{fixed("head", kEnvelopeHead), list("payload", kByte)};
+// Fingerprint and count of the payload beside it.
+static_assert(kMaxMessageBytes + kInt64 + kEnvelopeHead + kInt32 <= kMaxEnvelopeBytes);
+
 }  // namespace
 
+template <>
+Layout layout_of<envelope_t>() {
+  return {"envelope_t", envelope_t::getHash(), kEnvelope, kMaxEnvelopeBytes};
+}
 template <>
 Layout layout_of<plan_request_t>() {
   return {"plan_request_t", plan_request_t::getHash(), kPlanRequest};
@@ -335,6 +370,14 @@ Layout layout_of<upload_page_t>() {
 template <>
 Layout layout_of<upload_status_t>() {
   return {"upload_status_t", upload_status_t::getHash(), kUploadStatus};
+}
+template <>
+Layout layout_of<watch_t>() {
+  return {"watch_t", watch_t::getHash(), kWatch};
+}
+template <>
+Layout layout_of<watch_report_t>() {
+  return {"watch_report_t", watch_report_t::getHash(), kWatchReport};
 }
 template <>
 Layout layout_of<status_t>() {

@@ -8,6 +8,7 @@
 
 namespace camway {
 class cancel_t;
+class envelope_t;
 class error_t;
 class map_page_t;
 class missing_pages_t;
@@ -21,13 +22,17 @@ class scene_response_t;
 class status_t;
 class upload_page_t;
 class upload_status_t;
+class watch_report_t;
+class watch_t;
 }  // namespace camway
 
 namespace camway::wire {
 
-/// No message of ours is longer, fingerprint included: UDP loses large messages, since one lost
-/// datagram loses all of them. So the count of every list is limited as well.
-inline constexpr std::size_t kMaxMessageBytes = 60'000;
+/// Nothing of ours that LCM carries is longer, fingerprint included: UDP loses large messages,
+/// since one lost datagram loses all of them. So the count of every list is limited as well.
+inline constexpr std::size_t kMaxEnvelopeBytes = 60'000;
+/// A message, so that it fits an envelope whether it gets one or not.
+inline constexpr std::size_t kMaxMessageBytes = 59'900;
 
 /// Limits of strings, in bytes without the final NUL.
 inline constexpr std::size_t kMaxSceneNameBytes = 128;
@@ -77,6 +82,7 @@ struct Layout {
   std::string_view type;
   std::int64_t fingerprint;
   std::span<const Field> fields;
+  std::size_t max_bytes = kMaxMessageBytes;
 };
 
 /// The layout of a message type; defined for the types that have a channel. Safe from any thread.
@@ -107,8 +113,14 @@ Layout layout_of<upload_page_t>();
 template <>
 Layout layout_of<upload_status_t>();
 template <>
+Layout layout_of<watch_t>();
+template <>
+Layout layout_of<watch_report_t>();
+template <>
 Layout layout_of<status_t>();
 template <>
 Layout layout_of<error_t>();
+template <>
+Layout layout_of<envelope_t>();
 
 }  // namespace camway::wire

@@ -4,6 +4,7 @@
 # Holds every #include against the map in ARCHITECTURE.md: a folder may include itself, what the
 # column "may include" of its row names, and what those may include in turn. Of other libraries, LCM
 # (and the messages generated for it) is for the wire, assimp and OctoMap are for daemon/scene,
+# libsodium and libmicrohttpd are for one file each,
 # spdlog is for what is on no path of computation, and FCL, Embree and CGAL are for tests alone. Needs nothing but bash, find and awk.
 #
 #   tools/check_layers.sh [ROOT]    ROOT: the tree to look at; this one if left out
@@ -82,6 +83,10 @@ LC_ALL=C exec awk '
       fault("assimp and OctoMap are for daemon/scene")
     } else if (file ~ /^(fcl|embree[0-9]*|CGAL)\// && here != "tests") {
       fault("FCL, Embree and CGAL are for tests and benchmarks")
+    } else if (file ~ /^sodium/ && FILENAME != "lcmtypes/message_keys.cpp" && here != "tests") {
+      fault("libsodium is for lcmtypes/message_keys.cpp")
+    } else if (file == "microhttpd.h" && FILENAME != "daemon/service/http_page.cpp") {
+      fault("libmicrohttpd is for daemon/service/http_page.cpp")
     } else if (file ~ /^spdlog\// && here !~ /^(daemon\/service|tools|tests)$/) {
       fault("only daemon/service and the tools log")
     } else if (file ~ /^lcmtypes\//) {

@@ -19,6 +19,8 @@ readonly kPackages=(
   libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
   # logs, flags, JSON, configuration files, pictures
   libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
+  # signed messages
+  libsodium-dev
   # the page for Prometheus
   libmicrohttpd-dev
   # tests

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "camway/authentication.h"
 #include "camway/body.h"
 #include "camway/daemon_status.h"
 #include "camway/occupancy.h"
@@ -14,6 +15,7 @@
 #include "camway/plan.h"
 #include "camway/scene.h"
 #include "camway/status.h"
+#include "camway/watch.h"
 
 namespace camway {
 
@@ -22,7 +24,10 @@ struct ClientOptions {
   /// To reach other hosts: "udpm://239.255.76.67:7667?ttl=1", the daemon's `--url` likewise.
   std::string url;
   std::string prefix = "CAMWAY";  ///< of all channels, as the daemon's [Limit: [A-Za-z0-9_-]{1,11}]
-  std::string client_id;          ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one
+  /// How client and daemon know each other's messages; null: what is sent is not signed, and what
+  /// comes is believed.
+  std::shared_ptr<const Authentication> authentication;
+  std::string client_id;  ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one
 
   /// A call ends by then, whatever happens (planning calls: not before the request's own deadline).
   double deadline_s = 60.0;
@@ -33,7 +38,10 @@ struct ClientOptions {
   /// were refused at once do not come back at once. [Limit: 0 <= value < 1]
   double jitter = 0.2;
   std::uint64_t seed = 0;  ///< of that; 0: another one each time
-  int retries = 5;         ///< repetitions without a sign of life before the call gives up
+  /// A watched path is watched for so long after the client fell silent. The daemon may allow less.
+  /// [Limit: 1 <= value <= 86400]
+  double watch_lease_s = 30.0;
+  int retries = 5;  ///< repetitions without a sign of life before the call gives up
 };
 
 /// Asks a Camway daemon over LCM.
@@ -87,6 +95,15 @@ class Client {
   /// Calls off a request that was sent by this client. Its answer comes soon: `kCancelled`, or what
   /// it was if it was ready. Does nothing for other ids, and nothing the second time.
   void cancel(std::int64_t request_id);
+
+  /// Asks for a path and leaves it with the daemon: `on_event` hears of the answer, and from then
+  /// on of each change of the scene that breaks the path, and of the corrected path, until
+  /// `unwatch`. Lost messages and restarts of the daemon are seen to. Returns the id of the
+  /// request; 0, after `on_event` heard why, if it cannot be sent.
+  std::int64_t watch(const PlanRequest& request, WatchHandler on_event);
+
+  /// Ends it. An event that is on its way may still come. Does nothing for other ids.
+  void unwatch(std::int64_t request_id);
 
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);

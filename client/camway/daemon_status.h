@@ -50,6 +50,14 @@ struct DaemonStatus {
   std::int64_t request_pages_asked_again = 0;
   std::int64_t answer_pages_asked_again = 0;
   std::int64_t scene_changes = 0;
+  // Not trusted, where the daemon checks signatures:
+  std::int64_t unsigned_messages = 0;
+  std::int64_t broken_envelopes = 0;
+  std::int64_t unknown_key_messages = 0;
+  std::int64_t altered_messages = 0;
+  std::int64_t stale_messages = 0;
+  std::int64_t replayed_messages = 0;
+  std::int64_t crowded_messages = 0;
   std::int64_t received_messages = 0;
   std::int64_t received_bytes = 0;
   std::int64_t sent_messages = 0;
@@ -62,6 +70,8 @@ struct DaemonStatus {
   Latency receipt_to_answer;
   Latency waiting;
   Latency planning;
+  std::int64_t broken_paths = 0;   ///< times that a change broke a watched path
+  std::int32_t watched_paths = 0;  ///< now
 
   std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
   std::vector<SceneInfo> scenes;  ///< in order of name

@@ -54,6 +54,8 @@ struct PlanRequest {
   /// How often the daemon says how far it is, to `PlanHandlers::on_progress`. 0: twice a second if
   /// there is such a handler, else never. [Limit: at least 0.1 counts]
   double progress_period_s = 0.0;
+  /// How long the daemon watches the path after its answer; `Client::watch` sees to that.
+  double watch_lease_s = 0.0;
   double deadline_s = 0.0;            ///< from the daemon's receipt on, waiting included
   double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
   double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
@@ -145,7 +147,7 @@ struct PlanResponse {
   /// Duration of `path` by the one asked for; above 1 where it was slowed to meet limits. All times
   /// of the answer are new ones then.
   double time_scale = 1.0;
-  std::vector<SlowedStretch> slowed;  ///< where that was, in order of time
+  std::vector<SlowedStretch> slowed;           ///< where that was, in order of time
   std::vector<KeyframeFault> keyframe_faults;  ///< why invalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< the proof, if infeasible
 

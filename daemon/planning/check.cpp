@@ -8,6 +8,14 @@
 
 namespace camway::planning {
 
+collision::DetectOptions detect_options(const PlanOptions& options) {
+  collision::DetectOptions detect;
+  detect.tolerance_m = options.interval_tolerance_m;
+  detect.gap_m = std::max(detect.gap_m, detect.tolerance_m);
+  detect.clearance_m = options.clearance_m;
+  return detect;
+}
+
 PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,
                      const motion::Body& body, const collision::DetectOptions& options,
                      const collision::Deadline& deadline,

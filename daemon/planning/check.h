@@ -5,9 +5,13 @@
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
+#include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 
 namespace camway::planning {
+
+/// What counts as a collision for a request with these options.
+collision::DetectOptions detect_options(const PlanOptions& options);
 
 /// What is known of a path, whoever made it.
 struct PathCheck {

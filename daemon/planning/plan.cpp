@@ -30,14 +30,6 @@ using collision::CollisionInterval;
 using collision::Deadline;
 using motion::Keyframe;
 
-collision::DetectOptions detect_options(const PlanOptions& options) {
-  collision::DetectOptions detect;
-  detect.tolerance_m = options.interval_tolerance_m;
-  detect.gap_m = std::max(detect.gap_m, detect.tolerance_m);
-  detect.clearance_m = options.clearance_m;
-  return detect;
-}
-
 // The keyframes as planning uses them: unit quaternions, times derived where none were given.
 std::vector<Keyframe> prepared_keyframes(const PlanRequest& request) {
   std::vector<Keyframe> keyframes = request.keyframes;

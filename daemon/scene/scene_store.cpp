@@ -37,18 +37,21 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
     return {nullptr, StoreFault::kLimit, std::move(error)};
   }
   std::optional<Entry> old;  // takes its time to go, when nobody waits any more
-  const std::lock_guard lock(mutex_);
-  const auto found = scenes_.find(snapshot->name);
-  const std::uint64_t next =
-      1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
-  if (snapshot->revision < next) {
-    auto numbered = std::make_shared<Snapshot>(*snapshot);
-    numbered->revision = next;
-    snapshot = std::move(numbered);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = scenes_.find(snapshot->name);
+    const std::uint64_t next =
+        1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
+    if (snapshot->revision < next) {
+      auto numbered = std::make_shared<Snapshot>(*snapshot);
+      numbered->revision = next;
+      snapshot = std::move(numbered);
+    }
+    if (found != scenes_.end()) old = std::move(found->second);
+    scenes_.insert_or_assign(snapshot->name,
+                             Entry{snapshot, SceneHistory(*snapshot, limits_.history)});
   }
-  if (found != scenes_.end()) old = std::move(found->second);
-  scenes_.insert_or_assign(snapshot->name,
-                           Entry{snapshot, SceneHistory(*snapshot, limits_.history)});
+  tell();
   return {std::move(snapshot), StoreFault::kNone, ""};
 }
 
@@ -64,23 +67,34 @@ StoreResult SceneStore::change(std::string_view scene, SceneChange change) {
   if (std::string error = over_limit(*result.snapshot); !error.empty()) {
     return {nullptr, StoreFault::kLimit, std::move(error)};
   }
-  const std::lock_guard lock(mutex_);
-  Entry& entry = scenes_.find(scene)->second;
-  entry.newest = result.snapshot;
-  entry.history.add(std::move(change), result.snapshot->revision);
+  {
+    const std::lock_guard lock(mutex_);
+    Entry& entry = scenes_.find(scene)->second;
+    entry.newest = result.snapshot;
+    entry.history.add(std::move(change), result.snapshot->revision);
+  }
+  tell();
   return {std::move(result.snapshot), StoreFault::kNone, ""};
 }
 
 bool SceneStore::remove(std::string_view scene) {
   std::optional<Entry> old;
   const std::lock_guard changing(changing_);
-  const std::lock_guard lock(mutex_);
-  const auto found = scenes_.find(scene);
-  if (found == scenes_.end()) return false;
-  highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
-  old = std::move(found->second);
-  scenes_.erase(found);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = scenes_.find(scene);
+    if (found == scenes_.end()) return false;
+    highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
+    old = std::move(found->second);
+    scenes_.erase(found);
+  }
+  tell();
   return true;
+}
+
+void SceneStore::on_change(std::function<void()> listener) {
+  const std::lock_guard changing(changing_);
+  listener_ = std::move(listener);
 }
 
 std::shared_ptr<const Snapshot> SceneStore::find(std::string_view name) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -51,6 +52,10 @@ class SceneStore {
   /// Whether there was such a scene.
   bool remove(std::string_view scene);
 
+  /// Calls `listener` from now on after each change, on the thread of whoever made it; no function
+  /// ends that. It must not change scenes. Once this returns the one before is not called any more.
+  void on_change(std::function<void()> listener);
+
   /// The newest snapshot, or null.
   [[nodiscard]] std::shared_ptr<const Snapshot> find(std::string_view name) const;
 
@@ -74,9 +79,14 @@ class SceneStore {
   /// What speaks against `next` in the place of the scene of its name; empty if nothing does.
   [[nodiscard]] std::string over_limit(const Snapshot& next) const;
 
+  void tell() const {
+    if (listener_) listener_();
+  }
+
   const SceneStoreLimits limits_;
-  std::mutex changing_;       ///< held by who makes a change, from its beginning to its end
-  mutable std::mutex mutex_;  ///< guards all below
+  std::mutex changing_;             ///< held by who makes a change, from its beginning to its end
+  std::function<void()> listener_;  ///< guarded by changing_
+  mutable std::mutex mutex_;        ///< guards all below
   std::map<std::string, Entry, std::less<>> scenes_;
   std::uint64_t highest_removed_ = 0;  ///< revision of the scenes that are gone
 };

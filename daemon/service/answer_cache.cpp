@@ -37,7 +37,7 @@ AnswerCache::Found AnswerCache::find_or_begin(const RequestKey& key, const Reque
   if (entry.digest != digest) return {Known::kConflict, nullptr};
   if (!entry.pages) return {Known::kRunning, nullptr};
   by_age_.splice(by_age_.end(), by_age_, entry.age);
-  return {Known::kAnswered, entry.pages};
+  return {Known::kAnswered, entry.pages, entry.was_watched};
 }
 
 Pages AnswerCache::find(const RequestKey& key) {
@@ -53,6 +53,37 @@ void AnswerCache::finish(const RequestKey& key, Pages pages) {
   bytes_ += size_of(pages);
   position->second.pages = std::move(pages);
   position->second.age = by_age_.insert(by_age_.end(), key);
+  make_room();
+}
+
+void AnswerCache::replace(const RequestKey& key, const RequestDigest& digest, Pages pages) {
+  if (find_or_begin(key, digest).known == Known::kRunning) return;
+  Entry& entry = entries_.find(key)->second;
+  if (!entry.pages) {
+    finish(key, std::move(pages));
+    mark_watched(key);
+    return;
+  }
+  bytes_ += size_of(pages);
+  bytes_ -= size_of(entry.pages);
+  entry.pages = std::move(pages);
+  make_room();
+}
+
+void AnswerCache::mark_watched(const RequestKey& key) {
+  const auto position = entries_.find(key);
+  if (position != entries_.end()) position->second.was_watched = true;
+}
+
+void AnswerCache::forget_answer(const RequestKey& key) {
+  const auto position = entries_.find(key);
+  if (position == entries_.end() || !position->second.pages) return;
+  bytes_ -= size_of(position->second.pages);
+  by_age_.erase(position->second.age);
+  entries_.erase(position);
+}
+
+void AnswerCache::make_room() {
   while (by_age_.size() > limits_.max_answers || bytes_ > limits_.max_bytes) {
     const auto oldest = entries_.find(by_age_.front());
     bytes_ -= size_of(oldest->second.pages);

@@ -52,6 +52,7 @@ class AnswerCache {
   struct Found {
     Known known = Known::kNew;
     Pages pages;
+    bool was_watched = false;
   };
 
   AnswerCache() : AnswerCache(Limits{}) {}
@@ -66,6 +67,16 @@ class AnswerCache {
   /// for make room.
   void finish(const RequestKey& key, Pages pages);
 
+  /// Another answer in the place of one that is known or was forgotten; nothing if the request is
+  /// being planned.
+  void replace(const RequestKey& key, const RequestDigest& digest, Pages pages);
+
+  /// The path of that answer is watched from now on.
+  void mark_watched(const RequestKey& key);
+
+  /// Forgets the answer, so that the request counts as new.
+  void forget_answer(const RequestKey& key);
+
   /// Forgets a request that was not planned after all.
   void forget(const RequestKey& key);
 
@@ -77,7 +88,10 @@ class AnswerCache {
     RequestDigest digest{};
     Pages pages;  ///< null while it is being planned
     std::list<RequestKey>::iterator age;
+    bool was_watched = false;
   };
+
+  void make_room();
 
   Limits limits_;
   std::map<RequestKey, Entry> entries_;

@@ -17,6 +17,14 @@ namespace camway::service {
 inline constexpr std::size_t kMaxQueueCapacity = 100'000;
 inline constexpr int kMaxWorkers = 256;
 
+/// What clients may leave with the daemon to be watched.
+struct WatchLimits {
+  std::size_t paths = 16384;                         ///< of all clients [Limit: 0 <= value]
+  std::size_t paths_of_a_client = 16384;             ///< likewise
+  std::size_t bytes = std::size_t{512} << 20;        ///< of paths and requests together
+  std::chrono::milliseconds longest_lease{300'000};  ///< without a word from the client
+};
+
 /// How the service behaves. Every default works.
 struct ServiceConfig {
   std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
@@ -33,6 +41,7 @@ struct ServiceConfig {
   SceneRoots scene_roots;     ///< of files that clients may name; `scenes.roots`
   Uploads::Limits uploads;    ///< `scenes.uploads` and others
   FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
+  WatchLimits watches;        ///< `watch.paths` and others
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};

@@ -20,8 +20,8 @@
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 6> kSceneKeys{"name", "file",    "scale",
-                                                     "up",   "unknown", "occupancy_resolution_m"};
+constexpr std::array<std::string_view, 7> kSceneKeys{
+    "name", "file", "scale", "up", "unknown", "occupancy_resolution_m", "watch"};
 
 constexpr double kMaxSceneNumber = 1e9;
 
@@ -50,6 +50,12 @@ std::string apply(const Setting& setting, const toml::node& node) {
   if (setting.is_text()) {
     const auto* const text = node.as_string();
     return text == nullptr ? "must be a text in quotes" : setting.set(text->get());
+  }
+  if (setting.is_switch()) {
+    const auto* const on = node.as_boolean();
+    if (on == nullptr) return "must be true or false";
+    setting.turn(on->get());
+    return {};
   }
   if (const auto* const whole = node.as_integer()) {
     return setting.set(static_cast<double>(whole->get()));
@@ -106,6 +112,12 @@ std::string apply_to_scene(std::string_view key, const toml::node& node, SceneAr
   if (key == "scale") return read_number_above_0(node, scene.options.import.scale);
   if (key == "occupancy_resolution_m") {
     return read_number_above_0(node, scene.options.occupancy_resolution_m.emplace());
+  }
+  if (key == "watch") {
+    const auto* const wanted = node.as_boolean();
+    if (wanted == nullptr) return "must be true or false";
+    scene.watch = wanted->get();
+    return {};
   }
   const auto* const text = node.as_string();
   if (text == nullptr) return "must be a text in quotes";

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/configured_scenes.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include "daemon/planning/request.h"
@@ -84,9 +85,68 @@ void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) 
 }
 
 ConfiguredScenes::FileStamp ConfiguredScenes::stamp_of(const std::filesystem::path& file) {
-  std::error_code ignored;  // loading says what is wrong
-  return {std::filesystem::last_write_time(file, ignored),
-          std::filesystem::file_size(file, ignored)};
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return {};  // loading says what is wrong
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  return {status.st_mtim.tv_sec * kNanosecondsPerSecond + status.st_mtim.tv_nsec, status.st_size,
+          status.st_ino};
+}
+
+bool ConfiguredScenes::watches_files() const {
+  return std::ranges::any_of(held_, [](const Held& held) { return held.scene.watch; });
+}
+
+void ConfiguredScenes::look_at_files(const std::stop_token& stop) {
+  for (Held& held : held_) {
+    if (stop.stop_requested()) return;
+    if (held.scene.watch) look_at(held);
+  }
+}
+
+void ConfiguredScenes::look_at(Held& held) {
+  const FileStamp now = stamp_of(held.scene.file);
+  const bool is_stable = std::exchange(held.seen, now) == now;
+  if (now == held.tried || !is_stable) return;
+  held.tried = now;
+  if (now == FileStamp{}) {
+    log_->warn("scene {}: {} is gone; what was read of it stays", held.scene.name,
+               held.scene.file.string());
+    return;
+  }
+  if (read_again(held.scene)) held.stamp = now;
+}
+
+bool ConfiguredScenes::read_again(const SceneArgument& scene) {
+  const auto before = store_.find(scene.name);
+  const scene::SceneObject* const object = before ? before->find(scene.name) : nullptr;
+  if (object == nullptr) {
+    log_->info("scene {}: {} changed, but a client has taken it out", scene.name,
+               scene.file.string());
+    return false;
+  }
+  scene::ImportResult read = scene::import_mesh(scene.file, scene.options.import);
+  if (!read.mesh) {
+    log_->warn("scene {}: {}; what was read before stays", scene.name, read.error);
+    return false;
+  }
+  // Two maps may have the same faces, and one be solid where the other is not.
+  const bool is_same =
+      !read.map && !object->source->map_O &&
+      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->mesh_O);
+  if (is_same) return true;
+  const auto kind = read.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
+  const auto source = scene::make_source(kind, std::move(*read.mesh), std::move(read.report),
+                                         before->options, std::move(read.map));
+  const scene::StoreResult changed = store_.change(
+      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement});
+  if (!changed.snapshot) {
+    log_->warn("scene {}: {}; what was read before stays", scene.name, changed.error);
+    return false;
+  }
+  log_->info("scene {}: {} changed, and is revision {}", scene.name, scene.file.string(),
+             changed.snapshot->revision);
+  log_scene(*changed.snapshot, scene, *log_);
+  return true;
 }
 
 bool ConfiguredScenes::holds(const Held& wanted) const {

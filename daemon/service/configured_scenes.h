@@ -29,19 +29,34 @@ class ConfiguredScenes {
   /// is if the store has no room for one, which then is the only one left out.
   bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
 
+  /// Whether any scene asks to be read again when its file changes.
+  [[nodiscard]] bool watches_files() const;
+
+  /// Looks at the files of those scenes. One that changed and then stayed as it was until the next
+  /// look, so that its writer is done, is read again, and takes the place of what was read of it
+  /// before; what clients added to the scene stays. If it cannot be read, or is gone, all stays as
+  /// it was, with a warning. By polling, as network drives tell nobody of changes.
+  void look_at_files(const std::stop_token& stop = {});
+
  private:
-  /// By which a change on disk shows.
+  /// By which a change on disk shows; all 0 where there is no file.
   struct FileStamp {
-    std::filesystem::file_time_type written;
-    std::uintmax_t size = 0;
+    std::int64_t written_ns = 0;
+    std::int64_t size = 0;
+    std::uint64_t inode = 0;  ///< another one when the file was replaced
     bool operator==(const FileStamp&) const = default;
   };
   struct Held {
     SceneArgument scene;
-    FileStamp stamp;
+    FileStamp stamp;          ///< of what was read
+    FileStamp seen = stamp;   ///< at the last look
+    FileStamp tried = stamp;  ///< of what was read last, or could not be
   };
 
   static FileStamp stamp_of(const std::filesystem::path& file);
+  void look_at(Held& held);
+  /// Whether the scene has what is in the file now.
+  bool read_again(const SceneArgument& scene);
   [[nodiscard]] bool holds(const Held& wanted) const;
   [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene) const;
   void remove_all_but(const std::vector<SceneArgument>& wanted);

@@ -35,6 +35,8 @@ struct Counters {
   std::int64_t request_pages_asked_again = 0;
   std::int64_t answer_pages_asked_again = 0;
   std::int64_t scene_changes = 0;
+  std::int64_t broken_paths = 0;
+  std::int32_t watched_paths = 0;  ///< now
   AnswerCounts plan_answers;
   AnswerCounts occupancy_answers;
   AnswerCounts scene_answers;

@@ -14,6 +14,7 @@
 #include "daemon/service/build_info.h"
 #include "daemon/service/config_file.h"
 #include "daemon/service/daemon_settings.h"
+#include "lcmtypes/message_keys.h"
 
 namespace camway::service {
 namespace {
@@ -176,6 +177,10 @@ ParsedOptions check(const DaemonOptions& options) {
     const std::string line = "scene '" + scene.name + "': " + scene.file.string();
     if (!is_readable_file(scene.file)) faults.push_back(line + " cannot be read");
     found << line << '\n';
+  }
+  if (!options.auth.key_file.empty()) {
+    const wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.auth.key_file);
+    if (!read.keys) faults.push_back("auth.key_file: " + read.error);
   }
   DaemonOptions defaults = default_options();
   defaults.service.workers = workers_for_this_machine();

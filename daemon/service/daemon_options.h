@@ -4,6 +4,7 @@
 #include <spdlog/common.h>
 
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,13 @@ inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "i
                                                             "warn",  "error", "off"};
 std::string_view log_level_name(spdlog::level::level_enum level);
 
+/// Whose messages are listened to.
+struct AuthOptions {
+  std::string key_file;  ///< empty: messages are neither signed nor checked
+  bool required = true;  ///< with keys: whether messages without a signature are dropped
+  std::chrono::milliseconds window{30'000};  ///< how far a message's time may be from ours
+};
+
 /// What `camwayd` is to do: built-in defaults, the configuration file over them, the command line
 /// over both.
 struct DaemonOptions {
@@ -34,6 +42,7 @@ struct DaemonOptions {
   spdlog::level::level_enum log_level = spdlog::level::info;
   std::string scene_roots;  ///< folders with ':' between them; see `SceneRoots`
   HttpAddress metrics;      ///< of the page for Prometheus; there is none if the port is 0
+  AuthOptions auth;
   scene::SceneStoreLimits store;
   ServiceConfig service;
 };

@@ -3,9 +3,12 @@
 
 #include <cstdlib>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "daemon/planning/plan.h"
+#include "daemon/service/auth_transport.h"
 #include "daemon/service/lcm_transport.h"
 #include "daemon/service/metrics_text.h"
 #include "daemon/service/process_signals.h"
@@ -17,6 +20,7 @@ namespace {
 
 constexpr int kExitLcm = 1;
 constexpr int kExitMetrics = 1;
+constexpr int kExitBadInput = 2;
 
 /// The last status, between the loop that makes it and the page that shows it.
 class LatestStatus {
@@ -34,6 +38,29 @@ class LatestStatus {
   mutable std::mutex mutex_;  ///< guards status_
   status_t status_{};
 };
+
+/// What was not trusted, as the status says it.
+void add_distrusted(const AuthTransport::Distrusted& counts, status_t& status) {
+  const auto count = [&](wire::Distrust why) { return counts.at(static_cast<std::size_t>(why)); };
+  status.unsigned_messages = count(wire::Distrust::kUnsigned);
+  status.broken_envelopes = count(wire::Distrust::kBroken);
+  status.unknown_key_messages = count(wire::Distrust::kUnknownKey);
+  status.altered_messages = count(wire::Distrust::kAltered);
+  status.stale_messages = count(wire::Distrust::kStale);
+  status.replayed_messages = count(wire::Distrust::kReplayed);
+  status.crowded_messages = count(wire::Distrust::kCrowded);
+}
+
+/// What signs and checks messages, if anything is to; `error` says why it cannot.
+std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::string& error) {
+  if (options.key_file.empty()) return nullptr;
+  wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.key_file);
+  error = std::move(read.error);
+  if (!read.keys) return nullptr;
+  wire::ReplayGuard::Limits limits;
+  limits.window_us = std::chrono::microseconds(options.window).count();
+  return std::make_shared<wire::MessageAuth>(std::move(read.keys), limits);
+}
 
 /// The page for Prometheus, if one is asked for.
 OpenedHttpPage open_metrics(const HttpAddress& address, const LatestStatus& latest) {
@@ -69,6 +96,20 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     log->error(opened.error);
     return kExitLcm;
   }
+  std::string auth_error;
+  const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
+  if (!auth_error.empty()) {
+    log->error("auth.key_file: {}", auth_error);
+    return kExitBadInput;
+  }
+  std::optional<AuthTransport> signing;
+  if (auth) {
+    signing.emplace(*opened.transport, auth, options.auth.required,
+                    Warnings(log, options.service.warning_period));
+    log->info("messages are signed; unsigned ones are {}",
+              options.auth.required ? "dropped" : "accepted as well");
+  }
+  Transport& transport = signing ? static_cast<Transport&>(*signing) : *opened.transport;
   LatestStatus latest;
   const OpenedHttpPage metrics = open_metrics(options.metrics, latest);
   if (!metrics.error.empty()) {
@@ -82,18 +123,21 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   hooks.alive = [&] { manager.alive(); };
   if (metrics.page) {
     log->info("metrics at http://{}:{}/metrics", options.metrics.ip, metrics.page->port());
-    hooks.status = [&](const status_t& status) { latest.set(status); };
   }
+  hooks.status = [&](status_t& status) {
+    if (signing) add_distrusted(signing->distrusted(), status);
+    if (metrics.page) latest.set(status);
+  };
   hooks.alive_period = manager.alive_period();
   const Planner planner = [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
                              const collision::Deadline& deadline) {
     return planning::plan(snapshot, request, deadline);
   };
-  Service service(*opened.transport, scenes, options.service, planner, log, std::move(hooks));
+  Service service(transport, scenes, options.service, planner, log, std::move(hooks));
   log->info("serving on {} with prefix {}, {} workers, queue of {}, {} for a client",
             options.lcm_url, options.service.prefix, options.service.workers,
             options.service.queue.jobs, options.service.queue.jobs_of_a_client);
-  Reloader reloader(options, std::move(read_again), configured, manager, log);
+  Reloader reloader(options, std::move(read_again), configured, manager, log, auth);
   const SignalWaiter signals(
       [&](int signal) {
         log->info("signal {}", signal);

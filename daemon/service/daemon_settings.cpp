@@ -70,6 +70,10 @@ std::string Setting::set(double value) const {
   return {};
 }
 
+void Setting::turn(bool on) const { *std::get<bool*>(target) = on; }
+
+bool Setting::is_switch() const { return std::holds_alternative<bool*>(target); }
+
 bool Setting::is_text() const {
   return std::holds_alternative<std::string*>(target) ||
          std::holds_alternative<spdlog::level::level_enum*>(target);
@@ -107,7 +111,14 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.uploads", &service.uploads.uploads, 1, 1e4},
       {"scenes.upload_bytes", &service.uploads.bytes, 1, 1e11},
       {"scenes.all_uploads_bytes", &service.uploads.total_bytes, 1, 1e12},
+      {"watch.paths", &service.watches.paths, 0, 1e6},
+      {"watch.paths_of_a_client", &service.watches.paths_of_a_client, 0, 1e6},
+      {"watch.bytes", &service.watches.bytes, 0, kManyBytes},
+      {"watch.longest_lease_s", &service.watches.longest_lease, 1, kDayS},
       {"status.period_s", &service.heartbeat_period, 0.01, 3600},
+      {"auth.key_file", &options.auth.key_file},
+      {"auth.required", &options.auth.required},
+      {"auth.window_s", &options.auth.window, 0.001, kDayS},
       {"metrics.address", &options.metrics.ip},
       {"metrics.port", &options.metrics.port, 0, 65'535},
       {"log.level", &options.log_level, 0, 0, true},

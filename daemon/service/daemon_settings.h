@@ -17,8 +17,8 @@ namespace camway::service {
 /// A setting of the configuration file, bound to where its value goes. This list is all there is:
 /// the file's reader, the range of each value, the sample and what a reload may change follow it.
 struct Setting {
-  using Target = std::variant<std::string*, int*, std::size_t*, double*, std::chrono::milliseconds*,
-                              spdlog::level::level_enum*>;
+  using Target = std::variant<std::string*, bool*, int*, std::size_t*, double*,
+                              std::chrono::milliseconds*, spdlog::level::level_enum*>;
 
   std::string_view key;  ///< "queue.requests"; its unit is its suffix: durations are seconds (`_s`)
   Target target;
@@ -32,9 +32,12 @@ struct Setting {
   /// Takes `value`; returns what is wrong with it, e.g. "must be within 1 to 256", or nothing.
   [[nodiscard]] std::string set(std::string_view value) const;
   [[nodiscard]] std::string set(double value) const;
+  /// Of a switch. Not `set`, which would take it for a text in quotes without a word.
+  void turn(bool on) const;
   /// The kind of value that `set` takes.
   [[nodiscard]] bool is_text() const;
   [[nodiscard]] bool is_whole_number() const;
+  [[nodiscard]] bool is_switch() const;
 };
 
 /// Every setting but the list of scenes, bound to `options`, in the order of the sample.

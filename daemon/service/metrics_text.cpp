@@ -110,6 +110,21 @@ void add_requests(const status_t& status, Page& page) {
   page.histogram("planning_seconds", status.planning, "Planning alone.");
 }
 
+void add_distrusted(const status_t& status, Page& page) {
+  page.head("distrusted_messages_total", "counter",
+            "Messages whose signature is missing or not good, by cause.");
+  const auto sample = [&](std::string_view cause, std::int64_t count) {
+    page.sample("distrusted_messages_total", fmt::format("cause=\"{}\"", cause), count);
+  };
+  sample("unsigned", status.unsigned_messages);
+  sample("broken", status.broken_envelopes);
+  sample("unknown_key", status.unknown_key_messages);
+  sample("altered", status.altered_messages);
+  sample("stale", status.stale_messages);
+  sample("replayed", status.replayed_messages);
+  sample("crowded", status.crowded_messages);
+}
+
 void add_traffic(const status_t& status, Page& page) {
   page.counter("received_messages_total", status.received_messages, "Messages that came in.");
   page.counter("received_bytes_total", status.received_bytes, "Bytes of them.");
@@ -122,6 +137,9 @@ void add_scenes(const status_t& status, Page& page) {
   page.gauge("scenes", status.total_scenes, "Scenes that are held.");
   page.counter("scene_changes_total", status.scene_changes,
                "Revisions of scenes that clients made.");
+  page.gauge("watched_paths", status.watched_paths, "Paths that clients left to be watched.");
+  page.counter("broken_paths_total", status.broken_paths,
+               "Times that a change of a scene broke a watched path.");
   if (status.scenes.empty()) return;
   page.head("scene_revision", "gauge", "Newest revision of a scene.");
   for (const scene_info_t& scene : status.scenes) {
@@ -145,6 +163,7 @@ std::string metrics_text(const status_t& status) {
   page.gauge("queued_requests", status.queued_requests, "Requests that wait for a worker.");
   page.gauge("running_requests", status.running_requests, "Requests that are being planned.");
   add_requests(status, page);
+  add_distrusted(status, page);
   add_traffic(status, page);
   add_scenes(status, page);
   return page.take();

@@ -61,6 +61,18 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
                       header_of(wire, &snapshot));
 }
 
+std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
+                                                            const plan_response_t& answer,
+                                                            const DeadlineLimits& limits) {
+  if (!(request.watch_lease_s > 0.0) || !answer.certified) return nullptr;
+  const ConvertedRequest asked = from_wire(request, limits);
+  const ConvertedResult result = from_wire(answer);
+  if (!asked.request || !result.result) return nullptr;
+  std::optional<planning::WatchedPath> path =
+      planning::WatchedPath::of(*asked.request, *result.result);
+  return path ? std::make_shared<const planning::WatchedPath>(std::move(*path)) : nullptr;
+}
+
 Pages encode_answer(plan_response_t& answer) {
   const std::size_t pages = count_pages(answer);
   if (pages > static_cast<std::size_t>(wire::kMaxResponsePages)) {

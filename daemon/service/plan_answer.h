@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
 #include "daemon/collision/deadline.h"
+#include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot.h"
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/core.h"
@@ -21,6 +24,12 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
 plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                           const plan_request_t& wire, const DeadlineLimits& limits,
                           const collision::Deadline& deadline);
+
+/// What of an answer can be watched: null unless the request asks for that and the answer proves a
+/// path.
+std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
+                                                            const plan_response_t& answer,
+                                                            const DeadlineLimits& limits);
 
 /// Encodes `answer`, or what takes its place: an answer that says that it is too long.
 Pages encode_answer(plan_response_t& answer);

@@ -29,6 +29,9 @@ Priority priority_of(const plan_request_t& request) {
   return request.priority > 0 ? Priority::kHigh : Priority::kNormal;
 }
 
+/// Of watched paths, so many are planned again or wait for that.
+constexpr std::size_t kReplansPerWorker = 2;
+
 Pages one_page(Bytes bytes) {
   return std::make_shared<const std::vector<Bytes>>(1, std::move(bytes));
 }
@@ -41,6 +44,13 @@ struct PlanService::Pending {
   std::shared_ptr<const plan_request_t> request;
   std::shared_ptr<const scene::Snapshot> snapshot;
   double deadline_s;
+  collision::Deadline deadline;
+};
+
+/// A watched path that collides, on its way likewise.
+struct PlanService::Replan {
+  RequestKey key;
+  std::shared_ptr<const plan_request_t> request;
   collision::Deadline deadline;
 };
 
@@ -128,6 +138,7 @@ void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::tick(Clock::time_point now) {
+  plan_broken(now);
   for (plan_progress_t& progress : in_flight_.take_due(now)) {
     const auto ahead = core_.workers.ahead_of(progress.client_id, progress.request_id);
     progress.requests_ahead = static_cast<std::int32_t>(ahead.value_or(0));
@@ -159,6 +170,12 @@ void PlanService::take(plan_request_t request) {
       ++core_.counters.repeated;
       return;
     case AnswerCache::Known::kAnswered:
+      if (found.was_watched && !watches_.renew(key, Clock::now())) {
+        // Its lease is over, so the answer is as old as that.
+        cache_.forget_answer(key);
+        take(std::move(request));
+        return;
+      }
       ++core_.counters.repeated;
       ++core_.counters.cache_hits;
       core_.log->info("repeated answer client={} request={} pages={}", key.client_id,
@@ -208,17 +225,19 @@ void PlanService::run(const Pending& pending) {
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
   auto answer = std::make_shared<plan_response_t>(answer_of(
       planner_, *pending.snapshot, *pending.request, core_.config.deadline, pending.deadline));
+  auto path = watchable_path(*pending.request, *answer, core_.config.deadline);
   Pages pages = encode_answer(*answer);
-  core_.mailbox.post(
-      [this, pending, waited_s, answer = std::move(answer), pages = std::move(pages)] {
-        core_.counters.waiting.add(waited_s);
-        core_.counters.planning.add(answer->total_ms / kMillisecondsPerSecond);
-        if (in_flight_.cancelled(pending.key)) {
-          abandon(pending, Refusal::kCancelled);
-        } else {
-          finish(pending, *answer, pages);
-        }
-      });
+  core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
+                      path = std::move(path)] {
+    core_.counters.waiting.add(waited_s);
+    core_.counters.planning.add(answer->total_ms / kMillisecondsPerSecond);
+    if (in_flight_.cancelled(pending.key)) {
+      abandon(pending, Refusal::kCancelled);
+    } else {
+      finish(pending, *answer, pages);
+      if (path) watch(pending, path);
+    }
+  });
 }
 
 void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
@@ -234,6 +253,73 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
   in_flight_.end(pending.key);
   cache_.finish(pending.key, pages);
   send(pending.key, std::move(pages));
+}
+
+void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path) {
+  const WatchableAnswer answer{pending.key, pending.request, std::move(path), pending.snapshot};
+  if (watches_.begin(answer, Clock::now())) cache_.mark_watched(pending.key);
+}
+
+// Few at a time: they must neither fill the queue nor all be planned in a scene that has changed
+// again since.
+void PlanService::plan_broken(Clock::time_point now) {
+  const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
+  if (replanning_ >= most) return;
+  for (Watches::Broken& broken : watches_.take_broken(most - replanning_, now)) {
+    const double deadline_s =
+        deadline_in_queue_s(broken.request->deadline_s, core_.config.deadline);
+    const Replan replan{std::move(broken.key), std::move(broken.request),
+                        collision::Deadline::after_s(deadline_s)};
+    ++replanning_;
+    Job job;
+    job.run = [this, replan] { run_again(replan); };
+    job.abandon = [this, replan](Refusal) { give_up(replan); };
+    job.client = replan.key.client_id;
+    job.priority = Priority::kLow;
+    job.expires = Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
+                                          std::chrono::duration<double>(deadline_s));
+    core_.submit(std::move(job));
+  }
+}
+
+// On a worker.
+void PlanService::run_again(const Replan& replan) {
+  std::shared_ptr<const scene::Snapshot> snapshot = core_.scenes.find(replan.request->scene);
+  if (!snapshot || replan.deadline.passed()) {
+    core_.mailbox.post([this, replan] { give_up(replan); });
+    return;
+  }
+  auto answer = std::make_shared<plan_response_t>(
+      answer_of(planner_, *snapshot, *replan.request, core_.config.deadline, replan.deadline));
+  auto path = watchable_path(*replan.request, *answer, core_.config.deadline);
+  Pages pages = encode_answer(*answer);
+  core_.mailbox.post([this, replan, snapshot = std::move(snapshot), answer = std::move(answer),
+                      pages = std::move(pages), path = std::move(path)] {
+    finish_again(replan, *answer, pages, path, snapshot);
+  });
+}
+
+void PlanService::finish_again(const Replan& replan, const plan_response_t& answer, Pages pages,
+                               std::shared_ptr<const planning::WatchedPath> path,
+                               std::shared_ptr<const scene::Snapshot> snapshot) {
+  --replanning_;
+  if (!watches_.ended(replan.key)) return;
+  core_.log->info("answered again client={} request={} scene={} revision={} status={}: {}",
+                  replan.key.client_id, replan.key.request_id, answer.scene, answer.scene_revision,
+                  status_name(answer.status), answer.message);
+  cache_.replace(replan.key, digest_of(*replan.request), pages);
+  send(replan.key, std::move(pages));
+  if (path) {
+    watches_.begin({replan.key, replan.request, std::move(path), std::move(snapshot)},
+                   Clock::now());
+  } else {
+    watches_.answered(replan.key, answer.scene_revision, Clock::now());
+  }
+}
+
+void PlanService::give_up(const Replan& replan) {
+  --replanning_;
+  watches_.not_planned(replan.key, Clock::now());
 }
 
 void PlanService::finish_plainly(const Pending& pending, std::int32_t status,

@@ -10,6 +10,7 @@
 
 #include "daemon/service/core.h"
 #include "daemon/service/in_flight.h"
+#include "daemon/service/watches.h"
 
 namespace camway::service {
 
@@ -24,8 +25,10 @@ class PlanService {
  public:
   using Clock = std::chrono::steady_clock;
 
-  PlanService(Core& core, Planner planner)
+  /// Both must outlive the service.
+  PlanService(Core& core, Watches& watches, Planner planner)
       : core_(core),
+        watches_(watches),
         planner_(std::move(planner)),
         pages_(core.config.assembly),
         cache_(core.config.cache) {}
@@ -36,13 +39,15 @@ class PlanService {
   void on_cancel(std::span<const std::uint8_t> message);
   void on_missing_pages(std::span<const std::uint8_t> message);
 
-  /// Sends what is due by now: how far planning is, and questions for pages of requests.
+  /// Sends what is due by now: how far planning is, and questions for pages of requests. Has
+  /// watched paths planned again that collide.
   void tick(Clock::time_point now);
   /// When `tick` has something to do next; the end of time if never.
   [[nodiscard]] Clock::time_point next_tick() const;
 
  private:
   struct Pending;
+  struct Replan;
 
   template <class Message>
   std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
@@ -59,11 +64,21 @@ class PlanService {
                        std::string_view message);
   void send(const RequestKey& key, Pages pages);
 
+  void watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path);
+  void plan_broken(Clock::time_point now);
+  void run_again(const Replan& replan);
+  void finish_again(const Replan& replan, const plan_response_t& answer, Pages pages,
+                    std::shared_ptr<const planning::WatchedPath> path,
+                    std::shared_ptr<const scene::Snapshot> snapshot);
+  void give_up(const Replan& replan);
+
   Core& core_;
+  Watches& watches_;
   Planner planner_;
   PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;
   InFlight in_flight_;
+  std::size_t replanning_ = 0;  ///< watched paths that wait for a worker or are being planned
 };
 
 }  // namespace camway::service

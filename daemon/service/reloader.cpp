@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/reloader.h"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <utility>
 
@@ -9,12 +11,15 @@
 namespace camway::service {
 
 Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
-                   const ServiceManager& manager, std::shared_ptr<spdlog::logger> log)
+                   const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+                   std::shared_ptr<wire::MessageAuth> auth, std::chrono::milliseconds look_every)
     : running_(std::move(running)),
       read_(std::move(read)),
       scenes_(scenes),
       manager_(manager),
       log_(std::move(log)),
+      auth_(std::move(auth)),
+      look_every_(look_every),
       thread_([this](const std::stop_token& stop) { serve(stop); }) {}
 
 void Reloader::request() {
@@ -26,12 +31,7 @@ void Reloader::request() {
 }
 
 void Reloader::serve(const std::stop_token& stop) {
-  while (true) {
-    {
-      std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [this] { return requested_; })) return;
-      requested_ = false;
-    }
+  while (wait(stop)) {
     manager_.reloading();
     try {
       reload(stop);
@@ -43,15 +43,52 @@ void Reloader::serve(const std::stop_token& stop) {
   }
 }
 
+bool Reloader::wait(const std::stop_token& stop) {
+  const auto is_requested = [this] { return requested_; };
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(mutex_);
+      const bool is_woken = scenes_.watches_files()
+                                ? changed_.wait_for(lock, stop, look_every_, is_requested)
+                                : changed_.wait(lock, stop, is_requested);
+      if (is_woken) {
+        requested_ = false;
+        return true;
+      }
+    }
+    if (!stop.stop_requested()) look_at_files(stop);
+  }
+  return false;
+}
+
+void Reloader::look_at_files(const std::stop_token& stop) {
+  try {
+    scenes_.look_at_files(stop);
+  } catch (const std::exception& error) {
+    log_->error("looking at the files of scenes: {}; all stays as it was", error.what());
+  }
+}
+
 void Reloader::reload(const std::stop_token& stop) {
   ParsedOptions parsed = read_();
   if (!parsed.options) {
     log_->error("reload: the configuration is bad, all stays as it was:\n{}", parsed.text);
     return;
   }
+  wire::MessageKeys::Read keys;
+  if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
+  if (!keys.error.empty()) {
+    log_->error("reload: auth.key_file: {}; all stays as it was", keys.error);
+    return;
+  }
   if (!scenes_.update(parsed.options->scenes, stop)) {
     log_->error("reload: not all scenes could be taken over, so no setting is");
     return;
+  }
+  if (keys.keys) {
+    log_->info("reload: keys with the ids {}, of which the first signs",
+               fmt::join(keys.keys->ids(), ", "));
+    auth_->set_keys(std::move(keys.keys));
   }
   take_over(*parsed.options);
 }

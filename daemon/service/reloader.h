@@ -3,6 +3,7 @@
 
 #include <spdlog/logger.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -13,20 +14,25 @@
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
 #include "daemon/service/service_manager.h"
+#include "lcmtypes/message_auth.h"
 
 namespace camway::service {
 
 /// Reads the configuration again while the daemon serves, on a thread of its own: takes over scenes
-/// and log level, says which other changes need a restart, and keeps all as it was if the
-/// configuration or a scene is bad.
+/// and log level, and the keys in their file, says which other changes need a restart, and keeps
+/// all as it was if the configuration or a scene is bad. In between it looks at the files of scenes
+/// that are to be watched.
 class Reloader {
  public:
   using Read = std::function<ParsedOptions()>;
 
   /// `running`: what the daemon was started with. `read` gives what holds now. `scenes` and
   /// `manager` must outlive this; nobody else may use `scenes` meanwhile.
+  /// Files of scenes that are to be watched are looked at every `look_every`.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
-           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log);
+           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+           std::shared_ptr<wire::MessageAuth> auth = nullptr,
+           std::chrono::milliseconds look_every = std::chrono::seconds(1));
   /// Waits for the scene that is being read, if any; the reload that it belongs to is given up.
   ~Reloader() = default;
   Reloader(const Reloader&) = delete;
@@ -38,6 +44,9 @@ class Reloader {
 
  private:
   void serve(const std::stop_token& stop);
+  /// Whether a reload was asked for; looks at files until then, or until the stop.
+  bool wait(const std::stop_token& stop);
+  void look_at_files(const std::stop_token& stop);
   void reload(const std::stop_token& stop);
   void take_over(const DaemonOptions& next);
 
@@ -46,6 +55,8 @@ class Reloader {
   ConfiguredScenes& scenes_;
   const ServiceManager& manager_;
   std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
+  const std::chrono::milliseconds look_every_;
   std::mutex mutex_;  ///< guards requested_
   std::condition_variable_any changed_;
   bool requested_ = false;

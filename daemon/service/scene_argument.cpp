@@ -10,7 +10,8 @@
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 4> kOptionNames{"scale", "up", "unknown", "occupancy"};
+constexpr std::array<std::string_view, 5> kOptionNames{"scale", "up", "unknown", "occupancy",
+                                                       "watch"};
 
 std::optional<double> positive_number(std::string_view text) {
   double value = 0.0;
@@ -26,6 +27,13 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
     const std::optional<scene::UpAxis> up = up_axis_named(value);
     if (!up) return "up=" + std::string(value) + ": must be as-in-file, z-to-y or y-to-z";
     scene.options.import.up = *up;
+    return {};
+  }
+  if (key == "watch") {
+    if (value != "yes" && value != "no") {
+      return "watch=" + std::string(value) + ": must be yes or no";
+    }
+    scene.watch = value == "yes";
     return {};
   }
   if (key == "unknown") {
@@ -57,7 +65,7 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
     const std::string_view key = last.substr(0, equals);
     if (std::find(kOptionNames.begin(), kOptionNames.end(), key) == kOptionNames.end()) {
       return "'" + std::string(key) +
-             "' is no option of a scene (scale, up, unknown, occupancy are)";
+             "' is no option of a scene (scale, up, unknown, occupancy, watch are)";
     }
     if (std::string error = apply_option(key, last.substr(equals + 1), scene); !error.empty()) {
       return error;

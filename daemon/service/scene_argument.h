@@ -17,6 +17,7 @@ struct SceneArgument {
   std::string name;
   std::filesystem::path file;
   scene::SnapshotOptions options;
+  bool watch = false;  ///< whether the daemon reads the file again when it changes
 };
 
 /// Whether `name` keeps `kSceneNameRule`.
@@ -39,7 +40,8 @@ struct ParsedSceneArgument {
 
 /// One line for `--help`.
 inline constexpr char kSceneArgumentForm[] =
-    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]";
+    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]"
+    "[,watch=yes|no]";
 
 /// Reads `text` of the form above. Options are taken off the end, so a FILE may hold commas unless
 /// what follows one looks like an option. NAME is of [A-Za-z0-9_.-], at most

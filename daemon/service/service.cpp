@@ -27,7 +27,8 @@ Service::Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig 
                  Planner planner, std::shared_ptr<spdlog::logger> log, ServiceHooks hooks)
     : hooks_(std::move(hooks)),
       core_(transport, scenes, std::move(config), std::move(log)),
-      plans_(core_, std::move(planner)),
+      watches_(core_, scenes),
+      plans_(core_, watches_, std::move(planner)),
       occupancy_(core_),
       scenes_(core_, scenes) {}
 
@@ -68,6 +69,7 @@ bool Service::subscribe() {
   return to(core_.channels.plan_request(), plans_, &PlanService::on_request) &&
          to(core_.channels.cancel(), plans_, &PlanService::on_cancel) &&
          to(core_.channels.missing_pages(), plans_, &PlanService::on_missing_pages) &&
+         to(core_.channels.watch(), watches_, &Watches::on_message) &&
          to(core_.channels.occupancy_request(), occupancy_, &OccupancyService::on_message) &&
          to(core_.channels.scene_request(), scenes_, &SceneService::on_request) &&
          to(core_.channels.upload(), scenes_, &SceneService::on_upload) &&
@@ -79,8 +81,10 @@ void Service::turn(Clock::duration longest_wait) {
   core_.mailbox.run_all();
   core_.expire_jobs();
   plans_.tick(Clock::now());
+  watches_.tick(Clock::now());
   core_.outbox.send_burst();
-  const Clock::time_point next = std::min(core_.workers.next_expiry(), plans_.next_tick());
+  const Clock::time_point next =
+      std::min({core_.workers.next_expiry(), plans_.next_tick(), watches_.next_tick(Clock::now())});
   if (next != Clock::time_point::max()) longest_wait = std::min(longest_wait, next - Clock::now());
   std::chrono::milliseconds wait = in_milliseconds(longest_wait);
   if (!core_.outbox.empty()) wait = std::min(wait, Outbox::kPause);
@@ -115,11 +119,11 @@ bool Service::idle() const {
 }
 
 void Service::heartbeat(Clock::time_point now) {
-  const status_t status = make_status(core_, now - started_);
+  status_t status = make_status(core_, now - started_);
+  if (hooks_.status) hooks_.status(status);
   if (!core_.transport.publish(core_.channels.status(), wire::encode(status))) {
     core_.publish_warnings.warn("the status could not be published");
   }
-  if (hooks_.status) hooks_.status(status);
   next_heartbeat_ = now + core_.config.heartbeat_period;
 }
 

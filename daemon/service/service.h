@@ -14,6 +14,7 @@
 #include "daemon/service/plan_service.h"
 #include "daemon/service/scene_service.h"
 #include "daemon/service/transport.h"
+#include "daemon/service/watches.h"
 
 namespace camway::service {
 
@@ -30,7 +31,8 @@ enum class RunOutcome {
 struct ServiceHooks {
   std::function<void()> ready;     ///< subscriptions are in place, the first status is out
   std::function<void()> stopping;  ///< a stop was asked for
-  std::function<void(const status_t&)> status;  ///< each status, as it was published
+  /// Each status before it is published, to add to it what the service does not know, or to keep.
+  std::function<void(status_t&)> status;
   /// Every `alive_period`, as long as the loop turns and no worker has been at one request for
   /// longer than the longest deadline and `stuck_after`.
   std::function<void()> alive;
@@ -73,6 +75,7 @@ class Service {
 
   const ServiceHooks hooks_;
   Core core_;
+  Watches watches_;
   PlanService plans_;
   OccupancyService occupancy_;
   SceneService scenes_;

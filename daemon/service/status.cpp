@@ -27,6 +27,8 @@ void add_counters(const Core& core, status_t& status) {
   status.request_pages_asked_again = counters.request_pages_asked_again;
   status.answer_pages_asked_again = counters.answer_pages_asked_again;
   status.scene_changes = counters.scene_changes;
+  status.watched_paths = counters.watched_paths;
+  status.broken_paths = counters.broken_paths;
   copy(counters.plan_answers, status.plan_answers);
   copy(counters.occupancy_answers, status.occupancy_answers);
   copy(counters.scene_answers, status.scene_answers);

@@ -12,6 +12,8 @@
 #include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
 
 #include "client/plan_wire.h"
 #include "daemon/planning/request.h"
@@ -113,6 +115,8 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
   }
   if (decoded<cancel_t>(bytes)) ++right;
   if (decoded<missing_pages_t>(bytes)) ++right;
+  if (decoded<watch_t>(bytes)) ++right;
+  if (decoded<watch_report_t>(bytes)) ++right;
   if (const auto progress = decoded<plan_progress_t>(bytes)) {
     static_cast<void>(from_wire(*progress));
     ++right;

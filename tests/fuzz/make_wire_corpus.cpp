@@ -14,6 +14,8 @@
 #include <camway/plan_response_t.hpp>
 #include <camway/scene_request_t.hpp>
 #include <camway/upload_page_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/service/random_messages.h"
@@ -54,5 +56,7 @@ int main(int argc, char** argv) {
   write_messages<camway::plan_progress_t>(folder, random);
   write_messages<camway::scene_request_t>(folder, random);
   write_messages<camway::upload_page_t>(folder, random);
+  write_messages<camway::watch_t>(folder, random);
+  write_messages<camway::watch_report_t>(folder, random);
   return 0;
 }

@@ -11,6 +11,8 @@
 #include <camway/plan_response_t.hpp>
 #include <camway/scene_request_t.hpp>
 #include <camway/upload_page_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/fuzz/exercise_message.h"
@@ -23,7 +25,8 @@ template <class Message>
 class WireFuzz : public ::testing::Test {};
 using Exercised =
     ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t, cancel_t,
-                     missing_pages_t, plan_progress_t, scene_request_t, upload_page_t>;
+                     missing_pages_t, plan_progress_t, scene_request_t, upload_page_t, watch_t,
+                     watch_report_t>;
 TYPED_TEST_SUITE(WireFuzz, Exercised);
 
 TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {

@@ -25,9 +25,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// What clients publish; all else is the daemon's.
-constexpr char kFromClients[] = ".*_(PLAN_REQUEST|OCCUPANCY_REQUEST|CANCEL|MISSING_PAGES)";
+constexpr char kFromClients[] =
+    ".*_(PLAN_REQUEST|OCCUPANCY_REQUEST|SCENE_REQUEST|UPLOAD|CANCEL|MISSING_PAGES|WATCH)";
 constexpr char kFromDaemon[] =
-    ".*_((PLAN_RESPONSE|PLAN_PROGRESS|MISSING_PAGES|OCCUPANCY_RESPONSE)_.*|STATUS|ERROR)";
+    ".*_((PLAN_RESPONSE|PLAN_PROGRESS|MISSING_PAGES|OCCUPANCY_RESPONSE|SCENE_RESPONSE|UPLOAD_"
+    "STATUS|"
+    "WATCH_REPORT)_.*|STATUS|ERROR)";
 
 struct Shares {
   double loss;

@@ -83,6 +83,20 @@ TEST_F(SceneTest, PlansAroundWhatIsMoved) {
   EXPECT_EQ(described.scene.digest, loaded.scene.digest) << "all is as it was";
 }
 
+TEST_F(SceneTest, AFileThatIsWatchedIsReadAgain) {
+  stop_daemon();
+  start_daemon_with_scenes({"cube=" + file("root/cube.obj") + ",watch=yes"});
+  Client client(patient());
+  const SceneAnswer before = client.describe_scene("cube");
+  ASSERT_TRUE(before.ok()) << before.error;
+  std::string next = kCube;
+  next.replace(next.find("f 1 4"), std::string::npos, "f 1 4 3\n");
+  std::ofstream(file("next.obj")) << next;
+  std::filesystem::rename(file("next.obj"), file("root/cube.obj"));
+  ASSERT_TRUE(eventually([&] { return client.describe_scene("cube").scene.num_triangles == 1; }));
+  EXPECT_EQ(client.describe_scene("cube").scene.revision, before.scene.revision + 1);
+}
+
 /// A scene's occupancy map goes out as a file and comes back as a scene.
 TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   Client client(patient());

@@ -69,13 +69,17 @@ TEST_F(ConfigFile, TheSceneOfTheSampleIsRight) {
   EXPECT_EQ(options_.scenes[0].options.import.scale, 1.0);
   EXPECT_EQ(options_.scenes[0].options.import.up, scene::UpAxis::kAsInFile);
   EXPECT_EQ(options_.scenes[0].options.occupancy_resolution_m, 0.1);
+  EXPECT_FALSE(options_.scenes[0].watch);
+  ASSERT_EQ(read("[[scene]]\nname = \"a\"\nfile = \"f\"\nwatch = true\n"),
+            std::vector<std::string>{});
+  EXPECT_TRUE(options_.scenes.back().watch);
 }
 
 TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
   const std::vector<std::pair<std::string, std::string>> table{
       {"[queue\n", ":1: "},
       {"\nqueue = 1\n", ":2: 'queue' must be a table"},
-      {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has lcm, "},
+      {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has auth, lcm, "},
       {"[queue]\nlenght = 5\n",
        ":2: 'queue.lenght' is no setting; [queue] has requests, requests_of_a_client"},
       {"[queue]\nrequests = 0\n", ":2: queue.requests: must be within 1 to 100000"},
@@ -83,6 +87,7 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
       {"[queue]\nrequests = \"5\"\n", ":2: queue.requests: must be a whole number"},
       {"[planning]\ndeadline_s = nan\n", ":2: planning.deadline_s: must be within"},
       {"[planning]\ndeadline_s = \"1\"\n", ":2: planning.deadline_s: must be a number"},
+      {"[auth]\nrequired = 0\n", ":2: auth.required: must be true or false"},
       {"[log]\nlevel = 3\n", ":2: log.level: must be a text"},
       {"[log]\nlevel = \"loud\"\n", ":2: log.level: must be one of trace, "},
       {"[log]\nlevel = \"info\"\nlevel = \"info\"\n", ":3: "},
@@ -94,6 +99,7 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
       {"[[scene]]\nname = \"a\"\nfile = \"\"\n", ":3: scene.file: must name a file"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\nscale = 0\n", ":4: scene.scale: must be a number"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\nup = \"x\"\n", ":4: scene.up: must be as-in-file"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\nwatch = 1\n", ":4: scene.watch: must be true or"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\ncolour = 1\n", ":4: 'colour' is no setting of a"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\n[[scene]]\nname = \"a\"\nfile = \"g\"\n",
        ":4: scene.name: 'a' is there twice"},
@@ -105,6 +111,12 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
     EXPECT_EQ(faults[0].find((folder_ / "c.toml").string() + ":"), 0U) << faults[0];
     EXPECT_NE(faults[0].find(fault), std::string::npos) << faults[0];
   }
+}
+
+TEST_F(ConfigFile, SwitchesAreTrueOrFalse) {
+  EXPECT_TRUE(options_.auth.required);
+  EXPECT_TRUE(read("[auth]\nrequired = false\n").empty());
+  EXPECT_FALSE(options_.auth.required);
 }
 
 TEST_F(ConfigFile, AllFaultsComeInTheOrderOfTheirLines) {

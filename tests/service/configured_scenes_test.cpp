@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+
 #include "tests/support/captured_log.h"
 #include "tests/support/temporary_folder.h"
 
@@ -25,11 +28,26 @@ SceneArgument scene_of(const std::string& name, const std::string& file, double 
   return scene;
 }
 
+SceneArgument watched(SceneArgument scene) {
+  scene.watch = true;
+  return scene;
+}
+
 class ConfiguredScenesTest : public ::testing::Test {
  protected:
   std::uint64_t revision_of(const std::string& name) const {
     const auto snapshot = store_.find(name);
     return snapshot ? snapshot->revision : 0;
+  }
+
+  /// How often the log says this.
+  int count_of(const std::string& text) const {
+    const std::string log = log_.text();
+    int count = 0;
+    for (std::size_t at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) {
+      ++count;
+    }
+    return count;
   }
 
   TemporaryFolder folder_;
@@ -105,6 +123,89 @@ TEST_F(ConfiguredScenesTest, GivesUpBetweenScenesWhenAskedToStop) {
   stop.request_stop();
   EXPECT_FALSE(scenes_.update({scene_of("room", room_)}, stop.get_token()));
   EXPECT_TRUE(store_.list().empty());
+}
+
+TEST_F(ConfiguredScenesTest, ReadsAWatchedFileAgainOnceItsWriterIsDone) {
+  ASSERT_TRUE(scenes_.update({watched(scene_of("room", room_)), scene_of("hall", hall_)}));
+  EXPECT_TRUE(scenes_.watches_files());
+  const auto before = store_.find("room");
+  scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room"), before);
+  // As it grows, at every look.
+  for (std::size_t length = 10; length < sizeof(kTwoTriangles) - 1; length += 20) {
+    folder_.write("room.obj", std::string(kTwoTriangles).substr(0, length));
+    scenes_.look_at_files();
+    EXPECT_EQ(store_.find("room"), before);
+  }
+  folder_.write("room.obj", kTwoTriangles);
+  folder_.write("hall.obj", kTwoTriangles);
+  scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room"), before);
+  scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room")->index.size(), 2U);
+  EXPECT_EQ(revision_of("room"), 2U);
+  EXPECT_EQ(revision_of("hall"), 1U) << "nobody asked for that";
+  scenes_.look_at_files();
+  EXPECT_EQ(revision_of("room"), 2U);
+}
+
+TEST_F(ConfiguredScenesTest, SeesAFileThatIsReplacedByOneOfTheSameSizeAndTime) {
+  ASSERT_TRUE(scenes_.update({watched(scene_of("room", room_))}));
+  const auto time = std::filesystem::last_write_time(room_);
+  std::string other = kTriangle;
+  other[2] = '3';
+  const std::string next = folder_.write("next.obj", other);
+  std::filesystem::last_write_time(next, time);
+  std::filesystem::rename(next, room_);
+  scenes_.look_at_files();
+  scenes_.look_at_files();
+  EXPECT_EQ(revision_of("room"), 2U);
+}
+
+TEST_F(ConfiguredScenesTest, KeepsWhatClientsAddedToAWatchedScene) {
+  ASSERT_TRUE(scenes_.update({watched(scene_of("room", room_))}));
+  const auto room = store_.find("room");
+  store_.change("room", {scene::SceneChange::Kind::kPut, "crate", room->objects[0]->source, {}});
+  folder_.write("room.obj", kTwoTriangles);
+  scenes_.look_at_files();
+  scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room")->index.size(), 3U);
+  EXPECT_NE(store_.find("room")->find("crate"), nullptr);
+}
+
+TEST_F(ConfiguredScenesTest, AWatchedFileThatIsGoneOrBadLeavesWhatWasThere) {
+  ASSERT_TRUE(scenes_.update({watched(scene_of("room", room_))}));
+  const auto before = store_.find("room");
+  std::filesystem::remove(room_);
+  for (int look = 0; look < 4; ++look) scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room"), before);
+  EXPECT_EQ(count_of("is gone; what was read of it stays"), 1);
+  folder_.write("room.obj", "v 1 nonsense");
+  for (int look = 0; look < 4; ++look) scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room"), before);
+  EXPECT_EQ(count_of("what was read before stays"), 1);
+  folder_.write("room.obj", kTwoTriangles);
+  for (int look = 0; look < 2; ++look) scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room")->index.size(), 2U);
+}
+
+TEST_F(ConfiguredScenesTest, AWatchedFileThatWasOnlyTouchedMakesNoRevision) {
+  ASSERT_TRUE(scenes_.update({watched(scene_of("room", room_))}));
+  const auto before = store_.find("room");
+  std::filesystem::last_write_time(
+      room_, std::filesystem::last_write_time(room_) + std::chrono::seconds(5));
+  scenes_.look_at_files();
+  scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room"), before);
+}
+
+TEST_F(ConfiguredScenesTest, ASceneThatAClientUnloadedStaysUnloaded) {
+  ASSERT_TRUE(scenes_.update({watched(scene_of("room", room_))}));
+  store_.remove("room");
+  folder_.write("room.obj", kTwoTriangles);
+  scenes_.look_at_files();
+  scenes_.look_at_files();
+  EXPECT_EQ(store_.find("room"), nullptr);
 }
 
 }  // namespace

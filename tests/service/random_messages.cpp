@@ -226,6 +226,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.priority = static_cast<std::int8_t>(random());
   message.deadline_s = number(random);
   message.progress_period_s = number(random);
+  message.watch_lease_s = number(random);
   message.chord_error_m = number(random);
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
@@ -472,6 +473,48 @@ upload_status_t random_message<upload_status_t>(Random& random) {
 }
 
 template <>
+watch_t random_message<watch_t>(Random& random) {
+  watch_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.lease_s = number(random);
+  message.num_paths = fill_list(message.paths, length(random, 1000), [&] {
+    watched_path_t path{};
+    path.request_id = integer(random);
+    path.known_serial = integer(random);
+    return path;
+  });
+  return message;
+}
+
+template <>
+watch_report_t random_message<watch_report_t>(Random& random) {
+  watch_report_t message{};
+  message.client_id = client_id(random);
+  message.request_id = integer(random);
+  message.utime = integer(random);
+  message.message = text(random, wire::kMaxTextBytes);
+  message.num_paths = fill_list(message.paths, length(random, 500), [&] {
+    path_state_t path{};
+    path.request_id = integer(random);
+    path.serial = integer(random);
+    path.state = static_cast<std::int8_t>(below(random, 6));
+    path.scene_revision = integer(random);
+    path.answer_revision = integer(random);
+    return path;
+  });
+  message.num_intervals = fill_list(message.intervals, length(random, 500), [&] {
+    broken_interval_t interval{};
+    interval.request_id = integer(random);
+    interval.t_begin_s = number(random);
+    interval.t_end_s = number(random);
+    return interval;
+  });
+  return message;
+}
+
+template <>
 status_t random_message<status_t>(Random& random) {
   status_t message{};
   message.utime = integer(random);
@@ -480,12 +523,29 @@ status_t random_message<status_t>(Random& random) {
   message.num_workers = small(random);
   message.queued_requests = small(random);
   message.running_requests = small(random);
-  for (std::int64_t* const counter :
-       {&message.answered_requests, &message.repeated_requests, &message.cache_hits,
-        &message.overloaded_requests, &message.malformed_messages, &message.dropped_answers,
-        &message.unsent_messages, &message.request_pages_asked_again,
-        &message.answer_pages_asked_again, &message.scene_changes, &message.received_messages,
-        &message.received_bytes, &message.sent_messages, &message.sent_bytes}) {
+  message.watched_paths = small(random);
+  for (std::int64_t* const counter : {&message.answered_requests,
+                                      &message.repeated_requests,
+                                      &message.cache_hits,
+                                      &message.overloaded_requests,
+                                      &message.malformed_messages,
+                                      &message.dropped_answers,
+                                      &message.unsent_messages,
+                                      &message.request_pages_asked_again,
+                                      &message.answer_pages_asked_again,
+                                      &message.scene_changes,
+                                      &message.unsigned_messages,
+                                      &message.broken_envelopes,
+                                      &message.unknown_key_messages,
+                                      &message.altered_messages,
+                                      &message.stale_messages,
+                                      &message.replayed_messages,
+                                      &message.crowded_messages,
+                                      &message.received_messages,
+                                      &message.received_bytes,
+                                      &message.sent_messages,
+                                      &message.sent_bytes,
+                                      &message.broken_paths}) {
     *counter = integer(random);
   }
   for (auto* const answers :
@@ -502,6 +562,19 @@ status_t random_message<status_t>(Random& random) {
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });
+  return message;
+}
+
+template <>
+envelope_t random_message<envelope_t>(Random& random) {
+  envelope_t message{};
+  message.key_id = small(random);
+  message.sender = integer(random);
+  message.counter = integer(random);
+  message.utime = integer(random);
+  for (std::uint8_t& byte : message.tag) byte = static_cast<std::uint8_t>(below(random, 256));
+  message.num_bytes = fill_list(message.payload, length(random, wire::kMaxMessageBytes),
+                                [&] { return static_cast<std::uint8_t>(below(random, 256)); });
   return message;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include <camway/cancel_t.hpp>
+#include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
@@ -18,6 +19,8 @@
 #include <camway/status_t.hpp>
 #include <camway/upload_page_t.hpp>
 #include <camway/upload_status_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
 
 /// Messages that are right on the wire but otherwise arbitrary: every string length and list length
 /// within the limits is possible, numbers are any bits, NaN among them.
@@ -58,9 +61,15 @@ upload_page_t random_message<upload_page_t>(Random& random);
 template <>
 upload_status_t random_message<upload_status_t>(Random& random);
 template <>
+watch_t random_message<watch_t>(Random& random);
+template <>
+watch_report_t random_message<watch_report_t>(Random& random);
+template <>
 status_t random_message<status_t>(Random& random);
 template <>
 error_t random_message<error_t>(Random& random);
+template <>
+envelope_t random_message<envelope_t>(Random& random);
 
 /// Changes `bytes` in one to four places: bits, bytes, 32-bit numbers of the dangerous kind, cuts,
 /// insertions, repetitions.

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/support/captured_log.h"
 #include "tests/support/notify_socket.h"
@@ -64,6 +66,29 @@ TEST_F(ReloaderTest, TakesOverScenesAndLogLevel) {
   EXPECT_EQ(log_.logger()->level(), spdlog::level::debug);
   EXPECT_NE(store_.find("hall"), nullptr);
   EXPECT_EQ(store_.find("room"), nullptr);
+}
+
+TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
+  reloader_.reset();
+  running_.scenes.front().watch = true;
+  ASSERT_TRUE(scenes_.update(running_.scenes));
+  reloader_.emplace(
+      running_, [this] { return read_(); }, scenes_, manager_, log_.logger(), nullptr,
+      std::chrono::milliseconds(5));
+  folder_.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (store_.find("room")->index.size() != 2 && std::chrono::steady_clock::now() < patience) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(store_.find("room")->index.size(), 2U);
+  EXPECT_EQ(store_.find("room")->revision, 2U);
+  DaemonOptions next = running_;
+  next.log_level = spdlog::level::debug;
+  EXPECT_THAT(reload([&] {
+                return ParsedOptions{next, 0, {}};
+              }),
+              HasSubstr("reload: done"))
+      << "and reloads as ever";
 }
 
 TEST_F(ReloaderTest, SaysWhatNeedsARestart) {

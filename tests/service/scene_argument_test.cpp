@@ -30,6 +30,9 @@ TEST(SceneArgument, OptionsInAnyOrder) {
     EXPECT_EQ(scene.options.import.up, scene::UpAxis::kZToY);
     EXPECT_EQ(scene.options.occupancy_resolution_m, 0.1);
   }
+  EXPECT_FALSE(parsed("a=b").watch);
+  EXPECT_FALSE(parsed("a=b,watch=no").watch);
+  EXPECT_TRUE(parsed("a=b,watch=yes,scale=2").watch);
   EXPECT_EQ(parsed("a=b,up=y-to-z").options.import.up, scene::UpAxis::kYToZ);
 }
 
@@ -52,6 +55,7 @@ TEST(SceneArgument, ErrorsQuoteTheTextAndSayWhatIsWrong) {
       {"a=b,scale=2x", "must be a number above 0"},
       {"a=b,occupancy=", "occupancy=: must be a number above 0"},
       {"a=b,up=x-to-y", "up=x-to-y: must be as-in-file, z-to-y or y-to-z"},
+      {"a=b,watch=maybe", "watch=maybe: must be yes or no"},
       {"a=b,ocupancy=0.1", "'ocupancy' is no option"},
   };
   for (const auto& [text, reason] : table) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/planning/check.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,11 +78,8 @@ Parsed<CheckInput> read_input(const CheckFlags& flags) {
 }
 
 PathSearch search(const CheckInput& input) {
-  collision::DetectOptions options;
-  options.tolerance_m = input.request.options.interval_tolerance_m;
-  options.gap_m = std::max(options.gap_m, options.tolerance_m);
-  options.clearance_m = input.request.options.clearance_m;
-  return search_path(*input.snapshot, input.path, *input.body, options,
+  return search_path(*input.snapshot, input.path, *input.body,
+                     planning::detect_options(input.request.options),
                      collision::Deadline::after_s(input.request.options.deadline_s));
 }
 

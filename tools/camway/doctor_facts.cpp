@@ -20,6 +20,7 @@
 #include "daemon/service/config_file.h"
 #include "daemon/service/version.h"
 #include "lcmtypes/channels.h"
+#include "lcmtypes/envelope.h"
 #include "lcmtypes/wire_check.h"
 #include "tools/camway/doctor.h"
 
@@ -112,8 +113,11 @@ class StatusListener {
  public:
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/) {
     if (fact_) return;
-    const wire::Decoded<status_t> decoded =
-        wire::decode<status_t>({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    // Whether it is signed is no matter here.
+    const auto message = wire::payload_unchecked(
+        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!message) return;
+    const wire::Decoded<status_t> decoded = wire::decode<status_t>(*message);
     if (!decoded.message) return;
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();

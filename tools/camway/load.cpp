@@ -13,6 +13,7 @@
 #include "daemon/service/scene_argument.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 #include "tools/camway/load_occupancy.h"
 #include "tools/camway/load_run.h"
 #include "tools/camway/scene_flags.h"
@@ -29,6 +30,7 @@ struct LoadFlags {
   std::vector<std::string> requests;
   std::size_t occupancy_queries = 0;  ///< of a batch; 0: plan requests are asked
   LoadOptions run;
+  std::string key_file;
   double warm_up_s = 0.0;
   std::optional<double> max_growth_percent;
   std::string json_file;
@@ -147,7 +149,7 @@ ExitCode load_occupancy(const LoadFlags& flags) {
   return load.wrong + load.lost > 0 ? ExitCode::kNegative : ExitCode::kSuccess;
 }
 
-ExitCode run_command(const LoadFlags& flags) {
+ExitCode run_command(LoadFlags flags) {
   if (!wire::is_prefix(flags.run.prefix)) {
     return invalid_input("--prefix " + flags.run.prefix +
                          ": must be 1 to 11 letters, digits, '-' or '_'");
@@ -155,6 +157,11 @@ ExitCode run_command(const LoadFlags& flags) {
   if (flags.run.daemon_pid != 0 && !(resident_mb(flags.run.daemon_pid) > 0.0)) {
     return invalid_input(fmt::format("--daemon-pid: there is no process {}", flags.run.daemon_pid));
   }
+  ClientOptions signing;
+  if (const std::string fault = use_key_file(flags.key_file, signing); !fault.empty()) {
+    return invalid_input(fault);
+  }
+  flags.run.authentication = signing.authentication;
   if (flags.occupancy_queries > 0) return load_occupancy(flags);
   if (flags.requests.empty()) {
     return invalid_input("either --request or --occupancy says what is asked");
@@ -188,6 +195,7 @@ void add_run_flags(CLI::App& command, LoadFlags& flags) {
                   "Stop after so many requests of all clients together; 0: only by time")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  add_key_file(command, flags.key_file);
   command.add_option("--url", flags.run.url, "LCM network [LCM_DEFAULT_URL]");
   command.add_option("--prefix", flags.run.prefix, "Of the daemon's channels")
       ->capture_default_str();

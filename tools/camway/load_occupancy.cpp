@@ -148,6 +148,7 @@ OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geomet
     ClientOptions client;
     client.url = options.url;
     client.prefix = options.prefix;
+    client.authentication = options.authentication;
     clients.push_back(std::make_unique<Client>(client));
     load.error = clients.back()->error();
     if (!load.error.empty()) return load;

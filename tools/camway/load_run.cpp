@@ -57,6 +57,7 @@ LoadResult run_load(const std::vector<LoadQuestion>& questions, const LoadOption
     ClientOptions client;
     client.url = options.url;
     client.prefix = options.prefix;
+    client.authentication = options.authentication;
     clients.push_back(std::make_unique<Client>(client));
     if (!clients.back()->good()) {
       result.error = clients.back()->error();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <camway/authentication.h>
+
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +14,7 @@ namespace camway::tools {
 struct LoadOptions {
   std::string url;  ///< LCM network; empty: as the client's default
   std::string prefix = "CAMWAY";
+  std::shared_ptr<const Authentication> authentication;  ///< null: nothing is signed
   int clients = 8;
   double seconds = 10.0;      ///< no request is begun later
   std::int64_t requests = 0;  ///< of all clients together; 0: as many as the time allows

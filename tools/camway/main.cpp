@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
   camway::tools::add_draw_command(app, exit_code);
   camway::tools::add_status_command(app, exit_code);
   camway::tools::add_doctor_command(app, exit_code);
+  camway::tools::add_watch_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version

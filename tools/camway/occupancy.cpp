@@ -7,6 +7,7 @@
 
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 #include "tools/camway/occupancy_queries.h"
 #include "tools/camway/scene_flags.h"
 
@@ -18,6 +19,7 @@ struct OccupancyFlags {
   std::string daemon_scene;
   std::string url;
   std::string prefix = "CAMWAY";
+  std::string key_file;
   std::optional<double> resolution_m;
   OccupancyTexts queries;
   std::string map_file;
@@ -62,6 +64,10 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
+  if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
@@ -141,6 +147,7 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--prefix", flags->prefix, "Of the daemon's channels")
       ->needs(daemon)
       ->capture_default_str();
+  add_key_file(*command, flags->key_file)->needs(daemon);
   add_queries(*command, flags->queries);
   command
       ->add_option("--write", flags->map_file,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <set>
 #include <span>
 #include <thread>
@@ -16,8 +17,11 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "lcmtypes/channels.h"
+#include "lcmtypes/envelope.h"
+#include "lcmtypes/message_auth.h"
 #include "lcmtypes/wire_check.h"
 #include "tools/camway/event_log.h"
+#include "tools/camway/signed_event.h"
 
 namespace camway::tools {
 namespace {
@@ -28,7 +32,9 @@ using Key = std::pair<std::string, std::int64_t>;
 /// Sends requests and collects the ids of the answers, all on the calling thread.
 class Publisher {
  public:
-  Publisher(lcm::LCM& lcm, const wire::Channels& channels) : lcm_(lcm), channels_(channels) {
+  /// `auth` may be null.
+  Publisher(lcm::LCM& lcm, const wire::Channels& channels, wire::MessageAuth* auth)
+      : lcm_(lcm), channels_(channels), auth_(auth) {
     lcm_.subscribe(channels_.plan_response(".*"), &Publisher::on_answer, this)
         ->setQueueCapacity(kQueueCapacity);
   }
@@ -47,8 +53,11 @@ class Publisher {
         ++other_version_;
       }
     }
-    return lcm_.publish(event.channel, event.data.data(),
-                        static_cast<unsigned int>(event.data.size())) == 0;
+    const auto publish = [&](const std::vector<std::uint8_t>& message) {
+      return lcm_.publish(event.channel, message.data(),
+                          static_cast<unsigned int>(message.size())) == 0;
+    };
+    return auth_ != nullptr ? publish(auth_->seal(event.channel, event.data)) : publish(event.data);
   }
 
   /// Takes in answers until `time`, or until all requests are answered if `stop_early`.
@@ -68,9 +77,12 @@ class Publisher {
   static constexpr int kQueueCapacity = 4096;
   static constexpr std::int64_t kSliceMs = 100;
 
-  void on_answer(const lcm::ReceiveBuffer* buffer, const std::string&) noexcept {
+  void on_answer(const lcm::ReceiveBuffer* buffer, const std::string& channel) noexcept {
     const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
-    const auto sender = wire::peek_sender(wire::layout_of<plan_response_t>(), bytes);
+    const auto message =
+        auth_ != nullptr ? auth_->open(channel, bytes).message : wire::payload_unchecked(bytes);
+    if (!message) return;
+    const auto sender = wire::peek_sender(wire::layout_of<plan_response_t>(), *message);
     if (!sender) return;
     Key key(sender->client_id, sender->request_id);
     if (asked_.contains(key)) answered_.insert(std::move(key));
@@ -78,6 +90,7 @@ class Publisher {
 
   lcm::LCM& lcm_;
   const wire::Channels& channels_;
+  wire::MessageAuth* auth_;
   std::set<Key> asked_;
   std::set<Key> answered_;
   std::size_t other_version_ = 0;
@@ -97,7 +110,8 @@ Clock::duration due_after(const LogEvent& first, const LogEvent& event, double s
 
 }  // namespace
 
-ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options) {
+ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options,
+                     std::shared_ptr<const wire::MessageKeys> keys) {
   std::vector<LogEvent> requests;
   const wire::Channels channels{options.prefix};
   lcm::LCM lcm(options.url);
@@ -107,11 +121,25 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
         "(ip route add 224.0.0.0/4 dev lo)");
     return ExitCode::kInvalidInput;
   }
-  Publisher publisher(lcm, channels);
+  std::optional<wire::MessageAuth> auth;
+  wire::ReplayGuard::Limits limits;
+  limits.only_since_start = false;  // this lives for moments, and the daemon's clock may be behind
+  if (keys) auth.emplace(keys, limits);
+  Publisher publisher(lcm, channels, auth ? &*auth : nullptr);
+  std::uint64_t distrusted = 0;
   const LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
-    if (publisher.is_request(event)) requests.push_back(std::move(event));
+    if (!publisher.is_request(event)) return;
+    if (open_event(keys.get(), event)) {
+      ++distrusted;
+    } else {
+      requests.push_back(std::move(event));
+    }
   });
   if (!summary.damage.empty()) print_error(summary.damage);
+  if (distrusted > 0) {
+    print_error(fmt::format("{}: {} messages left out: their signature is missing or not good",
+                            log.string(), distrusted));
+  }
   if (requests.empty()) {
     print_error(fmt::format("{}: holds no requests on {}_*", log.string(), options.prefix));
     return ExitCode::kInvalidInput;

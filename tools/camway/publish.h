@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
+#include "lcmtypes/message_keys.h"
 #include "tools/camway/commands.h"
 
 namespace camway::tools {
@@ -18,7 +20,9 @@ struct PublishOptions {
 
 /// Sends the requests of `log` (planning and occupancy) to a running daemon, byte for byte and in
 /// the rhythm in which they came, and counts how many planning requests are answered. A negative
-/// exit code if not all are.
-ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options);
+/// exit code if not all are. Signed ones are stale by now: they are taken out of their envelopes,
+/// and, with `keys`, checked and signed anew; nothing else is sent then.
+ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options,
+                     std::shared_ptr<const wire::MessageKeys> keys);
 
 }  // namespace camway::tools

@@ -8,6 +8,7 @@
 
 #include "daemon/service/scene_argument.h"
 #include "lcmtypes/channels.h"
+#include "lcmtypes/message_keys.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/publish.h"
 #include "tools/camway/replay_run.h"
@@ -25,6 +26,7 @@ struct ReplayFlags {
   bool no_timing = false;
   bool publish = false;
   PublishOptions publishing;
+  std::string key_file;
 };
 
 ExitCode invalid_input(std::string_view message) {
@@ -90,15 +92,19 @@ ExitCode verdict_code(const Session& session, const std::vector<ReplayedRequest>
   return ExitCode::kSuccess;
 }
 
-ExitCode replay_offline(const ReplayFlags& flags) {
+ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   const std::string& prefix = flags.publishing.prefix;
-  const Session session = read_session(flags.log, prefix);
+  const Session session = read_session(flags.log, prefix, keys);
   if (!session.log.damage.empty()) print_error(session.log.damage);
   if (session.requests.empty() && session.other_version > 0) {
     return invalid_input(fmt::format(
         "{}: its {} messages on {}_* are of another version of the wire types: replay it with the "
         "camway of the version that recorded it",
         flags.log, session.other_version, prefix));
+  }
+  if (session.requests.empty() && session.distrusted > 0) {
+    return invalid_input(fmt::format("{}: its {} messages on {}_* are not signed with a key of {}",
+                                     flags.log, session.distrusted, prefix, flags.key_file));
   }
   if (session.requests.empty()) {
     return invalid_input(fmt::format("{}: holds no planning requests on {}", flags.log,
@@ -127,7 +133,11 @@ ExitCode run_replay(const ReplayFlags& flags) {
     return invalid_input("--prefix " + flags.publishing.prefix +
                          ": must be 1 to 11 letters, digits, '-' or '_'");
   }
-  return flags.publish ? publish_log(flags.log, flags.publishing) : replay_offline(flags);
+  wire::MessageKeys::Read read;
+  if (!flags.key_file.empty()) read = wire::MessageKeys::from_file(flags.key_file);
+  if (!read.error.empty()) return invalid_input("--key-file " + read.error);
+  return flags.publish ? publish_log(flags.log, flags.publishing, read.keys)
+                       : replay_offline(flags, read.keys.get());
 }
 
 void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
@@ -185,6 +195,11 @@ void add_replay_command(CLI::App& app, ExitCode& exit_code) {
   command->add_option("LOG", flags->log, "Log that lcm-logger recorded")->required();
   command->add_option("--prefix", flags->publishing.prefix, "Of the daemon's channels")
       ->capture_default_str();
+  command
+      ->add_option("--key-file", flags->key_file,
+                   "Use only messages that were signed with a key of this file; with --publish: "
+                   "and sign them anew")
+      ->type_name("FILE");
   add_offline_flags(*command, *flags);
   add_publish_flags(*command, *flags);
   command->footer(

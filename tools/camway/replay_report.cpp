@@ -80,6 +80,7 @@ std::string report(const Session& session, const std::vector<ReplayedRequest>& r
   add_note(out, session.malformed - session.other_version, "messages left out: malformed");
   add_note(out, session.other_version,
            "messages left out: of another version of the wire types than this camway's");
+  add_note(out, session.distrusted, "messages left out: their signature is missing or not good");
   add_note(out, session.unasked, "answers to requests that are not in the log");
   add_note(out, changed, "answers were computed on other triangles than the scene has now");
   if (!session.log.damage.empty()) {

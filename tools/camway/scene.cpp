@@ -12,6 +12,7 @@
 
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 
 namespace camway::tools {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 struct SceneCommandFlags {
   std::string url;
   std::string prefix = "CAMWAY";
+  std::string key_file;
   std::string scene;
   std::string object;
   std::string file;         ///< below a root of the daemon
@@ -151,6 +153,10 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
+  if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
@@ -242,6 +248,7 @@ CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, co
   CLI::App* command = parent.add_subcommand(name, help);
   command->add_option("--url", flags->url, "LCM network [LCM_DEFAULT_URL]");
   command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
+  add_key_file(*command, flags->key_file);
   return command;
 }
 

@@ -7,6 +7,7 @@
 #include "daemon/service/wire_pages.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/wire_check.h"
+#include "tools/camway/signed_event.h"
 
 namespace camway::tools {
 namespace {
@@ -15,15 +16,20 @@ using Key = std::pair<std::string, std::int64_t>;  // client and request id
 
 class SessionBuilder {
  public:
-  explicit SessionBuilder(const std::string& prefix)
-      : request_channel_(wire::Channels{prefix}.plan_request()),
+  SessionBuilder(const std::string& prefix, const wire::MessageKeys* keys)
+      : keys_(keys),
+        request_channel_(wire::Channels{prefix}.plan_request()),
         response_channels_(wire::Channels{prefix}.plan_response("")) {}
 
-  void add(const LogEvent& event) {
-    if (event.channel == request_channel_) {
+  void add(LogEvent event) {
+    const bool request = event.channel == request_channel_;
+    if (!request && !event.channel.starts_with(response_channels_)) return;
+    if (open_event(keys_, event)) {
+      ++session_.distrusted;
+    } else if (request) {
       add_page<plan_request_t>(event, request_pages_,
                                [this](plan_request_t&& whole) { add_request(std::move(whole)); });
-    } else if (event.channel.starts_with(response_channels_)) {
+    } else {
       add_page<plan_response_t>(event, response_pages_,
                                 [this](plan_response_t&& whole) { add_answer(whole); });
     }
@@ -93,6 +99,7 @@ class SessionBuilder {
     if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);
   }
 
+  const wire::MessageKeys* keys_;
   std::string request_channel_;
   std::string response_channels_;
   service::PageAssembly<plan_request_t> request_pages_;
@@ -105,9 +112,11 @@ class SessionBuilder {
 
 }  // namespace
 
-Session read_session(const std::filesystem::path& log, const std::string& prefix) {
-  SessionBuilder builder(prefix);
-  LogSummary summary = read_event_log(log, [&](LogEvent&& event) { builder.add(event); });
+Session read_session(const std::filesystem::path& log, const std::string& prefix,
+                     const wire::MessageKeys* keys) {
+  SessionBuilder builder(prefix, keys);
+  LogSummary summary =
+      read_event_log(log, [&](LogEvent&& event) { builder.add(std::move(event)); });
   Session session = builder.take();
   session.log = std::move(summary);
   return session;

@@ -10,6 +10,7 @@
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 #include "daemon/service/wire_convert.h"
+#include "lcmtypes/message_keys.h"
 #include "tools/camway/event_log.h"
 
 namespace camway::tools {
@@ -40,13 +41,16 @@ struct Session {
   std::uint64_t malformed = 0;  ///< messages on our channels that are not of our types
   /// Of these, messages with another fingerprint: recorded with another version of the wire types.
   std::uint64_t other_version = 0;
+  std::uint64_t distrusted = 0;  ///< messages whose signature is missing or not good
   std::uint64_t incomplete = 0;  ///< messages of which a page is missing
   std::uint64_t conflicts = 0;  ///< requests whose id was used before for another request; left out
   std::uint64_t unasked = 0;    ///< answers to requests that are not in the log
 };
 
 /// Reads what `log` holds of planning on channels with `prefix`, putting pages together. Of several
-/// answers to one request the first that is a result of planning counts.
-Session read_session(const std::filesystem::path& log, const std::string& prefix);
+/// answers to one request the first that is a result of planning counts. With `keys` only messages
+/// that were signed with one of them count; without, all do, and signatures are not looked at.
+Session read_session(const std::filesystem::path& log, const std::string& prefix,
+                     const wire::MessageKeys* keys = nullptr);
 
 }  // namespace camway::tools

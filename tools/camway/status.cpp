@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 
 namespace camway::tools {
 namespace {
@@ -25,6 +26,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 struct StatusFlags {
   ClientOptions client;
+  std::string key_file;
   double timeout_s = 3.0;
   bool json = false;
   bool watch = false;
@@ -91,6 +93,13 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"request_pages_asked_again", status.request_pages_asked_again},
                    {"answer_pages_asked_again", status.answer_pages_asked_again},
                    {"scene_changes", status.scene_changes},
+                   {"unsigned_messages", status.unsigned_messages},
+                   {"broken_envelopes", status.broken_envelopes},
+                   {"unknown_key_messages", status.unknown_key_messages},
+                   {"altered_messages", status.altered_messages},
+                   {"stale_messages", status.stale_messages},
+                   {"replayed_messages", status.replayed_messages},
+                   {"crowded_messages", status.crowded_messages},
                    {"received_messages", status.received_messages},
                    {"received_bytes", status.received_bytes},
                    {"sent_messages", status.sent_messages},
@@ -101,6 +110,8 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"receipt_to_answer", latency_json(status.receipt_to_answer)},
                    {"waiting", latency_json(status.waiting)},
                    {"planning", latency_json(status.planning)},
+                   {"watched_paths", status.watched_paths},
+                   {"broken_paths", status.broken_paths},
                    {"total_scenes", status.total_scenes}};
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_json(scene));
@@ -141,6 +152,12 @@ void print_traffic(const DaemonStatus& status) {
       "found no room\n",
       status.request_pages_asked_again, status.answer_pages_asked_again, status.dropped_answers);
   fmt::print("malformed    {} messages\n", status.malformed_messages);
+  fmt::print(
+      "distrusted   {} unsigned, {} broken, {} of unknown keys, {} altered, {} stale, {} "
+      "replayed, {} of too many senders\n",
+      status.unsigned_messages, status.broken_envelopes, status.unknown_key_messages,
+      status.altered_messages, status.stale_messages, status.replayed_messages,
+      status.crowded_messages);
 }
 
 void print_text(const DaemonStatus& status) {
@@ -159,6 +176,8 @@ void print_text(const DaemonStatus& status) {
   fmt::print("waiting      {}\n", quantiles_text(status.waiting));
   fmt::print("planning     {}\n", quantiles_text(status.planning));
   print_traffic(status);
+  fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
+             status.broken_paths);
   fmt::print("scenes       {}, changed {} times\n", status.total_scenes, status.scene_changes);
   for (const SceneInfo& scene : status.scenes) {
     fmt::print("  {}: revision {}, {} triangles, {}, digest {}\n", scene.name, scene.revision,
@@ -202,7 +221,11 @@ void print(const StatusFlags& flags, const DaemonStatus& status,
   std::fflush(stdout);
 }
 
-ExitCode run_status(const StatusFlags& flags) {
+ExitCode run_status(StatusFlags flags) {
+  if (const std::string fault = use_key_file(flags.key_file, flags.client); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
   Client client(flags.client);
   if (!client.good()) {
     print_error(client.error());
@@ -231,6 +254,7 @@ void add_status_command(CLI::App& app, ExitCode& exit_code) {
                       "LCM network [LCM_DEFAULT_URL, else multicast on this host]");
   command->add_option("--prefix", flags->client.prefix, "Prefix of the daemon's channels")
       ->capture_default_str();
+  add_key_file(*command, flags->key_file);
   command->add_option("--timeout-s", flags->timeout_s, "How long to wait for a heartbeat, seconds")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();

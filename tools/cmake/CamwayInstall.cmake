@@ -20,10 +20,22 @@ target_include_directories(camway_client_installed INTERFACE
 target_compile_features(camway_client_installed INTERFACE cxx_std_17)
 target_link_libraries(camway_client_installed INTERFACE LCM::lcm Threads::Threads)
 
+# Signing by shared keys, for those who ask for it: COMPONENTS authentication. Its users need libsodium.
+add_library(camway_authentication_installed STATIC
+  $<TARGET_OBJECTS:camway_client_authentication> $<TARGET_OBJECTS:camway_auth>)
+set_target_properties(camway_authentication_installed PROPERTIES
+  OUTPUT_NAME camway_authentication LINKER_LANGUAGE CXX EXPORT_NAME authentication)
+target_link_libraries(camway_authentication_installed
+  INTERFACE camway_client_installed PkgConfig::SODIUM)
+
 set(camway_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/camway)
 install(TARGETS camway_client_installed EXPORT camway-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
 install(EXPORT camway-targets NAMESPACE camway:: DESTINATION ${camway_package_dir}
+        COMPONENT client)
+install(TARGETS camway_authentication_installed EXPORT camway-authentication-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
+install(EXPORT camway-authentication-targets NAMESPACE camway:: DESTINATION ${camway_package_dir}
         COMPONENT client)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/camway DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         COMPONENT client FILES_MATCHING PATTERN "*.h")

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camway/plan.h"
+
+namespace camway {
+
+/// What became of a path that the daemon watches.
+struct WatchEvent {
+  enum class Kind {
+    kAnswer,  ///< an answer came: the first, a corrected one, or one after a restart of the daemon
+    kBroken,  ///< a change of the scene: the path of the last answer collides now, as `broken` says
+    kFree,    ///< the path that was broken is proved free again, as it was answered
+    kLost,    ///< nobody watches for now, as `error` says; the client goes on trying
+    kEnded,   ///< the answer before proves no path, so there is nothing to watch
+  };
+  Kind kind = Kind::kLost;
+  std::int64_t request_id = 0;
+  std::int64_t scene_revision = 0;        ///< that it holds for; 0 if the scene is gone
+  std::vector<CollisionInterval> broken;  ///< without witnesses
+  std::optional<PlanResponse> answer;     ///< exactly with kAnswer; look at its status
+  std::string error;
+};
+
+/// Called on the client's own thread: quick things, that do not wait for the client.
+using WatchHandler = std::function<void(const WatchEvent&)>;
+
+}  // namespace camway

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "client/watch_list.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <camway/watch_t.hpp>
+
+#include "client/plan_call.h"
+#include "client/text.h"
+#include "lcmtypes/wire_check.h"
+
+namespace camway {
+namespace {
+
+/// Leases are renewed three times before they end, so that two renewals may be lost.
+constexpr double kRenewals = 3.0;
+/// How long the daemon is given to answer a renewal, at first.
+constexpr double kAnswerWait_s = 0.5;
+/// How long the pages of a corrected answer may be on their way before they are asked for.
+constexpr double kPagesWait_s = 0.3;
+/// Pauses between attempts to have a path watched.
+constexpr double kFirstPause_s = 0.2;
+constexpr double kLongestPause_s = 30.0;
+constexpr double kGrowth = 2.0;
+/// As many as fit a message of the largest size.
+constexpr std::size_t kPathsPerMessage = 3000;
+
+Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+}
+
+bool has_proof(const PlanResponse& response) { return response.certified; }
+
+/// Whether the daemon gave an answer at all, rather than nobody or none for now.
+bool is_answer(const PlanResponse& response) {
+  return static_cast<int>(response.status) < static_cast<int>(Status::kNoDaemon) &&
+         response.status != Status::kOverloaded;
+}
+
+}  // namespace
+
+void WatchList::add(const PlanRequest& request, WatchHandler handler) {
+  const std::int64_t id = request.request_id;
+  Watched watched{request, std::move(handler), PlanCollector(context_.options().client_id, id)};
+  watched.ask_again_s = kFirstPause_s;
+  watched_.insert_or_assign(id, std::move(watched));
+  if (renew_at_ == Clock::time_point::max()) {
+    renewed_at_ = Clock::now();
+    renew_at_ = renewed_at_ + seconds(context_.options().watch_lease_s / kRenewals);
+  }
+}
+
+void WatchList::remove(std::int64_t request_id) {
+  if (watched_.erase(request_id) == 0) return;
+  to_acknowledge_.erase(request_id);
+  if (watched_.empty()) renew_at_ = Clock::time_point::max();
+  watched_path_t path{};
+  path.request_id = request_id;
+  send({path}, context_.new_request_id(), -1.0);
+}
+
+void WatchList::ask(Watched& watched) {
+  const std::int64_t id = watched.request.request_id;
+  watched.is_asked = true;
+  watched.ask_at = Clock::time_point::max();
+  watched.collector.clear();
+  PlanHandlers handlers;
+  handlers.on_answer = [this, id](const PlanResponse& response) { answered(id, response); };
+  hooks_.start(std::make_shared<PlanCall>(context_, watched.request, id, std::move(handlers)));
+}
+
+void WatchList::answered(std::int64_t request_id, const PlanResponse& response) {
+  const auto position = watched_.find(request_id);
+  if (position == watched_.end()) return;
+  Watched& watched = position->second;
+  watched.is_asked = false;
+  if (!is_answer(response)) {
+    ask_later(watched, Clock::now());
+    tell_lost(watched, response.error);
+    return;
+  }
+  const bool is_first = watched.held_revision < 0;
+  WatchEvent event;
+  event.kind = WatchEvent::Kind::kAnswer;
+  event.scene_revision = response.scene_revision;
+  event.answer = response;
+  watched.held_revision = response.scene_revision;
+  if (has_proof(response)) {
+    watched.is_broken = false;
+    to_acknowledge_.insert(request_id);
+    tell(watched, std::move(event));
+    return;
+  }
+  if (!is_first && watched.serial != 0) {  // the path before is watched on
+    tell(watched, std::move(event));
+    return;
+  }
+  const WatchHandler handler = watched.handler;
+  const Watched last = std::move(watched);
+  remove(request_id);
+  tell(last, std::move(event));
+  WatchEvent end;
+  end.kind = WatchEvent::Kind::kEnded;
+  end.error = "there is nothing to watch, as the answer proves no path: " +
+              (response.ok() ? response.message : response.error);
+  tell(last, std::move(end));
+}
+
+void WatchList::take_answer(std::int64_t request_id, std::span<const std::uint8_t> bytes) {
+  const auto position = watched_.find(request_id);
+  if (position == watched_.end() || position->second.is_asked) return;
+  Watched& watched = position->second;
+  watched.collector.take(bytes);
+  if (!watched.collector.complete()) return;
+  PlanResponse response = watched.collector.response();
+  watched.collector.clear();
+  response.request_id = request_id;
+  if (!is_answer(response) || response.scene_revision <= watched.held_revision) return;
+  watched.ask_at = Clock::time_point::max();
+  watched.held_revision = response.scene_revision;
+  if (has_proof(response)) watched.is_broken = false;
+  WatchEvent event;
+  event.kind = WatchEvent::Kind::kAnswer;
+  event.scene_revision = response.scene_revision;
+  event.answer = std::move(response);
+  tell(watched, std::move(event));
+}
+
+void WatchList::take_report(std::span<const std::uint8_t> bytes, Clock::time_point now) {
+  const auto decoded = wire::decode<watch_report_t>(bytes);
+  if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
+  const watch_report_t& report = *decoded.message;
+  if (unanswered_.erase(report.request_id) > 0 && unanswered_.empty()) {
+    renewed_at_ = now;
+    is_lost_ = false;
+    renew_at_ = now + seconds(context_.options().watch_lease_s / kRenewals);
+  }
+  for (const path_state_t& state : report.paths) take_state(state, report, now);
+}
+
+void WatchList::take_state(const path_state_t& state, const watch_report_t& report,
+                           Clock::time_point now) {
+  const auto position = watched_.find(state.request_id);
+  if (position == watched_.end()) return;
+  Watched& watched = position->second;
+  switch (state.state) {
+    case path_state_t::UNKNOWN:
+      watched.serial = 0;
+      if (!watched.is_asked && watched.ask_at == Clock::time_point::max()) ask_later(watched, now);
+      return;
+    case path_state_t::REFUSED:
+      watched.serial = 0;
+      ask_later(watched, now);
+      tell_lost(watched, report.message);
+      return;
+    case path_state_t::FREE:
+    case path_state_t::BROKEN:
+      to_acknowledge_.insert(state.request_id);
+      if (state.serial > watched.serial) take_new_state(watched, state, report, now);
+      return;
+    default:
+      return;
+  }
+}
+
+void WatchList::take_new_state(Watched& watched, const path_state_t& state,
+                               const watch_report_t& report, Clock::time_point now) {
+  watched.serial = state.serial;
+  watched.ask_again_s = kFirstPause_s;
+  if (state.answer_revision > watched.held_revision && !watched.is_asked) {
+    watched.ask_at = std::min(watched.ask_at, now + seconds(kPagesWait_s));
+  }
+  // Of an answer that was corrected since, whose report was overtaken.
+  if (state.answer_revision < watched.held_revision) return;
+  WatchEvent event;
+  event.scene_revision = state.scene_revision;
+  if (state.state == path_state_t::BROKEN) {
+    event.kind = WatchEvent::Kind::kBroken;
+    for (const broken_interval_t& interval : report.intervals) {
+      if (interval.request_id != state.request_id) continue;
+      event.broken.push_back({interval.t_begin_s, interval.t_end_s, std::nullopt});
+    }
+    watched.is_broken = true;
+    tell(watched, std::move(event));
+  } else if (watched.is_broken && state.answer_revision == watched.held_revision) {
+    event.kind = WatchEvent::Kind::kFree;
+    watched.is_broken = false;
+    tell(watched, std::move(event));
+  }
+}
+
+void WatchList::ask_later(Watched& watched, Clock::time_point now) {
+  watched.ask_at = now + seconds(watched.ask_again_s);
+  watched.ask_again_s = std::min(kGrowth * watched.ask_again_s, kLongestPause_s);
+}
+
+void WatchList::take_heartbeat(double uptime_s, Clock::time_point now) {
+  // A daemon that was started since knows nothing of what is watched.
+  if (!watched_.empty() && std::chrono::duration<double>(now - renewed_at_).count() > uptime_s) {
+    renewed_at_ = now;
+    renew_at_ = now;
+  }
+}
+
+void WatchList::step(Clock::time_point now) {
+  for (auto& [id, watched] : watched_) {
+    if (!watched.is_asked && now >= watched.ask_at) ask(watched);
+  }
+  if (now >= renew_at_) renew(now);
+  acknowledge();
+}
+
+Clock::time_point WatchList::wake() const {
+  Clock::time_point next = to_acknowledge_.empty() ? renew_at_ : Clock::time_point{};
+  for (const auto& [id, watched] : watched_) {
+    if (!watched.is_asked) next = std::min(next, watched.ask_at);
+  }
+  return next;
+}
+
+void WatchList::renew(Clock::time_point now) {
+  const double lease_s = context_.options().watch_lease_s;
+  const bool was_answered = unanswered_.empty();
+  renew_again_s_ =
+      was_answered ? kAnswerWait_s : std::min(kGrowth * renew_again_s_, lease_s / kRenewals);
+  renew_at_ = now + seconds(renew_again_s_);
+  unanswered_.clear();
+  std::vector<watched_path_t> paths;
+  const auto flush = [&] {
+    if (paths.empty()) return;
+    const std::int64_t id = context_.new_request_id();
+    unanswered_.insert(id);
+    send(std::exchange(paths, {}), id, 0.0);
+  };
+  for (const auto& [id, watched] : watched_) {
+    if (watched.held_revision < 0) continue;  // nothing is watched yet
+    paths.emplace_back();
+    paths.back().request_id = id;
+    paths.back().known_serial = watched.serial;
+    if (paths.size() == kPathsPerMessage) flush();
+  }
+  flush();
+  if (is_lost_ || now - renewed_at_ < seconds(lease_s)) return;
+  is_lost_ = true;
+  const std::string error = context_.explain(Outcome::kSilence, false, {}, {}).error;
+  std::vector<std::int64_t> ids;
+  for (auto& [id, watched] : watched_) ids.push_back(id);
+  for (const std::int64_t id : ids) {
+    const auto position = watched_.find(id);
+    if (position != watched_.end()) tell_lost(position->second, error);
+  }
+}
+
+void WatchList::acknowledge() {
+  std::vector<watched_path_t> paths;
+  for (const std::int64_t id : std::exchange(to_acknowledge_, {})) {
+    const auto position = watched_.find(id);
+    if (position == watched_.end()) continue;
+    paths.emplace_back();
+    paths.back().request_id = id;
+    paths.back().known_serial = position->second.serial;
+    if (paths.size() == kPathsPerMessage)
+      send(std::exchange(paths, {}), context_.new_request_id(), 0.0);
+  }
+  if (!paths.empty()) send(std::move(paths), context_.new_request_id(), 0.0);
+}
+
+void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s) {
+  watch_t message{};
+  message.client_id = context_.options().client_id;
+  message.request_id = id;
+  message.utime = microseconds_since_1970();
+  message.lease_s = lease_s;
+  message.paths = std::move(paths);
+  message.num_paths = static_cast<std::int32_t>(message.paths.size());
+  hooks_.send({context_.channels().watch(), wire::encode(message)});
+}
+
+void WatchList::tell(const Watched& watched, WatchEvent event) {
+  if (!watched.handler) return;
+  event.request_id = watched.request.request_id;
+  try {
+    watched.handler(event);
+  } catch (...) {
+    // There is nobody to tell: the handler's own affair.
+  }
+}
+
+void WatchList::tell_lost(Watched& watched, std::string error) {
+  WatchEvent event;
+  event.kind = WatchEvent::Kind::kLost;
+  event.error = std::move(error);
+  tell(watched, std::move(event));
+}
+
+}  // namespace camway

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <vector>
+
+#include <camway/watch_report_t.hpp>
+#include <camway/watched_path_t.hpp>
+
+#include "camway/watch.h"
+#include "client/context.h"
+#include "client/plan_wire.h"
+
+namespace camway {
+
+/// The watched paths of a client: asks for them, renews their leases, tells the daemon what has
+/// come, and asks again for what has not. A state machine without a network of its own. For the
+/// engine's thread.
+class WatchList {
+ public:
+  struct Hooks {
+    std::function<void(Outgoing)> send;
+    std::function<void(std::shared_ptr<Call>)> start;
+  };
+
+  WatchList(Context& context, Hooks hooks) : context_(context), hooks_(std::move(hooks)) {}
+
+  /// Precondition: no `fault_in_form(request)`, which has an id and a lease.
+  void add(const PlanRequest& request, WatchHandler handler);
+  /// Also of the daemon's list.
+  void remove(std::int64_t request_id);
+
+  /// A page of an answer that no call waits for.
+  void take_answer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
+  void take_report(std::span<const std::uint8_t> bytes, Clock::time_point now);
+  void take_heartbeat(double uptime_s, Clock::time_point now);
+
+  /// Does what is due.
+  void step(Clock::time_point now);
+  Clock::time_point wake() const;
+
+ private:
+  struct Watched {
+    PlanRequest request;
+    WatchHandler handler;
+    PlanCollector collector;
+    bool is_asked = false;            ///< a call is on its way
+    Clock::time_point ask_at{};       ///< again; the end of time if there is no need
+    double ask_again_s = 0.0;         ///< how long after the last time
+    std::int64_t held_revision = -1;  ///< of the answer that is here; below 0: none
+    std::int64_t serial = 0;          ///< of the daemon's newest state that is here
+    bool is_broken = false;
+  };
+  using Handled = std::pair<std::int64_t, WatchEvent>;
+
+  void ask(Watched& watched);
+  void answered(std::int64_t request_id, const PlanResponse& response);
+  void take_state(const path_state_t& state, const watch_report_t& report, Clock::time_point now);
+  void take_new_state(Watched& watched, const path_state_t& state, const watch_report_t& report,
+                      Clock::time_point now);
+  void ask_later(Watched& watched, Clock::time_point now);
+  void renew(Clock::time_point now);
+  void acknowledge();
+  void send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s);
+  void tell(const Watched& watched, WatchEvent event);
+  void tell_lost(Watched& watched, std::string error);
+
+  Context& context_;
+  const Hooks hooks_;
+  std::map<std::int64_t, Watched> watched_;
+  std::set<std::int64_t> to_acknowledge_;
+  Clock::time_point renew_at_ = Clock::time_point::max();
+  double renew_again_s_ = 0.0;         ///< how long to wait for the answer
+  std::set<std::int64_t> unanswered_;  ///< ids of the renewals that were sent last
+  Clock::time_point renewed_at_{};     ///< when all of them were answered
+  bool is_lost_ = false;
+};
+
+}  // namespace camway

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/watched_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "daemon/planning/check.h"
+
+namespace camway::planning {
+namespace {
+
+using geometry::Box;
+using geometry::Vec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Three sums of numbers that are not negative, each of which rounds by half of this at most.
+constexpr double kRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
+
+/// Nothing outside can be nearer than `margin_m` to the hull of the control points. Everything,
+/// where the numbers do not tell.
+Box swept_box(const motion::Segment& segment, double margin_m) {
+  Box box;
+  bool finite = std::isfinite(margin_m);
+  for (const Vec3& point : segment.position) {
+    finite = finite && point.allFinite();
+    box.extend(point);
+  }
+  if (!finite) return Box(Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity));
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min()[axis] = std::nextafter(box.min()[axis] - margin_m, -kInfinity);
+    box.max()[axis] = std::nextafter(box.max()[axis] + margin_m, kInfinity);
+  }
+  return box;
+}
+
+bool meets_added(const Box& swept, const scene::SceneDifference& change) {
+  return std::ranges::any_of(change.added, [&](const Box& box) { return swept.intersects(box); });
+}
+
+}  // namespace
+
+WatchedPath::WatchedPath(motion::Path path, motion::Body body,
+                         const collision::DetectOptions& detect)
+    : path_(std::move(path)), body_(std::move(body)), detect_(detect) {
+  const double margin_m =
+      (body_.radius_m() + body_.ball_radius_m() + body_.slack_m() + detect_.clearance_m) * kRoundUp;
+  swept_.reserve(path_.segments().size());
+  for (const motion::Segment& segment : path_.segments()) {
+    swept_.push_back(swept_box(segment, margin_m));
+    all_swept_.extend(swept_.back());
+  }
+}
+
+std::optional<WatchedPath> WatchedPath::of(const PlanRequest& request, const PlanResult& result) {
+  if (!result.certificate.certified || result.path.empty()) return std::nullopt;
+  motion::Camera camera = request.camera;
+  camera.near_m *= result.near_scale;
+  std::string fault;
+  std::optional<motion::Body> body = motion::Body::make(request.body.value_or(camera), fault);
+  if (!body) return std::nullopt;
+  return WatchedPath(result.path, std::move(*body), detect_options(request.options));
+}
+
+bool WatchedPath::may_meet(const scene::SceneDifference& change) const {
+  return meets_added(all_swept_, change) ||
+         std::ranges::any_of(change.removed,
+                             [&](const Box& box) { return all_swept_.intersects(box); });
+}
+
+bool WatchedPath::stays_free(const scene::SceneDifference& change,
+                             const collision::Deadline& deadline) const {
+  if (!meets_added(all_swept_, change)) return true;
+  collision::Obstacles added(change.index);
+  added.solids = change.solids.get();
+  for (std::size_t i = 0; i < swept_.size();) {
+    if (!meets_added(swept_[i], change)) {
+      ++i;
+      continue;
+    }
+    std::vector<motion::Segment> near;
+    for (; i < swept_.size() && meets_added(swept_[i], change); ++i) {
+      near.push_back(path_.segments()[i]);
+    }
+    const motion::Path stretch(std::move(near));
+    const collision::FirstCollision found = collision::first_collision(
+        added, stretch, body_, stretch.begin_s(), stretch.end_s(), detect_, deadline);
+    if (!found.decided || found.interval) return false;
+  }
+  return true;
+}
+
+std::vector<collision::CollisionInterval> WatchedPath::collisions(
+    const collision::Obstacles& obstacles, const collision::Deadline& deadline) const {
+  auto found = collision::detect_collisions(obstacles, path_, body_, path_.begin_s(), path_.end_s(),
+                                            detect_, deadline);
+  return found ? std::move(*found) : std::vector{everywhere()};
+}
+
+std::size_t WatchedPath::memory_bytes() const {
+  return sizeof(WatchedPath) + swept_.size() * (sizeof(motion::Segment) + sizeof(Box)) +
+         body_.triangles_C().size() * sizeof(geometry::Triangle);
+}
+
+}  // namespace camway::planning

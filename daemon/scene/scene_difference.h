@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "daemon/scene/snapshot.h"
+
+namespace camway::scene {
+
+/// Where two revisions of a scene differ. Every triangle of the later one is one of `index`, or a
+/// triangle of the earlier one in the same place; every solid likewise.
+struct SceneDifference {
+  /// What the later one has and the earlier one has not, or has elsewhere.
+  SceneIndex index;
+  std::shared_ptr<const SceneSolids> solids;  ///< null if nothing of it has an inside
+  /// Boxes of the objects in it, which hold all its triangles.
+  std::vector<geometry::Box> added;
+  /// Boxes of what the earlier one has and the later one has not, or has elsewhere.
+  std::vector<geometry::Box> removed;
+
+  [[nodiscard]] bool empty() const { return added.empty() && removed.empty(); }
+};
+
+/// Objects count as the same where the two snapshots share them, as `changed` makes snapshots; what
+/// was made anew counts as another, however equal. Costs what there are objects.
+SceneDifference difference(const Snapshot& before, const Snapshot& after);
+
+}  // namespace camway::scene

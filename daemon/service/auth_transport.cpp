@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/auth_transport.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace camway::service {
+
+AuthTransport::AuthTransport(Transport& inner, std::shared_ptr<wire::MessageAuth> auth,
+                             bool required, Warnings warnings)
+    : inner_(inner), auth_(std::move(auth)), required_(required), warnings_(std::move(warnings)) {}
+
+bool AuthTransport::subscribe(const std::string& channel, int queue_capacity, Handler handler) {
+  return inner_.subscribe(
+      channel, queue_capacity,
+      [this, channel, handler = std::move(handler)](std::span<const std::uint8_t> message) {
+        take(channel, message, handler);
+      });
+}
+
+bool AuthTransport::publish(const std::string& channel, std::span<const std::uint8_t> message) {
+  return inner_.publish(channel, auth_->seal(channel, message));
+}
+
+void AuthTransport::take(const std::string& channel, std::span<const std::uint8_t> message,
+                         const Handler& handler) {
+  const wire::MessageAuth::Opened opened = auth_->open(channel, message);
+  if (opened.message) {
+    handler(*opened.message);
+    return;
+  }
+  ++distrusted_.at(static_cast<std::size_t>(opened.why));
+  if (opened.why == wire::Distrust::kUnsigned && !required_) {
+    handler(message);
+    return;
+  }
+  warnings_.warn(fmt::format("dropped a message of {} bytes on {}: {}", message.size(), channel,
+                             wire::to_string(opened.why)));
+}
+
+}  // namespace camway::service

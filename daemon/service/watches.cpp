@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/watches.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "daemon/service/watch_reports.h"
+
+namespace camway::service {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// How long after news was told it is told again, at first; each time twice as long, up to the
+/// second: within a status period three are out.
+constexpr milliseconds kFirstPause{200};
+constexpr milliseconds kLongestPause{5000};
+/// How long planning waits after a full queue refused it.
+constexpr milliseconds kPlanAgainIn{500};
+
+std::chrono::steady_clock::duration lease_of(double lease_s, milliseconds most) {
+  const std::chrono::duration<double> asked(lease_s);
+  // An infinite number of seconds has no duration.
+  if (!(asked < most)) return most;
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(asked);
+}
+
+path_state_t unwatched(std::int64_t request_id, std::int8_t state) {
+  path_state_t none{};
+  none.request_id = request_id;
+  none.state = state;
+  return none;
+}
+
+/// Numbers of another daemon are not taken for ours: it begins anywhere.
+std::int64_t random_serial() {
+  std::random_device device;
+  return static_cast<std::int64_t>(device()) << 20U;
+}
+
+}  // namespace
+
+Watches::Watches(Core& core, scene::SceneStore& scenes)
+    : core_(core),
+      next_serial_(random_serial() + 1),
+      checker_(scenes, [this](WatchChecker::News news) {
+        core_.mailbox.post([this, news = std::move(news)] { note(news, Clock::now()); });
+      }) {}
+
+bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
+  const RequestKey& key = answer.key;
+  const std::size_t bytes =
+      answer.path->memory_bytes() + static_cast<std::size_t>(answer.request->getEncodedSize());
+  auto position = watches_.find(key);
+  const bool is_new = position == watches_.end();
+  if (!is_new) bytes_ -= position->second.bytes;
+  if (const std::string limit = limit_hit(key, is_new, bytes); !limit.empty()) {
+    if (!is_new) {
+      bytes_ += position->second.bytes;
+      end(position);
+    }
+    core_.overload_warnings.warn(
+        fmt::format("path {} of {} is not watched: {}", key.request_id, key.client_id, limit));
+    WatchReports report(core_, key.client_id, 0);
+    report.add(unwatched(key.request_id, path_state_t::REFUSED));
+    report.explain(limit);
+    report.finish();
+    return false;
+  }
+  if (is_new) {
+    position = watches_.try_emplace(key).first;
+    ++of_client_[key.client_id];
+    position->second.lease =
+        lease_of(answer.request->watch_lease_s, core_.config.watches.longest_lease);
+    position->second.until = now + position->second.lease;
+  } else {
+    checker_.forget(position->second.id, position->second.answer.request->scene);
+    keys_.erase(position->second.id);
+  }
+  Watch& watch = position->second;
+  watch.answer = answer;
+  watch.bytes = bytes;
+  bytes_ += bytes;
+  watch.id = next_id_++;
+  keys_.emplace(watch.id, key);
+  watch.is_checked = false;
+  watch.collisions.clear();
+  watch.revision = answer.proved_in->revision;
+  watch.answer_revision = static_cast<std::int64_t>(answer.proved_in->revision);
+  checker_.watch(watch.id, answer.request->scene, answer.path, answer.proved_in);
+  make_news(watch, now);
+  core_.counters.watched_paths = static_cast<std::int32_t>(watches_.size());
+  return true;
+}
+
+std::string Watches::limit_hit(const RequestKey& key, bool is_new, std::size_t bytes) const {
+  const WatchLimits& limits = core_.config.watches;
+  if (bytes_ + bytes > limits.bytes) {
+    return fmt::format("watch.bytes: the paths that are watched take {} bytes, {} at most", bytes_,
+                       limits.bytes);
+  }
+  if (!is_new) return {};
+  if (watches_.size() >= limits.paths) {
+    return fmt::format("watch.paths: {} paths are watched already", watches_.size());
+  }
+  const auto count = of_client_.find(key.client_id);
+  if (count != of_client_.end() && count->second >= limits.paths_of_a_client) {
+    return fmt::format("watch.paths_of_a_client: {} paths of this client are watched already",
+                       count->second);
+  }
+  return {};
+}
+
+bool Watches::renew(const RequestKey& key, Clock::time_point now) {
+  const auto position = watches_.find(key);
+  if (position == watches_.end()) return false;
+  position->second.until = now + position->second.lease;
+  position->second.is_known = false;
+  position->second.tell_at = now;
+  schedule(position->second);
+  return true;
+}
+
+void Watches::on_message(std::span<const std::uint8_t> bytes) {
+  const wire::Decoded<watch_t> decoded = wire::decode<watch_t>(bytes);
+  std::string reason;
+  if (!decoded.message) {
+    reason = decoded.fault.text("watch_t");
+  } else if (!wire::is_client_id(decoded.message->client_id)) {
+    reason = "watch_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
+  } else if (std::isnan(decoded.message->lease_s)) {
+    reason = "watch_t.lease_s: is not a number";
+  }
+  if (!reason.empty()) {
+    core_.note_malformed(core_.channels.watch(), bytes.size(), reason);
+    core_.report_unanswerable(core_.channels.watch(), bytes, reason);
+    return;
+  }
+  apply(*decoded.message, Clock::now());
+}
+
+void Watches::apply(const watch_t& message, Clock::time_point now) {
+  WatchReports report(core_, message.client_id, message.request_id);
+  for (const watched_path_t& path : message.paths) {
+    const auto position = watches_.find(RequestKey{message.client_id, path.request_id});
+    if (position == watches_.end()) {
+      if (message.lease_s >= 0.0) report.add(unwatched(path.request_id, path_state_t::UNKNOWN));
+      continue;
+    }
+    if (message.lease_s < 0.0) {
+      end(position);
+      continue;
+    }
+    Watch& watch = position->second;
+    if (message.lease_s > 0.0) {
+      watch.lease = lease_of(message.lease_s, core_.config.watches.longest_lease);
+    }
+    watch.until = now + watch.lease;
+    watch.is_known = path.known_serial == watch.serial;
+    if (!watch.is_known) {
+      report.add(state_of(watch), watch.collisions);
+      watch.pause = kFirstPause;
+      watch.tell_at = now + watch.pause;
+    }
+    schedule(watch);
+  }
+  report.finish();
+}
+
+void Watches::tick(Clock::time_point now) {
+  std::map<std::string, WatchReports> reports;
+  while (!due_.empty() && due_.begin()->first <= now) {
+    const auto position = watches_.find(due_.begin()->second);
+    Watch& watch = position->second;
+    if (now >= watch.until) {
+      core_.log->info("watch of path {} of client={} ends: its lease is over",
+                      position->first.request_id, position->first.client_id);
+      end(position);
+      continue;
+    }
+    const std::string& client = position->first.client_id;
+    reports.try_emplace(client, core_, client, 0)
+        .first->second.add(state_of(watch), watch.collisions);
+    watch.tell_at = now + watch.pause;
+    watch.pause = std::min<Clock::duration>(2 * watch.pause, kLongestPause);
+    schedule(watch);
+  }
+  for (auto& [client, report] : reports) report.finish();
+}
+
+Watches::Clock::time_point Watches::next_tick(Clock::time_point now) const {
+  Clock::time_point next = due_.empty() ? Clock::time_point::max() : due_.begin()->first;
+  const auto later = broken_.upper_bound({now, RequestKey{}});
+  if (later != broken_.end()) next = std::min(next, later->first);
+  return next;
+}
+
+std::vector<Watches::Broken> Watches::take_broken(std::size_t most, Clock::time_point now) {
+  std::vector<Broken> taken;
+  while (taken.size() < most && !broken_.empty() && broken_.begin()->first <= now) {
+    const RequestKey key = broken_.begin()->second;
+    broken_.erase(broken_.begin());
+    const auto position = watches_.find(key);
+    if (position == watches_.end()) continue;
+    Watch& watch = position->second;
+    const bool is_wanted = watch.planning == Planning::kWaits && !watch.collisions.empty();
+    watch.planning = is_wanted ? Planning::kRuns : Planning::kNot;
+    watch.is_outdated = false;
+    if (is_wanted) taken.push_back({key, watch.answer.request});
+  }
+  return taken;
+}
+
+bool Watches::ended(const RequestKey& key) {
+  const auto position = watches_.find(key);
+  if (position == watches_.end()) return false;
+  position->second.planning = Planning::kNot;
+  return !position->second.collisions.empty();
+}
+
+void Watches::not_planned(const RequestKey& key, Clock::time_point now) {
+  const auto position = watches_.find(key);
+  if (position == watches_.end()) return;
+  position->second.planning = Planning::kNot;
+  if (!position->second.collisions.empty()) plan_at(position->second, now + kPlanAgainIn);
+}
+
+void Watches::answered(const RequestKey& key, std::int64_t answer_revision, Clock::time_point now) {
+  const auto position = watches_.find(key);
+  if (position == watches_.end()) return;
+  Watch& watch = position->second;
+  watch.answer_revision = answer_revision;
+  make_news(watch, now);
+  if (watch.is_outdated) plan_at(watch, now);
+}
+
+void Watches::note(const WatchChecker::News& news, Clock::time_point now) {
+  for (const WatchChecker::Verdict& verdict : news.verdicts) {
+    const auto key = keys_.find(verdict.id);
+    if (key != keys_.end()) note(watches_.at(key->second), verdict, news.revision, now);
+  }
+  if (!news.is_last) return;
+  if (news.revision == 0) {
+    checked_.erase(news.scene);
+  } else {
+    checked_[news.scene] = news.revision;
+  }
+}
+
+void Watches::note(Watch& watch, const WatchChecker::Verdict& verdict, std::uint64_t revision,
+                   Clock::time_point now) {
+  const bool was_free = watch.collisions.empty();
+  const bool is_first = !std::exchange(watch.is_checked, true);
+  watch.collisions = verdict.collisions;
+  watch.revision = revision;
+  watch.is_outdated = true;
+  const bool is_free = watch.collisions.empty();
+  if (is_first && is_free) return;  // it was told so when it began
+  if (was_free && !is_free) {
+    ++core_.counters.broken_paths;
+    core_.log->info("path {} of client={} collides at revision {} of scene {} from {:.6g} s on",
+                    watch.answer.key.request_id, watch.answer.key.client_id, revision,
+                    watch.answer.request->scene, watch.collisions.front().t_begin_s);
+  }
+  make_news(watch, now);
+  // Without its scene there is nothing to plan in.
+  if (!is_free && revision != 0 && watch.planning == Planning::kNot) plan_at(watch, now);
+}
+
+void Watches::make_news(Watch& watch, Clock::time_point now) {
+  watch.serial = next_serial_++;
+  watch.is_known = false;
+  watch.tell_at = now;
+  watch.pause = kFirstPause;
+  schedule(watch);
+}
+
+void Watches::plan_at(Watch& watch, Clock::time_point time) {
+  watch.planning = Planning::kWaits;
+  broken_.insert({time, watch.answer.key});
+}
+
+void Watches::schedule(Watch& watch) {
+  due_.erase({watch.due, watch.answer.key});
+  watch.due = watch.is_known ? watch.until : std::min(watch.until, watch.tell_at);
+  due_.insert({watch.due, watch.answer.key});
+}
+
+void Watches::end(WatchMap::iterator position) {
+  const Watch& watch = position->second;
+  due_.erase({watch.due, position->first});
+  checker_.forget(watch.id, watch.answer.request->scene);
+  keys_.erase(watch.id);
+  bytes_ -= watch.bytes;
+  const auto count = of_client_.find(position->first.client_id);
+  if (--count->second == 0) of_client_.erase(count);
+  watches_.erase(position);
+  core_.counters.watched_paths = static_cast<std::int32_t>(watches_.size());
+}
+
+path_state_t Watches::state_of(const Watch& watch) const {
+  path_state_t state{};
+  state.request_id = watch.answer.key.request_id;
+  state.serial = watch.serial;
+  state.state = watch.collisions.empty() ? path_state_t::FREE : path_state_t::BROKEN;
+  std::uint64_t revision = watch.revision;
+  const auto checked = checked_.find(watch.answer.request->scene);
+  if (watch.is_checked && revision != 0 && checked != checked_.end()) {
+    revision = std::max(revision, checked->second);
+  }
+  state.scene_revision = static_cast<std::int64_t>(revision);
+  state.answer_revision = watch.answer_revision;
+  return state;
+}
+
+}  // namespace camway::service

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <camway/plan_request_t.hpp>
+#include <camway/watch_report_t.hpp>
+#include <camway/watch_t.hpp>
+
+#include "daemon/service/answer_cache.h"
+#include "daemon/service/core.h"
+#include "daemon/service/watch_checker.h"
+
+namespace camway::service {
+
+/// An answer whose path can be watched.
+struct WatchableAnswer {
+  RequestKey key;
+  std::shared_ptr<const plan_request_t> request;
+  std::shared_ptr<const planning::WatchedPath> path;
+  std::shared_ptr<const scene::Snapshot> proved_in;
+};
+
+/// The answered paths that clients left with the daemon: who wants to hear of them for how long,
+/// what became of them, and what of that each client knows. A path is watched until its lease ends
+/// unless the client renews it. News is told at once, and again with longer and longer pauses until
+/// the client says that it knows: so messages may be lost, and a client or the daemon may be
+/// started anew. The loop thread calls everything here.
+class Watches {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `scenes` must outlive this.
+  Watches(Core& core, scene::SceneStore& scenes);
+
+  /// Watches the path of a first answer, or another one in the place of what is watched under that
+  /// key. False where a limit is in the way, which the client is told.
+  bool begin(const WatchableAnswer& answer, Clock::time_point now);
+
+  /// The client asked again: begins the lease anew and tells all. False if nothing is watched under
+  /// that key.
+  bool renew(const RequestKey& key, Clock::time_point now);
+
+  /// A message on the watch channel. Throws only for want of memory.
+  void on_message(std::span<const std::uint8_t> message);
+
+  /// Tells what is due, and ends leases.
+  void tick(Clock::time_point now);
+  /// When `tick` or `take_broken` has something to do next, work that is due already apart; the end
+  /// of time if never.
+  [[nodiscard]] Clock::time_point next_tick(Clock::time_point now) const;
+
+  struct Broken {
+    RequestKey key;
+    std::shared_ptr<const plan_request_t> request;
+  };
+  /// Up to `most` requests whose paths collide now, to be planned again. Of each, `ended` or
+  /// `not_planned` has to be told.
+  std::vector<Broken> take_broken(std::size_t most, Clock::time_point now);
+  /// It was planned. Whether the path collides still, so that the answer is worth sending; then
+  /// `begin` or `answered` has to be told.
+  bool ended(const RequestKey& key);
+  /// It was not planned: to be tried again a little later.
+  void not_planned(const RequestKey& key, Clock::time_point now);
+  /// An answer was sent that proves no path: the one before is watched on.
+  void answered(const RequestKey& key, std::int64_t answer_revision, Clock::time_point now);
+
+ private:
+  enum class Planning : std::uint8_t { kNot, kWaits, kRuns };
+  struct Watch {
+    WatchableAnswer answer;
+    WatchChecker::Id id = 0;
+    std::size_t bytes = 0;
+    Clock::duration lease{};
+    Clock::time_point until;
+    bool is_checked = false;  ///< a verdict has come
+    std::vector<collision::CollisionInterval> collisions;
+    std::uint64_t revision = 0;  ///< that they hold for
+    std::int64_t answer_revision = 0;
+    std::int64_t serial = 0;  ///< of the newest state
+    bool is_known = false;    ///< by the client
+    Clock::time_point tell_at;
+    Clock::duration pause{};  ///< until it is told again
+    Planning planning = Planning::kNot;
+    bool is_outdated = false;  ///< what is being planned; something near the path has changed since
+    Clock::time_point due;     ///< its place in `due_`
+  };
+  using WatchMap = std::map<RequestKey, Watch>;
+  using Times = std::set<std::pair<Clock::time_point, RequestKey>>;
+
+  void note(const WatchChecker::News& news, Clock::time_point now);
+  void note(Watch& watch, const WatchChecker::Verdict& verdict, std::uint64_t revision,
+            Clock::time_point now);
+  void apply(const watch_t& message, Clock::time_point now);
+  void make_news(Watch& watch, Clock::time_point now);
+  void plan_at(Watch& watch, Clock::time_point time);
+  void schedule(Watch& watch);
+  void end(WatchMap::iterator position);
+  /// What speaks against another path, or nothing.
+  [[nodiscard]] std::string limit_hit(const RequestKey& key, bool is_new, std::size_t bytes) const;
+  [[nodiscard]] path_state_t state_of(const Watch& watch) const;
+
+  Core& core_;
+  WatchMap watches_;
+  std::map<WatchChecker::Id, RequestKey> keys_;
+  std::map<std::string, std::size_t> of_client_;
+  std::size_t bytes_ = 0;
+  std::map<std::string, std::uint64_t>
+      checked_;  ///< revision that all paths of a scene were brought to
+  Times due_;
+  Times broken_;  ///< to be planned, not before
+  WatchChecker::Id next_id_ = 1;
+  std::int64_t next_serial_;
+  WatchChecker checker_;  ///< last: its thread ends before all above goes
+};
+
+}  // namespace camway::service

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <csignal>
+#include <deque>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "tests/integration/fixture.h"
+
+namespace camway::integration {
+namespace {
+
+using testing::HasSubstr;
+using Kind = WatchEvent::Kind;
+
+/// A crate in the way of the path that `walk` asks for.
+SceneShape crate() { return SceneBox{{0.5, 0.5, 0.5}}; }
+
+/// From (0, 0, 0) to (4, 0, 0) in the empty scene "yard", in four seconds.
+PlanRequest walk() {
+  PlanRequest request;
+  request.scene = "yard";
+  request.has_times = true;
+  request.keyframes.resize(2);
+  request.keyframes[1].time_s = 4.0;
+  request.keyframes[1].position_m = {4.0, 0.0, 0.0};
+  return request;
+}
+
+Pose at(double x_m, double y_m) {
+  Pose pose;
+  pose.position_m = {x_m, y_m, 0.0};
+  return pose;
+}
+
+/// Takes the events of a client.
+class Events {
+ public:
+  WatchHandler handler() {
+    return [this](const WatchEvent& event) {
+      const std::lock_guard lock(mutex_);
+      events_.push_back(event);
+    };
+  }
+
+  /// Waits for the next event of that kind at that revision, or any if it is 0; the others are
+  /// dropped.
+  bool wait_for(Kind kind, std::int64_t revision, WatchEvent* found = nullptr) {
+    return eventually([&] {
+      const std::lock_guard lock(mutex_);
+      while (!events_.empty()) {
+        const WatchEvent event = events_.front();
+        events_.pop_front();
+        if (event.kind != kind || (revision != 0 && event.scene_revision != revision)) continue;
+        if (found != nullptr) *found = event;
+        return true;
+      }
+      return false;
+    });
+  }
+
+ private:
+  std::mutex mutex_;  ///< guards events_
+  std::deque<WatchEvent> events_;
+};
+
+class WatchTest : public IntegrationTest {
+ protected:
+  /// Makes the yard, puts a crate into the way of a watched path, and takes it away again.
+  void play(Client& watcher, Client& painter, bool hears_all) {
+    Events events;
+    ASSERT_TRUE(painter.load_scene("yard", {}).ok());
+    const std::int64_t id = watcher.watch(walk(), events.handler());
+    ASSERT_TRUE(events.wait_for(Kind::kAnswer, 0));
+    break_and_mend(painter, events, hears_all);
+    watcher.unwatch(id);
+    EXPECT_TRUE(eventually([&] { return painter.status().watched_paths == 0; }));
+  }
+
+  /// Where messages are lost, the news that a path is broken may be overtaken by its correction.
+  void break_and_mend(Client& painter, Events& events, bool hears_all) {
+    const SceneAnswer put = painter.put_object("yard", "crate", crate(), at(2.0, 0.0));
+    ASSERT_TRUE(put.ok()) << put.error;
+    if (hears_all) {
+      WatchEvent broken;
+      ASSERT_TRUE(events.wait_for(Kind::kBroken, put.scene.revision, &broken));
+      ASSERT_FALSE(broken.broken.empty());
+      EXPECT_LT(broken.broken.front().t_begin_s, 1.8);
+      EXPECT_GT(broken.broken.back().t_end_s, 2.2);
+    }
+    WatchEvent corrected;
+    ASSERT_TRUE(events.wait_for(Kind::kAnswer, put.scene.revision, &corrected));
+    ASSERT_TRUE(corrected.answer->ok()) << corrected.answer->error;
+    const PlanResponse fresh = painter.plan(walk());
+    ASSERT_TRUE(fresh.ok()) << fresh.error;
+    EXPECT_EQ(fresh.path.segments().size(), corrected.answer->path.segments().size());
+    for (double time_s = 0.0; time_s <= 4.0; time_s += 0.1) {
+      EXPECT_EQ(fresh.path.pose(time_s).position_m, corrected.answer->path.pose(time_s).position_m)
+          << "a corrected path is what a fresh request gets";
+    }
+    ASSERT_TRUE(painter.remove_object("yard", "crate").ok());
+  }
+};
+
+TEST_F(WatchTest, TellsOfAChangeAndCorrectsThePath) {
+  start_daemon();
+  Client watcher(patient());
+  Client painter(patient());
+  play(watcher, painter, /*hears_all=*/true);
+}
+
+TEST_F(WatchTest, DoesSoOnABadNetwork) {
+  const std::string clients_url = "udpm://239.255.76.67:7668?ttl=0";
+  start_daemon();
+  Process relay({LOSSY_RELAY_BINARY, clients_url, "udpm://239.255.76.67:7667?ttl=0", "0.3", "0.3",
+                 "0.3", "2006"},
+                file("relay.log"));
+  ASSERT_TRUE(eventually([&] { return relay.output().find("relaying") != std::string::npos; }));
+  ClientOptions options = patient();
+  options.url = clients_url;
+  Client watcher(options);
+  Client painter(patient());
+  play(watcher, painter, /*hears_all=*/false);
+}
+
+TEST_F(WatchTest, ADaemonThatIsStartedAnewWatchesOn) {
+  // A floor, far below.
+  std::ofstream(file("yard.obj")) << "v -9 -9 -5\nv 9 -9 -5\nv 0 9 -5\nf 1 2 3\n";
+  const std::vector<std::string> scene{"yard=" + file("yard.obj")};
+  start_daemon_with_scenes(scene);
+  Client watcher(patient());
+  Client painter(patient());
+  Events events;
+  watcher.watch(walk(), events.handler());
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, 0));
+  daemon().signal(SIGKILL);
+  ASSERT_TRUE(daemon().wait());
+  start_daemon_with_scenes(scene);
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, 0)) << "it plans again what it does not know";
+  break_and_mend(painter, events, /*hears_all=*/true);
+}
+
+TEST_F(WatchTest, TheCommandPrintsWhatHappens) {
+  start_daemon();
+  Client painter(patient());
+  Process watch({CAMWAY_BINARY, "watch", "office", "--request", request_file("office-free-door"),
+                 "--count", "3", "--json"},
+                file("watch.log"));
+  ASSERT_TRUE(eventually([&] {
+    return watch.output().find("\"event\":\"answer\"") != std::string::npos;
+  })) << watch.output();
+  const PlanRequest request = request_of("office-free-door", "office");
+  const PlanResponse plan = painter.plan(request);
+  ASSERT_TRUE(plan.ok());
+  const Pose middle = plan.path.pose(0.5 * (plan.path.begin() + plan.path.end()));
+  Pose place;
+  place.position_m = middle.position_m;
+  // In the middle of the near quadrilateral.
+  const auto forward = [&](int axis) {
+    const auto& q = middle.orientation_wxyz;
+    const std::array<double, 3> back{2 * (q[1] * q[3] + q[0] * q[2]),
+                                     2 * (q[2] * q[3] - q[0] * q[1]),
+                                     1 - 2 * (q[1] * q[1] + q[2] * q[2])};
+    return -back[static_cast<std::size_t>(axis)];
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    place.position_m[static_cast<std::size_t>(axis)] += request.camera.near_m * forward(axis);
+  }
+  ASSERT_TRUE(painter.put_object("office", "speck", SceneBox{{0.02, 0.02, 0.02}}, place).ok());
+  EXPECT_EQ(watch.wait(), 0) << watch.output();
+  EXPECT_THAT(watch.output(), HasSubstr("\"event\":\"broken\""));
+  EXPECT_THAT(watch.output(), HasSubstr("\"t_begin\""));
+}
+
+}  // namespace
+}  // namespace camway::integration

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/watched_path.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "daemon/planning/check.h"
+#include "daemon/planning/plan.h"
+#include "daemon/scene/scene_store.h"
+#include "daemon/scene/shape_mesh.h"
+#include "daemon/scene/voxel_map.h"
+#include "tests/support/scenes.h"
+
+namespace camway::planning {
+namespace {
+
+using collision::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using scene::SceneChange;
+
+scene::Placement at(const Vec3& position, const Quat& orientation = Quat::Identity()) {
+  std::string fault;
+  return scene::Placement::make(position, orientation, fault);
+}
+
+std::shared_ptr<const scene::ObjectSource> box(const Vec3& size_m) {
+  scene::Mesh mesh = *scene::box_mesh(size_m).mesh;
+  const scene::ImportReport report = scene::report_of(mesh, "box");
+  return scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {});
+}
+
+/// Three to six keyframes in a cube of side 8.
+PlanRequest random_request(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-4.0, 4.0);
+  PlanRequest request;
+  request.camera = testing::small_camera();
+  const std::size_t count = 3 + random() % 4;
+  for (std::size_t i = 0; i < count; ++i) {
+    request.keyframes.push_back(
+        {0.0,
+         {Vec3(place(random), place(random), place(random)), testing::random_rotation(random)}});
+  }
+  return request;
+}
+
+Vec3 place_on(const motion::Path& path, std::mt19937_64& random) {
+  const double time_s =
+      std::uniform_real_distribution<double>(path.begin_s(), path.end_s())(random);
+  return path.pose(time_s).position;
+}
+
+std::vector<collision::CollisionInterval> from_scratch(const scene::Snapshot& snapshot,
+                                                       const WatchedPath& watched,
+                                                       const motion::Body& body) {
+  const auto found = collision::detect_collisions(snapshot, watched.path(), body,
+                                                  watched.path().begin_s(), watched.path().end_s(),
+                                                  detect_options(PlanOptions{}), Deadline::never());
+  return *found;
+}
+
+TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
+  std::mt19937_64 random = testing::seeded(7351);
+  std::uniform_real_distribution<double> place(-5.0, 5.0);
+  std::uniform_real_distribution<double> size(0.05, 1.5);
+  scene::SceneStore store;
+  store.put(scene::assemble("room", 1, {}, {}));
+  for (const char* const name : {"a", "b", "c", "d", "e"}) {
+    store.change("room", {SceneChange::Kind::kPut, name,
+                          box({size(random), size(random), size(random)}), at({20, 20, 20})});
+  }
+  int broken = 0;
+  int unharmed = 0;
+  int proved = 0;
+  for (int round = 0; round < 400; ++round) {
+    const auto before = store.find("room");
+    const PlanRequest request = random_request(random);
+    const PlanResult planned = plan(*before, request);
+    const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
+    ASSERT_EQ(watched.has_value(), planned.certificate.certified);
+    const std::string name(1, static_cast<char>('a' + random() % 5));
+    const Vec3 offset(place(random), place(random), place(random));
+    const Vec3 to =
+        watched && round % 2 == 0 ? place_on(watched->path(), random) + 0.2 * offset : offset;
+    store.change("room", {SceneChange::Kind::kMove, name, nullptr,
+                          at(to, testing::random_rotation(random))});
+    if (!watched) continue;
+    const auto after = store.find("room");
+    const scene::SceneDifference change = scene::difference(*before, *after);
+    const auto truth = from_scratch(*after, *watched, motion::Body(request.camera));
+    EXPECT_EQ(watched->collisions(*after, Deadline::never()), truth);
+    if (!watched->may_meet(change)) {
+      EXPECT_TRUE(truth.empty()) << "round " << round;
+      ++unharmed;
+    } else if (watched->stays_free(change, Deadline::never())) {
+      EXPECT_TRUE(truth.empty()) << "round " << round;
+      ++proved;
+    } else {
+      EXPECT_FALSE(truth.empty()) << "round " << round;
+      ++broken;
+    }
+  }
+  EXPECT_GT(broken, 20);
+  EXPECT_GT(unharmed, 20);
+  EXPECT_GT(proved, 20);
+}
+
+/// The box that a change has to stay out of is as large as it needs to be: what touches the body at
+/// its furthest is not dismissed.
+TEST(WatchedPath, DismissesNothingThatIsTooNear) {
+  std::mt19937_64 random = testing::seeded(7352);
+  for (const double clearance_m : {0.0, 0.3}) {
+    for (int round = 0; round < 100; ++round) {
+      PlanRequest request = random_request(random);
+      request.options.clearance_m = clearance_m;
+      const auto before = scene::assemble("room", 1, {}, {});
+      const PlanResult planned = plan(*before, request);
+      const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
+      ASSERT_TRUE(watched) << planned.message;
+      // A speck at a corner of the near quadrilateral, or as far from it as may not be.
+      const double share = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+      const motion::Pose pose = planned.path.pose(
+          planned.path.begin_s() + share * (planned.path.end_s() - planned.path.begin_s()));
+      const Vec3 corner_C = motion::near_corners_C(request.camera)[random() % 4];
+      const Vec3 outwards = (pose.orientation * corner_C).normalized();
+      const Vec3 speck =
+          pose.position + pose.orientation * corner_C + 0.99 * clearance_m * outwards;
+      std::string fault;
+      const auto placed = scene::place_object("speck", box(Vec3::Constant(1e-3)), at(speck), {});
+      const auto after = scene::assemble("room", 2, {placed.object}, {});
+      const scene::SceneDifference change = scene::difference(*before, *after);
+      EXPECT_TRUE(watched->may_meet(change));
+      EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
+      EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
+    }
+  }
+}
+
+TEST(WatchedPath, TakingAwayNeverBreaks) {
+  scene::SceneStore store;
+  store.put(scene::assemble("room", 1, {}, {}));
+  store.change("room", {SceneChange::Kind::kPut, "a", box(Vec3::Ones()), at({0, 2, 0})});
+  const auto before = store.find("room");
+  std::mt19937_64 random = testing::seeded(7353);
+  PlanRequest request = random_request(random);
+  const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*before, request));
+  ASSERT_TRUE(watched);
+  store.change("room", {SceneChange::Kind::kRemove, "a", nullptr, {}});
+  EXPECT_TRUE(
+      watched->stays_free(scene::difference(*before, *store.find("room")), Deadline::after_s(0.0)));
+}
+
+/// Far from all faces, but in the middle of what came.
+TEST(WatchedPath, SeesThatItIsInsideASolid) {
+  const auto empty = scene::assemble("room", 1, {}, {});
+  std::mt19937_64 random = testing::seeded(7356);
+  const PlanRequest request = random_request(random);
+  const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
+  ASSERT_TRUE(watched);
+  scene::VoxelSet voxels;
+  for (std::int32_t x = -30; x < 30; ++x) {
+    for (std::int32_t y = -30; y < 30; ++y) {
+      for (std::int32_t z = -30; z < 30; ++z) voxels.insert(scene::Voxel{x, y, z});
+    }
+  }
+  const auto map =
+      scene::VoxelMap::build(1.0, std::move(voxels), {}, scene::UnknownSpace::kFree).map;
+  ASSERT_TRUE(map);
+  scene::Mesh skin = *map->skin();
+  const scene::ImportReport report = scene::report_of(skin, "map");
+  const auto source = scene::make_source(scene::ObjectKind::kMap, std::move(skin), report, {}, map);
+  const auto placed = scene::place_object("map", source, at({0, 0, 0}), {});
+  ASSERT_TRUE(placed.object) << placed.error;
+  const auto after = scene::assemble("room", 2, {placed.object}, {});
+  const scene::SceneDifference change = scene::difference(*empty, *after);
+  EXPECT_TRUE(watched->may_meet(change));
+  EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
+  EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
+}
+
+TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
+  const auto empty = scene::assemble("room", 1, {}, {});
+  std::mt19937_64 random = testing::seeded(7354);
+  const PlanRequest request = random_request(random);
+  const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
+  ASSERT_TRUE(watched);
+  const auto placed =
+      scene::place_object("a", box(Vec3::Ones()), at(watched->path().pose(0.1).position), {});
+  const auto after = scene::assemble("room", 2, {placed.object}, {});
+  EXPECT_FALSE(watched->stays_free(scene::difference(*empty, *after), Deadline::after_s(0.0)));
+  EXPECT_EQ(watched->collisions(*after, Deadline::after_s(0.0)),
+            (std::vector{watched->everywhere()}));
+}
+
+TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
+  const auto empty = scene::assemble("room", 1, {}, {});
+  std::mt19937_64 random = testing::seeded(7355);
+  PlanRequest request = random_request(random);
+  request.keyframes.resize(2);
+  request.keyframes[0].pose = {Vec3(0, 0, 0), Quat::Identity()};
+  request.keyframes[1].pose = {Vec3(4, 0, 0), Quat::Identity()};
+  PlanResult planned = plan(*empty, request);
+  planned.near_scale = 0.5;
+  const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
+  ASSERT_TRUE(watched);
+  // A bar that the near quadrilateral cuts at its full distance, and passes behind at half of it.
+  const auto placed = scene::place_object("bar", box({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
+  const auto after = scene::assemble("room", 2, {placed.object}, {});
+  EXPECT_TRUE(watched->collisions(*after, Deadline::never()).empty());
+  planned.near_scale = 1.0;
+  EXPECT_FALSE(WatchedPath::of(request, planned)->collisions(*after, Deadline::never()).empty());
+}
+
+}  // namespace
+}  // namespace camway::planning
