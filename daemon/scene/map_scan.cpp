@@ -63,7 +63,9 @@ std::string fault_of(const VoxelMap& map, const Scan& scan) {
   for (std::size_t i = 0; i < scan.points_O.size(); ++i) {
     if (!fits(scan.points_O[i])) return "points_m[" + std::to_string(i) + "]: " + beyond;
     const Vec3 ray = scan.points_O[i] - scan.origin_O;
-    const double share = std::min(1.0, map.sensor().max_range_m / std::max(ray.norm(), 1e-300));
+    const double length_m = ray.norm();
+    const double longest_m = map.sensor().max_range_m;
+    const double share = length_m > longest_m ? longest_m / length_m : 1.0;
     const double passed = share * ray.lpNorm<1>() / map.resolution_m() + 3.0;
     if (passed > kMostRayVoxels) {
       return "points_m[" + std::to_string(i) + "]: its ray is too long; use a lower max_range_m";

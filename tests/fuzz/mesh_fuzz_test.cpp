@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/exercise_mesh.h"
+#include "tests/service/message_mutation.h"
 #include "tests/service/random_messages.h"
 
 namespace camway::testing {

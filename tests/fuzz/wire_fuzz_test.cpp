@@ -16,6 +16,7 @@
 
 #include "lcmtypes/wire_check.h"
 #include "tests/fuzz/exercise_message.h"
+#include "tests/service/message_mutation.h"
 #include "tests/service/random_messages.h"
 
 namespace camway::testing {
@@ -23,10 +24,9 @@ namespace {
 
 template <class Message>
 class WireFuzz : public ::testing::Test {};
-using Exercised =
-    ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t, cancel_t,
-                     missing_pages_t, plan_progress_t, scene_request_t, upload_page_t, watch_t,
-                     watch_report_t>;
+using Exercised = ::testing::Types<plan_request_t, plan_response_t, occupancy_request_t, cancel_t,
+                                   missing_pages_t, plan_progress_t, scene_request_t, upload_page_t,
+                                   watch_t, watch_report_t>;
 TYPED_TEST_SUITE(WireFuzz, Exercised);
 
 TYPED_TEST(WireFuzz, MutantsBreakNoPromise) {

@@ -71,8 +71,4 @@ error_t random_message<error_t>(Random& random);
 template <>
 envelope_t random_message<envelope_t>(Random& random);
 
-/// Changes `bytes` in one to four places: bits, bytes, 32-bit numbers of the dangerous kind, cuts,
-/// insertions, repetitions.
-void mutate(std::vector<std::uint8_t>& bytes, Random& random);
-
 }  // namespace camway::testing

@@ -13,6 +13,7 @@
 
 #include "daemon/service/status.h"
 #include "daemon/service/version.h"
+#include "tests/service/message_mutation.h"
 #include "tests/service/plan_samples.h"
 #include "tests/service/running_service.h"
 

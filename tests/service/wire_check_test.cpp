@@ -6,6 +6,7 @@
 
 #include "lcmtypes/channels.h"
 #include "tests/service/allocation_meter.h"
+#include "tests/service/message_mutation.h"
 #include "tests/service/random_messages.h"
 
 namespace camway {
