@@ -223,7 +223,8 @@ class Detector {
     const SegmentMotion motion(*last_->segment);
     const double end_s =
         last_is_sure_ ? last_->end_s() : last_not_free(motion, *last_).value_or(last_->end_s());
-    intervals_.push_back({begin_s_, end_s, witness(0.5 * (begin_s_ + end_s))});
+    intervals_.push_back({begin_s_, end_s, std::nullopt});
+    if (!only_first_) intervals_.back().witness = witness(0.5 * (begin_s_ + end_s));
     last_.reset();
     finished_ = finished_ || only_first_;
   }

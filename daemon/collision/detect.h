@@ -36,7 +36,8 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(
     const Obstacles& obstacles, const motion::Path& path, const motion::Body& body,
     double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline);
 
-/// Only the first of them, with its end.
+/// Only the first of them, with its end, and without a witness: who looks for a path has no use for
+/// one.
 struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first
   std::optional<CollisionInterval> interval;

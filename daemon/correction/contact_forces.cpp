@@ -72,8 +72,7 @@ class Forces {
       const bool is_last = i + 1 == bounds_.size() || bounds_[i + 1].sample != bounds_[i].sample;
       if (!is_last || force.isZero(0.0)) continue;
       const auto sample = static_cast<Eigen::Index>(bounds_[i].sample);
-      for (Eigen::Index k = 0; k < now.rows(); ++k)
-        now.row(k) += reply_(k, sample) * force.transpose();
+      now.noalias() += reply_.col(sample) * force.transpose();
       force.setZero();
     }
     return now;

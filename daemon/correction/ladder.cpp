@@ -55,9 +55,7 @@ class Ladder {
     polish();
     come_closer();
     if (options_.objective != Objective::kClosest) pursue_objective();
-    for (Correction& correction : result_.corrections) {
-      if (correction.rung != Rung::kNone) measure(correction);
-    }
+    measure_corrections();
     if (!beyond_limit_s_.empty()) {
       result_.needed_keyframes = result_.inserted_s.size() + beyond_limit_s_.size();
     }
@@ -411,9 +409,24 @@ class Ladder {
     }
   }
 
+  // Those of one gap often are the same stretch of time.
+  void measure_corrections() {
+    std::vector<Correction>& all = result_.corrections;
+    for (auto next = all.begin(); next != all.end(); ++next) {
+      if (next->rung == Rung::kNone) continue;
+      const auto same = std::find_if(all.begin(), next, [&](const Correction& other) {
+        return other.rung != Rung::kNone && other.t_begin_s == next->t_begin_s &&
+               other.t_end_s == next->t_end_s;
+      });
+      if (same == next) measure(*next);
+      next->moved_m = same->moved_m;
+      next->turned_rad = same->turned_rad;
+    }
+  }
+
   // Of the path as it is in the end, which bends with its pieces.
   void measure(Correction& correction) const {
-    constexpr int kSamples = 16;  // of a piece
+    constexpr int kSamples = 6;  // of a piece
     const CubicPath changed = result_.path.around(correction.t_begin_s, correction.t_end_s);
     for (const motion::CubicPiece& piece : changed.pieces) {
       const double begin_s = std::max(piece.t0_s, correction.t_begin_s);

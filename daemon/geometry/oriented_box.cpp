@@ -52,7 +52,7 @@ std::array<Vec3, 3> axes_of(const Triangle& triangle) {
 
 }  // namespace
 
-OrientedBox::OrientedBox(std::span<const Triangle> body) : origin_(body.front().front()) {
+OrientedBox::OrientedBox(std::span<const Triangle> body) {
   const std::array<Vec3, 3> axes = axes_of(body.front());
   for (int k = 0; k < 3; ++k) {
     const Vec3& axis = axes[static_cast<std::size_t>(k)];
@@ -60,6 +60,18 @@ OrientedBox::OrientedBox(std::span<const Triangle> body) : origin_(body.front().
     y_[k] = axis.y();
     z_[k] = axis.z();
   }
+  fit(body);
+}
+
+OrientedBox OrientedBox::around(std::span<const Triangle> body) const {
+  OrientedBox box = *this;
+  box.fit(body);
+  return box;
+}
+
+void OrientedBox::fit(std::span<const Triangle> body) {
+  origin_ = body.front().front();
+  low_ = high_ = Lanes::Zero();
   for (const Triangle& triangle : body) {
     for (const Vec3& vertex : triangle) {
       const Lanes along = along_axes(vertex - origin_);

@@ -16,6 +16,9 @@ class OrientedBox {
   /// One axis along the longest edge of the first triangle, one along its normal. Precondition: not
   /// empty, coordinates finite and below kLargestCoordinate_m.
   explicit OrientedBox(std::span<const Triangle> body);
+  /// A box around `body` along the axes of this one, which spares finding some. Preconditions: the
+  /// same, and this is not default-constructed.
+  [[nodiscard]] OrientedBox around(std::span<const Triangle> body) const;
 
   /// A lower bound of the squared distance between anything in the box and `triangle`: the larger
   /// of what the axes of the box and the plane of the triangle show. With d the true distance and
@@ -39,6 +42,8 @@ class OrientedBox {
   [[nodiscard]] double plane_bound_m2(const Triangle& triangle) const;
 
  private:
+  void fit(std::span<const Triangle> body);
+
   /// Four numbers where three would do, since processors take them two or four at a time.
   using Lanes = Eigen::Array4d;
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/geometry/every_processor.h"
+#include "daemon/geometry/lanes.h"
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_intersection.h"
 
@@ -25,31 +27,41 @@ Vec3 offset_from_segment(const Vec3& from, const Vec3& edge, const Vec3& point) 
   return point - (from + closest_parameter(from, edge, point) * edge);
 }
 
-/// Vector between the closest points of two segments, from the first to the second. Where the lines
-/// are parallel any parameter will do: the end points decide, which the caller tries as well.
-[[gnu::always_inline]] inline Vec3 segment_offset(const Vec3& p, const Vec3& e, const Vec3& q,
-                                                  const Vec3& f) {
-  const Vec3 normal = e.cross(f);
-  const double normal2 = normal.squaredNorm();
-  double s = normal2 > 0.0 ? clamp_to_unit((q - p).cross(f).dot(normal) / normal2) : 0.0;
-  const double t = closest_parameter(q, f, p + s * e);
-  // The second projection is what makes an error in s harmless: see the derivation below.
-  const Vec3 on_second = q + t * f;
-  s = closest_parameter(p, e, on_second);
+/// Vectors between the closest points of one segment and three, from the first to the others. Where
+/// the lines are parallel any parameter will do: the end points decide, which the caller tries as
+/// well.
+[[gnu::always_inline]] inline lanes::Vectors segment_offsets(const lanes::Vectors& p,
+                                                             const lanes::Vectors& e,
+                                                             const lanes::Vectors& q,
+                                                             const lanes::Vectors& f) {
+  using lanes::unit_quotient;
+  const lanes::Vectors normal = cross(e, f);
+  const lanes::Numbers first =
+      unit_quotient(dot(cross(q - p, f), normal), squared_norm(normal));
+  const lanes::Numbers t = unit_quotient(dot(f, p + first * e - q), squared_norm(f));
+  // The second projection is what makes an error in the first harmless: see the derivation below.
+  const lanes::Vectors on_second = q + t * f;
+  const lanes::Numbers s = unit_quotient(dot(e, on_second - p), squared_norm(e));
   return on_second - (p + s * e);
 }
 
-/// Vector from the point of the face closest to `point`, if that is not on the outline.
-Vec3 offset_from_face(const Triangle& face, const Vec3& point) {
-  const Vec3 e = face[1] - face[0];
-  const Vec3 f = face[2] - face[0];
-  const Vec3 normal = e.cross(f);
-  const double normal2 = normal.squaredNorm();
-  const double v =
-      normal2 > 0.0 ? clamp_to_unit((point - face[0]).cross(f).dot(normal) / normal2) : 0.0;
-  const Vec3 on_edge = face[0] + v * e;
+/// Vectors from the points of a face closest to three points, where that is not on the outline.
+[[gnu::always_inline]] inline lanes::Vectors offsets_from_face(const Triangle& face,
+                                                               const lanes::Vectors& points) {
+  using lanes::unit_quotient;
+  const lanes::Vectors corner = lanes::repeat(face[0]);
+  const Vec3 edge = face[1] - face[0];
+  const Vec3 other_edge = face[2] - face[0];
+  const lanes::Vectors e = lanes::repeat(edge);
+  const lanes::Vectors f = lanes::repeat(other_edge);
+  const lanes::Vectors normal = lanes::repeat(edge.cross(other_edge));
+  const lanes::Numbers v =
+      unit_quotient(dot(cross(points - corner, f), normal), squared_norm(normal));
+  const lanes::Vectors on_edge = corner + v * e;
   // Within the triangle, the line through that point along f ends where the weights add up to 1.
-  return offset_from_segment(on_edge, (1.0 - v) * f, point);
+  const lanes::Vectors rest = (1.0 - v) * f;
+  const lanes::Numbers w = unit_quotient(dot(rest, points - on_edge), squared_norm(rest));
+  return points - (on_edge + w * rest);
 }
 
 /// A square, a product and their comparison: fewer than 16 roundings.
@@ -66,20 +78,23 @@ class Search {
     beyond2_ = surely * surely;
   }
 
-  /// `offset` points from a point of `a` to a point of `b`.
+  /// Each points from a point of `a` to a point of `b`.
+  [[gnu::always_inline]] bool is_final(const lanes::Vectors& offsets) {
+    const lanes::Numbers squared = squared_norm(offsets);
+    std::size_t shortest = lanes::kLanes;
+    for (std::size_t lane = 0; lane < lanes::kLanes; ++lane) {
+      if (!(squared[lane] < best2_)) continue;
+      best2_ = squared[lane];
+      shortest = lane;
+    }
+    return shortest < lanes::kLanes && proves(get(offsets, shortest));
+  }
+
   [[gnu::always_inline]] bool is_final(const Vec3& offset) {
     const double squared = offset.squaredNorm();
     if (!(squared < best2_)) return false;
     best2_ = squared;
-    offset_ = offset;
-    // Too short to prove anything by a slab; the exact test decides.
-    if (!(squared > smallest_ * smallest_)) return false;
-    const double end_a = std::max({offset.dot(a_[0]), offset.dot(a_[1]), offset.dot(a_[2])});
-    const double begin_b = std::min({offset.dot(b_[0]), offset.dot(b_[1]), offset.dot(b_[2])});
-    const double rounding = margin_ * offset.lpNorm<1>();
-    const double width = begin_b - end_a - rounding;
-    is_beyond_ = width > 0.0 && width * width > beyond2_ * squared;
-    return is_beyond_ || begin_b - end_a >= squared - rounding;
+    return proves(offset);
   }
 
   [[nodiscard]] bool is_beyond() const { return is_beyond_; }
@@ -88,6 +103,22 @@ class Search {
   [[nodiscard]] double distance() const { return std::sqrt(best2_); }
 
  private:
+  /// Whether the slab across an offset of length `best2_` proves it to be the shortest.
+  [[gnu::always_inline]] bool proves(const Vec3& offset) {
+    offset_ = offset;
+    // Too short to prove anything by a slab; the exact test decides.
+    if (!(best2_ > smallest_ * smallest_)) return false;
+    const lanes::Vectors direction = lanes::repeat(offset);
+    const lanes::Numbers a = dot(direction, lanes::load(a_));
+    const lanes::Numbers b = dot(direction, lanes::load(b_));
+    const double end_a = std::max({a[0], a[1], a[2]});
+    const double begin_b = std::min({b[0], b[1], b[2]});
+    const double rounding = margin_ * offset.lpNorm<1>();
+    const double width = begin_b - end_a - rounding;
+    is_beyond_ = width > 0.0 && width * width > beyond2_ * best2_;
+    return is_beyond_ || begin_b - end_a >= best2_ - rounding;
+  }
+
   const Triangle& a_;
   const Triangle& b_;
   double margin_;
@@ -98,23 +129,22 @@ class Search {
   Vec3 offset_ = Vec3::Zero();
 };
 
-bool edges_settle(Search& search, const Triangle& a, const Triangle& b) {
+[[gnu::always_inline]] inline bool edges_settle(Search& search, const Triangle& a,
+                                                const Triangle& b) {
+  const lanes::Vectors q = lanes::load(b);
+  const lanes::Vectors f = lanes::load(b[1], b[2], b[0]) - q;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 e = a[(i + 1) % 3] - a[i];
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Vec3 f = b[(j + 1) % 3] - b[j];
-      if (search.is_final(segment_offset(a[i], e, b[j], f))) return true;
-    }
+    const lanes::Vectors p = lanes::repeat(a[i]);
+    const lanes::Vectors e = lanes::repeat(a[(i + 1) % 3]) - p;
+    if (search.is_final(segment_offsets(p, e, q, f))) return true;
   }
   return false;
 }
 
-bool faces_settle(Search& search, const Triangle& a, const Triangle& b) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (search.is_final(offset_from_face(a, b[i]))) return true;
-    if (search.is_final(-offset_from_face(b, a[i]))) return true;
-  }
-  return false;
+[[gnu::always_inline]] inline bool faces_settle(Search& search, const Triangle& a,
+                                                const Triangle& b) {
+  if (search.is_final(offsets_from_face(a, lanes::load(b)))) return true;
+  return search.is_final(-offsets_from_face(b, lanes::load(a)));
 }
 
 bool is_point(const Triangle& triangle) {
@@ -122,12 +152,14 @@ bool is_point(const Triangle& triangle) {
 }
 
 /// The same where `a` is a point, for which most of that would be asked again and again.
-bool point_settles(Search& search, const Triangle& a, const Triangle& b) {
-  if (search.is_final(-offset_from_face(b, a[0]))) return true;
-  for (std::size_t j = 0; j < 3; ++j) {
-    if (search.is_final(-offset_from_segment(b[j], b[(j + 1) % 3] - b[j], a[0]))) return true;
-  }
-  return false;
+[[gnu::always_inline]] inline bool point_settles(Search& search, const Triangle& a,
+                                                 const Triangle& b) {
+  const lanes::Vectors point = lanes::repeat(a[0]);
+  if (search.is_final(-get(offsets_from_face(b, point), 0))) return true;
+  const lanes::Vectors q = lanes::load(b);
+  const lanes::Vectors f = lanes::load(b[1], b[2], b[0]) - q;
+  const lanes::Numbers t = lanes::unit_quotient(dot(f, point - q), squared_norm(f));
+  return search.is_final(q + t * f - point);
 }
 
 /// Every vertex against every edge. In exact arithmetic `edges_settle` has covered these.
@@ -221,6 +253,7 @@ double slab_width_m(const Triangle& a, const Triangle& b, const Vec3& direction)
   return (begin - end) / std::sqrt(squared);
 }
 
+CAMWAY_FOR_EVERY_PROCESSOR
 TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) {
   const double scale = scale_of(a, b);
   const double unit_m = unit_for_scale(scale);

@@ -10,7 +10,17 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr int kSamples = 32;  // in each segment
+// In all of a path, about, and in each of its segments: many short ones need fewer each.
+constexpr double kSamplesAPath = 256.0;
+constexpr double kFewestSamples = 8.0;
+constexpr double kMostSamples = 32.0;
+
+// Even, for Simpson's rule.
+int steps_in(const Segment& segment, double path_duration_s) {
+  const double share = (segment.t1_s - segment.t0_s) / path_duration_s;
+  return 2 * static_cast<int>(
+                 std::ceil(0.5 * std::clamp(kSamplesAPath * share, kFewestSamples, kMostSamples)));
+}
 
 // The acceleration of a cubic changes linearly from end to end.
 double bending_energy(const Segment& segment) {
@@ -34,13 +44,14 @@ PathMeasures measure(const Path& path, const Path& original) {
   const double original_duration_s = original.end_s() - original.begin_s();
   for (const Segment& segment : path.segments()) {
     measures.bending_energy_m2_per_s3 += bending_energy(segment);
-    Vec3 last = position_at(segment, 0.0);
-    for (int i = 0; i <= kSamples; ++i) {
-      const double u = static_cast<double>(i) / kSamples;
+    const int steps = steps_in(segment, duration_s);
+    const double third_s = (segment.t1_s - segment.t0_s) / steps / 3.0;
+    for (int i = 0; i <= steps; ++i) {
+      const double u = static_cast<double>(i) / steps;
       const SegmentDerivatives at = derivatives_at(segment, u);
       const Vec3 here = position_at(segment, u);
-      measures.length_m += (here - last).norm();
-      last = here;
+      const double weight = i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+      measures.length_m += weight * third_s * at.velocity_m_per_s.norm();
       const double share = (segment_time_s(segment, u) - begin_s) / duration_s;
       const Vec3 before = position(original, original.begin_s() + share * original_duration_s);
       const auto raise = [](double& largest, double value) { largest = std::max(largest, value); };

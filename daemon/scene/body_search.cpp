@@ -80,7 +80,8 @@ void BodySearch::ask_few(const Triangle& triangle, std::uint32_t index) {
   if (!part_boxes_) {
     part_boxes_.emplace();
     for (std::size_t i = 0; i < parts(); ++i) {
-      (*part_boxes_)[i] = OrientedBox(hull_of(i));
+      // Two are mostly the halves of a quadrilateral, whose axes fit both.
+      (*part_boxes_)[i] = parts() == 2 ? box_.around(hull_of(i)) : OrientedBox(hull_of(i));
     }
   }
   std::array<Waiting, kMaxOriented> order;
