@@ -7,6 +7,7 @@
 
 #include "daemon/correction/guide.h"
 #include "daemon/correction/lattice_search.h"
+#include "daemon/correction/narrow_passage.h"
 #include "daemon/correction/orientation_rule.h"
 #include "daemon/correction/relaxation.h"
 #include "daemon/correction/tree_search.h"
@@ -28,6 +29,7 @@ constexpr double kLeastMargin = 0.02;
 constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
 constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
+constexpr int kJoiningSamples = 1000;     // of trees between narrow places
 constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
 
 /// A lattice to be searched.
@@ -199,19 +201,54 @@ class Detour {
       if (deadline_.passed()) return std::nullopt;
       const std::vector<Vec3> way_W = way_for_ball(share * radius_m_);
       if (way_W.empty()) continue;
-      TreeOptions options;
-      options.margin_m = 0.5 * kLeastMargin * radius_m_;
-      options.about_W = way_W;
-      options.reach_m = 2.0 * radius_m_;
-      options.seed = seed_;
-      options.largest_turn_rad =
-          std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
-      options.interpolated = poses_as_interpolated(kPosesAsInterpolated);
-      options.effort = problem_.effort;
-      const Guide guide = tree_way(space_, from_, to_, options, deadline_);
+      if (auto found = follow(threaded(way_W), Turning::kAsGuide)) return found;
+      const Guide guide = tree_way(space_, from_, to_, tree_about(way_W), deadline_);
       if (auto found = follow(guide, Turning::kAsGuide)) return found;
     }
     return with_ball(kFinestLevel, kFinestLevel);
+  }
+
+  [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {
+    TreeOptions options;
+    options.margin_m = 0.5 * kLeastMargin * radius_m_;
+    options.about_W = std::move(way_W);
+    options.reach_m = 2.0 * radius_m_;
+    options.seed = seed_;
+    options.largest_turn_rad =
+        std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
+    options.interpolated = poses_as_interpolated(kPosesAsInterpolated);
+    options.effort = problem_.effort;
+    return options;
+  }
+
+  /// Through the narrow places of a way by straight motions, and by trees between them. Empty where
+  /// there is none.
+  Guide threaded(const std::vector<Vec3>& way_W) {
+    const std::vector<NarrowPassage> passages = narrow_passages(
+        space_, way_W, from_, to_, 0.5 * kLeastMargin * radius_m_, deadline_);
+    if (passages.empty()) return {};
+    Guide guide = {from_};
+    std::size_t begin = 0;
+    for (const NarrowPassage& passage : passages) {
+      if (!joined(guide, passage.before, way_W, begin, passage.first)) return {};
+      guide.push_back(passage.after);
+      begin = passage.last;
+    }
+    return joined(guide, to_, way_W, begin, way_W.size() - 1) ? guide : Guide{};
+  }
+
+  /// Adds a way from the end of the guide to `pose`, about a part of `way_W`. Whether there is one.
+  bool joined(Guide& guide, const SignedPose& pose, const std::vector<Vec3>& way_W,
+              std::size_t first, std::size_t last) {
+    std::vector<Vec3> about_W = {center_W(guide.back())};
+    for (std::size_t i = first; i <= last; ++i) about_W.push_back(way_W[i]);
+    about_W.push_back(center_W(pose));
+    TreeOptions options = tree_about(std::move(about_W));
+    options.max_samples = kJoiningSamples;
+    const Guide part = tree_way(space_, guide.back(), pose, options, deadline_);
+    if (part.empty()) return false;
+    guide.insert(guide.end(), part.begin() + 1, part.end());
+    return true;
   }
 
   [[nodiscard]] std::vector<motion::Pose> poses_as_interpolated(int steps) const {

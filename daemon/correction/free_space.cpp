@@ -91,6 +91,13 @@ bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_
   return !obstacles_.index.any_within(way, radius_m + detect_.clearance_m);
 }
 
+double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m) const {
+  const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
+  const std::optional<scene::Nearest> nearest =
+      obstacles_.index.nearest(way, up_to_m + detect_.clearance_m);
+  return nearest ? nearest->distance_m - detect_.clearance_m : up_to_m;
+}
+
 std::optional<collision::Witness> FreeSpace::contact(const motion::Pose& pose, double beyond_m) {
   return collision::deepest_contact(probe_, motion::standing_at(pose), beyond_m);
 }

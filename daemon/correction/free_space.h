@@ -59,6 +59,11 @@ class FreeSpace {
   [[nodiscard]] bool ball_passes(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
                                  double radius_m) const;
 
+  /// How much further than required the straight way between the two is from the scene, or
+  /// `up_to_m` if it is that much.
+  [[nodiscard]] double way_gap_m(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
+                                 double up_to_m) const;
+
   /// A deepest contact of the body at `pose`, or with what is up to `beyond_m` away.
   [[nodiscard]] std::optional<collision::Witness> contact(const motion::Pose& pose,
                                                           double beyond_m);

@@ -40,6 +40,7 @@ class Ladder {
     const auto gaps_hit = static_cast<int>(std::ranges::count(is_hit, true));
     improvement_ = {Objective::kClosest, kStepsAGap * gaps_hit};
     pursuit_ = {options.objective, kPursuitStepsAGap * gaps_hit, false};
+    pursuit_.worth = kPursuitWorth;
   }
 
   LadderResult run() && {
@@ -451,6 +452,7 @@ class Ladder {
   static constexpr int kCloserSteps = 24;      ///< for the whole path
   static constexpr double kMostBending = 1.5;  ///< of what there was, for coming closer
   static constexpr int kPursuitStepsAGap = 40;
+  static constexpr double kPursuitWorth = 0.03;
   static constexpr std::array<int, 3> kPursuitKnots = {12, 24, 48};
   /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
   /// the body: surfaces so close to it prove nothing.

@@ -31,7 +31,6 @@ constexpr double kDistrust = 0.3;
 constexpr double kHorizon = 1.0;    // gaps are not measured further, but for `kSafest`
 constexpr double kFarEnough = 0.5;  // of that: then a bound of the gap will do
 constexpr double kSettled = 0.05;   // a step that moves the body less is the last
-constexpr double kWorthIt = 0.1;    // of the objective: what polishing has to promise
 constexpr double kGained = 0.01;    // of the objective: a step that gains less is the last
 constexpr int kMostSteps = 12;
 constexpr int kMostCuts = 3;            // times that a step is looked for again, with more contacts
@@ -84,11 +83,11 @@ class Relaxation {
 
   [[nodiscard]] Offsets offsets() const { return free_.offsets_of(variables_, lever_m_); }
 
-  /// Whether there may be something to gain, as far as the nearest obstacles tell.
-  [[nodiscard]] bool is_worth_it() {
+  /// Whether there may be that share to gain, as far as the nearest obstacles tell.
+  [[nodiscard]] bool promises(double share) {
     if (is_safest_) return true;
     const double now = form_.value(variables_);
-    return now - form_.value(solved()) > kWorthIt * now;
+    return now - form_.value(solved()) > share * now;
   }
 
   /// Keeping away from what is near may cost more than all else gains. What `kSafest` gains is
@@ -439,7 +438,7 @@ std::optional<Candidate> polished(const Problem& problem, int knots, Improvement
   const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), knots}, 1, {}};
   const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
   Relaxation relaxation(problem, none, ends, improvement, space, steps_left);
-  if (!relaxation.is_worth_it()) return std::nullopt;
+  if (!relaxation.promises(improvement.worth)) return std::nullopt;
   improvement.steps_left -= steps_left;
   Relaxed better = proved(problem, relaxation, {none, {}}, ends, space, deadline);
   improvement.steps_left += steps_left;

@@ -15,6 +15,7 @@ struct Improvement {
   int steps_left = 0;
   bool may_turn = true;     ///< else orientations stay as they are, whatever the request allows
   double spread = kSpread;  ///< of `SmoothingForm`
+  double worth = 0.1;       ///< share of the objective that polishing has to promise
 };
 
 /// A correction that is proved free: `problem.path` with `bumps_for(offsets, ends)`.

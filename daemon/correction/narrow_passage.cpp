@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/narrow_passage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "daemon/correction/orientation_rule.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Quat;
+using geometry::Vec3;
+using motion::SignedPose;
+
+// Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
+constexpr double kStep = 0.25;        // between the places of a way that are looked at
+constexpr double kApart = 2.0;        // narrow places closer to each other are one
+constexpr double kHalfLength = 0.7;   // of the line that is to have room
+constexpr double kFirstShift = 0.4;   // of its ends
+constexpr double kLeastShift = 0.01;
+constexpr int kMostShifts = 200;
+constexpr int kTurns = 48;            // about the line, in a full turn
+constexpr std::size_t kMostTried = 24;        // poses that fit, from which the body is moved
+constexpr double kFarthest = 3.0;     // that it is moved to either side
+constexpr double kNearest = 1.05;     // the least that takes it out of a thin wall
+
+/// A line with as much room about it as was found.
+struct Line {
+  Vec3 begin_W;
+  Vec3 end_W;
+
+  [[nodiscard]] Vec3 center_W() const { return 0.5 * (begin_W + end_W); }
+  [[nodiscard]] Vec3 direction_W() const { return (end_W - begin_W).normalized(); }
+};
+
+class Threader {
+ public:
+  Threader(FreeSpace& space, const SignedPose& from, const SignedPose& to, double margin_m)
+      : space_(space),
+        from_(from),
+        to_(to),
+        margin_m_(margin_m),
+        radius_m_(space.ball_radius_m()) {}
+
+  /// A motion through the middle of `way_W`, where that is narrow.
+  std::optional<NarrowPassage> through(std::span<const Vec3> way_W) {
+    const Line line = widest(way_W);
+    const Vec3 along_W = line.direction_W();
+    for (const auto& [likeness, pose] : fitting(line)) {
+      const double back = freely_moved(pose, -along_W);
+      if (back < kNearest) continue;
+      const double forth = freely_moved(pose, along_W);
+      if (forth < kNearest) continue;
+      return NarrowPassage{moved(pose, -back * radius_m_ * along_W),
+                           moved(pose, forth * radius_m_ * along_W)};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static SignedPose moved(const SignedPose& pose, const Vec3& by_W) {
+    return {pose.position + by_W, pose.orientation};
+  }
+
+  /// Through where the way has the least room; then each end is moved to where there is more.
+  [[nodiscard]] Line widest(std::span<const Vec3> way_W) const {
+    std::size_t tightest = 0;
+    double least_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < way_W.size(); ++i) {
+      const double room_m = space_.ball_gap_m(way_W[i], 0.0, radius_m_);
+      if (room_m >= least_m) continue;
+      least_m = room_m;
+      tightest = i;
+    }
+    const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
+    const Vec3 half_W = kHalfLength * radius_m_ * along_W;
+    return widened({way_W[tightest] - half_W, way_W[tightest] + half_W});
+  }
+
+  [[nodiscard]] double room_m(const Line& line) const {
+    return space_.way_gap_m(line.begin_W, line.end_W, radius_m_);
+  }
+
+  [[nodiscard]] Line widened(Line line) const {
+    double best_m = room_m(line);
+    double shift_m = kFirstShift * radius_m_;
+    for (int shifts = 0; shift_m > kLeastShift * radius_m_ && shifts < kMostShifts;) {
+      const Vec3 along_W = line.direction_W();
+      const Vec3 across_W = along_W.unitOrthogonal();
+      const Vec3 other_W = along_W.cross(across_W);
+      bool any = false;
+      for (const Vec3& side_W : {across_W, Vec3(-across_W), other_W, Vec3(-other_W)}) {
+        // Both ends, or one: that turns the line.
+        for (const auto& [begin, end] : {std::pair{1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}) {
+          ++shifts;
+          const Line next{line.begin_W + begin * shift_m * side_W,
+                          line.end_W + end * shift_m * side_W};
+          const double next_m = room_m(next);
+          if (!(next_m > best_m)) continue;
+          line = next;
+          best_m = next_m;
+          any = true;
+        }
+      }
+      if (!any) shift_m *= 0.5;
+    }
+    return line;
+  }
+
+  struct Fit {
+    double likeness;  ///< to the end that it is less like
+    SignedPose pose;
+  };
+
+  /// Poses that are free in the middle of the line, those that are turned least first.
+  [[nodiscard]] std::vector<Fit> fitting(const Line& line) {
+    const Vec3 along_W = line.direction_W();
+    std::vector<Fit> fits;
+    for (const Vec3& axis_C : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
+      for (int step = 0; step < 2 * kTurns; ++step) {
+        const Vec3 signed_C = step < kTurns ? axis_C : Vec3(-axis_C);
+        const double angle_rad = 2.0 * std::numbers::pi * (step % kTurns) / kTurns;
+        const Quat orientation = Quat(Eigen::AngleAxisd(angle_rad, along_W)) *
+                                 Quat::FromTwoVectors(signed_C, along_W);
+        const motion::Pose pose = space_.pose_around(line.center_W(), orientation);
+        if (space_.is_free(pose, margin_m_)) fits.push_back(signed_as_ends(pose));
+      }
+    }
+    std::ranges::stable_sort(fits, std::greater(), &Fit::likeness);
+    if (fits.size() > kMostTried) fits.resize(kMostTried);
+    return fits;
+  }
+
+  [[nodiscard]] Fit signed_as_ends(const motion::Pose& pose) const {
+    SignedPose result = motion::signed_pose(pose);
+    const double from = result.orientation.dot(from_.orientation);
+    const double to = result.orientation.dot(to_.orientation);
+    if (from + to >= 0.0) return {std::min(from, to), result};
+    result.orientation *= -1.0;
+    return {std::min(-from, -to), result};
+  }
+
+  /// How far the body can be moved, in radii of the ball.
+  [[nodiscard]] double freely_moved(const SignedPose& pose, const Vec3& direction_W) {
+    const Vec3 way_W = kFarthest * radius_m_ * direction_W;
+    const std::optional<double> hit = space_.first_hit(pose, moved(pose, way_W), margin_m_);
+    return kFarthest * (hit ? 0.9 * *hit : 1.0);
+  }
+
+  FreeSpace& space_;
+  const SignedPose from_;
+  const SignedPose to_;
+  const double margin_m_;
+  const double radius_m_;
+};
+
+/// A place of a way, and the point of the way before it.
+struct Place {
+  Vec3 at_W;
+  std::size_t leg;
+};
+
+std::vector<Place> places_of(std::span<const Vec3> way_W, double step_m) {
+  std::vector<Place> places = {{way_W.front(), 0}};
+  for (std::size_t i = 1; i < way_W.size(); ++i) {
+    const int parts = 1 + static_cast<int>((way_W[i] - way_W[i - 1]).norm() / step_m);
+    for (int k = 1; k <= parts; ++k) {
+      const double share = static_cast<double>(k) / parts;
+      places.push_back({(1.0 - share) * way_W[i - 1] + share * way_W[i], i - 1});
+    }
+  }
+  return places;
+}
+
+/// Places of a way, from `begin` to before `end`.
+struct Narrow {
+  std::size_t begin;
+  std::size_t end;
+};
+
+/// What is narrow at either end is none of these: the body is there, as it is turned already.
+std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const Place> places) {
+  const double radius_m = space.ball_radius_m();
+  const double comfort_m = kLeastShift * radius_m;
+  const auto apart = static_cast<std::size_t>(kApart / kStep);
+  std::vector<Narrow> narrow;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (space.ball_gap_m(places[i].at_W, radius_m, comfort_m) > 0.0) continue;
+    if (!narrow.empty() && i - narrow.back().end < apart) {
+      narrow.back().end = i + 1;
+    } else {
+      narrow.push_back({i, i + 1});
+    }
+  }
+  std::erase_if(narrow, [&](const Narrow& stretch) {
+    return stretch.begin == 0 || stretch.end == places.size();
+  });
+  return narrow;
+}
+
+}  // namespace
+
+std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec3> way_W,
+                                           const SignedPose& from, const SignedPose& to,
+                                           double margin_m, const collision::Deadline& deadline) {
+  if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
+  const std::vector<Place> places = places_of(way_W, kStep * space.ball_radius_m());
+  Threader threader(space, from, to, margin_m);
+  std::vector<NarrowPassage> passages;
+  for (const Narrow& narrow : narrow_places(space, places)) {
+    if (deadline.passed()) return {};
+    std::vector<Vec3> stretch_W;
+    for (std::size_t i = narrow.begin - 1; i <= narrow.end; ++i)
+      stretch_W.push_back(places[i].at_W);
+    std::optional<NarrowPassage> found = threader.through(stretch_W);
+    if (!found) return {};
+    found->first = places[narrow.begin - 1].leg;
+    found->last = places[narrow.end].leg + 1;
+    passages.push_back(*found);
+  }
+  return passages;
+}
+
+}  // namespace camway::correction
