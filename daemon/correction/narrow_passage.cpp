@@ -2,6 +2,7 @@
 #include "daemon/correction/narrow_passage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -20,16 +21,17 @@ using geometry::Vec3;
 using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr double kStep = 0.25;        // between the places of a way that are looked at
-constexpr double kApart = 2.0;        // narrow places closer to each other are one
-constexpr double kHalfLength = 0.7;   // of the line that is to have room
-constexpr double kFirstShift = 0.4;   // of its ends
+constexpr double kStep = 0.25;       // between the places of a way that are looked at
+constexpr double kApart = 2.0;       // narrow places closer to each other are one
+constexpr double kHalfLength = 0.7;  // of the line that is to have room
+constexpr double kFirstShift = 0.4;  // of its ends
 constexpr double kLeastShift = 0.01;
 constexpr int kMostShifts = 200;
-constexpr int kTurns = 48;            // about the line, in a full turn
-constexpr std::size_t kMostTried = 24;        // poses that fit, from which the body is moved
-constexpr double kFarthest = 3.0;     // that it is moved to either side
-constexpr double kNearest = 1.05;     // the least that takes it out of a thin wall
+constexpr int kPlaces = 16;             // of the line, to find where it is tightest
+constexpr int kTurns = 48;              // about the line, in a full turn
+constexpr std::size_t kMostTried = 24;  // poses that fit, from which the body is moved
+constexpr double kFarthest = 3.0;       // that it is moved to either side
+constexpr double kNearest = 1.05;       // the least that takes it out of a thin wall
 
 /// A line with as much room about it as was found.
 struct Line {
@@ -71,17 +73,34 @@ class Threader {
 
   /// Through where the way has the least room; then each end is moved to where there is more.
   [[nodiscard]] Line widest(std::span<const Vec3> way_W) const {
-    std::size_t tightest = 0;
+    const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
+    const Line line = widened(line_about(tightest(way_W), along_W));
+    return line_about(tightest(places_on(line)), line.direction_W());
+  }
+
+  [[nodiscard]] Line line_about(const Vec3& center_W, const Vec3& along_W) const {
+    const Vec3 half_W = kHalfLength * radius_m_ * along_W;
+    return {center_W - half_W, center_W + half_W};
+  }
+
+  [[nodiscard]] Vec3 tightest(std::span<const Vec3> places_W) const {
+    Vec3 place_W = places_W.front();
     double least_m = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < way_W.size(); ++i) {
-      const double room_m = space_.ball_gap_m(way_W[i], 0.0, radius_m_);
+    for (const Vec3& next_W : places_W) {
+      const double room_m = space_.way_gap_m(next_W, next_W, radius_m_);
       if (room_m >= least_m) continue;
       least_m = room_m;
-      tightest = i;
+      place_W = next_W;
     }
-    const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
-    const Vec3 half_W = kHalfLength * radius_m_ * along_W;
-    return widened({way_W[tightest] - half_W, way_W[tightest] + half_W});
+    return place_W;
+  }
+
+  static std::vector<Vec3> places_on(const Line& line) {
+    std::vector<Vec3> places_W;
+    for (int i = 0; i <= kPlaces; ++i)
+      places_W.push_back(line.begin_W +
+                         static_cast<double>(i) / kPlaces * (line.end_W - line.begin_W));
+    return places_W;
   }
 
   [[nodiscard]] double room_m(const Line& line) const {
@@ -119,7 +138,7 @@ class Threader {
     SignedPose pose;
   };
 
-  /// Poses that are free in the middle of the line, those that are turned least first.
+  /// Poses in the middle of the line that are free along it, those that are turned least first.
   [[nodiscard]] std::vector<Fit> fitting(const Line& line) {
     const Vec3 along_W = line.direction_W();
     std::vector<Fit> fits;
@@ -127,15 +146,22 @@ class Threader {
       for (int step = 0; step < 2 * kTurns; ++step) {
         const Vec3 signed_C = step < kTurns ? axis_C : Vec3(-axis_C);
         const double angle_rad = 2.0 * std::numbers::pi * (step % kTurns) / kTurns;
-        const Quat orientation = Quat(Eigen::AngleAxisd(angle_rad, along_W)) *
-                                 Quat::FromTwoVectors(signed_C, along_W);
-        const motion::Pose pose = space_.pose_around(line.center_W(), orientation);
-        if (space_.is_free(pose, margin_m_)) fits.push_back(signed_as_ends(pose));
+        const Quat orientation =
+            Quat(Eigen::AngleAxisd(angle_rad, along_W)) * Quat::FromTwoVectors(signed_C, along_W);
+        if (!fits_on(line, orientation)) continue;
+        fits.push_back(signed_as_ends(space_.pose_around(line.center_W(), orientation)));
       }
     }
     std::ranges::stable_sort(fits, std::greater(), &Fit::likeness);
     if (fits.size() > kMostTried) fits.resize(kMostTried);
     return fits;
+  }
+
+  [[nodiscard]] bool fits_on(const Line& line, const Quat& orientation) {
+    const std::array<Vec3, 3> places_W = {line.center_W(), line.begin_W, line.end_W};
+    return std::ranges::all_of(places_W, [&](const Vec3& place_W) {
+      return space_.is_free(space_.pose_around(place_W, orientation), margin_m_);
+    });
   }
 
   [[nodiscard]] Fit signed_as_ends(const motion::Pose& pose) const {

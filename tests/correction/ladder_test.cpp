@@ -103,6 +103,30 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
 }
 
+// A closed room with a partition of 2 cm. The diagonal of its hole is 1.2 times the short side of
+// the near quadrilateral, which has to pass long side first, rolled by 45 degrees.
+TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
+  const double half_m = 0.127;
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-1.3, -1.3, 1.8}, {1.3, 1.3, 1.9});
+  testing::add_cuboid(mesh, {-1.3, -1.3, -1.9}, {1.3, 1.3, -1.8});
+  for (const double side : {-1.0, 1.0}) {
+    const double wall_m = 1.25 * side;
+    testing::add_cuboid(mesh, {wall_m - 0.05, -1.3, -1.8}, {wall_m + 0.05, 1.3, 1.8});
+    testing::add_cuboid(mesh, {-1.2, wall_m - 0.05, -1.8}, {1.2, wall_m + 0.05, 1.8});
+    const double out_m = 1.2 * side;
+    const double in_m = half_m * side;
+    testing::add_cuboid(mesh, {std::min(out_m, in_m), -1.2, -0.01},
+                        {std::max(out_m, in_m), 1.2, 0.01});
+    testing::add_cuboid(mesh, {-half_m, std::min(out_m, in_m), -0.01},
+                        {half_m, std::max(out_m, in_m), 0.01});
+  }
+  Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.1}), at(4, {0.3, 0.1, -0.8})});
+  c.body =
+      motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
+  expect_corrected(c, {Rung::kGoRound});
+}
+
 // Less than a metre apart, and 28 m by the only way there is: round the end of a wall in a closed
 // room.
 TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
