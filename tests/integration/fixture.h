@@ -42,11 +42,23 @@ class IntegrationTest : public testing::Test {
   /// Options for clients here: as many retries as patience allows.
   static ClientOptions patient();
 
+  /// Puts a bad network beside the good one, of which this share of the messages each way is lost,
+  /// as many come twice, and as many come late, so that others overtake them.
+  void start_bad_network(double share);
+  /// Options for clients on the bad network.
+  static ClientOptions patient_far_away();
+  static constexpr char kFarAwayUrl[] = "udpm://239.255.76.67:7668?ttl=0";
+
  private:
   std::filesystem::path folder_;
+  std::unique_ptr<Process> relay_;
   std::unique_ptr<Process> daemon_;
   int daemons_ = 0;
 };
+
+/// Shares of messages that bad networks of tests lose, and what tests are called that have them.
+inline constexpr double kBadShares[] = {0.0, 0.01, 0.1, 0.3};
+std::string name_of_share(const testing::TestParamInfo<double>& share);
 
 /// Committed files: `scenes/office.obj`, `scenes/requests/office-free-door.json`.
 std::string scene_file(const std::string& name);
