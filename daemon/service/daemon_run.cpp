@@ -91,7 +91,8 @@ int exit_code_of(RunOutcome outcome, const std::string& url, spdlog::logger& log
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
           ConfiguredScenes& configured, const std::shared_ptr<spdlog::logger>& log) {
-  const OpenedTransport opened = open_lcm_transport(options.lcm_url);
+  const OpenedTransport opened =
+      open_lcm_transport(options.lcm_url, [&](const std::string& text) { log->warn("{}", text); });
   if (!opened.transport) {
     log->error(opened.error);
     return kExitLcm;
