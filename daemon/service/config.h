@@ -7,6 +7,7 @@
 
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/fair_queue.h"
+#include "daemon/service/limited_log.h"
 #include "daemon/service/scene_roots.h"
 #include "daemon/service/uploads.h"
 #include "daemon/service/wire_convert.h"
@@ -45,8 +46,7 @@ struct ServiceConfig {
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};
-  /// Warnings of one kind are logged at most once in this time, with the number left out.
-  std::chrono::milliseconds warning_period{5000};
+  LimitedLog::Limits log_limits;  ///< of what clients can provoke; `log.lines_per_s` and others
 
   /// What is wrong with the values, or an empty text.
   [[nodiscard]] std::string fault() const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "daemon/scene/scene_store.h"
+#include "daemon/service/log.h"
 #include "daemon/service/scene_argument.h"
 
 namespace camway::service {
@@ -19,7 +18,7 @@ namespace camway::service {
 class ConfiguredScenes {
  public:
   /// `store` must outlive this.
-  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<spdlog::logger> log)
+  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<Log> log)
       : store_(store), log_(std::move(log)) {}
 
   /// Makes the store hold `wanted`, and none of those that it held for an earlier call and that are
@@ -62,7 +61,7 @@ class ConfiguredScenes {
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;
-  std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<Log> log_;
   std::vector<Held> held_;
 };
 

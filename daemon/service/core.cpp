@@ -18,16 +18,13 @@ std::int64_t utime_now() {
 }
 
 Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-           ServiceConfig service_config, std::shared_ptr<spdlog::logger> logger)
+           ServiceConfig service_config, std::shared_ptr<Log> service_log)
     : config(std::move(service_config)),
       channels{config.prefix},
       scenes(scene_store),
-      log(std::move(logger)),
+      log(std::move(service_log)),
       transport(inner_transport),
-      malformed_warnings(log, config.warning_period),
-      overload_warnings(log, config.warning_period),
-      publish_warnings(log, config.warning_period),
-      stuck_warnings(log, config.warning_period),
+      limited_log(log, config.log_limits),
       outbox(transport),
       mailbox(transport),
       workers(config.workers, config.queue) {}
@@ -60,8 +57,9 @@ std::string Core::refusal_text(Refusal why) const {
 
 void Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
   ++counters.malformed;
-  malformed_warnings.warn(fmt::format("malformed message of {} bytes on {}: {}", size, channel,
-                                      clipped(reason, wire::kMaxTextBytes)));
+  limited_log.malformed.write(
+      "malformed message",
+      {{"channel", channel}, {"bytes", size}, {"reason", clipped(reason, wire::kMaxTextBytes)}});
 }
 
 void Core::report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,

@@ -52,8 +52,24 @@ struct Raw {
   std::string config_file;
   bool check_config = false;
   std::vector<std::string> scenes;
-  std::string log_level;
 };
+
+/// A flag for a setting of the configuration file that is one of a few words.
+void declare_word(CLI::App& app, const std::string& flag, std::string_view key,
+                  const std::string& meaning, DaemonOptions& options) {
+  const auto setting = [&options, key] {
+    const std::vector<Setting> settings = settings_of(options);
+    return *std::ranges::find(settings, key, &Setting::key);
+  };
+  app.add_option_function<std::string>(
+         flag,
+         [setting, flag](const std::string& word) {
+           const std::string fault = setting().set(word);
+           if (!fault.empty()) throw CLI::ValidationError(flag, fault);
+         },
+         meaning + " [" + setting().text() + "]")
+      ->type_name("WORD");
+}
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.set_version_flag("--version", "camwayd " + version_text());
@@ -98,9 +114,9 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.add_option("--max-deadline-s", options.service.deadline.max_s,
                  "Longest deadline that a request may ask for, seconds")
       ->capture_default_str();
-  app.add_option("--log-level", raw.log_level, "What is logged on stderr")
-      ->check(CLI::IsMember(std::vector<std::string>(kLogLevels.begin(), kLogLevels.end())))
-      ->default_str(std::string(log_level_name(options.log_level)));
+  declare_word(app, "--log-level", "log.level", "What is logged on standard error", options);
+  declare_word(app, "--log-format", "log.format",
+               "How: text for people, or an object of JSON on each line", options);
 }
 
 /// Reads the command line over `options`; what to end with if it is no good or asks for help.
@@ -148,7 +164,6 @@ std::string open_roots(const std::string& folders, SceneRoots& roots) {
 /// Turns the texts into options; returns what is wrong with them.
 std::string resolve(const Raw& raw, DaemonOptions& options) {
   options.config_file = raw.config_file;
-  if (!raw.log_level.empty()) options.log_level = spdlog::level::from_str(raw.log_level);
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
   if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return fault;
   if (options.scenes.empty() && options.scene_roots.empty()) {
@@ -191,11 +206,6 @@ ParsedOptions check(const DaemonOptions& options) {
 }
 
 }  // namespace
-
-std::string_view log_level_name(spdlog::level::level_enum level) {
-  return level == spdlog::level::off ? kLogLevels.back()
-                                     : kLogLevels.at(static_cast<std::size_t>(level));
-}
 
 DaemonOptions default_options() {
   DaemonOptions options;

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
 namespace camway::service {
@@ -21,6 +21,19 @@ constexpr double kManyBytes = 1e15;
 template <class Value>
 constexpr bool kIsWhole = std::is_same_v<Value, int> || std::is_same_v<Value, std::size_t>;
 
+/// The words for the values of an enumeration, in their order.
+std::span<const std::string_view> words_for(LogLevel) { return kLogLevels; }
+std::span<const std::string_view> words_for(LogFormat) { return kLogFormats; }
+
+template <class Choice>
+std::string choose(Choice& place, std::string_view word) {
+  const auto words = words_for(place);
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end()) return fmt::format("must be one of {}", fmt::join(words, ", "));
+  place = static_cast<Choice>(found - words.begin());
+  return {};
+}
+
 }  // namespace
 
 std::string Setting::text() const {
@@ -29,8 +42,8 @@ std::string Setting::text() const {
         using Value = std::decay_t<decltype(*value)>;
         if constexpr (std::is_same_v<Value, std::string>) {
           return fmt::format("\"{}\"", *value);
-        } else if constexpr (std::is_same_v<Value, spdlog::level::level_enum>) {
-          return fmt::format("\"{}\"", log_level_name(*value));
+        } else if constexpr (std::is_enum_v<Value>) {
+          return fmt::format("\"{}\"", words_for(*value)[static_cast<std::size_t>(*value)]);
         } else if constexpr (std::is_same_v<Value, milliseconds>) {
           return fmt::format("{}", static_cast<double>(value->count()) / kMillisecondsPerSecond);
         } else {
@@ -41,15 +54,9 @@ std::string Setting::text() const {
 }
 
 std::string Setting::set(std::string_view value) const {
-  if (auto* const* level = std::get_if<spdlog::level::level_enum*>(&target)) {
-    const auto* const found = std::find(kLogLevels.begin(), kLogLevels.end(), value);
-    if (found == kLogLevels.end()) {
-      return fmt::format("must be one of {}", fmt::join(kLogLevels, ", "));
-    }
-    **level = spdlog::level::from_str(std::string(value));
-  } else {
-    *std::get<std::string*>(target) = value;
-  }
+  if (const auto* const level = std::get_if<LogLevel*>(&target)) return choose(**level, value);
+  if (const auto* const format = std::get_if<LogFormat*>(&target)) return choose(**format, value);
+  *std::get<std::string*>(target) = value;
   return {};
 }
 
@@ -76,7 +83,7 @@ bool Setting::is_switch() const { return std::holds_alternative<bool*>(target); 
 
 bool Setting::is_text() const {
   return std::holds_alternative<std::string*>(target) ||
-         std::holds_alternative<spdlog::level::level_enum*>(target);
+         std::holds_alternative<LogLevel*>(target) || std::holds_alternative<LogFormat*>(target);
 }
 
 bool Setting::is_whole_number() const {
@@ -122,7 +129,9 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"metrics.address", &options.metrics.ip},
       {"metrics.port", &options.metrics.port, 0, 65'535},
       {"log.level", &options.log_level, 0, 0, true},
-      {"log.warning_period_s", &service.warning_period, 0, kDayS},
+      {"log.format", &options.log_format},
+      {"log.lines_per_s", &service.log_limits.lines_per_s, 0.001, 1e6},
+      {"log.burst_lines", &service.log_limits.burst_lines, 1, 1e6},
   };
 }
 

@@ -101,12 +101,7 @@ class LcmTransport final : public Transport {
     if (!local_port_) return;
     const std::string fault = hear_this_host_only(*local_port_);
     local_port_.reset();
-    if (!fault.empty() && warn_) {
-      warn_(
-          "what other hosts send is heard in spite of ttl 0, unless multicast is routed over "
-          "the loopback: " +
-          fault);
-    }
+    if (!fault.empty() && warn_) warn_(fault);
   }
 
   void clear_wake() const {

@@ -178,8 +178,9 @@ void PlanService::take(plan_request_t request) {
       }
       ++core_.counters.repeated;
       ++core_.counters.cache_hits;
-      core_.log->info("repeated answer client={} request={} pages={}", key.client_id,
-                      key.request_id, found.pages->size());
+      core_.limited_log.answers.write(
+          "repeated answer",
+          {{"client", key.client_id}, {"request", key.request_id}, {"pages", found.pages->size()}});
       send(key, found.pages);
       return;
     case AnswerCache::Known::kConflict:
@@ -241,13 +242,18 @@ void PlanService::run(const Pending& pending) {
 }
 
 void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
-  core_.log->info(
-      "answered client={} request={} scene={} status={} keyframes={} segments={} collisions={} "
-      "remaining={} pages={} ms={:.1f} since_receipt_ms={:.1f}: {}",
-      pending.key.client_id, pending.key.request_id, pending.request->scene,
-      status_name(answer.status), pending.request->keyframes.size(), answer.segments.size(),
-      answer.collisions.size(), answer.remaining.size(), pages->size(), answer.total_ms,
-      pending.deadline.elapsed_ms(), answer.message);
+  core_.limited_log.answers.write("answered", {{"client", pending.key.client_id},
+                                               {"request", pending.key.request_id},
+                                               {"scene", pending.request->scene},
+                                               {"status", status_name(answer.status)},
+                                               {"keyframes", pending.request->keyframes.size()},
+                                               {"segments", answer.segments.size()},
+                                               {"collisions", answer.collisions.size()},
+                                               {"remaining", answer.remaining.size()},
+                                               {"pages", pages->size()},
+                                               {"ms", answer.total_ms},
+                                               {"since_receipt_ms", pending.deadline.elapsed_ms()},
+                                               {"message", answer.message}});
   core_.counters.plan_answers.add(answer.status);
   core_.counters.receipt_to_answer.add(pending.deadline.elapsed_ms() / kMillisecondsPerSecond);
   in_flight_.end(pending.key);
@@ -304,9 +310,12 @@ void PlanService::finish_again(const Replan& replan, const plan_response_t& answ
                                std::shared_ptr<const scene::Snapshot> snapshot) {
   --replanning_;
   if (!watches_.ended(replan.key)) return;
-  core_.log->info("answered again client={} request={} scene={} revision={} status={}: {}",
-                  replan.key.client_id, replan.key.request_id, answer.scene, answer.scene_revision,
-                  status_name(answer.status), answer.message);
+  core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
+                                                     {"request", replan.key.request_id},
+                                                     {"scene", answer.scene},
+                                                     {"revision", answer.scene_revision},
+                                                     {"status", status_name(answer.status)},
+                                                     {"message", answer.message}});
   cache_.replace(replan.key, digest_of(*replan.request), pages);
   send(replan.key, std::move(pages));
   if (path) {
@@ -346,8 +355,9 @@ void PlanService::abandon(const Pending& pending, Refusal why) {
   cache_.forget(pending.key);
   ++core_.counters.overloaded;
   const std::string message = core_.refusal_text(why);
-  core_.overload_warnings.warn(fmt::format("refused request {} of {}: {}", pending.key.request_id,
-                                           pending.key.client_id, message));
+  core_.limited_log.refused.write("refused plan request", {{"client", pending.key.client_id},
+                                                           {"request", pending.key.request_id},
+                                                           {"reason", message}});
   answer_uncached(*pending.request, plan_response_t::STATUS_OVERLOADED, message);
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -13,6 +11,7 @@
 
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
+#include "daemon/service/log.h"
 #include "daemon/service/service_manager.h"
 #include "lcmtypes/message_auth.h"
 
@@ -30,7 +29,7 @@ class Reloader {
   /// `manager` must outlive this; nobody else may use `scenes` meanwhile.
   /// Files of scenes that are to be watched are looked at every `look_every`.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
-           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+           const ServiceManager& manager, std::shared_ptr<Log> log,
            std::shared_ptr<wire::MessageAuth> auth = nullptr,
            std::chrono::milliseconds look_every = std::chrono::seconds(1));
   /// Waits for the scene that is being read, if any; the reload that it belongs to is given up.
@@ -54,7 +53,7 @@ class Reloader {
   Read read_;
   ConfiguredScenes& scenes_;
   const ServiceManager& manager_;
-  std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<Log> log_;
   std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
   const std::chrono::milliseconds look_every_;
   std::mutex mutex_;  ///< guards requested_

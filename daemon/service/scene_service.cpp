@@ -131,9 +131,15 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
 }
 
 void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
-  core_.log->info("scene {} client={} request={} scene={} object={} status={} revision={}: {}",
-                  name_of(request.operation), request.client_id, request.request_id, request.scene,
-                  request.object, answer.status, answer.scene.revision, answer.message);
+  core_.limited_log.scenes.write("answered scene request",
+                                 {{"client", request.client_id},
+                                  {"request", request.request_id},
+                                  {"operation", name_of(request.operation)},
+                                  {"scene", request.scene},
+                                  {"object", request.object},
+                                  {"status", answer.status},
+                                  {"revision", answer.scene.revision},
+                                  {"message", answer.message}});
   const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
@@ -157,8 +163,9 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
   const std::string_view message = why == Refusal::kStopping
                                        ? "the daemon is stopping"
                                        : "too many changes of scenes wait; send it again later";
-  core_.overload_warnings.warn(
-      fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
+  core_.limited_log.refused.write(
+      "refused scene request",
+      {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
   send(plain_scene_answer(request, scene_response_t::STATUS_OVERLOADED, message));
 }
 
