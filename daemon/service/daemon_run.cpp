@@ -95,7 +95,10 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     log->warn("LCM_DEFAULT_URL is set, but does not count",
               {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
   }
-  const OpenedTransport opened = open_lcm_transport(options.lcm_url);
+  const OpenedTransport opened =
+      open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
+        log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
+      });
   if (!opened.transport) {
     log->error("LCM cannot be used", {{"reason", opened.error}});
     return kExitLcm;

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 #include <spdlog/logger.h>
-#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/sinks/base_sink.h>
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -81,12 +82,30 @@ std::string json_line(std::string_view event, LogFields facts) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace).substr(1);
 }
 
+/// Writes each line at once. A line that found no room (a full disk) is lost, but not those after
+/// it.
+class StreamSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit StreamSink(std::ostream& out) : out_(out) {}
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    out_.clear();
+    out_.write(line.data(), static_cast<std::streamsize>(line.size())).flush();
+  }
+  void flush_() override { out_.flush(); }
+
+ private:
+  std::ostream& out_;
+};
+
 }  // namespace
 
 struct Log::Library {
   Library(std::ostream& out, LogFormat log_format)
-      : format(log_format),
-        logger("camwayd", std::make_shared<spdlog::sinks::ostream_sink_mt>(out, true)) {
+      : format(log_format), logger("camwayd", std::make_shared<StreamSink>(out)) {
     logger.set_pattern(format == LogFormat::kText ? kTextPattern : kJsonPattern);
   }
 

@@ -9,19 +9,6 @@
 namespace camway::integration {
 namespace {
 
-/// A mesh of one triangle in a file of that length or a little more, of which no two pages are
-/// alike.
-SceneMesh long_mesh(std::size_t bytes) {
-  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  while (text.size() < bytes) {
-    text += "# " + std::to_string(text.size()) + std::string(80, '.') + '\n';
-  }
-  SceneMesh mesh;
-  mesh.bytes.assign(text.begin(), text.end());
-  mesh.format = "obj";
-  return mesh;
-}
-
 Pose at(double x_m, double y_m, double z_m) {
   Pose pose;
   pose.position_m = {x_m, y_m, z_m};

@@ -30,6 +30,17 @@ PlanRequest request_of(const std::string& name, const std::string& scene) {
   return request.value ? tools::to_client_request(*request.value, scene) : PlanRequest{};
 }
 
+SceneMesh long_mesh(std::size_t bytes) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  while (text.size() < bytes) {
+    text += "# " + std::to_string(text.size()) + std::string(80, '.') + '\n';
+  }
+  SceneMesh mesh;
+  mesh.bytes.assign(text.begin(), text.end());
+  mesh.format = "obj";
+  return mesh;
+}
+
 std::string name_of_share(const testing::TestParamInfo<double>& share) {
   return std::to_string(std::lround(100.0 * share.param)) + "InAHundred";
 }
@@ -80,7 +91,8 @@ void IntegrationTest::start_daemon(const std::vector<std::string>& more_argument
 
 void IntegrationTest::start_daemon_with_scenes(const std::vector<std::string>& scenes,
                                                const std::vector<std::string>& more_arguments) {
-  std::vector<std::string> arguments{CAMWAYD_BINARY};
+  std::vector<std::string> arguments = wrapper_;
+  arguments.emplace_back(CAMWAYD_BINARY);
   for (const std::string& scene : scenes) {
     arguments.insert(arguments.end(), {"--scene", scene});
   }

@@ -4,10 +4,12 @@
 #include <camway/client.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/integration/process.h"
@@ -28,6 +30,9 @@ class IntegrationTest : public testing::Test {
   void start_daemon(const std::vector<std::string>& more_arguments = {});
   void start_daemon_with_scenes(const std::vector<std::string>& scenes,
                                 const std::vector<std::string>& more_arguments = {});
+  /// Daemons that are started from now on are run by this command, which has to become them
+  /// (`exec`).
+  void run_daemons_by(std::vector<std::string> command) { wrapper_ = std::move(command); }
   Process& daemon() { return *daemon_; }
   /// Ends a daemon that no test has ended, and fails if it does not end cleanly: a sanitizer that
   /// found something in it, at any time or at the end, says so with the exit code. Every test ends
@@ -51,6 +56,7 @@ class IntegrationTest : public testing::Test {
 
  private:
   std::filesystem::path folder_;
+  std::vector<std::string> wrapper_;
   std::unique_ptr<Process> relay_;
   std::unique_ptr<Process> daemon_;
   int daemons_ = 0;
@@ -66,6 +72,10 @@ std::string request_file(const std::string& name);
 
 /// The request of that file, for a daemon that holds its scene as `scene`.
 PlanRequest request_of(const std::string& name, const std::string& scene);
+
+/// A mesh of one triangle in a file of that length or a little more, of which no two pages are
+/// alike.
+SceneMesh long_mesh(std::size_t bytes);
 
 /// One line that a planning client printed.
 struct ClientLine {

@@ -129,7 +129,7 @@ TEST_F(TwoHostsTest, NothingIsLostOrWrongWhenTheKernelDropsATenth) {
   EXPECT_THAT(load->output(), HasSubstr("0 wrong, 0 lost"));
 }
 
-TEST_F(TwoHostsTest, WhatIsForThisHostOnlyStaysHere) {
+TEST_F(TwoHostsTest, ADaemonForThisHostOnlyIsNotHeardOnTheOther) {
   start_daemon({"--url", kThisHostOnly});
   EXPECT_EQ(status_at(kThisHostOnly, 10.0), Status::kOk);
   const std::vector<std::string> ask{CAMWAY_BINARY, "status",      "--url",
@@ -141,6 +141,28 @@ TEST_F(TwoHostsTest, WhatIsForThisHostOnlyStaysHere) {
   start_daemon({"--url", kBothHosts});
   const auto heard = start_over_there(ask);
   EXPECT_EQ(heard->wait(), 0) << heard->output();
+}
+
+TEST_F(TwoHostsTest, ADaemonForThisHostOnlyDoesNotHearTheOther) {
+  // Without waiting for an answer, which could not come back.
+  const auto let_forget = [&](const std::string& scene) {
+    start_over_there(
+        {"/usr/bin/timeout", "1", CAMWAY_BINARY, "scene", "unload", scene, "--url", kBothHosts})
+        ->wait();
+  };
+  const auto scenes_at = [](const std::string& url) {
+    ClientOptions options = patient();
+    options.url = url;
+    return Client(options).list_scenes().scenes.size();
+  };
+  start_daemon({"--url", kThisHostOnly});
+  let_forget("maze");
+  EXPECT_EQ(scenes_at(kThisHostOnly), 3U);
+  EXPECT_EQ(status_at(kBothHosts, 10.0), Status::kOk) << "who is here is heard, whatever his ttl";
+
+  start_daemon({"--url", kBothHosts});
+  let_forget("maze");
+  EXPECT_EQ(scenes_at(kBothHosts), 2U) << "or what it says above would mean nothing";
 }
 
 }  // namespace

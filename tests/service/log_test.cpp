@@ -50,6 +50,14 @@ TEST(Log, JsonIsAnObjectOnEachLine) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
+TEST(Log, GoesOnWhenTheDiskWasFull) {
+  std::ostringstream out;
+  Log log(out, LogFormat::kText, LogLevel::kInfo);
+  out.setstate(std::ios::badbit | std::ios::failbit);
+  log.info("there is room again");
+  EXPECT_NE(out.str().find("there is room again\n"), std::string::npos) << out.str();
+}
+
 TEST(Log, NobodyForgesALine) {
   for (const LogFormat format : {LogFormat::kText, LogFormat::kJson}) {
     std::ostringstream out;
