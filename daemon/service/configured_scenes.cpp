@@ -10,6 +10,7 @@
 #include "daemon/planning/request.h"
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_mirror.h"
+#include "daemon/scene/stoppable_load.h"
 
 namespace camway::service {
 namespace {
@@ -61,7 +62,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     next.push_back({scene, stamp_of(scene.file)});
     if (holds(next.back())) continue;
     if (stop.stop_requested()) return false;
-    loaded.push_back(load(scene));
+    loaded.push_back(load(scene, stop));
     if (!loaded.back()) return false;
   }
   remove_all_but(wanted);
@@ -107,24 +108,28 @@ bool ConfiguredScenes::watches_files() const {
 void ConfiguredScenes::look_at_files(const std::stop_token& stop) {
   for (Held& held : held_) {
     if (stop.stop_requested()) return;
-    if (held.scene.watch) look_at(held);
+    if (held.scene.watch) look_at(held, stop);
   }
 }
 
-void ConfiguredScenes::look_at(Held& held) {
+void ConfiguredScenes::look_at(Held& held, const std::stop_token& stop) {
   const FileStamp now = stamp_of(held.scene.file);
   const bool is_stable = std::exchange(held.seen, now) == now;
   if (now == held.tried || !is_stable) return;
-  held.tried = now;
+  const FileStamp tried = std::exchange(held.tried, now);
   if (now == FileStamp{}) {
     log_->warn("scene file is gone, what was read of it stays",
                {{"scene", held.scene.name}, {"file", held.scene.file.string()}});
     return;
   }
-  if (read_again(held.scene)) held.stamp = now;
+  if (read_again(held.scene, stop)) {
+    held.stamp = now;
+  } else if (stop.stop_requested()) {
+    held.tried = tried;
+  }
 }
 
-bool ConfiguredScenes::read_again(const SceneArgument& scene) {
+bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_token& stop) {
   const auto before = store_.find(scene.name);
   const scene::SceneObject* const object = before ? before->find(scene.name) : nullptr;
   if (object == nullptr) {
@@ -132,7 +137,9 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene) {
                {{"scene", scene.name}, {"file", scene.file.string()}});
     return false;
   }
-  scene::ImportResult read = scene::import_mesh(scene.file, scene.options.import);
+  log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
+  scene::ImportResult read = scene::import_mesh(scene.file, scene.options.import, stop);
+  if (stop.stop_requested()) return false;
   if (!read.mesh) {
     log_->warn("scene file cannot be read again, what was read before stays",
                {{"scene", scene.name}, {"reason", read.error}});
@@ -166,8 +173,11 @@ bool ConfiguredScenes::holds(const Held& wanted) const {
   });
 }
 
-std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene) const {
-  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options);
+std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,
+                                                              const std::stop_token& stop) const {
+  log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
+  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
+  if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
     log_->error("scene cannot be read", {{"scene", scene.name}, {"reason", result.error}});
   } else {

@@ -34,7 +34,8 @@ class ConfiguredScenes {
   /// Looks at the files of those scenes. One that changed and then stayed as it was until the next
   /// look, so that its writer is done, is read again, and takes the place of what was read of it
   /// before; what clients added to the scene stays. If it cannot be read, or is gone, all stays as
-  /// it was, with a warning. By polling, as network drives tell nobody of changes.
+  /// it was, with a warning; what a stop ends is read the next time. By polling, as network drives
+  /// tell nobody of changes.
   void look_at_files(const std::stop_token& stop = {});
 
  private:
@@ -53,11 +54,12 @@ class ConfiguredScenes {
   };
 
   static FileStamp stamp_of(const std::filesystem::path& file);
-  void look_at(Held& held);
+  void look_at(Held& held, const std::stop_token& stop);
   /// Whether the scene has what is in the file now.
-  bool read_again(const SceneArgument& scene);
+  bool read_again(const SceneArgument& scene, const std::stop_token& stop);
   [[nodiscard]] bool holds(const Held& wanted) const;
-  [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene) const;
+  [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene,
+                                                            const std::stop_token& stop) const;
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;

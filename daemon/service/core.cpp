@@ -25,7 +25,7 @@ Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
       log(std::move(service_log)),
       transport(inner_transport),
       limited_log(log, config.log_limits),
-      outbox(transport),
+      outbox(transport, config.answers),
       mailbox(transport),
       workers(config.workers, config.queue) {}
 
@@ -42,8 +42,10 @@ void Core::expire_jobs() {
 std::string Core::refusal_text(Refusal why) const {
   switch (why) {
     case Refusal::kClientFull:
-      return fmt::format("{} requests of this client wait already; send it again later",
-                         config.queue.jobs_of_a_client);
+      return fmt::format(
+          "{} requests of this client wait already "
+          "(queue.requests_of_a_client); send it again later",
+          config.queue.jobs_of_a_client);
     case Refusal::kStopping:
       return "the daemon is stopping";
     case Refusal::kQueueFull:
@@ -51,8 +53,9 @@ std::string Core::refusal_text(Refusal why) const {
     case Refusal::kCancelled:
       break;
   }
-  return fmt::format("all {} workers are busy and {} requests wait; send it again later",
-                     config.workers, config.queue.jobs);
+  return fmt::format(
+      "all {} workers are busy and {} requests wait (queue.requests); send it again later",
+      config.workers, config.queue.jobs);
 }
 
 void Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {

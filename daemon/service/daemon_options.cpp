@@ -31,12 +31,6 @@ constexpr char kFooter[] =
 
 constexpr int kExitBadInput = 2;
 
-std::string default_url() {
-  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
-  const bool set = from_environment != nullptr && *from_environment != '\0';
-  return set ? from_environment : kDefaultLcmUrl;
-}
-
 bool is_readable_file(const std::filesystem::path& file) {
   std::error_code ignored;
   return !std::filesystem::is_directory(file, ignored) && std::ifstream(file).is_open();
@@ -94,7 +88,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.add_option("--prefix", options.service.prefix, "Channels begin with this")
       ->capture_default_str();
   app.add_option("--url", options.lcm_url,
-                 "LCM provider; ttl=0 keeps the traffic on this host [LCM_DEFAULT_URL, else " +
+                 "LCM provider; ttl=0 keeps the traffic on this host [lcm.url of the configuration "
+                 "file, else LCM_DEFAULT_URL, else " +
                      std::string(kDefaultLcmUrl) + "]");
   app.add_option("--workers", options.service.workers,
                  "Requests planned at the same time; 0: one for each core")
@@ -170,7 +165,7 @@ std::string resolve(const Raw& raw, DaemonOptions& options) {
     return "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
            "--scene-roots where clients may load scenes from";
   }
-  if (std::string fault = open_roots(options.scene_roots, options.service.scene_roots);
+  if (std::string fault = open_roots(options.scene_roots, options.service.scene_rules.roots);
       !fault.empty()) {
     return fault;
   }
@@ -207,9 +202,15 @@ ParsedOptions check(const DaemonOptions& options) {
 
 }  // namespace
 
+std::string url_of_environment() {
+  const char* const url = std::getenv("LCM_DEFAULT_URL");
+  return url == nullptr ? "" : url;
+}
+
 DaemonOptions default_options() {
   DaemonOptions options;
-  options.lcm_url = default_url();
+  options.lcm_url = url_of_environment();
+  if (options.lcm_url.empty()) options.lcm_url = kDefaultLcmUrl;
   options.service.workers = 0;
   return options;
 }

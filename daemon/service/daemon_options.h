@@ -18,12 +18,15 @@ namespace camway::service {
 
 /// Traffic stays on the host (ttl 0) unless the url says otherwise.
 inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+/// What the environment's LCM_DEFAULT_URL says; empty if it says nothing.
+std::string url_of_environment();
 
 /// Whose messages are listened to.
 struct AuthOptions {
   std::string key_file;  ///< empty: messages are neither signed nor checked
   bool required = true;  ///< with keys: whether messages without a signature are dropped
   std::chrono::milliseconds window{30'000};  ///< how far a message's time may be from ours
+  std::size_t senders = 16'384;              ///< whose messages are told apart at a time
 };
 
 /// What `camwayd` is to do: built-in defaults, the configuration file over them, the command line

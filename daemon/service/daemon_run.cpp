@@ -58,6 +58,7 @@ std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::st
   error = std::move(read.error);
   if (!read.keys) return nullptr;
   wire::ReplayGuard::Limits limits;
+  limits.senders = options.senders;
   limits.window_us = std::chrono::microseconds(options.window).count();
   return std::make_shared<wire::MessageAuth>(std::move(read.keys), limits);
 }
@@ -90,6 +91,10 @@ int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
           ConfiguredScenes& configured, const std::shared_ptr<Log>& log) {
+  if (const std::string other = url_of_environment(); !other.empty() && other != options.lcm_url) {
+    log->warn("LCM_DEFAULT_URL is set, but does not count",
+              {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
+  }
   const OpenedTransport opened =
       open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
         log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});

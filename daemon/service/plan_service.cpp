@@ -43,6 +43,7 @@ struct PlanService::Pending {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
   std::shared_ptr<const scene::Snapshot> snapshot;
+  std::size_t bytes;  ///< of the request
   double deadline_s;
   collision::Deadline deadline;
 };
@@ -96,6 +97,11 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
   PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
   if (!outcome.error.empty()) {
     on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error);
+  }
+  if (outcome.given_up > 0) {
+    core_.limited_log.refused.write(
+        "half received requests are given up",
+        {{"requests", outcome.given_up}, {"reason", "memory.half_received_requests or _bytes"}});
   }
   if (outcome.whole) take(std::move(*outcome.whole));
 }
@@ -164,6 +170,13 @@ PlanService::Clock::time_point PlanService::next_tick() const {
 
 void PlanService::take(plan_request_t request) {
   const RequestKey key{request.client_id, request.request_id};
+  if (request.keyframes.size() > core_.config.keyframes) {
+    answer_uncached(request, plan_response_t::STATUS_INVALID,
+                    fmt::format("keyframes: holds {}; the daemon plans {} at most "
+                                "(planning.keyframes)",
+                                request.keyframes.size(), core_.config.keyframes));
+    return;
+  }
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
   switch (found.known) {
     case AnswerCache::Known::kRunning:
@@ -195,9 +208,18 @@ void PlanService::take(plan_request_t request) {
 }
 
 void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
+  const auto bytes = static_cast<std::size_t>(request->getEncodedSize());
+  if (bytes_ > 0 && bytes_ + bytes > core_.config.request_bytes) {
+    refuse(*request, fmt::format("the requests that wait or are planned take {} bytes, {} at most "
+                                 "(queue.request_bytes); send it again later",
+                                 bytes_, core_.config.request_bytes));
+    return;
+  }
+  bytes_ += bytes;
   const double deadline_s = deadline_in_queue_s(request->deadline_s, core_.config.deadline);
-  const Pending pending{key, request, core_.scenes.find(request->scene), deadline_s,
-                        in_flight_.begin(key, deadline_s, request->progress_period_s)};
+  const Pending pending{
+      key,   request,    core_.scenes.find(request->scene),
+      bytes, deadline_s, in_flight_.begin(key, deadline_s, request->progress_period_s)};
   if (!pending.snapshot) {
     const std::string message =
         fmt::format("scene: '{}' is unknown; {}", request->scene, core_.scenes.summary());
@@ -257,6 +279,7 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
   core_.counters.plan_answers.add(answer.status);
   core_.counters.receipt_to_answer.add(pending.deadline.elapsed_ms() / kMillisecondsPerSecond);
   in_flight_.end(pending.key);
+  bytes_ -= pending.bytes;
   cache_.finish(pending.key, pages);
   send(pending.key, std::move(pages));
 }
@@ -352,13 +375,17 @@ void PlanService::abandon(const Pending& pending, Refusal why) {
     return;
   }
   in_flight_.end(pending.key);
-  cache_.forget(pending.key);
+  bytes_ -= pending.bytes;
+  refuse(*pending.request, core_.refusal_text(why));
+}
+
+void PlanService::refuse(const plan_request_t& request, const std::string& message) {
+  cache_.forget({request.client_id, request.request_id});
   ++core_.counters.overloaded;
-  const std::string message = core_.refusal_text(why);
-  core_.limited_log.refused.write("refused plan request", {{"client", pending.key.client_id},
-                                                           {"request", pending.key.request_id},
-                                                           {"reason", message}});
-  answer_uncached(*pending.request, plan_response_t::STATUS_OVERLOADED, message);
+  core_.limited_log.refused.write(
+      "refused plan request",
+      {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
+  answer_uncached(request, plan_response_t::STATUS_OVERLOADED, message);
 }
 
 void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,

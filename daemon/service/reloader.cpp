@@ -35,21 +35,34 @@ void Reloader::request() {
   {
     const std::lock_guard lock(mutex_);
     requested_ = true;
+    work_.request_stop();
   }
   changed_.notify_one();
 }
 
 void Reloader::serve(const std::stop_token& stop) {
+  const std::stop_callback end_work(stop, [this] {
+    const std::lock_guard lock(mutex_);
+    work_.request_stop();
+  });
   while (wait(stop)) {
     manager_.reloading();
+    const std::stop_token work = begin_work(stop);
     try {
-      reload(stop);
+      reload(work);
     } catch (const std::exception& error) {
       log_->error("reload failed, all stays as it was", {{"reason", error.what()}});
     }
     if (stop.stop_requested()) return;  // the manager is told that we stop
-    manager_.ready("serving");
+    if (!work.stop_requested()) manager_.ready("serving");
   }
+}
+
+std::stop_token Reloader::begin_work(const std::stop_token& stop) {
+  const std::lock_guard lock(mutex_);
+  work_ = std::stop_source();
+  if (requested_ || stop.stop_requested()) work_.request_stop();
+  return work_.get_token();
 }
 
 bool Reloader::wait(const std::stop_token& stop) {
@@ -65,7 +78,7 @@ bool Reloader::wait(const std::stop_token& stop) {
         return true;
       }
     }
-    if (!stop.stop_requested()) look_at_files(stop);
+    look_at_files(begin_work(stop));
   }
   return false;
 }
@@ -92,6 +105,10 @@ void Reloader::reload(const std::stop_token& stop) {
     return;
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
+    if (stop.stop_requested()) {
+      log_->info("reload called off, all stays as it was");
+      return;
+    }
     log_->error("reload failed, not all scenes could be taken over, so no setting is");
     return;
   }

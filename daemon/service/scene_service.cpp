@@ -25,9 +25,9 @@ RequestDigest digest_of(scene_request_t request) {
 
 /// The answer, whatever happens.
 Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
-                    const SceneRoots& roots, scene::SceneStore& scenes) {
+                    const SceneRules& rules, scene::SceneStore& scenes) {
   try {
-    return perform(request, upload, roots, scenes);
+    return perform(request, upload, rules, scenes);
   } catch (const std::exception& exception) {
     return {plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
                                std::string("internal error: ") + exception.what()),
@@ -65,8 +65,10 @@ const char* name_of(std::int8_t operation) {
 SceneService::SceneService(Core& core, scene::SceneStore& scenes)
     : core_(core),
       scenes_(scenes),
-      roots_(core.config.scene_roots),
+      rules_(core.config.scene_rules),
       uploads_(core.config.uploads),
+      exports_(core.config.exports),
+      cache_(core.config.cache),
       thread_(1, core.config.changes) {}
 
 void SceneService::on_request(std::span<const std::uint8_t> message) {
@@ -84,7 +86,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   decoded.message->object = wire::printable(decoded.message->object);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
   if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, roots_, scenes_).answer);
+    finish(*request, answer_of(*request, nullptr, rules_, scenes_).answer);
     return;
   }
   const RequestKey key{request->client_id, request->request_id};
@@ -115,7 +117,7 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
   Job work;
   work.client = request->client_id;
   work.run = [this, request, upload] {
-    auto done = std::make_shared<Performed>(answer_of(*request, upload, roots_, scenes_));
+    auto done = std::make_shared<Performed>(answer_of(*request, upload, rules_, scenes_));
     Pages map;
     if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
     core_.mailbox.post([this, request, done, map] {

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,10 +62,11 @@ class FullDiskTest : public IntegrationTest {
 
 /// Uploads are written there for the importer, maps are exported there, and so is the log.
 TEST_F(FullDiskTest, TheDaemonSaysSoAndServesOn) {
+  std::ofstream(file("camwayd.toml")) << "[scenes]\nwrite_maps = true\n";
   run_daemons_by(on_disk(
       std::string(kMount) + kFill + "export TMPDIR=\"$0\" && exec \"$@\" >>\"$0/log\" 2>&1", {}));
   start_daemon_with_scenes({"office=" + scene_file("office") + ",occupancy=0.5"},
-                           {"--scene-roots", disk()});
+                           {"--config", file("camwayd.toml"), "--scene-roots", disk()});
   Client client(patient());
   const SceneAnswer refused = client.load_scene("world", long_mesh(200'000));
   EXPECT_EQ(refused.status, Status::kInvalid);

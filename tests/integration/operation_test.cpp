@@ -106,8 +106,8 @@ TEST_F(OperationTest, LogsObjectsOfJsonWhereThatIsAskedFor) {
       EXPECT_EQ(json.at("status"), "ok");
     }
   }
-  EXPECT_THAT(events, ElementsAre("starting", "scene read", "page of metrics", "serving", "ready",
-                                  "answered", "signal", "stopping", "stopped"));
+  EXPECT_THAT(events, ElementsAre("starting", "reading scene", "scene read", "page of metrics",
+                                  "serving", "ready", "answered", "signal", "stopping", "stopped"));
 }
 
 TEST_F(OperationTest, IsScrapedUnderLoad) {

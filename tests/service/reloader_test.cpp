@@ -91,6 +91,44 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
       << "and reloads as ever";
 }
 
+TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
+  // Of zeros, which take no room on the disk; reading it takes longer than an import may.
+  const auto make_endless = [](const std::filesystem::path& file) {
+    std::filesystem::resize_file(file, std::uintmax_t{100} << 30);
+  };
+  const auto is_reading = [this](const std::string& scene) {
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (log_.text().find("reading scene scene=" + scene) == std::string::npos &&
+           std::chrono::steady_clock::now() < patience) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return std::chrono::steady_clock::now() < patience;
+  };
+  reloader_.reset();
+  running_.scenes.front().watch = true;
+  ASSERT_TRUE(scenes_.update(running_.scenes));
+  log_.clear();
+  DaemonOptions next = running_;
+  next.scenes = {scene_of("hall")};
+  make_endless(next.scenes.front().file);
+  read_ = [&] { return ParsedOptions{next, 0, {}}; };
+  reloader_.emplace(
+      running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
+      std::chrono::milliseconds(5));
+  make_endless(running_.scenes.front().file);
+  ASSERT_TRUE(is_reading("room")) << "because it changed";
+  const auto begin = std::chrono::steady_clock::now();
+  reloader_->request();
+  ASSERT_TRUE(is_reading("hall")) << "because of the reload";
+  next.scenes = {scene_of("attic")};
+  EXPECT_THAT(reload(read_), HasSubstr("info reloaded configured_scenes=1"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(40))
+      << "an import may take a minute";
+  EXPECT_NE(store_.find("attic"), nullptr);
+  EXPECT_THAT(log_.text(), HasSubstr("info reload called off"));
+  EXPECT_THAT(log_.text(), Not(HasSubstr("cannot be read")));
+}
+
 TEST_F(ReloaderTest, SaysWhatNeedsARestart) {
   DaemonOptions next = running_;
   next.service.queue.jobs = 9;
