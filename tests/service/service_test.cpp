@@ -235,6 +235,7 @@ TEST(Service, AnswersOnlySoManyMessagesThatCannotBeRead) {
   for (int i = 0; i < 1000; ++i) daemon.send_on(daemon.channels.plan_request(), Bytes(7, 0));
   EXPECT_TRUE(status_with(
       daemon, [](const status_t& status) { return status.malformed_messages == 1000; }));
+  daemon.stop();
   EXPECT_LE(daemon.transport.published_on(daemon.channels.error()).size(), 500U)
       << "5 at once, then 5 a second";
 }
