@@ -22,7 +22,8 @@ namespace {
 
 /// Pages of an upload that are sent before the daemon is asked what came: some 3 MB.
 constexpr std::size_t kPagesAtOnce = 64;
-/// A list that changes while it is read is begun anew so often.
+/// A list that changes while it is read, or an upload that is gone when it is to be used, is begun
+/// anew so often.
 constexpr int kMaxRestarts = 3;
 
 std::string explain(std::int32_t status, const std::string& message) {
@@ -113,23 +114,29 @@ Asked<upload_status_t> ask_upload(const Asker& asker, const std::vector<std::uin
   return asker.ask<upload_status_t>(Call::Kind::kUpload, request_id, std::move(question));
 }
 
-/// Sends what the daemon does not have yet, until it has all. Nothing if it has.
-std::optional<Failure> upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
+/// What came of an upload.
+struct Uploaded {
+  bool was_there = false;  ///< all of it, before anything was sent
+  std::optional<Failure> failure;
+};
+
+/// Sends what the daemon does not have yet, until it has all.
+Uploaded upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
   const std::int64_t checksum = wire::crc64(bytes.data(), bytes.size());
   std::vector<std::int32_t> pages;  // none at first: the daemon may have some
   for (;;) {
     const Asked<upload_status_t> asked = ask_upload(asker, bytes, checksum, pages);
-    if (!asked.response) return asked.failure;
+    if (!asked.response) return {false, asked.failure};
     const upload_status_t& status = *asked.response;
     if (status.status != upload_status_t::STATUS_OK) {
-      return Failure{static_cast<Status>(status.status),
-                     "upload: " + explain(status.status, status.message)};
+      return {false, Failure{static_cast<Status>(status.status),
+                             "upload: " + explain(status.status, status.message)}};
     }
-    if (status.total_missing == 0) return std::nullopt;
+    if (status.total_missing == 0) return {pages.empty(), std::nullopt};
     if (Clock::now() >= asker.deadline) {
-      return Failure{Status::kNoAnswer,
-                     "the upload was not complete by the deadline; ask again to "
-                     "go on, or raise ClientOptions.deadline_s"};
+      return {false, Failure{Status::kNoAnswer,
+                             "the upload was not complete by the deadline; ask again to "
+                             "go on, or raise ClientOptions.deadline_s"}};
     }
     pages.assign(status.missing.begin(),
                  status.missing.begin() +
@@ -184,12 +191,17 @@ SceneAnswer ask_scene(Context& context, Engine& engine, scene_request_t request,
     return failed<SceneAnswer>({Status::kInvalid, *fault});
   }
   const Asker asker{context, engine, after(context.options().deadline_s)};
-  if (!bytes.empty()) {
-    if (std::optional<Failure> failure = upload(asker, bytes)) {
-      return failed<SceneAnswer>(*std::move(failure));
-    }
+  if (bytes.empty()) return answer_of(ask_once(asker, std::move(request)));
+  SceneAnswer answer;
+  // Between upload and request the daemon may be started anew, or give its room to others.
+  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
+    Uploaded uploaded = upload(asker, bytes);
+    if (uploaded.failure) return failed<SceneAnswer>(*std::move(uploaded.failure));
+    if (restart > 0 && uploaded.was_there) return answer;
+    answer = answer_of(ask_once(asker, request));
+    if (answer.status != Status::kInvalid) return answer;
   }
-  return answer_of(ask_once(asker, std::move(request)));
+  return answer;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #include "camway/client.h"
 
 #include <future>
+#include <memory>
 #include <utility>
 
 #include "client/ask_occupancy.h"
@@ -82,7 +83,14 @@ class Client::Impl {
 };
 
 Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
-Client::~Client() = default;
+
+Client::~Client() {
+  if (!impl_->engine || !impl_->engine->is_this_thread()) return;
+  // The thread that is here uses all of it until the handler has returned to it.
+  Engine& engine = *impl_->engine;
+  engine.close_from_handler(
+      [impl = std::shared_ptr<Impl>(std::move(impl_))]() mutable { impl.reset(); });
+}
 
 const std::string& Client::error() const { return impl_->error; }
 

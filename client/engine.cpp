@@ -5,6 +5,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
@@ -46,13 +47,30 @@ Engine::Engine(Link& link, Context& context)
       watches_(context, {[this](Outgoing message) { outgoing_.push_back(std::move(message)); },
                          [this](std::shared_ptr<Call> call) { start(std::move(call)); }}) {
   listen(context.options().client_id);
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread([this] { run_thread(); });
 }
 
 Engine::~Engine() {
+  if (!thread_.joinable()) return;
   closing_ = true;
   link_.wake();
   thread_.join();
+}
+
+void Engine::close_from_handler(std::function<void()> release) {
+  closing_ = true;
+  watches_.close();
+  run_tasks();
+  for (const auto& [key, call] : calls_) kept_.push_back(call);
+  end_all(Outcome::kClosed);
+  release_ = std::move(release);
+  thread_.detach();
+}
+
+void Engine::run_thread() {
+  run();
+  // Nothing of this is left once it is called.
+  if (const std::function<void()> release = std::move(release_)) release();
 }
 
 template <class Response>
@@ -60,6 +78,7 @@ void Engine::take_answers(Call::Kind kind, const std::string& channel, int queue
   link_.listen(channel, queue, [this, kind](auto bytes) {
     const auto id = request_of<Response>(bytes);
     // A message that cannot be read is for whoever waits: it says so if nothing else comes.
+    if (closing_) return;
     for (auto& [key, call] : calls_) {
       if (key.first == kind && (!id || *id == key.second)) call->take_answer(bytes, Clock::now());
     }
@@ -97,10 +116,7 @@ void Engine::start(std::shared_ptr<Call> call) {
     }
     const auto [position, is_new] = calls_.try_emplace({call->kind(), call->request_id()}, call);
     // The same question again while it is being asked: the later call is the one that is answered.
-    if (!is_new) {
-      position->second->finish(Outcome::kClosed);
-      position->second = call;
-    }
+    if (!is_new) std::exchange(position->second, call)->finish(Outcome::kClosed);
   });
 }
 
@@ -149,16 +165,19 @@ void Engine::run() {
 }
 
 void Engine::run_tasks() {
-  std::vector<std::function<void()>> tasks;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    tasks.swap(tasks_);
+  std::unique_lock<std::mutex> lock(mutex_);
+  // Those that these leave behind have their turn the next time.
+  for (std::size_t left = tasks_.size(); left > 0 && !tasks_.empty(); --left) {
+    const std::function<void()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
   }
-  for (const std::function<void()>& task : tasks) task();
 }
 
 void Engine::step(Clock::time_point now) {
-  for (auto position = calls_.begin(); position != calls_.end();) {
+  for (auto position = calls_.begin(); !closing_ && position != calls_.end();) {
     // A call may be ended and the user's code run by it: it must not be among the calls then.
     const std::optional<Outcome> outcome = step(*position->second, now);
     if (!outcome) {
@@ -224,9 +243,14 @@ void Engine::end_waiters(Clock::time_point now) {
 }
 
 void Engine::end_all(Outcome outcome) {
-  std::map<Key, std::shared_ptr<Call>> calls;
-  calls.swap(calls_);
-  for (const auto& [key, call] : calls) call->finish(outcome);
+  for (const auto& [key, call] : calls_) ending_.push_back(call);
+  calls_.clear();
+  while (!ending_.empty()) {
+    // A handler may come back here, by closing.
+    const std::shared_ptr<Call> call = std::move(ending_.front());
+    ending_.pop_front();
+    call->finish(outcome);
+  }
   end_waiters(Clock::time_point::max());
 }
 

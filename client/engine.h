@@ -28,10 +28,16 @@ class Engine {
  public:
   /// `link` is open; both must outlive this. Subscribes, then starts the thread.
   Engine(Link& link, Context& context);
-  /// Ends all calls with `Outcome::kClosed`.
+  /// Ends all calls with `Outcome::kClosed`. Not for the engine's own thread, unless
+  /// `close_from_handler` was called.
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
+
+  /// For a handler, which runs on the engine's own thread and cannot wait for its end: ends all
+  /// calls now, so that no handler is called once this returns, and has the thread call `release`
+  /// as the last thing that it does.
+  void close_from_handler(std::function<void()> release);
 
   void start(std::shared_ptr<Call> call);
   void cancel(Call::Kind kind, std::int64_t request_id);
@@ -59,6 +65,7 @@ class Engine {
   void take_answers(Call::Kind kind, const std::string& channel, int queue);
   void post(std::function<void()> task);
   void run();
+  void run_thread();
   void run_tasks();
   void send_some(Clock::time_point now);
   Clock::time_point next_wake() const;
@@ -74,7 +81,7 @@ class Engine {
   const wire::Channels channels_;
 
   std::mutex mutex_;  ///< guards tasks_
-  std::vector<std::function<void()>> tasks_;
+  std::deque<std::function<void()>> tasks_;
   std::atomic<bool> closing_ = false;
 
   // All else belongs to the thread.
@@ -84,6 +91,9 @@ class Engine {
   std::deque<Outgoing> outgoing_;
   Clock::time_point send_at_{};  ///< no message leaves before
   bool broken_ = false;
+  std::deque<std::shared_ptr<Call>> ending_;  ///< calls that `end_all` has not come to
+  std::vector<std::shared_ptr<Call>> kept_;  ///< one of them may be calling the handler that closes
+  std::function<void()> release_;
 
   std::thread thread_;
 };

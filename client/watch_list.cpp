@@ -42,6 +42,8 @@ bool is_answer(const PlanResponse& response) {
 
 void WatchList::add(const PlanRequest& request, WatchHandler handler) {
   const std::int64_t id = request.request_id;
+  unwanted_.erase(id);
+  for (auto& [message, ending] : endings_) std::erase(ending.paths, id);
   Watched watched{request, std::move(handler), PlanCollector(context_.options().client_id, id)};
   watched.ask_again_s = kFirstPause_s;
   watched_.insert_or_assign(id, std::move(watched));
@@ -55,9 +57,7 @@ void WatchList::remove(std::int64_t request_id) {
   if (watched_.erase(request_id) == 0) return;
   to_acknowledge_.erase(request_id);
   if (watched_.empty()) renew_at_ = Clock::time_point::max();
-  watched_path_t path{};
-  path.request_id = request_id;
-  send({path}, context_.new_request_id(), -1.0);
+  unwanted_.insert(request_id);
 }
 
 void WatchList::ask(Watched& watched) {
@@ -72,7 +72,11 @@ void WatchList::ask(Watched& watched) {
 
 void WatchList::answered(std::int64_t request_id, const PlanResponse& response) {
   const auto position = watched_.find(request_id);
-  if (position == watched_.end()) return;
+  if (position == watched_.end()) {
+    // It was planned while it was taken from the list, and is watched since.
+    if (has_proof(response)) unwanted_.insert(request_id);
+    return;
+  }
   Watched& watched = position->second;
   watched.is_asked = false;
   if (!is_answer(response)) {
@@ -131,6 +135,7 @@ void WatchList::take_report(std::span<const std::uint8_t> bytes, Clock::time_poi
   const auto decoded = wire::decode<watch_report_t>(bytes);
   if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
   const watch_report_t& report = *decoded.message;
+  endings_.erase(report.request_id);
   if (unanswered_.erase(report.request_id) > 0 && unanswered_.empty()) {
     renewed_at_ = now;
     is_lost_ = false;
@@ -209,10 +214,13 @@ void WatchList::step(Clock::time_point now) {
   }
   if (now >= renew_at_) renew(now);
   acknowledge();
+  end_unwanted(now);
 }
 
 Clock::time_point WatchList::wake() const {
-  Clock::time_point next = to_acknowledge_.empty() ? renew_at_ : Clock::time_point{};
+  if (!to_acknowledge_.empty() || !unwanted_.empty()) return Clock::time_point{};
+  Clock::time_point next = renew_at_;
+  for (const auto& [id, ending] : endings_) next = std::min(next, ending.send_at);
   for (const auto& [id, watched] : watched_) {
     if (!watched.is_asked) next = std::min(next, watched.ask_at);
   }
@@ -266,6 +274,29 @@ void WatchList::acknowledge() {
   if (!paths.empty()) send(std::move(paths), context_.new_request_id(), 0.0);
 }
 
+void WatchList::end_unwanted(Clock::time_point now) {
+  const Clock::time_point give_up_at = now + seconds(context_.options().watch_lease_s);
+  while (!unwanted_.empty()) {
+    Ending& ending =
+        endings_.try_emplace(context_.new_request_id(), Ending{{}, now, give_up_at, kFirstPause_s})
+            .first->second;
+    while (!unwanted_.empty() && ending.paths.size() < kPathsPerMessage) {
+      ending.paths.push_back(unwanted_.extract(unwanted_.begin()).value());
+    }
+  }
+  std::erase_if(endings_, [now](const auto& ending) {
+    return ending.second.paths.empty() || now >= ending.second.give_up_at;
+  });
+  for (auto& [id, ending] : endings_) {
+    if (now < ending.send_at) continue;
+    std::vector<watched_path_t> paths(ending.paths.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i].request_id = ending.paths[i];
+    send(std::move(paths), id, -1.0);
+    ending.send_at = now + seconds(ending.again_s);
+    ending.again_s *= kGrowth;
+  }
+}
+
 void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s) {
   watch_t message{};
   message.client_id = context_.options().client_id;
@@ -278,7 +309,7 @@ void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double 
 }
 
 void WatchList::tell(const Watched& watched, WatchEvent event) {
-  if (!watched.handler) return;
+  if (!watched.handler || is_closed_) return;
   event.request_id = watched.request.request_id;
   try {
     watched.handler(event);

@@ -32,13 +32,16 @@ class WatchList {
 
   /// Precondition: no `fault_in_form(request)`, which has an id and a lease.
   void add(const PlanRequest& request, WatchHandler handler);
-  /// Also of the daemon's list.
+  /// Also of the daemon's list: it is told until it says that it heard, or the lease is over.
   void remove(std::int64_t request_id);
 
   /// A page of an answer that no call waits for.
   void take_answer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
   void take_report(std::span<const std::uint8_t> bytes, Clock::time_point now);
   void take_heartbeat(double uptime_s, Clock::time_point now);
+
+  /// No handler is called any more.
+  void close() { is_closed_ = true; }
 
   /// Does what is due.
   void step(Clock::time_point now);
@@ -56,7 +59,13 @@ class WatchList {
     std::int64_t serial = 0;          ///< of the daemon's newest state that is here
     bool is_broken = false;
   };
-  using Handled = std::pair<std::int64_t, WatchEvent>;
+  /// A message that ends the watching of some paths, until it is answered.
+  struct Ending {
+    std::vector<std::int64_t> paths;
+    Clock::time_point send_at;
+    Clock::time_point give_up_at;  ///< when the lease is over anyway
+    double again_s;                ///< how long after the last time it is sent
+  };
 
   void ask(Watched& watched);
   void answered(std::int64_t request_id, const PlanResponse& response);
@@ -66,6 +75,7 @@ class WatchList {
   void ask_later(Watched& watched, Clock::time_point now);
   void renew(Clock::time_point now);
   void acknowledge();
+  void end_unwanted(Clock::time_point now);
   void send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s);
   void tell(const Watched& watched, WatchEvent event);
   void tell_lost(Watched& watched, std::string error);
@@ -74,11 +84,14 @@ class WatchList {
   const Hooks hooks_;
   std::map<std::int64_t, Watched> watched_;
   std::set<std::int64_t> to_acknowledge_;
+  std::set<std::int64_t> unwanted_;         ///< paths that the daemon is to be told not to watch
+  std::map<std::int64_t, Ending> endings_;  ///< by the id of the message
   Clock::time_point renew_at_ = Clock::time_point::max();
   double renew_again_s_ = 0.0;         ///< how long to wait for the answer
   std::set<std::int64_t> unanswered_;  ///< ids of the renewals that were sent last
   Clock::time_point renewed_at_{};     ///< when all of them were answered
   bool is_lost_ = false;
+  bool is_closed_ = false;
 };
 
 }  // namespace camway

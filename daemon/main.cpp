@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
-
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -11,6 +8,7 @@
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
 #include "daemon/service/daemon_run.h"
+#include "daemon/service/log.h"
 #include "daemon/service/process_signals.h"
 
 namespace {
@@ -26,11 +24,9 @@ int run(int argc, char** argv) {
     return parsed.exit_code;
   }
 
-  const auto log = std::make_shared<spdlog::logger>(
-      "camwayd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  log->set_level(parsed.options->log_level);
-  log->flush_on(spdlog::level::info);
-  log->info("camwayd {}", service::version_text());
+  const auto log = std::make_shared<service::Log>(std::cerr, parsed.options->log_format,
+                                                  parsed.options->log_level);
+  log->info("starting", {{"version", service::version_text()}});
 
   service::block_reload_signal();  // a reload that is asked for now comes after the scenes
   scene::SceneStore scenes(parsed.options->store);
@@ -49,7 +45,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    spdlog::critical("camwayd: {}", error.what());
+    std::cerr << "camwayd: " << error.what() << '\n';
     return kExitFault;
   }
 }

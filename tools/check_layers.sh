@@ -4,8 +4,8 @@
 # Holds every #include against the map in ARCHITECTURE.md: a folder may include itself, what the
 # column "may include" of its row names, and what those may include in turn. Of other libraries, LCM
 # (and the messages generated for it) is for the wire, assimp and OctoMap are for daemon/scene,
-# libsodium and libmicrohttpd are for one file each,
-# spdlog is for what is on no path of computation, and FCL, Embree and CGAL are for tests alone. Needs nothing but bash, find and awk.
+# libsodium, libmicrohttpd and spdlog are for one file each, and FCL, Embree and CGAL are for tests
+# alone. Needs nothing but bash, find and awk.
 #
 #   tools/check_layers.sh [ROOT]    ROOT: the tree to look at; this one if left out
 #
@@ -87,8 +87,8 @@ LC_ALL=C exec awk '
       fault("libsodium is for lcmtypes/message_keys.cpp")
     } else if (file == "microhttpd.h" && FILENAME != "daemon/service/http_page.cpp") {
       fault("libmicrohttpd is for daemon/service/http_page.cpp")
-    } else if (file ~ /^spdlog\// && here !~ /^(daemon\/service|tools|tests)$/) {
-      fault("only daemon/service and the tools log")
+    } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log.cpp") {
+      fault("spdlog is for daemon/service/log.cpp")
     } else if (file ~ /^lcmtypes\//) {
       if (!speaks_lcm(here)) fault("the wire is for daemon/service, client and tools")
     } else {

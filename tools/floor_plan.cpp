@@ -10,6 +10,7 @@
 #include <cairo-svg.h>
 
 #include "tools/floor_plan_view.h"
+#include "tools/output_file.h"
 
 namespace camway::draw {
 namespace {
@@ -258,8 +259,42 @@ std::string draw_on(cairo_surface_t* surface, const Layout& layout, const FloorP
   return status == CAIRO_STATUS_SUCCESS ? "" : cairo_status_to_string(status);
 }
 
-std::string failure(const std::filesystem::path& file, const std::string& reason) {
-  return "cannot write '" + file.string() + "': " + reason;
+/// What cairo writes a picture to: a `std::string`.
+cairo_status_t append(void* picture, const unsigned char* bytes, unsigned size) {
+  static_cast<std::string*>(picture)->append(reinterpret_cast<const char*>(bytes), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+std::string write_picture(const std::filesystem::path& file, const std::string& reason,
+                          const std::string& picture) {
+  if (!reason.empty()) return file.string() + ": cannot be drawn: " + reason;
+  return tools::write_file(file, picture);
+}
+
+std::string draw_svg(const std::filesystem::path& file, const Layout& layout, const FloorPlan& plan,
+                     const FloorSection& section) {
+  std::string picture;
+  const Surface surface(
+      cairo_svg_surface_create_for_stream(&append, &picture, layout.width_px, layout.height_px),
+      &cairo_surface_destroy);
+  std::string reason = draw_on(surface.get(), layout, plan, section);
+  cairo_surface_finish(surface.get());
+  const cairo_status_t status = cairo_surface_status(surface.get());
+  if (reason.empty() && status != CAIRO_STATUS_SUCCESS) reason = cairo_status_to_string(status);
+  return write_picture(file, reason, picture);
+}
+
+std::string draw_png(const std::filesystem::path& file, const Layout& layout, const FloorPlan& plan,
+                     const FloorSection& section) {
+  const Surface surface(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(layout.width_px)),
+                                 static_cast<int>(std::ceil(layout.height_px))),
+      &cairo_surface_destroy);
+  std::string picture;
+  std::string reason = draw_on(surface.get(), layout, plan, section);
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), &append, &picture);
+  if (reason.empty() && status != CAIRO_STATUS_SUCCESS) reason = cairo_status_to_string(status);
+  return write_picture(file, reason, picture);
 }
 
 }  // namespace
@@ -306,27 +341,10 @@ std::string draw_floor_plan(const FloorPlan& plan, const PictureFiles& files) {
       cut_floor(plan.mesh, plan.up,
                 plan.cut_height_m.value_or(cut_height_m(plan.mesh, plan.up, plan.keyframes)));
   const Layout layout = lay_out(plan);
-  if (!files.svg.empty()) {
-    const Surface surface(
-        cairo_svg_surface_create(files.svg.c_str(), layout.width_px, layout.height_px),
-        &cairo_surface_destroy);
-    std::string reason = draw_on(surface.get(), layout, plan, section);
-    cairo_surface_finish(surface.get());
-    const cairo_status_t status = cairo_surface_status(surface.get());
-    if (reason.empty() && status != CAIRO_STATUS_SUCCESS) reason = cairo_status_to_string(status);
-    if (!reason.empty()) return failure(files.svg, reason);
-  }
-  if (!files.png.empty()) {
-    const Surface surface(
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(layout.width_px)),
-                                   static_cast<int>(std::ceil(layout.height_px))),
-        &cairo_surface_destroy);
-    const std::string reason = draw_on(surface.get(), layout, plan, section);
-    if (!reason.empty()) return failure(files.png, reason);
-    const cairo_status_t status = cairo_surface_write_to_png(surface.get(), files.png.c_str());
-    if (status != CAIRO_STATUS_SUCCESS) return failure(files.png, cairo_status_to_string(status));
-  }
-  return {};
+  std::string error;
+  if (!files.svg.empty()) error = draw_svg(files.svg, layout, plan, section);
+  if (error.empty() && !files.png.empty()) error = draw_png(files.png, layout, plan, section);
+  return error;
 }
 
 }  // namespace camway::draw

@@ -25,8 +25,8 @@ readonly kPackages=(
   libmicrohttpd-dev
   # tests
   libgtest-dev libgmock-dev
-  # the private network namespace
-  iproute2 util-linux
+  # the private network namespace, and one that loses packets
+  iproute2 util-linux iptables
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }

@@ -74,6 +74,9 @@ class Client {
   /// Opens the network. Takes up to ten seconds where multicast does not work, for LCM tests that
   /// first; never throws for it (see `error`).
   explicit Client(ClientOptions options = {});
+  /// Ends all requests that are on their way; no handler is called once this returns. A handler of
+  /// this client may destroy it too, and must not use anything of it afterwards; the client's
+  /// thread ends by itself then, soon after the handler returns.
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -102,7 +105,9 @@ class Client {
   /// request; 0, after `on_event` heard why, if it cannot be sent.
   std::int64_t watch(const PlanRequest& request, WatchHandler on_event);
 
-  /// Ends it. An event that is on its way may still come. Does nothing for other ids.
+  /// Ends it. An event that is on its way may still come. The daemon is told until it answers, as
+  /// long as this client lives; it ends the watch by itself when the lease is over. Does nothing
+  /// for other ids.
   void unwatch(std::int64_t request_id);
 
   /// Asks a scene's occupancy map.

@@ -10,6 +10,7 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/scene/import_process.h"
 #include "daemon/scene/import_record.h"
+#include "daemon/scene/stoppable_load.h"
 
 namespace camway::scene {
 namespace {
@@ -49,6 +50,8 @@ std::string describe(const ImportProcessResult& process, const ImportOptions& op
       std::snprintf(seconds, sizeof seconds, "%g", options.time_limit_s);
       return "reading it takes more than the limit of " + std::string(seconds) + " s";
     }
+    case End::kStopped:
+      return "reading it was called off";
     case End::kCrashed:
       return "crashed its reader (" + process.detail + ")";
     case End::kNotStarted:
@@ -69,13 +72,14 @@ double rounding_m(const ImportRecordResult& record, const Mesh& mesh, double sca
   return (record.relative_rounding + of_scale) * largest_m + record.absolute_rounding * scale;
 }
 
-std::string import_into(ImportResult& result, const fs::path& file, const ImportOptions& options) {
+std::string import_into(ImportResult& result, const fs::path& file, const ImportOptions& options,
+                        const std::stop_token& stop) {
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
     return "the scale must be a positive number";
   }
   if (std::string reason = reason_not_to_read(file); !reason.empty()) return reason;
   const ImportProcessResult process =
-      run_import_process(file, options.memory_limit_bytes, options.time_limit_s);
+      run_import_process(file, options.memory_limit_bytes, options.time_limit_s, stop);
   if (process.end != ImportProcessResult::End::kFinished) return describe(process, options);
   ImportReport& report = result.report;
   ImportRecordResult record = read_import_record(process.output, options, report);
@@ -97,14 +101,19 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
 
 }  // namespace
 
-ImportResult import_mesh(const fs::path& file, const ImportOptions& options) {
+ImportResult import_mesh(const fs::path& file, const ImportOptions& options,
+                         const std::stop_token& stop) {
   ImportResult result;
   result.report.scale = options.scale;
   result.report.up = options.up;
-  if (const std::string reason = import_into(result, file, options); !reason.empty()) {
+  if (const std::string reason = import_into(result, file, options, stop); !reason.empty()) {
     result.error = file.string() + ": " + reason;
   }
   return result;
+}
+
+ImportResult import_mesh(const fs::path& file, const ImportOptions& options) {
+  return import_mesh(file, options, {});
 }
 
 std::string_view importer_note(std::string_view format) {

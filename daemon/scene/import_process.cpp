@@ -115,15 +115,15 @@ class SpawnSettings {
   posix_spawnattr_t attributes_{};
 };
 
-/// The exit status, or nothing if the time came first; then the process was killed.
-std::optional<int> wait_until(pid_t pid, Clock::time_point deadline) {
+/// The exit status, or nothing if the time or the stop came first; then the process was killed.
+std::optional<int> wait_until(pid_t pid, Clock::time_point deadline, const std::stop_token& stop) {
   std::chrono::microseconds pause(100);
   int status = 0;
   while (true) {
     const pid_t done = waitpid(pid, &status, WNOHANG);
     if (done == pid) return status;
     if (done < 0 && errno != EINTR) return std::nullopt;
-    if (Clock::now() >= deadline) break;
+    if (Clock::now() >= deadline || stop.stop_requested()) break;
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, std::chrono::microseconds(5000));
   }
@@ -180,7 +180,7 @@ ImportProcessResult result_of_exit(int code, int output_fd) {
 }  // namespace
 
 ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_limit_bytes,
-                                       double time_limit_s) {
+                                       double time_limit_s, const std::stop_token& stop) {
   const std::optional<fs::path> program = find_program();
   if (!program) {
     return {End::kNotStarted,
@@ -201,8 +201,8 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
   if (const int error = SpawnSettings(output.get()).spawn(pid, *program, arguments); error != 0) {
     return {End::kNotStarted, {}, program->string() + ": " + text_of_errno(error)};
   }
-  const std::optional<int> status = wait_until(pid, deadline);
-  if (!status) return {End::kOutOfTime, {}, ""};
+  const std::optional<int> status = wait_until(pid, deadline, stop);
+  if (!status) return {stop.stop_requested() ? End::kStopped : End::kOutOfTime, {}, ""};
   if (WIFSIGNALED(*status)) return result_of_signal(WTERMSIG(*status));
   return result_of_exit(WEXITSTATUS(*status), output.get());
 }

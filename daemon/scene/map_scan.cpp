@@ -51,7 +51,7 @@ std::unique_ptr<OcTree> beliefs_of(const VoxelMap& map) {
 }
 
 /// Why the scan cannot be taken, or nothing.
-std::string fault_of(const VoxelMap& map, const Scan& scan) {
+std::string fault_of(const VoxelMap& map, const Scan& scan, double most_voxels) {
   const VoxelGrid grid(map.resolution_m());
   // A voxel less than there are: single precision rounds on its own.
   const double reach_m = (VoxelGrid::kMaxVoxel - 1) * map.resolution_m();
@@ -72,8 +72,8 @@ std::string fault_of(const VoxelMap& map, const Scan& scan) {
     }
     voxels += passed;
   }
-  if (voxels > kMostScanVoxels) {
-    return "points_m: their rays pass more than " + std::to_string(kMostScanVoxels) +
+  if (voxels > most_voxels) {
+    return "points_m: their rays pass more than " + std::to_string(std::llround(most_voxels)) +
            " voxels; send fewer points, or use a lower max_range_m";
   }
   return {};
@@ -81,8 +81,9 @@ std::string fault_of(const VoxelMap& map, const Scan& scan) {
 
 }  // namespace
 
-VoxelMapResult scanned(const VoxelMap& before, const Scan& scan) {
-  if (std::string fault = fault_of(before, scan); !fault.empty()) return {nullptr, fault};
+VoxelMapResult scanned(const VoxelMap& before, const Scan& scan, double most_voxels) {
+  if (std::string fault = fault_of(before, scan, most_voxels); !fault.empty())
+    return {nullptr, fault};
   std::unique_ptr<OcTree> tree = beliefs_of(before);
   octomap::Pointcloud cloud;
   cloud.reserve(scan.points_O.size());

@@ -14,7 +14,7 @@ struct Scan {
   std::span<const geometry::Vec3> points_O;
 };
 
-/// A scan whose rays pass through more voxels than this, each counted, is refused.
+/// By default a scan whose rays pass through more voxels than this, each counted, is refused.
 inline constexpr double kMostScanVoxels = 5e7;
 
 /// The map after a scan, by OctoMap's own sensor model (Hornung et al. 2013, `insertPointCloud`):
@@ -24,6 +24,7 @@ inline constexpr double kMostScanVoxels = 5e7;
 /// clamped, if they are known. Costs what all of the map's voxels do, since no map is ever changed.
 ///
 /// Refused are points and origins that OctoMap's keys cannot hold, and what would take too long.
-VoxelMapResult scanned(const VoxelMap& before, const Scan& scan);
+VoxelMapResult scanned(const VoxelMap& before, const Scan& scan,
+                       double most_voxels = kMostScanVoxels);
 
 }  // namespace camway::scene

@@ -38,51 +38,68 @@ SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::u
 SceneHistory::SceneHistory(const Snapshot& first, const Limits& limits)
     : name_(first.name), options_(first.options), limits_(limits), oldest_(first.revision) {
   for (const auto& object : first.objects) {
-    state_.insert_or_assign(object->name, Placed{object->source, object->placement});
+    before_.put(object->name, {object->source, object->placement});
+  }
+  newest_ = before_;
+}
+
+void SceneHistory::State::put(std::string_view name, const Placed& placed) {
+  remove(name);
+  objects.emplace(name, placed);
+  bytes += placed.source->memory_bytes();
+}
+
+void SceneHistory::State::remove(std::string_view name) {
+  const auto found = objects.find(name);
+  if (found == objects.end()) return;
+  bytes -= found->second.source->memory_bytes();
+  objects.erase(found);
+}
+
+void SceneHistory::State::apply(const SceneChange& change) {
+  switch (change.kind) {
+    case SceneChange::Kind::kPut:
+      put(change.object, {change.source, change.placement});
+      break;
+    case SceneChange::Kind::kMove:
+      objects.find(change.object)->second.placement = change.placement;
+      break;
+    case SceneChange::Kind::kRemove:
+      remove(change.object);
+      break;
   }
 }
 
-void SceneHistory::apply(const SceneChange& change, State& state) {
-  switch (change.kind) {
-    case SceneChange::Kind::kPut:
-      state.insert_or_assign(change.object, Placed{change.source, change.placement});
-      break;
-    case SceneChange::Kind::kMove:
-      state.find(change.object)->second.placement = change.placement;
-      break;
-    case SceneChange::Kind::kRemove:
-      state.erase(change.object);
-      break;
-  }
+std::uint64_t SceneHistory::bytes() const {
+  return entry_bytes_ + before_.bytes - std::min(before_.bytes, newest_.bytes);
 }
 
 void SceneHistory::add(SceneChange change, std::uint64_t revision) {
-  bytes_ += bytes_of(change);
+  entry_bytes_ += bytes_of(change);
+  newest_.apply(change);
   entries_.push_back({revision, std::move(change)});
-  while (entries_.size() > limits_.changes || (bytes_ > limits_.bytes && !entries_.empty())) {
-    forget_oldest();
-  }
+  while (entries_.size() > limits_.changes || bytes() > limits_.bytes) forget_oldest();
 }
 
 void SceneHistory::forget_oldest() {
   const Entry& entry = entries_.front();
-  apply(entry.change, state_);
+  before_.apply(entry.change);
   oldest_ = entry.revision;
-  bytes_ -= bytes_of(entry.change);
+  entry_bytes_ -= bytes_of(entry.change);
   entries_.pop_front();
 }
 
 std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision) const {
-  State state = state_;
+  State state = before_;
   std::uint64_t reached = oldest_;
   for (const Entry& entry : entries_) {
     if (entry.revision > revision) break;
-    apply(entry.change, state);
+    state.apply(entry.change);
     reached = entry.revision;
   }
   if (reached != revision) return nullptr;
   SceneObjects objects;
-  for (const auto& [name, placed] : state) {
+  for (const auto& [name, placed] : state.objects) {
     ObjectResult result = place_object(name, placed.source, placed.placement, options_);
     assert(result.object && "it could be placed before");
     objects.push_back(std::move(result.object));

@@ -38,7 +38,7 @@ class SceneHistory {
  public:
   struct Limits {
     std::size_t changes = 1024;
-    /// Of what was put into the scene, in its own frame, still there or not.
+    /// Of what is kept for earlier revisions alone, about: see `SceneHistory::bytes`.
     std::uint64_t bytes = std::uint64_t{256} << 20;
   };
   struct Entry {
@@ -51,6 +51,13 @@ class SceneHistory {
 
   /// Precondition: `changed` made `revision` of the newest one.
   void add(SceneChange change, std::uint64_t revision);
+
+  /// What the changes put into the scene, in its own frame, still there or not, and by how much the
+  /// scene before them was larger than it is now. So all that is kept takes no more than this and
+  /// the scene. Above 0 only if there is a change.
+  [[nodiscard]] std::uint64_t bytes() const;
+  /// Precondition: there is a change.
+  void forget_oldest();
 
   /// The revision before the first change that is still known.
   [[nodiscard]] std::uint64_t oldest_revision() const { return oldest_; }
@@ -65,18 +72,23 @@ class SceneHistory {
     std::shared_ptr<const ObjectSource> source;
     Placement placement;
   };
-  using State = std::map<std::string, Placed, std::less<>>;
+  struct State {
+    std::map<std::string, Placed, std::less<>> objects;
+    std::uint64_t bytes = 0;  ///< of their sources
 
-  static void apply(const SceneChange& change, State& state);
-  void forget_oldest();
+    void put(std::string_view name, const Placed& placed);
+    void remove(std::string_view name);
+    void apply(const SceneChange& change);
+  };
 
   std::string name_;
   ObjectOptions options_;
   Limits limits_;
   std::uint64_t oldest_;
-  State state_;  ///< at `oldest_`
+  State before_;  ///< at `oldest_`
+  State newest_;
   std::deque<Entry> entries_;
-  std::uint64_t bytes_ = 0;
+  std::uint64_t entry_bytes_ = 0;  ///< of their sources
 };
 
 }  // namespace camway::scene

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "daemon/scene/occupancy_mirror.h"
+
 namespace camway::scene {
 
 std::string SceneStore::over_limit(const Snapshot& next) const {
@@ -12,12 +14,17 @@ std::string SceneStore::over_limit(const Snapshot& next) const {
     return "scene '" + next.name + "': more than " + std::to_string(limits_.objects) + " objects";
   }
   const std::lock_guard lock(mutex_);
+  const auto occupancy_bytes = [](const Snapshot& snapshot) {
+    return snapshot.occupancy ? snapshot.occupancy->statistics().memory_bytes : std::uint64_t{0};
+  };
   std::uint64_t triangles = next.index.size();
+  std::uint64_t bytes = occupancy_bytes(next);
   std::size_t others = 0;
   for (const auto& [name, entry] : scenes_) {
     if (name == next.name) continue;
     ++others;
     triangles += entry.newest->index.size();
+    bytes += occupancy_bytes(*entry.newest);
   }
   if (others >= limits_.scenes) {
     return "scene '" + next.name + "': there are " + std::to_string(limits_.scenes) +
@@ -26,6 +33,11 @@ std::string SceneStore::over_limit(const Snapshot& next) const {
   if (triangles > limits_.triangles) {
     return "scene '" + next.name + "': with it there would be more than " +
            std::to_string(limits_.triangles) + " triangles in all scenes";
+  }
+  if (bytes > limits_.occupancy_bytes) {
+    return "scene '" + next.name +
+           "': with it the occupancy maps of all scenes would take more than " +
+           std::to_string(limits_.occupancy_bytes) + " bytes";
   }
   return {};
 }
@@ -72,9 +84,23 @@ StoreResult SceneStore::change(std::string_view scene, SceneChange change) {
     Entry& entry = scenes_.find(scene)->second;
     entry.newest = result.snapshot;
     entry.history.add(std::move(change), result.snapshot->revision);
+    forget_history();
   }
   tell();
   return {std::move(result.snapshot), StoreFault::kNone, ""};
+}
+
+void SceneStore::forget_history() {
+  std::uint64_t bytes = 0;
+  for (const auto& [name, entry] : scenes_) bytes += entry.history.bytes();
+  while (bytes > limits_.history.bytes) {
+    SceneHistory& longest = std::ranges::max_element(scenes_, {}, [](const auto& scene) {
+                              return scene.second.history.bytes();
+                            })->second.history;
+    bytes -= longest.bytes();
+    longest.forget_oldest();
+    bytes += longest.bytes();
+  }
 }
 
 bool SceneStore::remove(std::string_view scene) {

@@ -22,7 +22,9 @@ struct SceneStoreLimits {
   std::size_t scenes = 4096;
   std::size_t objects = 4096;            ///< of one scene
   std::uint64_t triangles = 20'000'000;  ///< of all scenes together
-  SceneHistory::Limits history;          ///< of each scene
+  /// Of the occupancy mirrors of all scenes together.
+  std::uint64_t occupancy_bytes = std::uint64_t{4} << 30;
+  SceneHistory::Limits history;  ///< changes of each scene, bytes of all together
 };
 
 /// Why the store refused something.
@@ -78,6 +80,9 @@ class SceneStore {
 
   /// What speaks against `next` in the place of the scene of its name; empty if nothing does.
   [[nodiscard]] std::string over_limit(const Snapshot& next) const;
+
+  /// Shortens the longest histories until all keep to the limit. Precondition: mutex_ is held.
+  void forget_history();
 
   void tell() const {
     if (listener_) listener_();

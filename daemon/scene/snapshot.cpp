@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "daemon/scene/stoppable_load.h"
+
 namespace camway::scene {
 namespace {
 
@@ -123,13 +125,18 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 }
 
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options) {
-  ImportResult import = import_mesh(file, options.import);
+                             const SnapshotOptions& options, const std::stop_token& stop) {
+  ImportResult import = import_mesh(file, options.import, stop);
   if (!import.mesh) return {nullptr, import.error};
   SnapshotResult result = build(std::move(name), std::move(*import.mesh), std::move(import.report),
                                 options, std::move(import.map));
   if (!result.snapshot) result.error = file.string() + ": " + result.error;
   return result;
+}
+
+SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
+                             const SnapshotOptions& options) {
+  return load_snapshot(std::move(name), file, options, {});
 }
 
 }  // namespace camway::scene

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/auth_transport.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace camway::service {
 
 AuthTransport::AuthTransport(Transport& inner, std::shared_ptr<wire::MessageAuth> auth,
-                             bool required, Warnings warnings)
-    : inner_(inner), auth_(std::move(auth)), required_(required), warnings_(std::move(warnings)) {}
+                             bool required, LimitedLog log)
+    : inner_(inner), auth_(std::move(auth)), required_(required), log_(std::move(log)) {}
 
 bool AuthTransport::subscribe(const std::string& channel, int queue_capacity, Handler handler) {
   return inner_.subscribe(
@@ -35,8 +33,9 @@ void AuthTransport::take(const std::string& channel, std::span<const std::uint8_
     handler(message);
     return;
   }
-  warnings_.warn(fmt::format("dropped a message of {} bytes on {}: {}", message.size(), channel,
-                             wire::to_string(opened.why)));
+  log_.write(
+      "distrusted message",
+      {{"channel", channel}, {"bytes", message.size()}, {"reason", wire::to_string(opened.why)}});
 }
 
 }  // namespace camway::service

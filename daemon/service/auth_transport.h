@@ -6,8 +6,8 @@
 #include <memory>
 #include <string_view>
 
+#include "daemon/service/limited_log.h"
 #include "daemon/service/transport.h"
-#include "daemon/service/warnings.h"
 #include "lcmtypes/message_auth.h"
 
 namespace camway::service {
@@ -22,7 +22,7 @@ class AuthTransport final : public Transport {
   /// `inner` must outlive this. Unless signatures are `required`, unsigned messages are handed on
   /// all the same, and counted.
   AuthTransport(Transport& inner, std::shared_ptr<wire::MessageAuth> auth, bool required,
-                Warnings warnings);
+                LimitedLog log);
 
   [[nodiscard]] bool subscribe(const std::string& channel, int queue_capacity,
                                Handler handler) override;
@@ -35,6 +35,8 @@ class AuthTransport final : public Transport {
 
   /// Since it was made. For the thread that owns the transport.
   [[nodiscard]] const Distrusted& distrusted() const { return distrusted_; }
+  /// See `LimitedLog`. For the same thread.
+  void tell_left_out() { log_.tell_left_out(); }
 
  private:
   void take(const std::string& channel, std::span<const std::uint8_t> message,
@@ -43,7 +45,7 @@ class AuthTransport final : public Transport {
   Transport& inner_;
   const std::shared_ptr<wire::MessageAuth> auth_;
   const bool required_;
-  Warnings warnings_;
+  LimitedLog log_;
   Distrusted distrusted_{};
 };
 

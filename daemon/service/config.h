@@ -5,9 +5,13 @@
 #include <cstddef>
 #include <string>
 
+#include "daemon/planning/request.h"
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/fair_queue.h"
-#include "daemon/service/scene_roots.h"
+#include "daemon/service/limited_log.h"
+#include "daemon/service/map_exports.h"
+#include "daemon/service/outbox.h"
+#include "daemon/service/scene_rules.h"
 #include "daemon/service/uploads.h"
 #include "daemon/service/wire_convert.h"
 #include "daemon/service/wire_pages.h"
@@ -32,21 +36,29 @@ struct ServiceConfig {
   /// Requests that wait for a worker; `--queue`, `--client-queue`
   /// [Limit: 1 <= value <= kMaxQueueCapacity]
   FairQueue::Limits queue;
+  /// Bytes of the plan requests that wait or are planned.
+  std::size_t request_bytes = std::size_t{256} << 20;
+  Outbox::Limits answers;  ///< that wait to be sent; `queue.answers` and others
+  /// Answers to messages that cannot be read, to whomever, and at once: they must not keep those
+  /// that others wait for. [Limit: 1 <= value]
+  double malformed_answers_per_s = 100.0;
   DeadlineLimits deadline;
+  /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
+  std::size_t keyframes = planning::kMaxKeyframes;
   PageAssembly<plan_request_t>::Limits assembly;
   AnswerCache::Limits cache;
   /// Messages that may wait in LCM between two turns of the loop, for each kind of request. Large
   /// enough for the longest request in pages; the loop only checks and queues, so it drains fast.
   int subscription_capacity = 1024;
-  SceneRoots scene_roots;     ///< of files that clients may name; `scenes.roots`
-  Uploads::Limits uploads;    ///< `scenes.uploads` and others
-  FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
-  WatchLimits watches;        ///< `watch.paths` and others
+  SceneRules scene_rules;
+  Uploads::Limits uploads;     ///< `scenes.uploads` and others
+  MapExports::Limits exports;  ///< `scenes.exports` and others
+  FairQueue::Limits changes;   ///< of scenes that wait for the ones before them
+  WatchLimits watches;         ///< `watch.paths` and others
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};
-  /// Warnings of one kind are logged at most once in this time, with the number left out.
-  std::chrono::milliseconds warning_period{5000};
+  LimitedLog::Limits log_limits;  ///< of what clients can provoke; `log.lines_per_s` and others
 
   /// What is wrong with the values, or an empty text.
   [[nodiscard]] std::string fault() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/configured_scenes.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -9,29 +10,37 @@
 #include "daemon/planning/request.h"
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_mirror.h"
+#include "daemon/scene/stoppable_load.h"
 
 namespace camway::service {
 namespace {
 
-void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, spdlog::logger& log) {
+std::string text_of(const geometry::Vec3& point) {
+  return fmt::format("{:.3g},{:.3g},{:.3g}", point.x(), point.y(), point.z());
+}
+
+void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, Log& log) {
   const scene::ImportReport& report = snapshot.report;
-  const geometry::Box& box = report.bounds_m;
-  log.info(
-      "scene {} from {}: {}, {} triangles, bounds ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, "
-      "{:.3g}) m at scale {:g}, rounded by {:.2g} m at most, {} degenerate and {} bad triangles "
-      "left "
-      "out, digest {}",
-      snapshot.name, scene.file.string(), report.format, report.triangles, box.min().x(),
-      box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z(), report.scale,
-      report.rounding_m, report.degenerate_triangles,
-      report.dropped_nonfinite + report.dropped_bad_index, snapshot.digest);
+  log.info("scene read", {{"scene", snapshot.name},
+                          {"file", scene.file.string()},
+                          {"format", report.format},
+                          {"triangles", report.triangles},
+                          {"min_m", text_of(report.bounds_m.min())},
+                          {"max_m", text_of(report.bounds_m.max())},
+                          {"scale", report.scale},
+                          {"rounding_m", report.rounding_m},
+                          {"degenerate_left_out", report.degenerate_triangles},
+                          {"bad_left_out", report.dropped_nonfinite + report.dropped_bad_index},
+                          {"digest", snapshot.digest}});
   for (const std::string& warning :
        scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
-    log.warn("scene {}: {}", snapshot.name, warning);
+    log.warn("scene read with a warning", {{"scene", snapshot.name}, {"warning", warning}});
   }
   if (snapshot.occupancy) {
-    log.info("scene {}: occupancy map of {} voxels at {:g} m", snapshot.name,
-             snapshot.occupancy->statistics().occupied_voxels, snapshot.occupancy->resolution_m());
+    log.info("occupancy map built",
+             {{"scene", snapshot.name},
+              {"occupied_voxels", snapshot.occupancy->statistics().occupied_voxels},
+              {"resolution_m", snapshot.occupancy->resolution_m()}});
   }
 }
 
@@ -53,7 +62,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     next.push_back({scene, stamp_of(scene.file)});
     if (holds(next.back())) continue;
     if (stop.stop_requested()) return false;
-    loaded.push_back(load(scene));
+    loaded.push_back(load(scene, stop));
     if (!loaded.back()) return false;
   }
   remove_all_but(wanted);
@@ -63,7 +72,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     const std::string name = snapshot->name;
     const scene::StoreResult put = store_.put(std::move(snapshot));
     if (put.snapshot) continue;
-    log_->error(put.error);
+    log_->error("scene cannot be held", {{"scene", name}, {"reason", put.error}});
     // Tried again the next time. An older one of that name goes when it is not wanted any more.
     for (Held& held : held_) {
       if (held.scene.name == name) held.stamp = {};
@@ -80,7 +89,7 @@ void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) 
     });
     if (stays) continue;
     store_.remove(held.scene.name);
-    log_->info("scene {} is gone", held.scene.name);
+    log_->info("scene unloaded", {{"scene", held.scene.name}});
   }
 }
 
@@ -99,34 +108,41 @@ bool ConfiguredScenes::watches_files() const {
 void ConfiguredScenes::look_at_files(const std::stop_token& stop) {
   for (Held& held : held_) {
     if (stop.stop_requested()) return;
-    if (held.scene.watch) look_at(held);
+    if (held.scene.watch) look_at(held, stop);
   }
 }
 
-void ConfiguredScenes::look_at(Held& held) {
+void ConfiguredScenes::look_at(Held& held, const std::stop_token& stop) {
   const FileStamp now = stamp_of(held.scene.file);
   const bool is_stable = std::exchange(held.seen, now) == now;
   if (now == held.tried || !is_stable) return;
-  held.tried = now;
+  const FileStamp tried = std::exchange(held.tried, now);
   if (now == FileStamp{}) {
-    log_->warn("scene {}: {} is gone; what was read of it stays", held.scene.name,
-               held.scene.file.string());
+    log_->warn("scene file is gone, what was read of it stays",
+               {{"scene", held.scene.name}, {"file", held.scene.file.string()}});
     return;
   }
-  if (read_again(held.scene)) held.stamp = now;
+  if (read_again(held.scene, stop)) {
+    held.stamp = now;
+  } else if (stop.stop_requested()) {
+    held.tried = tried;
+  }
 }
 
-bool ConfiguredScenes::read_again(const SceneArgument& scene) {
+bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_token& stop) {
   const auto before = store_.find(scene.name);
   const scene::SceneObject* const object = before ? before->find(scene.name) : nullptr;
   if (object == nullptr) {
-    log_->info("scene {}: {} changed, but a client has taken it out", scene.name,
-               scene.file.string());
+    log_->info("scene file changed, but a client has taken it out",
+               {{"scene", scene.name}, {"file", scene.file.string()}});
     return false;
   }
-  scene::ImportResult read = scene::import_mesh(scene.file, scene.options.import);
+  log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
+  scene::ImportResult read = scene::import_mesh(scene.file, scene.options.import, stop);
+  if (stop.stop_requested()) return false;
   if (!read.mesh) {
-    log_->warn("scene {}: {}; what was read before stays", scene.name, read.error);
+    log_->warn("scene file cannot be read again, what was read before stays",
+               {{"scene", scene.name}, {"reason", read.error}});
     return false;
   }
   // Two maps may have the same faces, and one be solid where the other is not.
@@ -140,11 +156,13 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene) {
   const scene::StoreResult changed = store_.change(
       scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement});
   if (!changed.snapshot) {
-    log_->warn("scene {}: {}; what was read before stays", scene.name, changed.error);
+    log_->warn("scene cannot be changed, what was read before stays",
+               {{"scene", scene.name}, {"reason", changed.error}});
     return false;
   }
-  log_->info("scene {}: {} changed, and is revision {}", scene.name, scene.file.string(),
-             changed.snapshot->revision);
+  log_->info("scene file changed", {{"scene", scene.name},
+                                    {"file", scene.file.string()},
+                                    {"revision", changed.snapshot->revision}});
   log_scene(*changed.snapshot, scene, *log_);
   return true;
 }
@@ -155,10 +173,13 @@ bool ConfiguredScenes::holds(const Held& wanted) const {
   });
 }
 
-std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene) const {
-  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options);
+std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,
+                                                              const std::stop_token& stop) const {
+  log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
+  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
+  if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
-    log_->error("scene {}: {}", scene.name, result.error);
+    log_->error("scene cannot be read", {{"scene", scene.name}, {"reason", result.error}});
   } else {
     log_scene(*result.snapshot, scene, *log_);
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "daemon/scene/scene_store.h"
+#include "daemon/service/log.h"
 #include "daemon/service/scene_argument.h"
 
 namespace camway::service {
@@ -19,7 +18,7 @@ namespace camway::service {
 class ConfiguredScenes {
  public:
   /// `store` must outlive this.
-  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<spdlog::logger> log)
+  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<Log> log)
       : store_(store), log_(std::move(log)) {}
 
   /// Makes the store hold `wanted`, and none of those that it held for an earlier call and that are
@@ -35,7 +34,8 @@ class ConfiguredScenes {
   /// Looks at the files of those scenes. One that changed and then stayed as it was until the next
   /// look, so that its writer is done, is read again, and takes the place of what was read of it
   /// before; what clients added to the scene stays. If it cannot be read, or is gone, all stays as
-  /// it was, with a warning. By polling, as network drives tell nobody of changes.
+  /// it was, with a warning; what a stop ends is read the next time. By polling, as network drives
+  /// tell nobody of changes.
   void look_at_files(const std::stop_token& stop = {});
 
  private:
@@ -54,15 +54,16 @@ class ConfiguredScenes {
   };
 
   static FileStamp stamp_of(const std::filesystem::path& file);
-  void look_at(Held& held);
+  void look_at(Held& held, const std::stop_token& stop);
   /// Whether the scene has what is in the file now.
-  bool read_again(const SceneArgument& scene);
+  bool read_again(const SceneArgument& scene, const std::stop_token& stop);
   [[nodiscard]] bool holds(const Held& wanted) const;
-  [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene) const;
+  [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene,
+                                                            const std::stop_token& stop) const;
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;
-  std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<Log> log_;
   std::vector<Held> held_;
 };
 

@@ -18,17 +18,15 @@ std::int64_t utime_now() {
 }
 
 Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-           ServiceConfig service_config, std::shared_ptr<spdlog::logger> logger)
+           ServiceConfig service_config, std::shared_ptr<Log> service_log)
     : config(std::move(service_config)),
       channels{config.prefix},
       scenes(scene_store),
-      log(std::move(logger)),
+      log(std::move(service_log)),
       transport(inner_transport),
-      malformed_warnings(log, config.warning_period),
-      overload_warnings(log, config.warning_period),
-      publish_warnings(log, config.warning_period),
-      stuck_warnings(log, config.warning_period),
-      outbox(transport),
+      limited_log(log, config.log_limits),
+      malformed_answers(config.malformed_answers_per_s, config.malformed_answers_per_s),
+      outbox(transport, config.answers),
       mailbox(transport),
       workers(config.workers, config.queue) {}
 
@@ -45,8 +43,10 @@ void Core::expire_jobs() {
 std::string Core::refusal_text(Refusal why) const {
   switch (why) {
     case Refusal::kClientFull:
-      return fmt::format("{} requests of this client wait already; send it again later",
-                         config.queue.jobs_of_a_client);
+      return fmt::format(
+          "{} requests of this client wait already "
+          "(queue.requests_of_a_client); send it again later",
+          config.queue.jobs_of_a_client);
     case Refusal::kStopping:
       return "the daemon is stopping";
     case Refusal::kQueueFull:
@@ -54,14 +54,17 @@ std::string Core::refusal_text(Refusal why) const {
     case Refusal::kCancelled:
       break;
   }
-  return fmt::format("all {} workers are busy and {} requests wait; send it again later",
-                     config.workers, config.queue.jobs);
+  return fmt::format(
+      "all {} workers are busy and {} requests wait (queue.requests); send it again later",
+      config.workers, config.queue.jobs);
 }
 
-void Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
+bool Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
   ++counters.malformed;
-  malformed_warnings.warn(fmt::format("malformed message of {} bytes on {}: {}", size, channel,
-                                      clipped(reason, wire::kMaxTextBytes)));
+  limited_log.malformed.write(
+      "malformed message",
+      {{"channel", channel}, {"bytes", size}, {"reason", clipped(reason, wire::kMaxTextBytes)}});
+  return malformed_answers.take(TokenBucket::Clock::now());
 }
 
 void Core::report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -17,10 +15,10 @@
 #include "daemon/scene/snapshot.h"
 #include "daemon/service/config.h"
 #include "daemon/service/counters.h"
+#include "daemon/service/limited_log.h"
 #include "daemon/service/mailbox.h"
 #include "daemon/service/metered_transport.h"
 #include "daemon/service/outbox.h"
-#include "daemon/service/warnings.h"
 #include "daemon/service/worker_pool.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/wire_check.h"
@@ -38,7 +36,7 @@ std::int64_t utime_now();
 /// `workers`, `scenes` and `log` belong to the loop thread.
 struct Core {
   Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-       ServiceConfig service_config, std::shared_ptr<spdlog::logger> logger);
+       ServiceConfig service_config, std::shared_ptr<Log> service_log);
 
   /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
@@ -53,19 +51,17 @@ struct Core {
   /// For whoever asked for a job that is refused for want of room or time to live.
   [[nodiscard]] std::string refusal_text(Refusal why) const;
 
-  /// Counts and logs a message that could not be read.
-  void note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
+  /// Counts and logs a message that could not be read. Whether its sender may be told.
+  bool note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
 
   const ServiceConfig config;
   const wire::Channels channels;
   const scene::SceneStore& scenes;
-  const std::shared_ptr<spdlog::logger> log;
+  const std::shared_ptr<Log> log;
   MeteredTransport transport;
   Counters counters;
-  Warnings malformed_warnings;
-  Warnings overload_warnings;
-  Warnings publish_warnings;
-  Warnings stuck_warnings;
+  LimitedLogs limited_log;
+  TokenBucket malformed_answers;
   Outbox outbox;
   Mailbox mailbox;
   WorkerPool workers;

@@ -31,12 +31,6 @@ constexpr char kFooter[] =
 
 constexpr int kExitBadInput = 2;
 
-std::string default_url() {
-  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
-  const bool set = from_environment != nullptr && *from_environment != '\0';
-  return set ? from_environment : kDefaultLcmUrl;
-}
-
 bool is_readable_file(const std::filesystem::path& file) {
   std::error_code ignored;
   return !std::filesystem::is_directory(file, ignored) && std::ifstream(file).is_open();
@@ -52,8 +46,24 @@ struct Raw {
   std::string config_file;
   bool check_config = false;
   std::vector<std::string> scenes;
-  std::string log_level;
 };
+
+/// A flag for a setting of the configuration file that is one of a few words.
+void declare_word(CLI::App& app, const std::string& flag, std::string_view key,
+                  const std::string& meaning, DaemonOptions& options) {
+  const auto setting = [&options, key] {
+    const std::vector<Setting> settings = settings_of(options);
+    return *std::ranges::find(settings, key, &Setting::key);
+  };
+  app.add_option_function<std::string>(
+         flag,
+         [setting, flag](const std::string& word) {
+           const std::string fault = setting().set(word);
+           if (!fault.empty()) throw CLI::ValidationError(flag, fault);
+         },
+         meaning + " [" + setting().text() + "]")
+      ->type_name("WORD");
+}
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.set_version_flag("--version", "camwayd " + version_text());
@@ -78,7 +88,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.add_option("--prefix", options.service.prefix, "Channels begin with this")
       ->capture_default_str();
   app.add_option("--url", options.lcm_url,
-                 "LCM provider; ttl=0 keeps the traffic on this host [LCM_DEFAULT_URL, else " +
+                 "LCM provider; ttl=0 keeps the traffic on this host [lcm.url of the configuration "
+                 "file, else LCM_DEFAULT_URL, else " +
                      std::string(kDefaultLcmUrl) + "]");
   app.add_option("--workers", options.service.workers,
                  "Requests planned at the same time; 0: one for each core")
@@ -98,9 +109,9 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
   app.add_option("--max-deadline-s", options.service.deadline.max_s,
                  "Longest deadline that a request may ask for, seconds")
       ->capture_default_str();
-  app.add_option("--log-level", raw.log_level, "What is logged on stderr")
-      ->check(CLI::IsMember(std::vector<std::string>(kLogLevels.begin(), kLogLevels.end())))
-      ->default_str(std::string(log_level_name(options.log_level)));
+  declare_word(app, "--log-level", "log.level", "What is logged on standard error", options);
+  declare_word(app, "--log-format", "log.format",
+               "How: text for people, or an object of JSON on each line", options);
 }
 
 /// Reads the command line over `options`; what to end with if it is no good or asks for help.
@@ -148,14 +159,13 @@ std::string open_roots(const std::string& folders, SceneRoots& roots) {
 /// Turns the texts into options; returns what is wrong with them.
 std::string resolve(const Raw& raw, DaemonOptions& options) {
   options.config_file = raw.config_file;
-  if (!raw.log_level.empty()) options.log_level = spdlog::level::from_str(raw.log_level);
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
   if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return fault;
   if (options.scenes.empty() && options.scene_roots.empty()) {
     return "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
            "--scene-roots where clients may load scenes from";
   }
-  if (std::string fault = open_roots(options.scene_roots, options.service.scene_roots);
+  if (std::string fault = open_roots(options.scene_roots, options.service.scene_rules.roots);
       !fault.empty()) {
     return fault;
   }
@@ -192,14 +202,15 @@ ParsedOptions check(const DaemonOptions& options) {
 
 }  // namespace
 
-std::string_view log_level_name(spdlog::level::level_enum level) {
-  return level == spdlog::level::off ? kLogLevels.back()
-                                     : kLogLevels.at(static_cast<std::size_t>(level));
+std::string url_of_environment() {
+  const char* const url = std::getenv("LCM_DEFAULT_URL");
+  return url == nullptr ? "" : url;
 }
 
 DaemonOptions default_options() {
   DaemonOptions options;
-  options.lcm_url = default_url();
+  options.lcm_url = url_of_environment();
+  if (options.lcm_url.empty()) options.lcm_url = kDefaultLcmUrl;
   options.service.workers = 0;
   return options;
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/common.h>
-
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -14,23 +11,22 @@
 #include "daemon/scene/scene_store.h"
 #include "daemon/service/config.h"
 #include "daemon/service/http_page.h"
+#include "daemon/service/log.h"
 #include "daemon/service/scene_argument.h"
 
 namespace camway::service {
 
 /// Traffic stays on the host (ttl 0) unless the url says otherwise.
 inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
-
-/// What `--log-level` and the configuration take.
-inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "info",
-                                                            "warn",  "error", "off"};
-std::string_view log_level_name(spdlog::level::level_enum level);
+/// What the environment's LCM_DEFAULT_URL says; empty if it says nothing.
+std::string url_of_environment();
 
 /// Whose messages are listened to.
 struct AuthOptions {
   std::string key_file;  ///< empty: messages are neither signed nor checked
   bool required = true;  ///< with keys: whether messages without a signature are dropped
   std::chrono::milliseconds window{30'000};  ///< how far a message's time may be from ours
+  std::size_t senders = 16'384;              ///< whose messages are told apart at a time
 };
 
 /// What `camwayd` is to do: built-in defaults, the configuration file over them, the command line
@@ -39,7 +35,8 @@ struct DaemonOptions {
   std::filesystem::path config_file;  ///< empty: none
   std::vector<SceneArgument> scenes;
   std::string lcm_url;  ///< `--url`, else the file, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
-  spdlog::level::level_enum log_level = spdlog::level::info;
+  LogLevel log_level = LogLevel::kInfo;
+  LogFormat log_format = LogFormat::kText;
   std::string scene_roots;  ///< folders with ':' between them; see `SceneRoots`
   HttpAddress metrics;      ///< of the page for Prometheus; there is none if the port is 0
   AuthOptions auth;

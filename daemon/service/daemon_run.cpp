@@ -58,6 +58,7 @@ std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::st
   error = std::move(read.error);
   if (!read.keys) return nullptr;
   wire::ReplayGuard::Limits limits;
+  limits.senders = options.senders;
   limits.window_us = std::chrono::microseconds(options.window).count();
   return std::make_shared<wire::MessageAuth>(std::move(read.keys), limits);
 }
@@ -70,18 +71,17 @@ OpenedHttpPage open_metrics(const HttpAddress& address, const LatestStatus& late
 }
 
 /// What the outcome of a run means for the process.
-int exit_code_of(RunOutcome outcome, const std::string& url, spdlog::logger& log) {
+int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
   switch (outcome) {
     case RunOutcome::kDrained:
       return EXIT_SUCCESS;
     case RunOutcome::kAbandoned:
-      log.flush();
       std::_Exit(EXIT_SUCCESS);
     case RunOutcome::kNotSubscribed:
-      log.error("LCM takes no subscription at '{}'. {}", url, multicast_hint());
+      log.error("LCM takes no subscription", {{"url", url}, {"hint", multicast_hint()}});
       return kExitLcm;
     case RunOutcome::kTransportBroken:
-      log.error("LCM at '{}' failed", url);
+      log.error("LCM failed", {{"url", url}});
       return kExitLcm;
   }
   return kExitLcm;
@@ -90,30 +90,37 @@ int exit_code_of(RunOutcome outcome, const std::string& url, spdlog::logger& log
 }  // namespace
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, const std::shared_ptr<spdlog::logger>& log) {
-  const OpenedTransport opened = open_lcm_transport(options.lcm_url);
+          ConfiguredScenes& configured, const std::shared_ptr<Log>& log) {
+  if (const std::string other = url_of_environment(); !other.empty() && other != options.lcm_url) {
+    log->warn("LCM_DEFAULT_URL is set, but does not count",
+              {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
+  }
+  const OpenedTransport opened =
+      open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
+        log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
+      });
   if (!opened.transport) {
-    log->error(opened.error);
+    log->error("LCM cannot be used", {{"reason", opened.error}});
     return kExitLcm;
   }
   std::string auth_error;
   const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
   if (!auth_error.empty()) {
-    log->error("auth.key_file: {}", auth_error);
+    log->error("keys cannot be used", {{"setting", "auth.key_file"}, {"reason", auth_error}});
     return kExitBadInput;
   }
   std::optional<AuthTransport> signing;
   if (auth) {
     signing.emplace(*opened.transport, auth, options.auth.required,
-                    Warnings(log, options.service.warning_period));
-    log->info("messages are signed; unsigned ones are {}",
-              options.auth.required ? "dropped" : "accepted as well");
+                    LimitedLog(log, LogLevel::kWarn, "distrusted", options.service.log_limits));
+    log->info("messages are signed",
+              {{"unsigned_ones", options.auth.required ? "dropped" : "accepted"}});
   }
   Transport& transport = signing ? static_cast<Transport&>(*signing) : *opened.transport;
   LatestStatus latest;
   const OpenedHttpPage metrics = open_metrics(options.metrics, latest);
   if (!metrics.error.empty()) {
-    log->error("metrics: {}", metrics.error);
+    log->error("there can be no page of metrics", {{"reason", metrics.error}});
     return kExitMetrics;
   }
   const ServiceManager manager = ServiceManager::from_environment();
@@ -122,10 +129,13 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   hooks.stopping = [&] { manager.stopping(); };
   hooks.alive = [&] { manager.alive(); };
   if (metrics.page) {
-    log->info("metrics at http://{}:{}/metrics", options.metrics.ip, metrics.page->port());
+    log->info("page of metrics", {{"address", options.metrics.ip}, {"port", metrics.page->port()}});
   }
   hooks.status = [&](status_t& status) {
-    if (signing) add_distrusted(signing->distrusted(), status);
+    if (signing) {
+      add_distrusted(signing->distrusted(), status);
+      signing->tell_left_out();
+    }
     if (metrics.page) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();
@@ -134,13 +144,15 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     return planning::plan(snapshot, request, deadline);
   };
   Service service(transport, scenes, options.service, planner, log, std::move(hooks));
-  log->info("serving on {} with prefix {}, {} workers, queue of {}, {} for a client",
-            options.lcm_url, options.service.prefix, options.service.workers,
-            options.service.queue.jobs, options.service.queue.jobs_of_a_client);
+  log->info("serving", {{"url", options.lcm_url},
+                        {"prefix", options.service.prefix},
+                        {"workers", options.service.workers},
+                        {"queue", options.service.queue.jobs},
+                        {"client_queue", options.service.queue.jobs_of_a_client}});
   Reloader reloader(options, std::move(read_again), configured, manager, log, auth);
   const SignalWaiter signals(
       [&](int signal) {
-        log->info("signal {}", signal);
+        log->info("signal", {{"number", signal}});
         service.request_stop();
       },
       [&] { reloader.request(); });

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <memory>
 
 #include "daemon/scene/scene_store.h"
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
+#include "daemon/service/log.h"
 #include "daemon/service/reloader.h"
 
 namespace camway::service {
@@ -19,6 +18,6 @@ namespace camway::service {
 /// process ends there, with code 0. Precondition: `block_reload_signal` and `block_stop_signals`
 /// were called before any other thread began.
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, const std::shared_ptr<spdlog::logger>& log);
+          ConfiguredScenes& configured, const std::shared_ptr<Log>& log);
 
 }  // namespace camway::service

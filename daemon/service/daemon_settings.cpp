@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
 namespace camway::service {
@@ -21,6 +21,19 @@ constexpr double kManyBytes = 1e15;
 template <class Value>
 constexpr bool kIsWhole = std::is_same_v<Value, int> || std::is_same_v<Value, std::size_t>;
 
+/// The words for the values of an enumeration, in their order.
+std::span<const std::string_view> words_for(LogLevel) { return kLogLevels; }
+std::span<const std::string_view> words_for(LogFormat) { return kLogFormats; }
+
+template <class Choice>
+std::string choose(Choice& place, std::string_view word) {
+  const auto words = words_for(place);
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end()) return fmt::format("must be one of {}", fmt::join(words, ", "));
+  place = static_cast<Choice>(found - words.begin());
+  return {};
+}
+
 }  // namespace
 
 std::string Setting::text() const {
@@ -29,8 +42,8 @@ std::string Setting::text() const {
         using Value = std::decay_t<decltype(*value)>;
         if constexpr (std::is_same_v<Value, std::string>) {
           return fmt::format("\"{}\"", *value);
-        } else if constexpr (std::is_same_v<Value, spdlog::level::level_enum>) {
-          return fmt::format("\"{}\"", log_level_name(*value));
+        } else if constexpr (std::is_enum_v<Value>) {
+          return fmt::format("\"{}\"", words_for(*value)[static_cast<std::size_t>(*value)]);
         } else if constexpr (std::is_same_v<Value, milliseconds>) {
           return fmt::format("{}", static_cast<double>(value->count()) / kMillisecondsPerSecond);
         } else {
@@ -41,15 +54,9 @@ std::string Setting::text() const {
 }
 
 std::string Setting::set(std::string_view value) const {
-  if (auto* const* level = std::get_if<spdlog::level::level_enum*>(&target)) {
-    const auto* const found = std::find(kLogLevels.begin(), kLogLevels.end(), value);
-    if (found == kLogLevels.end()) {
-      return fmt::format("must be one of {}", fmt::join(kLogLevels, ", "));
-    }
-    **level = spdlog::level::from_str(std::string(value));
-  } else {
-    *std::get<std::string*>(target) = value;
-  }
+  if (const auto* const level = std::get_if<LogLevel*>(&target)) return choose(**level, value);
+  if (const auto* const format = std::get_if<LogFormat*>(&target)) return choose(**format, value);
+  *std::get<std::string*>(target) = value;
   return {};
 }
 
@@ -76,7 +83,7 @@ bool Setting::is_switch() const { return std::holds_alternative<bool*>(target); 
 
 bool Setting::is_text() const {
   return std::holds_alternative<std::string*>(target) ||
-         std::holds_alternative<spdlog::level::level_enum*>(target);
+         std::holds_alternative<LogLevel*>(target) || std::holds_alternative<LogFormat*>(target);
 }
 
 bool Setting::is_whole_number() const {
@@ -93,17 +100,26 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"planning.workers", &service.workers, 0, kMaxWorkers},
       {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},
       {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
+      {"planning.keyframes", &service.keyframes, 2, static_cast<double>(planning::kMaxKeyframes)},
       {"planning.drain_s", &service.drain_limit, 0, kDayS},
       {"queue.requests", &service.queue.jobs, 1, kQueue},
       {"queue.requests_of_a_client", &service.queue.jobs_of_a_client, 1, kQueue},
+      {"queue.request_bytes", &service.request_bytes, 1, kManyBytes},
+      {"queue.answers", &service.answers.answers, 1, 1e6},
+      {"queue.answers_of_a_client", &service.answers.answers_of_a_channel, 1, 1e6},
+      {"queue.answer_bytes", &service.answers.bytes, 1, kManyBytes},
+      {"queue.malformed_answers_per_s", &service.malformed_answers_per_s, 1, 1e6},
       {"memory.remembered_answers", &service.cache.max_answers, 0, 1e6},
       {"memory.remembered_answer_bytes", &service.cache.max_bytes, 0, kManyBytes},
       {"memory.half_received_requests", &service.assembly.max_messages, 1, 1e6},
       {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
       {"scenes.roots", &options.scene_roots},
+      {"scenes.write_maps", &service.scene_rules.write_maps},
       {"scenes.scenes", &options.store.scenes, 1, 1e6},
       {"scenes.objects", &options.store.objects, 1, 1e6},
       {"scenes.triangles", &options.store.triangles, 1, 4e9},
+      {"scenes.occupancy_bytes", &options.store.occupancy_bytes, 1, kManyBytes},
+      {"scenes.scan_voxels", &service.scene_rules.scan_voxels, 1, 1e12},
       {"scenes.remembered_changes", &options.store.history.changes, 0, 1e6},
       {"scenes.remembered_change_bytes", &options.store.history.bytes, 0, kManyBytes},
       {"scenes.waiting_changes", &service.changes.jobs, 1, kQueue},
@@ -111,6 +127,10 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.uploads", &service.uploads.uploads, 1, 1e4},
       {"scenes.upload_bytes", &service.uploads.bytes, 1, 1e11},
       {"scenes.all_uploads_bytes", &service.uploads.total_bytes, 1, 1e12},
+      {"scenes.exports", &service.exports.exports, 1, 1e4},
+      {"scenes.all_exports_bytes", &service.exports.bytes, 1, 1e12},
+      {"scenes.upload_idle_s", &service.uploads.idle, 1, kDayS},
+      {"scenes.export_idle_s", &service.exports.idle, 1, kDayS},
       {"watch.paths", &service.watches.paths, 0, 1e6},
       {"watch.paths_of_a_client", &service.watches.paths_of_a_client, 0, 1e6},
       {"watch.bytes", &service.watches.bytes, 0, kManyBytes},
@@ -119,10 +139,13 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"auth.key_file", &options.auth.key_file},
       {"auth.required", &options.auth.required},
       {"auth.window_s", &options.auth.window, 0.001, kDayS},
+      {"auth.senders", &options.auth.senders, 1, 1e7},
       {"metrics.address", &options.metrics.ip},
       {"metrics.port", &options.metrics.port, 0, 65'535},
       {"log.level", &options.log_level, 0, 0, true},
-      {"log.warning_period_s", &service.warning_period, 0, kDayS},
+      {"log.format", &options.log_format},
+      {"log.lines_per_s", &service.log_limits.lines_per_s, 0.001, 1e6},
+      {"log.burst_lines", &service.log_limits.burst_lines, 1, 1e6},
   };
 }
 

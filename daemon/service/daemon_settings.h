@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/common.h>
-
 #include <chrono>
 #include <cstddef>
 #include <string>
@@ -18,7 +16,7 @@ namespace camway::service {
 /// the file's reader, the range of each value, the sample and what a reload may change follow it.
 struct Setting {
   using Target = std::variant<std::string*, bool*, int*, std::size_t*, double*,
-                              std::chrono::milliseconds*, spdlog::level::level_enum*>;
+                              std::chrono::milliseconds*, LogLevel*, LogFormat*>;
 
   std::string_view key;  ///< "queue.requests"; its unit is its suffix: durations are seconds (`_s`)
   Target target;

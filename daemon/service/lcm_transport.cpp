@@ -8,8 +8,11 @@
 
 #include <array>
 #include <cerrno>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "daemon/service/local_traffic.h"
 
 namespace camway::service {
 namespace {
@@ -39,7 +42,10 @@ struct LcmDestroy {
 
 class LcmTransport final : public Transport {
  public:
-  explicit LcmTransport(const std::string& url) : lcm_(lcm_create(url.c_str())) {}
+  LcmTransport(const std::string& url, std::function<void(const std::string&)> warn)
+      : lcm_(lcm_create(url.c_str())), warn_(std::move(warn)) {
+    local_port_ = port_of_local_network(url);
+  }
 
   [[nodiscard]] bool good() const { return lcm_ != nullptr && wake_.get() >= 0; }
 
@@ -47,8 +53,9 @@ class LcmTransport final : public Transport {
     handlers_.push_back(std::make_unique<Handler>(std::move(handler)));
     lcm_subscription_t* subscription = lcm_subscribe(
         lcm_.get(), channel.c_str(), &LcmTransport::on_message, handlers_.back().get());
-    return subscription != nullptr &&
-           lcm_subscription_set_queue_capacity(subscription, queue_capacity) == 0;
+    if (subscription == nullptr) return false;
+    stay_local();
+    return lcm_subscription_set_queue_capacity(subscription, queue_capacity) == 0;
   }
 
   bool publish(const std::string& channel, std::span<const std::uint8_t> message) override {
@@ -89,6 +96,14 @@ class LcmTransport final : public Transport {
     }
   }
 
+  /// LCM makes the socket that it hears with at the first subscription.
+  void stay_local() {
+    if (!local_port_) return;
+    const std::string fault = hear_this_host_only(*local_port_);
+    local_port_.reset();
+    if (!fault.empty() && warn_) warn_(fault);
+  }
+
   void clear_wake() const {
     std::uint64_t count = 0;
     [[maybe_unused]] const ssize_t got = read(wake_.get(), &count, sizeof count);
@@ -96,13 +111,16 @@ class LcmTransport final : public Transport {
 
   std::unique_ptr<lcm_t, LcmDestroy> lcm_;
   EventFd wake_;
+  std::optional<int> local_port_;  ///< of sockets that still have to be kept from other hosts
+  std::function<void(const std::string&)> warn_;
   std::vector<std::unique_ptr<Handler>> handlers_;  ///< LCM holds their addresses
 };
 
 }  // namespace
 
-OpenedTransport open_lcm_transport(const std::string& url) {
-  auto transport = std::make_unique<LcmTransport>(url);
+OpenedTransport open_lcm_transport(const std::string& url,
+                                   std::function<void(const std::string&)> warn) {
+  auto transport = std::make_unique<LcmTransport>(url, std::move(warn));
   if (!transport->good()) return {nullptr, "LCM cannot open '" + url + "'. " + multicast_hint()};
   return {std::move(transport), {}};
 }

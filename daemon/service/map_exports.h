@@ -29,7 +29,7 @@ class MapExports {
   struct Limits {
     std::size_t exports = 16;
     std::size_t bytes = std::size_t{256} << 20;  ///< of all
-    std::chrono::seconds idle{600};              ///< then it is forgotten
+    std::chrono::milliseconds idle{600'000};     ///< then it is forgotten
   };
 
   MapExports() : MapExports(Limits{}) {}

@@ -41,7 +41,7 @@ void OccupancyService::on_message(std::span<const std::uint8_t> message) {
 
 void OccupancyService::on_malformed(std::span<const std::uint8_t> message,
                                     std::string_view reason) {
-  core_.note_malformed(core_.channels.occupancy_request(), message.size(), reason);
+  if (!core_.note_malformed(core_.channels.occupancy_request(), message.size(), reason)) return;
   const std::optional<wire::Sender> sender =
       wire::peek_sender(wire::layout_of<occupancy_request_t>(), message);
   if (!sender) {
@@ -75,19 +75,24 @@ void OccupancyService::on_request(const std::shared_ptr<const occupancy_request_
 void OccupancyService::refuse(const occupancy_request_t& request, Refusal why) {
   ++core_.counters.overloaded;
   const std::string message = core_.refusal_text(why);
-  core_.overload_warnings.warn(
-      fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
+  core_.limited_log.refused.write(
+      "refused occupancy request",
+      {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
   send(plain_occupancy_answer(request, occupancy_response_t::STATUS_OVERLOADED, message));
 }
 
 void OccupancyService::send(occupancy_response_t answer) {
   answer.utime = utime_now();
   core_.counters.occupancy_answers.add(answer.status);
-  core_.log->info("occupancy client={} request={} scene={} status={} queries={}{}{}",
-                  answer.client_id, answer.request_id, answer.scene, answer.status,
-                  answer.num_points + answer.num_boxes + answer.num_spheres + answer.num_rays +
-                      answer.num_distances + answer.num_sphere_paths,
-                  answer.message.empty() ? "" : ": ", answer.message);
+  core_.limited_log.occupancy.write(
+      "answered occupancy request",
+      {{"client", answer.client_id},
+       {"request", answer.request_id},
+       {"scene", answer.scene},
+       {"status", answer.status},
+       {"queries", answer.num_points + answer.num_boxes + answer.num_spheres + answer.num_rays +
+                       answer.num_distances + answer.num_sphere_paths},
+       {"message", answer.message}});
   if (core_.outbox.add(core_.channels.occupancy_response(answer.client_id),
                        std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)))) {
     ++core_.counters.answered;

@@ -8,14 +8,20 @@ namespace camway::service {
 bool Outbox::add(const std::string& channel, Pages pages, std::vector<std::size_t> which) {
   if (here_.contains(pages.get())) return false;
   const auto [position, is_new] = channels_.try_emplace(channel);
-  if (here_.size() >= kCapacity || position->second.size() >= kChannelCapacity) {
+  std::size_t bytes = 0;
+  for (const Bytes& page : *pages) bytes += page.size();
+  // An answer that is larger than the limit has its turn when nothing else waits.
+  const bool is_too_much = bytes_ > 0 && bytes_ + bytes > limits_.bytes;
+  if (here_.size() >= limits_.answers || is_too_much ||
+      position->second.size() >= limits_.answers_of_a_channel) {
     if (is_new) channels_.erase(position);
     ++dropped_;
     return false;
   }
   if (is_new) turns_.push_back(position);
   here_.insert(pages.get());
-  position->second.push_back({std::move(pages), std::move(which), 0});
+  position->second.push_back({std::move(pages), std::move(which), bytes, 0});
+  bytes_ += bytes;
   return true;
 }
 
@@ -39,6 +45,7 @@ void Outbox::end_turn() {
   std::deque<Answer>& answers = channel->second;
   if (answers.front().sent()) {
     here_.erase(answers.front().pages.get());
+    bytes_ -= answers.front().bytes;
   } else {
     answers.push_back(std::move(answers.front()));
   }

@@ -27,11 +27,16 @@ class Outbox {
   static constexpr int kBurstMessages = 16;
   /// How long the receiver is given to empty its buffer after a burst.
   static constexpr std::chrono::milliseconds kPause{2};
-  /// Answers that may wait, on all channels and on one; the rest is refused, its clients ask again.
-  static constexpr std::size_t kCapacity = 4096;
-  static constexpr std::size_t kChannelCapacity = 1024;
 
-  explicit Outbox(Transport& transport) : transport_(transport) {}
+  /// Of answers that wait; the rest is refused, its clients ask again.
+  struct Limits {
+    std::size_t answers = 4096;
+    std::size_t answers_of_a_channel = 1024;
+    std::size_t bytes = std::size_t{256} << 20;
+  };
+
+  explicit Outbox(Transport& transport) : Outbox(transport, Limits{}) {}
+  Outbox(Transport& transport, const Limits& limits) : transport_(transport), limits_(limits) {}
 
   /// Queues an answer, or those of its pages that `which` lists, unless that is empty. False if
   /// there is no room, or if this very answer is still waiting to be sent.
@@ -50,7 +55,8 @@ class Outbox {
   struct Answer {
     Pages pages;
     std::vector<std::size_t> which;
-    std::size_t next = 0;  ///< in `which`, or in `pages` if that is empty
+    std::size_t bytes = 0;  ///< of all pages, which stay as long as one of them waits
+    std::size_t next = 0;   ///< in `which`, or in `pages` if that is empty
 
     [[nodiscard]] const Bytes& page() const { return (*pages)[which.empty() ? next : which[next]]; }
     [[nodiscard]] bool sent() const {
@@ -63,9 +69,11 @@ class Outbox {
   void end_turn();
 
   Transport& transport_;
+  const Limits limits_;
   Channels channels_;                         ///< those on which answers wait
   std::deque<Channels::iterator> turns_;      ///< the same, who is next first
   std::set<const std::vector<Bytes>*> here_;  ///< the pages of all answers that wait
+  std::size_t bytes_ = 0;                     ///< likewise
   std::int64_t dropped_ = 0;
 };
 

@@ -43,6 +43,7 @@ struct PlanService::Pending {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
   std::shared_ptr<const scene::Snapshot> snapshot;
+  std::size_t bytes;  ///< of the request
   double deadline_s;
   collision::Deadline deadline;
 };
@@ -74,7 +75,7 @@ std::optional<Message> PlanService::read(const std::string& channel,
 template <class Message>
 void PlanService::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
                                std::string_view reason) {
-  core_.note_malformed(channel, message.size(), reason);
+  if (!core_.note_malformed(channel, message.size(), reason)) return;
   const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
   if (!sender) {
     core_.report_unanswerable(channel, message, reason);
@@ -96,6 +97,11 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
   PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
   if (!outcome.error.empty()) {
     on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error);
+  }
+  if (outcome.given_up > 0) {
+    core_.limited_log.refused.write(
+        "half received requests are given up",
+        {{"requests", outcome.given_up}, {"reason", "memory.half_received_requests or _bytes"}});
   }
   if (outcome.whole) take(std::move(*outcome.whole));
 }
@@ -164,6 +170,13 @@ PlanService::Clock::time_point PlanService::next_tick() const {
 
 void PlanService::take(plan_request_t request) {
   const RequestKey key{request.client_id, request.request_id};
+  if (request.keyframes.size() > core_.config.keyframes) {
+    answer_uncached(request, plan_response_t::STATUS_INVALID,
+                    fmt::format("keyframes: holds {}; the daemon plans {} at most "
+                                "(planning.keyframes)",
+                                request.keyframes.size(), core_.config.keyframes));
+    return;
+  }
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
   switch (found.known) {
     case AnswerCache::Known::kRunning:
@@ -178,8 +191,9 @@ void PlanService::take(plan_request_t request) {
       }
       ++core_.counters.repeated;
       ++core_.counters.cache_hits;
-      core_.log->info("repeated answer client={} request={} pages={}", key.client_id,
-                      key.request_id, found.pages->size());
+      core_.limited_log.answers.write(
+          "repeated answer",
+          {{"client", key.client_id}, {"request", key.request_id}, {"pages", found.pages->size()}});
       send(key, found.pages);
       return;
     case AnswerCache::Known::kConflict:
@@ -194,9 +208,18 @@ void PlanService::take(plan_request_t request) {
 }
 
 void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
+  const auto bytes = static_cast<std::size_t>(request->getEncodedSize());
+  if (bytes_ > 0 && bytes_ + bytes > core_.config.request_bytes) {
+    refuse(*request, fmt::format("the requests that wait or are planned take {} bytes, {} at most "
+                                 "(queue.request_bytes); send it again later",
+                                 bytes_, core_.config.request_bytes));
+    return;
+  }
+  bytes_ += bytes;
   const double deadline_s = deadline_in_queue_s(request->deadline_s, core_.config.deadline);
-  const Pending pending{key, request, core_.scenes.find(request->scene), deadline_s,
-                        in_flight_.begin(key, deadline_s, request->progress_period_s)};
+  const Pending pending{
+      key,   request,    core_.scenes.find(request->scene),
+      bytes, deadline_s, in_flight_.begin(key, deadline_s, request->progress_period_s)};
   if (!pending.snapshot) {
     const std::string message =
         fmt::format("scene: '{}' is unknown; {}", request->scene, core_.scenes.summary());
@@ -241,16 +264,22 @@ void PlanService::run(const Pending& pending) {
 }
 
 void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
-  core_.log->info(
-      "answered client={} request={} scene={} status={} keyframes={} segments={} collisions={} "
-      "remaining={} pages={} ms={:.1f} since_receipt_ms={:.1f}: {}",
-      pending.key.client_id, pending.key.request_id, pending.request->scene,
-      status_name(answer.status), pending.request->keyframes.size(), answer.segments.size(),
-      answer.collisions.size(), answer.remaining.size(), pages->size(), answer.total_ms,
-      pending.deadline.elapsed_ms(), answer.message);
+  core_.limited_log.answers.write("answered", {{"client", pending.key.client_id},
+                                               {"request", pending.key.request_id},
+                                               {"scene", pending.request->scene},
+                                               {"status", status_name(answer.status)},
+                                               {"keyframes", pending.request->keyframes.size()},
+                                               {"segments", answer.segments.size()},
+                                               {"collisions", answer.collisions.size()},
+                                               {"remaining", answer.remaining.size()},
+                                               {"pages", pages->size()},
+                                               {"ms", answer.total_ms},
+                                               {"since_receipt_ms", pending.deadline.elapsed_ms()},
+                                               {"message", answer.message}});
   core_.counters.plan_answers.add(answer.status);
   core_.counters.receipt_to_answer.add(pending.deadline.elapsed_ms() / kMillisecondsPerSecond);
   in_flight_.end(pending.key);
+  bytes_ -= pending.bytes;
   cache_.finish(pending.key, pages);
   send(pending.key, std::move(pages));
 }
@@ -304,9 +333,12 @@ void PlanService::finish_again(const Replan& replan, const plan_response_t& answ
                                std::shared_ptr<const scene::Snapshot> snapshot) {
   --replanning_;
   if (!watches_.ended(replan.key)) return;
-  core_.log->info("answered again client={} request={} scene={} revision={} status={}: {}",
-                  replan.key.client_id, replan.key.request_id, answer.scene, answer.scene_revision,
-                  status_name(answer.status), answer.message);
+  core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
+                                                     {"request", replan.key.request_id},
+                                                     {"scene", answer.scene},
+                                                     {"revision", answer.scene_revision},
+                                                     {"status", status_name(answer.status)},
+                                                     {"message", answer.message}});
   cache_.replace(replan.key, digest_of(*replan.request), pages);
   send(replan.key, std::move(pages));
   if (path) {
@@ -343,12 +375,17 @@ void PlanService::abandon(const Pending& pending, Refusal why) {
     return;
   }
   in_flight_.end(pending.key);
-  cache_.forget(pending.key);
+  bytes_ -= pending.bytes;
+  refuse(*pending.request, core_.refusal_text(why));
+}
+
+void PlanService::refuse(const plan_request_t& request, const std::string& message) {
+  cache_.forget({request.client_id, request.request_id});
   ++core_.counters.overloaded;
-  const std::string message = core_.refusal_text(why);
-  core_.overload_warnings.warn(fmt::format("refused request {} of {}: {}", pending.key.request_id,
-                                           pending.key.client_id, message));
-  answer_uncached(*pending.request, plan_response_t::STATUS_OVERLOADED, message);
+  core_.limited_log.refused.write(
+      "refused plan request",
+      {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
+  answer_uncached(request, plan_response_t::STATUS_OVERLOADED, message);
 }
 
 void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,

@@ -60,6 +60,8 @@ class PlanService {
   void finish(const Pending& pending, const plan_response_t& answer, Pages pages);
   void finish_plainly(const Pending& pending, std::int32_t status, std::string_view message);
   void abandon(const Pending& pending, Refusal why);
+  /// Answers that there is no room; a request that is sent again is as good as new.
+  void refuse(const plan_request_t& request, const std::string& message);
   void answer_uncached(const plan_request_t& request, std::int32_t status,
                        std::string_view message);
   void send(const RequestKey& key, Pages pages);
@@ -78,6 +80,7 @@ class PlanService {
   PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;
   InFlight in_flight_;
+  std::size_t bytes_ = 0;       ///< of the requests in flight
   std::size_t replanning_ = 0;  ///< watched paths that wait for a worker or are being planned
 };
 

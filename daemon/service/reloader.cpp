@@ -9,9 +9,18 @@
 #include "daemon/service/daemon_settings.h"
 
 namespace camway::service {
+namespace {
+
+/// A value without the quotes that a text has in the file: the log puts its own.
+std::string_view unquoted(std::string_view value) {
+  const bool is_text = value.size() >= 2 && value.front() == '"' && value.back() == '"';
+  return is_text ? value.substr(1, value.size() - 2) : value;
+}
+
+}  // namespace
 
 Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
-                   const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+                   const ServiceManager& manager, std::shared_ptr<Log> log,
                    std::shared_ptr<wire::MessageAuth> auth, std::chrono::milliseconds look_every)
     : running_(std::move(running)),
       read_(std::move(read)),
@@ -26,21 +35,34 @@ void Reloader::request() {
   {
     const std::lock_guard lock(mutex_);
     requested_ = true;
+    work_.request_stop();
   }
   changed_.notify_one();
 }
 
 void Reloader::serve(const std::stop_token& stop) {
+  const std::stop_callback end_work(stop, [this] {
+    const std::lock_guard lock(mutex_);
+    work_.request_stop();
+  });
   while (wait(stop)) {
     manager_.reloading();
+    const std::stop_token work = begin_work(stop);
     try {
-      reload(stop);
+      reload(work);
     } catch (const std::exception& error) {
-      log_->error("reload: {}; all stays as it was", error.what());
+      log_->error("reload failed, all stays as it was", {{"reason", error.what()}});
     }
     if (stop.stop_requested()) return;  // the manager is told that we stop
-    manager_.ready("serving");
+    if (!work.stop_requested()) manager_.ready("serving");
   }
+}
+
+std::stop_token Reloader::begin_work(const std::stop_token& stop) {
+  const std::lock_guard lock(mutex_);
+  work_ = std::stop_source();
+  if (requested_ || stop.stop_requested()) work_.request_stop();
+  return work_.get_token();
 }
 
 bool Reloader::wait(const std::stop_token& stop) {
@@ -56,7 +78,7 @@ bool Reloader::wait(const std::stop_token& stop) {
         return true;
       }
     }
-    if (!stop.stop_requested()) look_at_files(stop);
+    look_at_files(begin_work(stop));
   }
   return false;
 }
@@ -65,29 +87,34 @@ void Reloader::look_at_files(const std::stop_token& stop) {
   try {
     scenes_.look_at_files(stop);
   } catch (const std::exception& error) {
-    log_->error("looking at the files of scenes: {}; all stays as it was", error.what());
+    log_->error("scene files cannot be looked at, all stays as it was", {{"reason", error.what()}});
   }
 }
 
 void Reloader::reload(const std::stop_token& stop) {
   ParsedOptions parsed = read_();
   if (!parsed.options) {
-    log_->error("reload: the configuration is bad, all stays as it was:\n{}", parsed.text);
+    log_->error("reload failed, all stays as it was", {{"reason", parsed.text}});
     return;
   }
   wire::MessageKeys::Read keys;
   if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
   if (!keys.error.empty()) {
-    log_->error("reload: auth.key_file: {}; all stays as it was", keys.error);
+    log_->error("reload failed, all stays as it was",
+                {{"setting", "auth.key_file"}, {"reason", keys.error}});
     return;
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
-    log_->error("reload: not all scenes could be taken over, so no setting is");
+    if (stop.stop_requested()) {
+      log_->info("reload called off, all stays as it was");
+      return;
+    }
+    log_->error("reload failed, not all scenes could be taken over, so no setting is");
     return;
   }
   if (keys.keys) {
-    log_->info("reload: keys with the ids {}, of which the first signs",
-               fmt::join(keys.keys->ids(), ", "));
+    log_->info("reloaded keys, of which the first signs",
+               {{"ids", fmt::format("{}", fmt::join(keys.keys->ids(), ","))}});
     auth_->set_keys(std::move(keys.keys));
   }
   take_over(*parsed.options);
@@ -96,14 +123,16 @@ void Reloader::reload(const std::stop_token& stop) {
 void Reloader::take_over(const DaemonOptions& next) {
   for (const SettingChange& change : changes_between(running_, next)) {
     if (change.reloads) {
-      log_->info("reload: {} = {}", change.key, change.after);
+      log_->info("reloaded setting", {{"setting", change.key}, {"value", unquoted(change.after)}});
     } else {
-      log_->warn("reload: {} stays {} until the daemon is started again; the configuration says {}",
-                 change.key, change.before, change.after);
+      log_->warn("setting stays until the daemon is started again",
+                 {{"setting", change.key},
+                  {"value", unquoted(change.before)},
+                  {"wanted", unquoted(change.after)}});
     }
   }
   running_.log_level = next.log_level;
-  log_->info("reload: done, {} scenes are configured", next.scenes.size());
+  log_->info("reloaded", {{"configured_scenes", next.scenes.size()}});
   log_->set_level(next.log_level);
 }
 

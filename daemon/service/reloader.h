@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <spdlog/logger.h>
-
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -13,6 +11,7 @@
 
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
+#include "daemon/service/log.h"
 #include "daemon/service/service_manager.h"
 #include "lcmtypes/message_auth.h"
 
@@ -30,22 +29,25 @@ class Reloader {
   /// `manager` must outlive this; nobody else may use `scenes` meanwhile.
   /// Files of scenes that are to be watched are looked at every `look_every`.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
-           const ServiceManager& manager, std::shared_ptr<spdlog::logger> log,
+           const ServiceManager& manager, std::shared_ptr<Log> log,
            std::shared_ptr<wire::MessageAuth> auth = nullptr,
            std::chrono::milliseconds look_every = std::chrono::seconds(1));
-  /// Waits for the scene that is being read, if any; the reload that it belongs to is given up.
+  /// Calls off the reading of a scene, if one is being read.
   ~Reloader() = default;
   Reloader(const Reloader&) = delete;
   Reloader& operator=(const Reloader&) = delete;
 
-  /// From any thread. A request that comes while one is being served is served after it; more than
-  /// one then are one.
+  /// From any thread. It waits for nothing: the reading of a file that changed is called off for
+  /// it, to be done afterwards, and so is a reload that is being done, since the newest
+  /// configuration counts.
   void request();
 
  private:
   void serve(const std::stop_token& stop);
   /// Whether a reload was asked for; looks at files until then, or until the stop.
   bool wait(const std::stop_token& stop);
+  /// What calls off the work that begins now.
+  std::stop_token begin_work(const std::stop_token& stop);
   void look_at_files(const std::stop_token& stop);
   void reload(const std::stop_token& stop);
   void take_over(const DaemonOptions& next);
@@ -54,12 +56,13 @@ class Reloader {
   Read read_;
   ConfiguredScenes& scenes_;
   const ServiceManager& manager_;
-  std::shared_ptr<spdlog::logger> log_;
+  std::shared_ptr<Log> log_;
   std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
   const std::chrono::milliseconds look_every_;
-  std::mutex mutex_;  ///< guards requested_
+  std::mutex mutex_;  ///< guards requested_ and work_
   std::condition_variable_any changed_;
   bool requested_ = false;
+  std::stop_source work_;
   std::jthread thread_;  ///< last: uses all above
 };
 

@@ -25,9 +25,9 @@ RequestDigest digest_of(scene_request_t request) {
 
 /// The answer, whatever happens.
 Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
-                    const SceneRoots& roots, scene::SceneStore& scenes) {
+                    const SceneRules& rules, scene::SceneStore& scenes) {
   try {
-    return perform(request, upload, roots, scenes);
+    return perform(request, upload, rules, scenes);
   } catch (const std::exception& exception) {
     return {plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
                                std::string("internal error: ") + exception.what()),
@@ -65,8 +65,10 @@ const char* name_of(std::int8_t operation) {
 SceneService::SceneService(Core& core, scene::SceneStore& scenes)
     : core_(core),
       scenes_(scenes),
-      roots_(core.config.scene_roots),
+      rules_(core.config.scene_rules),
       uploads_(core.config.uploads),
+      exports_(core.config.exports),
+      cache_(core.config.cache),
       thread_(1, core.config.changes) {}
 
 void SceneService::on_request(std::span<const std::uint8_t> message) {
@@ -84,7 +86,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   decoded.message->object = wire::printable(decoded.message->object);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
   if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, roots_, scenes_).answer);
+    finish(*request, answer_of(*request, nullptr, rules_, scenes_).answer);
     return;
   }
   const RequestKey key{request->client_id, request->request_id};
@@ -115,7 +117,7 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
   Job work;
   work.client = request->client_id;
   work.run = [this, request, upload] {
-    auto done = std::make_shared<Performed>(answer_of(*request, upload, roots_, scenes_));
+    auto done = std::make_shared<Performed>(answer_of(*request, upload, rules_, scenes_));
     Pages map;
     if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
     core_.mailbox.post([this, request, done, map] {
@@ -131,9 +133,15 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
 }
 
 void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
-  core_.log->info("scene {} client={} request={} scene={} object={} status={} revision={}: {}",
-                  name_of(request.operation), request.client_id, request.request_id, request.scene,
-                  request.object, answer.status, answer.scene.revision, answer.message);
+  core_.limited_log.scenes.write("answered scene request",
+                                 {{"client", request.client_id},
+                                  {"request", request.request_id},
+                                  {"operation", name_of(request.operation)},
+                                  {"scene", request.scene},
+                                  {"object", request.object},
+                                  {"status", answer.status},
+                                  {"revision", answer.scene.revision},
+                                  {"message", answer.message}});
   const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
@@ -157,14 +165,15 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
   const std::string_view message = why == Refusal::kStopping
                                        ? "the daemon is stopping"
                                        : "too many changes of scenes wait; send it again later";
-  core_.overload_warnings.warn(
-      fmt::format("refused request {} of {}: {}", request.request_id, request.client_id, message));
+  core_.limited_log.refused.write(
+      "refused scene request",
+      {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
   send(plain_scene_answer(request, scene_response_t::STATUS_OVERLOADED, message));
 }
 
 void SceneService::refuse_malformed(std::span<const std::uint8_t> message,
                                     std::string_view reason) {
-  core_.note_malformed(core_.channels.scene_request(), message.size(), reason);
+  if (!core_.note_malformed(core_.channels.scene_request(), message.size(), reason)) return;
   const std::optional<wire::Sender> sender =
       wire::peek_sender(wire::layout_of<scene_request_t>(), message);
   if (!sender) {
@@ -186,8 +195,9 @@ void SceneService::on_upload(std::span<const std::uint8_t> message) {
     reason = "upload_page_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
   }
   if (!reason.empty()) {
-    core_.note_malformed(core_.channels.upload(), message.size(), reason);
-    core_.report_unanswerable(core_.channels.upload(), message, reason);
+    if (core_.note_malformed(core_.channels.upload(), message.size(), reason)) {
+      core_.report_unanswerable(core_.channels.upload(), message, reason);
+    }
     return;
   }
   Uploads::Taken taken = uploads_.take(*decoded.message, Uploads::Clock::now());
@@ -207,8 +217,9 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
     reason = "missing_pages_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
   }
   if (!reason.empty()) {
-    core_.note_malformed(core_.channels.missing_map_pages(), message.size(), reason);
-    core_.report_unanswerable(core_.channels.missing_map_pages(), message, reason);
+    if (core_.note_malformed(core_.channels.missing_map_pages(), message.size(), reason)) {
+      core_.report_unanswerable(core_.channels.missing_map_pages(), message, reason);
+    }
     return;
   }
   const RequestKey key{decoded.message->client_id, decoded.message->request_id};

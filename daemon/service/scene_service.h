@@ -47,7 +47,7 @@ class SceneService {
 
   Core& core_;
   scene::SceneStore& scenes_;
-  const SceneRoots roots_;
+  const SceneRules rules_;
   Uploads uploads_;
   MapExports exports_;
   AnswerCache cache_;

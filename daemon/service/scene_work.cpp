@@ -35,7 +35,7 @@ using Answer = scene_response_t;
 class TemporaryFile {
  public:
   /// The name ends with `.extension`, which tells the importer the format.
-  TemporaryFile(const std::vector<std::uint8_t>& bytes, const std::string& extension) {
+  TemporaryFile(const UploadRoom& bytes, const std::string& extension) {
     std::error_code failed;
     std::string name =
         (std::filesystem::temp_directory_path(failed) / ("camway_upload_XXXXXX." + extension))
@@ -332,9 +332,9 @@ std::string warnings_of(const scene::ImportReport& report) {
 /// One request on its way.
 class Work {
  public:
-  Work(const Request& request, const UploadedBytes& upload, const SceneRoots& roots,
+  Work(const Request& request, const UploadedBytes& upload, const SceneRules& rules,
        scene::SceneStore& scenes)
-      : request_(request), upload_(upload), roots_(roots), scenes_(scenes) {}
+      : request_(request), upload_(upload), rules_(rules), scenes_(scenes) {}
 
   Answer run() {
     switch (request_.operation) {
@@ -377,6 +377,10 @@ class Work {
 
   /// What the store made of a change.
   [[nodiscard]] Answer answer_to(const scene::StoreResult& result, std::string_view message) const {
+    if (result.fault == scene::StoreFault::kLimit) {
+      return plain_scene_answer(request_, Answer::STATUS_LIMIT,
+                                result.error + " (limits of the daemon's [scenes])");
+    }
     Answer answer = plain_scene_answer(request_, status_of(result.fault),
                                        result.snapshot ? message : result.error);
     if (!result.snapshot) return answer;
@@ -402,7 +406,7 @@ class Work {
       }
       return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
     }
-    Made<Content> made = read_mesh(request_, upload_, roots_);
+    Made<Content> made = read_mesh(request_, upload_, rules_.roots);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed = scene::place_object(
@@ -449,7 +453,7 @@ class Work {
     if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
-    Made<Content> made = make_mesh(request_, *kind, upload_, roots_);
+    Made<Content> made = make_mesh(request_, *kind, upload_, rules_.roots);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     const auto source = source_of(*std::move(made.value), snapshot->options);
@@ -475,7 +479,7 @@ class Work {
     const scene::Placement placement = object->placement;
     for (Vec3& point : *points.value) point = placement.to_object(point);
     const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points.value};
-    scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen);
+    scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
     if (!next.map) return invalid(next.error);
     Made<Content> made = of_map(std::move(next.map));
     if (!made.value) return invalid(made.error);
@@ -491,6 +495,9 @@ class Work {
       return plain_scene_answer(request_, Answer::STATUS_NO_MAP,
                                 "scene: it was loaded without an occupancy resolution");
     }
+    if (!request_.file.empty() && !rules_.write_maps) {
+      return invalid("file: the daemon writes no files for clients (scenes.write_maps is false)");
+    }
     std::ostringstream out;
     snapshot->occupancy->write_bt(out);
     const std::string_view bytes = out.view();
@@ -503,7 +510,7 @@ class Work {
       map_.assign(bytes.begin(), bytes.end());
       return answer;
     }
-    const std::string fault = roots_.write(request_.file, ".bt", bytes);
+    const std::string fault = rules_.roots.write(request_.file, ".bt", bytes);
     return fault.empty() ? answer : invalid(fault);
   }
 
@@ -513,7 +520,7 @@ class Work {
 
   const Request& request_;
   const UploadedBytes& upload_;
-  const SceneRoots& roots_;
+  const SceneRules& rules_;
   scene::SceneStore& scenes_;
   std::vector<std::uint8_t> map_;
 };
@@ -550,8 +557,8 @@ bool only_looks(const scene_request_t& request) {
 }
 
 Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneRoots& roots, scene::SceneStore& scenes) {
-  Work work(request, upload, roots, scenes);
+                  const SceneRules& rules, scene::SceneStore& scenes) {
+  Work work(request, upload, rules, scenes);
   Answer answer = work.run();
   return {std::move(answer), work.take_map()};
 }

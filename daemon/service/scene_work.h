@@ -10,7 +10,7 @@
 #include <camway/scene_response_t.hpp>
 
 #include "daemon/scene/scene_store.h"
-#include "daemon/service/scene_roots.h"
+#include "daemon/service/scene_rules.h"
 #include "daemon/service/uploads.h"
 
 namespace camway::service {
@@ -33,6 +33,6 @@ struct Performed {
   std::vector<std::uint8_t> map;  ///< of an export that goes to the client
 };
 Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneRoots& roots, scene::SceneStore& scenes);
+                  const SceneRules& rules, scene::SceneStore& scenes);
 
 }  // namespace camway::service

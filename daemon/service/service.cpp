@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/service.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -24,7 +22,7 @@ std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration du
 }  // namespace
 
 Service::Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config,
-                 Planner planner, std::shared_ptr<spdlog::logger> log, ServiceHooks hooks)
+                 Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks)
     : hooks_(std::move(hooks)),
       core_(transport, scenes, std::move(config), std::move(log)),
       watches_(core_, scenes),
@@ -94,21 +92,23 @@ void Service::turn(Clock::duration longest_wait) {
 RunOutcome Service::drain() {
   if (hooks_.stopping) hooks_.stopping();
   const std::vector<Job> waiting = core_.workers.close();
-  core_.log->info("stopping: {} requests are being planned, {} that wait are refused",
-                  core_.workers.running(), waiting.size());
+  core_.log->info("stopping",
+                  {{"being_planned", core_.workers.running()}, {"refused", waiting.size()}});
   for (const Job& job : waiting) job.abandon(Refusal::kStopping);
   scenes_.close();
   const Clock::time_point limit = Clock::now() + core_.config.drain_limit;
   while (!idle()) {
     const Clock::time_point now = Clock::now();
     if (now >= limit || broken_) {
-      core_.log->warn("stopped with {} requests still being planned", core_.workers.running());
+      core_.log->warn("stopped while planning", {{"being_planned", core_.workers.running()}});
       return RunOutcome::kAbandoned;
     }
     turn(std::min<Clock::duration>(limit - now, kDrainLook));
   }
-  core_.log->info("stopped: {} answers, {} of them repeated, {} malformed messages",
-                  core_.counters.answered, core_.counters.repeated, core_.counters.malformed);
+  core_.limited_log.tell_left_out(Clock::now());
+  core_.log->info("stopped", {{"answers", core_.counters.answered},
+                              {"repeated", core_.counters.repeated},
+                              {"malformed", core_.counters.malformed}});
   return RunOutcome::kDrained;
 }
 
@@ -122,8 +122,9 @@ void Service::heartbeat(Clock::time_point now) {
   status_t status = make_status(core_, now - started_);
   if (hooks_.status) hooks_.status(status);
   if (!core_.transport.publish(core_.channels.status(), wire::encode(status))) {
-    core_.publish_warnings.warn("the status could not be published");
+    core_.limited_log.trouble.write("the status could not be published");
   }
+  core_.limited_log.tell_left_out(now);
   next_heartbeat_ = now + core_.config.heartbeat_period;
 }
 
@@ -133,8 +134,8 @@ void Service::tell_alive(Clock::time_point now) {
       std::chrono::duration<double>(core_.config.deadline.max_s) + hooks_.stuck_after;
   const std::chrono::duration<double> longest = core_.workers.longest_run(now);
   if (longest > stuck_after) {
-    core_.stuck_warnings.warn(
-        fmt::format("a worker is at one request for {:.0f} s", longest.count()));
+    core_.limited_log.trouble.write("a worker hangs at one request",
+                                    {{"seconds", longest.count()}});
   } else if (hooks_.alive) {
     hooks_.alive();
   }

@@ -47,7 +47,7 @@ class Service {
  public:
   /// `transport` and `scenes` must outlive the service. Precondition: `config.fault()` is empty.
   Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config, Planner planner,
-          std::shared_ptr<spdlog::logger> log, ServiceHooks hooks = {});
+          std::shared_ptr<Log> log, ServiceHooks hooks = {});
   /// Waits for what is still being planned, which it does not answer any more.
   ~Service();
   Service(const Service&) = delete;

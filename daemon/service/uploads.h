@@ -15,8 +15,24 @@
 
 namespace camway::service {
 
+/// Room for bytes that come in any order. It is not written to before they come, so it takes the
+/// memory of what is there, and beginning it takes no time.
+class UploadRoom {
+ public:
+  explicit UploadRoom(std::size_t size)
+      : bytes_(std::make_unique_for_overwrite<std::uint8_t[]>(size)), size_(size) {}
+
+  [[nodiscard]] std::uint8_t* data() { return bytes_.get(); }
+  [[nodiscard]] const std::uint8_t* data() const { return bytes_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  std::unique_ptr<std::uint8_t[]> bytes_;
+  std::size_t size_;
+};
+
 /// What was uploaded, complete. Shared, so that it may go from the store while it is read.
-using UploadedBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+using UploadedBytes = std::shared_ptr<const UploadRoom>;
 
 /// What names an upload: who sent it, and what it is. So sending again what was interrupted goes on
 /// where it stopped, whoever was started anew on the client's side.
@@ -38,7 +54,7 @@ class Uploads {
     std::size_t uploads = 16;                          ///< begun or complete
     std::size_t bytes = std::size_t{64} << 20;         ///< of one upload
     std::size_t total_bytes = std::size_t{256} << 20;  ///< of all
-    std::chrono::seconds idle{600};                    ///< then it is forgotten
+    std::chrono::milliseconds idle{600'000};           ///< then it is forgotten
   };
 
   explicit Uploads(const Limits& limits) : limits_(limits) {}
@@ -59,8 +75,9 @@ class Uploads {
 
  private:
   struct Upload {
-    std::shared_ptr<std::vector<std::uint8_t>> bytes;
+    std::shared_ptr<UploadRoom> bytes;
     std::vector<bool> has_page;
+    std::vector<std::int64_t> checksums;  ///< of the pages
     std::size_t missing = 0;
     Clock::time_point touched;
   };
@@ -71,6 +88,7 @@ class Uploads {
   void forget(Map::iterator upload);
   void make_room(std::size_t bytes, Clock::time_point now);
   static void report(const Upload& upload, upload_status_t& status);
+  static std::int64_t checksum_of(const Upload& complete);
 
   Limits limits_;
   Map uploads_;

@@ -62,8 +62,9 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
       bytes_ += position->second.bytes;
       end(position);
     }
-    core_.overload_warnings.warn(
-        fmt::format("path {} of {} is not watched: {}", key.request_id, key.client_id, limit));
+    core_.limited_log.refused.write(
+        "path is not watched",
+        {{"client", key.client_id}, {"request", key.request_id}, {"reason", limit}});
     WatchReports report(core_, key.client_id, 0);
     report.add(unwatched(key.request_id, path_state_t::REFUSED));
     report.explain(limit);
@@ -135,8 +136,9 @@ void Watches::on_message(std::span<const std::uint8_t> bytes) {
     reason = "watch_t.lease_s: is not a number";
   }
   if (!reason.empty()) {
-    core_.note_malformed(core_.channels.watch(), bytes.size(), reason);
-    core_.report_unanswerable(core_.channels.watch(), bytes, reason);
+    if (core_.note_malformed(core_.channels.watch(), bytes.size(), reason)) {
+      core_.report_unanswerable(core_.channels.watch(), bytes, reason);
+    }
     return;
   }
   apply(*decoded.message, Clock::now());
@@ -176,8 +178,9 @@ void Watches::tick(Clock::time_point now) {
     const auto position = watches_.find(due_.begin()->second);
     Watch& watch = position->second;
     if (now >= watch.until) {
-      core_.log->info("watch of path {} of client={} ends: its lease is over",
-                      position->first.request_id, position->first.client_id);
+      core_.limited_log.watches.write(
+          "lease of watched path is over",
+          {{"client", position->first.client_id}, {"request", position->first.request_id}});
       end(position);
       continue;
     }
@@ -261,9 +264,12 @@ void Watches::note(Watch& watch, const WatchChecker::Verdict& verdict, std::uint
   if (is_first && is_free) return;  // it was told so when it began
   if (was_free && !is_free) {
     ++core_.counters.broken_paths;
-    core_.log->info("path {} of client={} collides at revision {} of scene {} from {:.6g} s on",
-                    watch.answer.key.request_id, watch.answer.key.client_id, revision,
-                    watch.answer.request->scene, watch.collisions.front().t_begin_s);
+    core_.limited_log.watches.write("watched path collides",
+                                    {{"client", watch.answer.key.client_id},
+                                     {"request", watch.answer.key.request_id},
+                                     {"scene", watch.answer.request->scene},
+                                     {"revision", revision},
+                                     {"t_begin_s", watch.collisions.front().t_begin_s}});
   }
   make_news(watch, now);
   // Without its scene there is nothing to plan in.

@@ -179,8 +179,8 @@ std::size_t count_pages(const plan_response_t& whole) {
 template <class Message>
 typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
                                                                    Clock::time_point now) {
-  if (std::string fault = page_fault(page); !fault.empty()) return {std::nullopt, fault};
-  if (page.num_pages == 1) return {std::move(page), {}};
+  if (std::string fault = page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
+  if (page.num_pages == 1) return {std::move(page), {}, 0};
 
   const Position position = find_or_begin(page, header_of(page));
   std::optional<Message>& place = position->pages[static_cast<std::size_t>(page.page)];
@@ -197,10 +197,9 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
     Partial complete = std::move(*position);
     bytes_ -= complete.bytes;
     partial_.erase(position);
-    return {join(std::move(complete)), {}};
+    return {join(std::move(complete)), {}, 0};
   }
-  make_room(position);
-  return {};
+  return {std::nullopt, {}, make_room(position)};
 }
 
 template <class Message>
@@ -264,11 +263,14 @@ void PageAssembly<Message>::forget(Position position) {
 }
 
 template <class Message>
-void PageAssembly<Message>::make_room(Position keep) {
+std::size_t PageAssembly<Message>::make_room(Position keep) {
+  std::size_t given_up = 0;
   while ((partial_.size() > limits_.max_messages || bytes_ > limits_.max_bytes) &&
          partial_.begin() != keep) {
     forget(partial_.begin());
+    ++given_up;
   }
+  return given_up;
 }
 
 template <class Message>

@@ -55,6 +55,7 @@ class PageAssembly {
   struct Outcome {
     std::optional<Message> whole;
     std::string error;
+    std::size_t given_up = 0;  ///< other messages, for want of room
   };
 
   /// A page that disagrees with those before in anything but page, utime, body and lists begins the
@@ -88,7 +89,8 @@ class PageAssembly {
 
   Position find_or_begin(const Message& page, Bytes header);
   void forget(Position position);
-  void make_room(Position keep);
+  /// Returns how many were given up.
+  std::size_t make_room(Position keep);
   static Message join(Partial partial);
 
   Limits limits_;

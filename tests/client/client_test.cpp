@@ -7,7 +7,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <future>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
@@ -504,6 +506,51 @@ TEST_F(ClientTest, RequestsEndWithTheirClient) {
   const PlanResponse response = plan.answer.get();
   EXPECT_EQ(response.status, Status::kNoAnswer);
   EXPECT_THAT(response.error, HasSubstr("the client was destroyed"));
+}
+
+TEST_F(ClientTest, MayBeDestroyedByItsOwnHandlers) {
+  FakeDaemon daemon;
+  daemon.on_plan = [&](const plan_request_t& request) -> std::vector<Bytes> {
+    if (request.scene == "nowhere") {
+      plan_progress_t progress{};
+      progress.client_id = request.client_id;
+      progress.request_id = request.request_id;
+      daemon.publish(wire::Channels{}.plan_progress(request.client_id), wire::encode(progress));
+      return {};
+    }
+    return encode_all(answer_pages(request, 1, 1));
+  };
+  daemon.start();
+  enum class By { kAnswer, kProgress, kWatch };
+  for (const By by : {By::kAnswer, By::kProgress, By::kWatch}) {
+    auto client = std::make_unique<Client>(quick());
+    std::atomic<int> ended = 0;
+    std::promise<int> ended_when_destroyed;
+    std::promise<void> all_sent;
+    const auto destroy = [&, sent = all_sent.get_future().share()] {
+      sent.wait();  // for no thread may be in one of its members
+      if (!client) return;
+      client.reset();
+      ended_when_destroyed.set_value(ended);
+    };
+    PlanRequest unanswered = small_request();
+    unanswered.scene = "nowhere";
+    std::vector<PendingPlan> pending;
+    for (int i = 0; i < 3; ++i) {
+      PlanHandlers handlers;
+      handlers.on_answer = [&](const PlanResponse&) { ++ended; };
+      if (by == By::kProgress) handlers.on_progress = [&](const PlanProgress&) { destroy(); };
+      pending.push_back(client->plan_async(unanswered, handlers));
+    }
+    if (by == By::kAnswer) {
+      client->plan_async(small_request(), {{}, [&](const PlanResponse&) { destroy(); }});
+    } else if (by == By::kWatch) {
+      client->watch(small_request(), [&](const WatchEvent&) { destroy(); });
+    }
+    all_sent.set_value();
+    EXPECT_EQ(ended_when_destroyed.get_future().get(), 3) << "no handler is called afterwards";
+    for (PendingPlan& plan : pending) EXPECT_FALSE(plan.answer.get().ok());
+  }
 }
 
 TEST_F(ClientTest, ReportsTheHeartbeat) {

@@ -283,16 +283,64 @@ TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
   EXPECT_TRUE(sent().empty()) << "once";
 }
 
-TEST_F(WatchListTest, UnwatchingTellsTheDaemon) {
+TEST_F(WatchListTest, UnwatchingTellsTheDaemonUntilItAnswers) {
   begin();
   list_.remove(kId);
+  step_at({});
   const std::vector<watch_t> said = sent();
   ASSERT_EQ(said.size(), 1u);
   EXPECT_LT(said[0].lease_s, 0.0);
   EXPECT_EQ(said[0].paths.at(0).request_id, kId);
   report(101, path_state_t::BROKEN, 4, 3);
   EXPECT_EQ(events_.size(), 1u);
+  step_at(milliseconds(250));
+  const std::vector<watch_t> again = sent();
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].request_id, said[0].request_id);
+  EXPECT_LT(again[0].lease_s, 0.0);
+  step_at(milliseconds(250));
+  EXPECT_TRUE(sent().empty()) << "less and less often";
+  report(102, path_state_t::BROKEN, 4, 3, said[0].request_id);
   EXPECT_EQ(list_.wake(), Clock::time_point::max());
+  step_at(seconds(10));
+  EXPECT_TRUE(sent().empty());
+}
+
+TEST_F(WatchListTest, UnwatchingIsToldNoLongerThanTheLease) {
+  begin();
+  list_.remove(kId);
+  step_at({});
+  step_at(seconds(29));
+  EXPECT_EQ(sent().size(), 2u);
+  step_at(seconds(1));
+  EXPECT_TRUE(sent().empty());
+  EXPECT_EQ(list_.wake(), Clock::time_point::max());
+}
+
+TEST_F(WatchListTest, UnwatchingBeforeTheAnswerEndsWhatTheAnswerBegins) {
+  step_at({});
+  list_.remove(kId);
+  step_at({});
+  report(0, path_state_t::UNKNOWN, 0, 0, sent().at(0).request_id);
+  finish_call(answer(3));
+  step_at({});
+  const std::vector<watch_t> said = sent();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_LT(said[0].lease_s, 0.0);
+  EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(WatchListTest, WatchingAnewIsNotEndedByAnOldRepetition) {
+  begin();
+  list_.remove(kId);
+  step_at({});
+  sent();
+  PlanRequest request;
+  request.request_id = kId;
+  request.keyframes.resize(2);
+  list_.add(request, nullptr);
+  step_at(seconds(1));
+  EXPECT_TRUE(sent().empty());
 }
 
 TEST_F(WatchListTest, ManyPathsTakeSeveralMessages) {

@@ -133,7 +133,7 @@ TEST_F(AuthTest, KeysAreChangedWithoutAStop) {
     EXPECT_TRUE(eventually([&] { return daemon().output().find(said) != std::string::npos; }))
         << daemon().output();
   };
-  reload(kNew + kOld, "keys with the ids 2, 1");
+  reload(kNew + kOld, "ids=2,1");
   EXPECT_EQ(plan_with(new_client), Status::kOk);
   EXPECT_EQ(plan_with(with_keys("both", kOld + kNew)), Status::kOk) << "signs with the old one";
   reload("nonsense", "all stays as it was");

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -27,6 +28,21 @@ PlanRequest request_of(const std::string& name, const std::string& scene) {
   const auto request = tools::read_plan_request(request_file(name));
   EXPECT_TRUE(request.value) << request.error;
   return request.value ? tools::to_client_request(*request.value, scene) : PlanRequest{};
+}
+
+SceneMesh long_mesh(std::size_t bytes) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  while (text.size() < bytes) {
+    text += "# " + std::to_string(text.size()) + std::string(80, '.') + '\n';
+  }
+  SceneMesh mesh;
+  mesh.bytes.assign(text.begin(), text.end());
+  mesh.format = "obj";
+  return mesh;
+}
+
+std::string name_of_share(const testing::TestParamInfo<double>& share) {
+  return std::to_string(std::lround(100.0 * share.param)) + "InAHundred";
 }
 
 std::vector<ClientLine> lines_of(const Process& client) {
@@ -63,6 +79,7 @@ void IntegrationTest::TearDown() {
     std::cerr << "Files are left in " << folder_ << '\n';
   }
   daemon_.reset();
+  relay_.reset();
   if (!HasFailure() && !folder_.empty()) std::filesystem::remove_all(folder_);
 }
 
@@ -74,7 +91,8 @@ void IntegrationTest::start_daemon(const std::vector<std::string>& more_argument
 
 void IntegrationTest::start_daemon_with_scenes(const std::vector<std::string>& scenes,
                                                const std::vector<std::string>& more_arguments) {
-  std::vector<std::string> arguments{CAMWAYD_BINARY};
+  std::vector<std::string> arguments = wrapper_;
+  arguments.emplace_back(CAMWAYD_BINARY);
   for (const std::string& scene : scenes) {
     arguments.insert(arguments.end(), {"--scene", scene});
   }
@@ -102,6 +120,21 @@ std::unique_ptr<Process> IntegrationTest::start_client(const std::string& name,
   std::vector<std::string> arguments{PLANNING_CLIENT_BINARY, name, scene};
   for (const std::string& request : requests) arguments.push_back(request_file(request));
   return std::make_unique<Process>(arguments, file("client-" + name + ".log"));
+}
+
+void IntegrationTest::start_bad_network(double share) {
+  const std::string text = std::to_string(share);
+  relay_ = std::make_unique<Process>(
+      std::vector<std::string>{LOSSY_RELAY_BINARY, "7668", "7667", text, text, text, "2006"},
+      file("relay.log"));
+  ASSERT_TRUE(eventually([&] { return relay_->output().find("relaying") != std::string::npos; }))
+      << relay_->output();
+}
+
+ClientOptions IntegrationTest::patient_far_away() {
+  ClientOptions options = patient();
+  options.url = kFarAwayUrl;
+  return options;
 }
 
 ClientOptions IntegrationTest::patient() {

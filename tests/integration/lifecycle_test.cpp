@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <csignal>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,37 +18,42 @@
 namespace camway::integration {
 namespace {
 
-/// Counts the requests that pass by on the network.
-class RequestCounter {
+/// Counts the messages that pass by on a channel.
+class Counter {
  public:
-  RequestCounter() {
-    lcm_.subscribeFunction(wire::Channels{}.plan_request(), &RequestCounter::count, this);
+  explicit Counter(const std::string& channel) {
+    lcm_.subscribeFunction(channel, &Counter::count, this)->setQueueCapacity(10'000);
   }
-  int requests() {
+  int messages() {
     while (lcm_.handleTimeout(1) > 0) {
     }
-    return requests_;
+    return messages_;
   }
 
  private:
-  static void count(const lcm::ReceiveBuffer*, const std::string&, RequestCounter* self) {
-    ++self->requests_;
+  static void count(const lcm::ReceiveBuffer*, const std::string&, Counter* self) {
+    ++self->messages_;
   }
   lcm::LCM lcm_;
-  int requests_ = 0;
+  int messages_ = 0;
 };
 
-class LifecycleTest : public IntegrationTest {};
+class LifecycleTest : public IntegrationTest {
+ protected:
+  void kill_daemon() {
+    daemon().signal(SIGKILL);
+    ASSERT_EQ(daemon().wait(), 128 + SIGKILL);
+  }
+};
 
 TEST_F(LifecycleTest, ClientCarriesOnWhenTheDaemonIsKilledAndStartedAgain) {
   start_daemon();
   // The daemon stands still, so the request is certainly not answered when the daemon dies.
   daemon().signal(SIGSTOP);
-  RequestCounter counter;
+  Counter counter(wire::Channels{}.plan_request());
   const auto client = start_client("waiting", "office", {"office-free-door"});
-  ASSERT_TRUE(eventually([&] { return counter.requests() > 0; })) << client->output();
-  daemon().signal(SIGKILL);
-  ASSERT_EQ(daemon().wait(), 128 + SIGKILL);
+  ASSERT_TRUE(eventually([&] { return counter.messages() > 0; })) << client->output();
+  kill_daemon();
   ASSERT_TRUE(client->running());
 
   start_daemon();
@@ -53,7 +61,63 @@ TEST_F(LifecycleTest, ClientCarriesOnWhenTheDaemonIsKilledAndStartedAgain) {
   const std::vector<ClientLine> lines = lines_of(*client);
   ASSERT_EQ(lines.size(), 1u) << client->output();
   EXPECT_EQ(lines[0].status, "ok");
-  EXPECT_GE(counter.requests(), 2);
+  EXPECT_GE(counter.messages(), 2);
+}
+
+TEST_F(LifecycleTest, ClientCarriesOnWhenTheDaemonIsKilledInTheMiddleOfPlanning) {
+  start_daemon({"--workers", "1"});
+  Client client(patient());
+  PlanRequest request = request_of("gallery-wall-slot", "gallery");  // takes longest
+  request.progress_period_s = 0.1;
+  std::atomic<bool> is_being_planned = false;
+  PlanHandlers handlers;
+  handlers.on_progress = [&](const PlanProgress& progress) {
+    if (progress.stage != PlanProgress::Stage::kWaiting) is_being_planned = true;
+  };
+  std::vector<PendingPlan> pending;
+  for (int i = 0; i < 3; ++i) pending.push_back(client.plan_async(request, handlers));
+  ASSERT_TRUE(eventually([&] { return is_being_planned.load(); }));
+  kill_daemon();
+  start_daemon();
+  int most_tries = 0;
+  const PlanResponse fresh = client.plan(request);
+  ASSERT_TRUE(fresh.ok()) << fresh.error;
+  for (PendingPlan& plan : pending) {
+    const PlanResponse answer = plan.answer.get();
+    ASSERT_TRUE(answer.ok()) << answer.error;
+    EXPECT_EQ(answer.clearance_lower_bound_m, fresh.clearance_lower_bound_m);
+    most_tries = std::max(most_tries, answer.tries);
+  }
+  EXPECT_GE(most_tries, 2);
+}
+
+TEST_F(LifecycleTest, AnUploadGoesOnWhenTheDaemonIsKilledInItsMiddle) {
+  start_daemon();
+  Counter pages(wire::Channels{}.upload());
+  const SceneMesh mesh = long_mesh(20'000'000);
+  Client client(patient());
+  auto loaded = std::async(std::launch::async, [&] { return client.load_scene("world", mesh); });
+  ASSERT_TRUE(eventually([&] { return pages.messages() > 30; }));
+  kill_daemon();
+  start_daemon();
+  const SceneAnswer answer = loaded.get();
+  ASSERT_TRUE(answer.ok()) << answer.error;
+  EXPECT_EQ(answer.scene.num_triangles, 1);
+}
+
+/// The daemon has the upload whole, and forgets it when it dies.
+TEST_F(LifecycleTest, AnUploadBeginsAnewWhenTheDaemonIsKilledWhileItReadsIt) {
+  start_daemon();
+  Counter requests(wire::Channels{}.scene_request());
+  const SceneMesh mesh = long_mesh(20'000'000);
+  Client client(patient());
+  auto loaded = std::async(std::launch::async, [&] { return client.load_scene("world", mesh); });
+  ASSERT_TRUE(eventually([&] { return requests.messages() > 0; }));
+  kill_daemon();
+  start_daemon();
+  const SceneAnswer answer = loaded.get();
+  ASSERT_TRUE(answer.ok()) << answer.error;
+  EXPECT_EQ(answer.scene.num_triangles, 1);
 }
 
 TEST_F(LifecycleTest, SigtermEndsAnIdleDaemonCleanly) {

@@ -1,36 +1,74 @@
 // SPDX-License-Identifier: MIT
 // A bad network between clients and a daemon:
 //
-//   lossy_relay CLIENTS_URL DAEMON_URL LOSS DUPLICATES REORDERED SEED
+//   lossy_relay CLIENTS_PORT DAEMON_PORT LOSS DUPLICATES REORDERED SEED
 //
-// passes each message on with these shares of them lost, sent twice, or held back for a while, so
-// that later ones overtake it. Prints `relaying` when it does. Ends when it is killed.
+// joins LCM's multicast group at the two ports and passes each datagram on from one to the other,
+// whatever is in it, with these shares of them lost, sent twice, or held back for a while, so that
+// later ones overtake it. A message of Camway's is one datagram. Prints `relaying` when it does.
+// Ends when it is killed.
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <random>
-#include <string>
+#include <utility>
 #include <vector>
-
-#include <lcm/lcm-cpp.hpp>
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Bytes = std::vector<std::uint8_t>;
 
-/// What clients publish; all else is the daemon's.
-constexpr char kFromClients[] =
-    ".*_(PLAN_REQUEST|OCCUPANCY_REQUEST|SCENE_REQUEST|UPLOAD|CANCEL|MISSING_PAGES|WATCH)";
-constexpr char kFromDaemon[] =
-    ".*_((PLAN_RESPONSE|PLAN_PROGRESS|MISSING_PAGES|OCCUPANCY_RESPONSE|SCENE_RESPONSE|UPLOAD_"
-    "STATUS|"
-    "WATCH_REPORT)_.*|STATUS|ERROR)";
+constexpr char kGroup[] = "239.255.76.67";
+/// The kernel gives as much of it as its limit allows.
+constexpr int kReceiveBytes = 4 << 20;
+constexpr std::size_t kMaxDatagramBytes = 65'536;
+
+sockaddr_in address(in_addr_t host, int port) {
+  sockaddr_in result{};
+  result.sin_family = AF_INET;
+  result.sin_addr.s_addr = host;
+  result.sin_port = htons(static_cast<std::uint16_t>(port));
+  return result;
+}
+
+template <class Value>
+bool set(int socket, int level, int option, const Value& value) {
+  return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
+}
+
+/// A socket that hears what is said to the group at a port; negative if there is none.
+int listen_at(int port) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const sockaddr_in group = address(::inet_addr(kGroup), port);
+  const ip_mreq membership{group.sin_addr, {INADDR_ANY}};
+  set(socket, SOL_SOCKET, SO_RCVBUF, kReceiveBytes);
+  const bool good = set(socket, SOL_SOCKET, SO_REUSEADDR, 1) &&
+                    ::bind(socket, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0 &&
+                    set(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, membership);
+  return good ? socket : -1;
+}
+
+/// A socket to speak with, which is heard on this host only; `port` is where it speaks from.
+int open_mouth(in_port_t& port) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in own = address(INADDR_ANY, 0);
+  socklen_t size = sizeof own;
+  const bool good = set(socket, IPPROTO_IP, IP_MULTICAST_TTL, 0) &&
+                    ::bind(socket, reinterpret_cast<const sockaddr*>(&own), size) == 0 &&
+                    ::getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size) == 0;
+  port = own.sin_port;
+  return good ? socket : -1;
+}
 
 struct Shares {
   double loss;
@@ -41,60 +79,75 @@ struct Shares {
 /// One direction.
 class Relay {
  public:
-  Relay(lcm::LCM& from, lcm::LCM& to, const char* channels, const Shares& shares,
-        std::uint64_t seed)
-      : to_(to), shares_(shares), random_(seed) {
-    from.subscribe(channels, &Relay::take, this)->setQueueCapacity(10'000);
+  Relay(int mouth, int to_port, const Shares& shares, std::uint64_t seed)
+      : mouth_(mouth), to_(address(::inet_addr(kGroup), to_port)), shares_(shares), random_(seed) {}
+
+  void pass_on(Bytes datagram) {
+    if (happens(shares_.loss)) return;
+    if (happens(shares_.duplicates)) send(datagram);
+    if (happens(shares_.reordered)) {
+      const auto later = Clock::now() + std::chrono::milliseconds(1 + random_() % 20);
+      held_.emplace(later, std::move(datagram));
+    } else {
+      send(datagram);
+    }
   }
 
   void release_held() {
     while (!held_.empty() && held_.begin()->first <= Clock::now()) {
-      held_.begin()->second();
+      send(held_.begin()->second);
       held_.erase(held_.begin());
     }
   }
 
  private:
-  void take(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    if (happens(shares_.loss)) return;
-    const auto* const begin = static_cast<const std::uint8_t*>(buffer->data);
-    const std::vector<std::uint8_t> bytes(begin, begin + buffer->data_size);
-    const auto send = [this, channel, bytes] {
-      to_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
-    };
-    if (happens(shares_.duplicates)) send();
-    if (happens(shares_.reordered)) {
-      held_.emplace(Clock::now() + std::chrono::milliseconds(1 + random_() % 20), send);
-    } else {
-      send();
-    }
+  void send(const Bytes& datagram) const {
+    ::sendto(mouth_, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
+             sizeof to_);
   }
-
   bool happens(double share) { return std::bernoulli_distribution(share)(random_); }
 
-  lcm::LCM& to_;
+  int mouth_;
+  sockaddr_in to_;
   Shares shares_;
   std::mt19937_64 random_;
-  std::multimap<Clock::time_point, std::function<void()>> held_;
+  std::multimap<Clock::time_point, Bytes> held_;
 };
+
+/// Passes on what waits at `ear`, unless it was said by ourselves, from port `own_port`.
+void take(int ear, in_port_t own_port, Relay& relay) {
+  Bytes datagram(kMaxDatagramBytes);
+  sockaddr_in from{};
+  socklen_t size = sizeof from;
+  const ssize_t length = ::recvfrom(ear, datagram.data(), datagram.size(), 0,
+                                    reinterpret_cast<sockaddr*>(&from), &size);
+  if (length < 0 || from.sin_port == own_port) return;
+  datagram.resize(static_cast<std::size_t>(length));
+  relay.pass_on(std::move(datagram));
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 7) return 2;
-  lcm::LCM clients(argv[1]);
-  lcm::LCM daemon(argv[2]);
-  if (!clients.good() || !daemon.good()) return 1;
+  const int clients_port = std::atoi(argv[1]);
+  const int daemon_port = std::atoi(argv[2]);
   const Shares shares{std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5])};
   const std::uint64_t seed = std::strtoull(argv[6], nullptr, 10);
-  Relay there(clients, daemon, kFromClients, shares, seed);
-  Relay back(daemon, clients, kFromDaemon, shares, seed + 1);
-  std::array<pollfd, 2> inputs{pollfd{clients.getFileno(), POLLIN, 0},
-                               pollfd{daemon.getFileno(), POLLIN, 0}};
-  std::cout << "relaying" << std::endl;
-  while (::poll(inputs.data(), inputs.size(), 1) >= 0) {
-    if ((inputs[0].revents & POLLIN) != 0) clients.handle();
-    if ((inputs[1].revents & POLLIN) != 0) daemon.handle();
+  in_port_t own_port = 0;
+  const int mouth = open_mouth(own_port);
+  std::array<pollfd, 2> ears{pollfd{listen_at(clients_port), POLLIN, 0},
+                             pollfd{listen_at(daemon_port), POLLIN, 0}};
+  if (mouth < 0 || ears[0].fd < 0 || ears[1].fd < 0) {
+    std::cerr << "the multicast group cannot be joined\n";
+    return 1;
+  }
+  Relay there(mouth, daemon_port, shares, seed);
+  Relay back(mouth, clients_port, shares, seed + 1);
+  std::cout << "relaying, seed " << seed << std::endl;
+  while (::poll(ears.data(), ears.size(), 1) >= 0) {
+    if ((ears[0].revents & POLLIN) != 0) take(ears[0].fd, own_port, there);
+    if ((ears[1].revents & POLLIN) != 0) take(ears[1].fd, own_port, back);
     there.release_held();
     back.release_held();
   }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -75,7 +76,7 @@ TEST_F(OperationTest, TellsTheServiceManagerAndReloads) {
   EXPECT_NE(socket_->next_of("RELOADING=1"), "");
   EXPECT_NE(socket_->next_of("READY=1"), "");
   EXPECT_THAT(scenes_served(), ElementsAre("gallery", "maze"));
-  EXPECT_THAT(daemon().output(), HasSubstr("log.level = \"debug\""));
+  EXPECT_THAT(daemon().output(), HasSubstr("setting=log.level value=debug"));
 
   write_config("loud", {});
   daemon().signal(SIGHUP);
@@ -86,6 +87,27 @@ TEST_F(OperationTest, TellsTheServiceManagerAndReloads) {
   daemon().signal(SIGTERM);
   EXPECT_EQ(socket_->next_of("STOPPING=1"), "STOPPING=1");
   EXPECT_EQ(daemon().wait(), 0) << daemon().output();
+}
+
+TEST_F(OperationTest, LogsObjectsOfJsonWhereThatIsAskedFor) {
+  write_config("info", {"office"});
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml"), "--log-format", "json"});
+  EXPECT_TRUE(Client(patient()).plan(request_of("office-free-door", "office")).ok());
+  daemon().signal(SIGTERM);
+  EXPECT_EQ(daemon().wait(), 0) << daemon().output();
+  std::vector<std::string> events;
+  std::istringstream lines(daemon().output());
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << line;
+    EXPECT_EQ(json.at("level"), "info") << line;
+    events.push_back(json.at("event"));
+    if (events.back() == "answered") {
+      EXPECT_EQ(json.at("status"), "ok");
+    }
+  }
+  EXPECT_THAT(events, ElementsAre("starting", "reading scene", "scene read", "page of metrics",
+                                  "serving", "ready", "answered", "signal", "stopping", "stopped"));
 }
 
 TEST_F(OperationTest, IsScrapedUnderLoad) {
@@ -120,7 +142,7 @@ TEST_F(OperationTest, IsScrapedUnderLoad) {
   Process second({CAMWAYD_BINARY, "--config", file("camwayd.toml"), "--prefix", "OTHER"},
                  file("second.log"));
   EXPECT_EQ(second.wait(), 1);
-  EXPECT_THAT(second.output(), HasSubstr("metrics: cannot listen on 127.0.0.1 port 9464: Address "
+  EXPECT_THAT(second.output(), HasSubstr("cannot listen on 127.0.0.1 port 9464: Address "
                                          "already in use"));
 }
 

@@ -43,7 +43,8 @@ class SceneTest : public IntegrationTest {
     std::ofstream(file("root/cube.obj")) << kCube;
     std::ofstream(file("outside.obj")) << kCube;
     std::filesystem::create_symlink(file("outside.obj"), file("root/link.obj"));
-    start_daemon_with_scenes({}, {"--scene-roots", file("root")});
+    std::ofstream(file("camwayd.toml")) << "[scenes]\nwrite_maps = true\n";
+    start_daemon_with_scenes({}, {"--config", file("camwayd.toml"), "--scene-roots", file("root")});
   }
 };
 

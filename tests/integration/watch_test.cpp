@@ -114,19 +114,18 @@ TEST_F(WatchTest, TellsOfAChangeAndCorrectsThePath) {
   play(watcher, painter, /*hears_all=*/true);
 }
 
-TEST_F(WatchTest, DoesSoOnABadNetwork) {
-  const std::string clients_url = "udpm://239.255.76.67:7668?ttl=0";
+class WatchOnABadNetworkTest : public WatchTest, public testing::WithParamInterface<double> {};
+
+TEST_P(WatchOnABadNetworkTest, TellsOfAChangeAndCorrectsThePath) {
   start_daemon();
-  Process relay({LOSSY_RELAY_BINARY, clients_url, "udpm://239.255.76.67:7667?ttl=0", "0.3", "0.3",
-                 "0.3", "2006"},
-                file("relay.log"));
-  ASSERT_TRUE(eventually([&] { return relay.output().find("relaying") != std::string::npos; }));
-  ClientOptions options = patient();
-  options.url = clients_url;
-  Client watcher(options);
+  start_bad_network(GetParam());
+  Client watcher(patient_far_away());
   Client painter(patient());
   play(watcher, painter, /*hears_all=*/false);
 }
+
+INSTANTIATE_TEST_SUITE_P(Shares, WatchOnABadNetworkTest, testing::ValuesIn(kBadShares),
+                         name_of_share);
 
 TEST_F(WatchTest, ADaemonThatIsStartedAnewWatchesOn) {
   // A floor, far below.

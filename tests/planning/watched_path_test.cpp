@@ -8,9 +8,9 @@
 #include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
 #include "daemon/scene/scene_store.h"
-#include "daemon/scene/shape_mesh.h"
 #include "daemon/scene/voxel_map.h"
 #include "tests/support/scenes.h"
+#include "tests/support/watched_scenes.h"
 
 namespace camway::planning {
 namespace {
@@ -19,31 +19,9 @@ using collision::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
 using scene::SceneChange;
-
-scene::Placement at(const Vec3& position, const Quat& orientation = Quat::Identity()) {
-  std::string fault;
-  return scene::Placement::make(position, orientation, fault);
-}
-
-std::shared_ptr<const scene::ObjectSource> box(const Vec3& size_m) {
-  scene::Mesh mesh = *scene::box_mesh(size_m).mesh;
-  const scene::ImportReport report = scene::report_of(mesh, "box");
-  return scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {});
-}
-
-/// Three to six keyframes in a cube of side 8.
-PlanRequest random_request(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> place(-4.0, 4.0);
-  PlanRequest request;
-  request.camera = testing::small_camera();
-  const std::size_t count = 3 + random() % 4;
-  for (std::size_t i = 0; i < count; ++i) {
-    request.keyframes.push_back(
-        {0.0,
-         {Vec3(place(random), place(random), place(random)), testing::random_rotation(random)}});
-  }
-  return request;
-}
+using testing::at;
+using testing::box_source;
+using testing::random_path_request;
 
 Vec3 place_on(const motion::Path& path, std::mt19937_64& random) {
   const double time_s =
@@ -67,15 +45,16 @@ TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
   scene::SceneStore store;
   store.put(scene::assemble("room", 1, {}, {}));
   for (const char* const name : {"a", "b", "c", "d", "e"}) {
-    store.change("room", {SceneChange::Kind::kPut, name,
-                          box({size(random), size(random), size(random)}), at({20, 20, 20})});
+    store.change("room",
+                 {SceneChange::Kind::kPut, name,
+                  box_source({size(random), size(random), size(random)}), at({20, 20, 20})});
   }
   int broken = 0;
   int unharmed = 0;
   int proved = 0;
   for (int round = 0; round < 400; ++round) {
     const auto before = store.find("room");
-    const PlanRequest request = random_request(random);
+    const PlanRequest request = random_path_request(3 + random() % 4, random);
     const PlanResult planned = plan(*before, request);
     const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
     ASSERT_EQ(watched.has_value(), planned.certificate.certified);
@@ -112,7 +91,7 @@ TEST(WatchedPath, DismissesNothingThatIsTooNear) {
   std::mt19937_64 random = testing::seeded(7352);
   for (const double clearance_m : {0.0, 0.3}) {
     for (int round = 0; round < 100; ++round) {
-      PlanRequest request = random_request(random);
+      PlanRequest request = random_path_request(3 + random() % 4, random);
       request.options.clearance_m = clearance_m;
       const auto before = scene::assemble("room", 1, {}, {});
       const PlanResult planned = plan(*before, request);
@@ -127,7 +106,8 @@ TEST(WatchedPath, DismissesNothingThatIsTooNear) {
       const Vec3 speck =
           pose.position + pose.orientation * corner_C + 0.99 * clearance_m * outwards;
       std::string fault;
-      const auto placed = scene::place_object("speck", box(Vec3::Constant(1e-3)), at(speck), {});
+      const auto placed =
+          scene::place_object("speck", box_source(Vec3::Constant(1e-3)), at(speck), {});
       const auto after = scene::assemble("room", 2, {placed.object}, {});
       const scene::SceneDifference change = scene::difference(*before, *after);
       EXPECT_TRUE(watched->may_meet(change));
@@ -140,10 +120,10 @@ TEST(WatchedPath, DismissesNothingThatIsTooNear) {
 TEST(WatchedPath, TakingAwayNeverBreaks) {
   scene::SceneStore store;
   store.put(scene::assemble("room", 1, {}, {}));
-  store.change("room", {SceneChange::Kind::kPut, "a", box(Vec3::Ones()), at({0, 2, 0})});
+  store.change("room", {SceneChange::Kind::kPut, "a", box_source(Vec3::Ones()), at({0, 2, 0})});
   const auto before = store.find("room");
   std::mt19937_64 random = testing::seeded(7353);
-  PlanRequest request = random_request(random);
+  PlanRequest request = random_path_request(3 + random() % 4, random);
   const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*before, request));
   ASSERT_TRUE(watched);
   store.change("room", {SceneChange::Kind::kRemove, "a", nullptr, {}});
@@ -155,7 +135,7 @@ TEST(WatchedPath, TakingAwayNeverBreaks) {
 TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const auto empty = scene::assemble("room", 1, {}, {});
   std::mt19937_64 random = testing::seeded(7356);
-  const PlanRequest request = random_request(random);
+  const PlanRequest request = random_path_request(3 + random() % 4, random);
   const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
   ASSERT_TRUE(watched);
   scene::VoxelSet voxels;
@@ -182,11 +162,11 @@ TEST(WatchedPath, SeesThatItIsInsideASolid) {
 TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
   const auto empty = scene::assemble("room", 1, {}, {});
   std::mt19937_64 random = testing::seeded(7354);
-  const PlanRequest request = random_request(random);
+  const PlanRequest request = random_path_request(3 + random() % 4, random);
   const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
   ASSERT_TRUE(watched);
-  const auto placed =
-      scene::place_object("a", box(Vec3::Ones()), at(watched->path().pose(0.1).position), {});
+  const auto placed = scene::place_object("a", box_source(Vec3::Ones()),
+                                          at(watched->path().pose(0.1).position), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
   EXPECT_FALSE(watched->stays_free(scene::difference(*empty, *after), Deadline::after_s(0.0)));
   EXPECT_EQ(watched->collisions(*after, Deadline::after_s(0.0)),
@@ -196,7 +176,7 @@ TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
 TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
   const auto empty = scene::assemble("room", 1, {}, {});
   std::mt19937_64 random = testing::seeded(7355);
-  PlanRequest request = random_request(random);
+  PlanRequest request = random_path_request(3 + random() % 4, random);
   request.keyframes.resize(2);
   request.keyframes[0].pose = {Vec3(0, 0, 0), Quat::Identity()};
   request.keyframes[1].pose = {Vec3(4, 0, 0), Quat::Identity()};
@@ -205,7 +185,8 @@ TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
   const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
   ASSERT_TRUE(watched);
   // A bar that the near quadrilateral cuts at its full distance, and passes behind at half of it.
-  const auto placed = scene::place_object("bar", box({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
+  const auto placed =
+      scene::place_object("bar", box_source({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
   EXPECT_TRUE(watched->collisions(*after, Deadline::never()).empty());
   planned.near_scale = 1.0;

@@ -6,6 +6,7 @@
 
 #include <thread>
 
+#include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/shape_mesh.h"
 
 namespace camway::scene {
@@ -95,6 +96,50 @@ TEST(SceneStore, HoldsNoMoreThanItsLimits) {
   EXPECT_TRUE(store.change("attic", put_box("a")).snapshot);
   EXPECT_THAT(store.change("attic", put_box("b")).error, HasSubstr("36 triangles"));
   EXPECT_EQ(store.find("attic")->objects.size(), 1U);
+}
+
+TEST(SceneStore, KeepsNoMoreHistoryOfAllScenesThanItsLimit) {
+  const std::uint64_t of_a_box = put_box("a").source->memory_bytes();
+  SceneStoreLimits limits;
+  limits.history.bytes = 7 * of_a_box;
+  SceneStore store(limits);
+  for (int i = 0; i < 5; ++i) store.put(revision_of("room" + std::to_string(i), 1));
+  const auto kept = [&] {
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < 5; ++i) bytes += store.history("room" + std::to_string(i))->bytes();
+    return bytes;
+  };
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 5; ++i) {
+      // What was put and taken out again is kept for the revisions between, and counts.
+      ASSERT_TRUE(store.change("room" + std::to_string(i), put_box("a")).snapshot);
+      ASSERT_LE(kept(), limits.history.bytes);
+      ASSERT_TRUE(
+          store.change("room" + std::to_string(i), {SceneChange::Kind::kRemove, "a", nullptr, {}})
+              .snapshot);
+      ASSERT_LE(kept(), limits.history.bytes);
+    }
+  }
+  EXPECT_GE(kept(), 4 * of_a_box) << "and not much less";
+  EXPECT_FALSE(store.history("room4")->entries().empty()) << "the newest is there";
+}
+
+TEST(SceneStore, HoldsNoMoreBytesOfOccupancyThanItsLimit) {
+  const auto with_map = [](const std::string& name) {
+    SnapshotOptions options;
+    options.occupancy_resolution_m = 0.1;
+    return make_snapshot(name, *box_mesh({1, 1, 1}).mesh, options).snapshot;
+  };
+  const std::uint64_t of_one = with_map("room")->occupancy->statistics().memory_bytes;
+  ASSERT_GT(of_one, 0U);
+  SceneStoreLimits limits;
+  limits.occupancy_bytes = 2 * of_one;
+  SceneStore store(limits);
+  EXPECT_TRUE(store.put(with_map("room")).snapshot);
+  EXPECT_TRUE(store.put(with_map("hall")).snapshot);
+  const StoreResult third = store.put(with_map("attic"));
+  EXPECT_EQ(third.fault, StoreFault::kLimit);
+  EXPECT_THAT(third.error, HasSubstr("occupancy maps"));
 }
 
 TEST(SceneStore, MayBeReadWhileItChanges) {

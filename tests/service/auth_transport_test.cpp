@@ -23,7 +23,7 @@ class AuthTransportTest : public ::testing::Test {
  protected:
   void start(bool required) {
     transport_.emplace(inner_, auth_with('1'), required,
-                       Warnings(log_.logger(), std::chrono::seconds(5)));
+                       LimitedLog(log_.log(), LogLevel::kWarn, "distrusted", {}));
     ASSERT_TRUE(transport_->subscribe("IN", 10, [this](std::span<const std::uint8_t> message) {
       heard_.emplace_back(message.begin(), message.end());
     }));
@@ -57,7 +57,7 @@ TEST_F(AuthTransportTest, HandsOnWhatIsSignedAndDropsAndCountsTheRest) {
   EXPECT_EQ(distrusted(wire::Distrust::kReplayed), 1);
   EXPECT_EQ(distrusted(wire::Distrust::kUnsigned), 1);
   EXPECT_EQ(distrusted(wire::Distrust::kAltered), 2);
-  EXPECT_THAT(log_.text(), HasSubstr("on IN: replayed"));
+  EXPECT_THAT(log_.text(), HasSubstr("warning distrusted message channel=IN bytes="));
 }
 
 TEST_F(AuthTransportTest, UnsignedOnesPassWhereSignaturesAreNotRequired) {

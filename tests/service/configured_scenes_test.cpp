@@ -55,7 +55,7 @@ class ConfiguredScenesTest : public ::testing::Test {
   std::string hall_ = folder_.write("hall.obj", kTriangle);
   CapturedLog log_;
   scene::SceneStore store_;
-  ConfiguredScenes scenes_{store_, log_.logger()};
+  ConfiguredScenes scenes_{store_, log_.log()};
 };
 
 TEST_F(ConfiguredScenesTest, LoadsWhatIsNewAndLeavesTheRestAlone) {
@@ -75,7 +75,7 @@ TEST_F(ConfiguredScenesTest, RemovesWhatItHeldItselfAndNothingElse) {
   EXPECT_EQ(store_.find("room"), nullptr);
   EXPECT_NE(store_.find("hall"), nullptr);
   EXPECT_NE(store_.find("uploaded"), nullptr);
-  EXPECT_THAT(log_.text(), HasSubstr("info scene room is gone"));
+  EXPECT_THAT(log_.text(), HasSubstr("info scene unloaded scene=room"));
 }
 
 TEST_F(ConfiguredScenesTest, ReadsAgainWhatIsToBeReadInAnotherWayOrChangedOnDisk) {
@@ -98,7 +98,7 @@ TEST_F(ConfiguredScenesTest, ChangesNothingIfOneSceneIsBad) {
   EXPECT_FALSE(scenes_.update({scene_of("hall", hall_), scene_of("attic", missing)}));
   EXPECT_NE(store_.find("room"), nullptr);
   EXPECT_EQ(store_.find("hall"), nullptr);
-  EXPECT_THAT(log_.text(), HasSubstr("error scene attic: "));
+  EXPECT_THAT(log_.text(), HasSubstr("error scene cannot be read scene=attic "));
   EXPECT_THAT(log_.text(), HasSubstr("missing.obj"));
   // It knows what it holds: the next good configuration takes over from there.
   EXPECT_TRUE(scenes_.update({scene_of("hall", hall_)}));
@@ -109,7 +109,7 @@ TEST_F(ConfiguredScenesTest, LeavesOutWhatTheStoreHasNoRoomFor) {
   scene::SceneStoreLimits limits;
   limits.scenes = 1;
   scene::SceneStore small(limits);
-  ConfiguredScenes scenes(small, log_.logger());
+  ConfiguredScenes scenes(small, log_.log());
   EXPECT_FALSE(scenes.update({scene_of("room", room_), scene_of("hall", hall_)}));
   EXPECT_NE(small.find("room"), nullptr);
   EXPECT_EQ(small.find("hall"), nullptr);
@@ -179,7 +179,7 @@ TEST_F(ConfiguredScenesTest, AWatchedFileThatIsGoneOrBadLeavesWhatWasThere) {
   std::filesystem::remove(room_);
   for (int look = 0; look < 4; ++look) scenes_.look_at_files();
   EXPECT_EQ(store_.find("room"), before);
-  EXPECT_EQ(count_of("is gone; what was read of it stays"), 1);
+  EXPECT_EQ(count_of("is gone, what was read of it stays"), 1);
   folder_.write("room.obj", "v 1 nonsense");
   for (int look = 0; look < 4; ++look) scenes_.look_at_files();
   EXPECT_EQ(store_.find("room"), before);

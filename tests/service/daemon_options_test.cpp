@@ -24,7 +24,7 @@ TEST(DaemonOptions, Defaults) {
   EXPECT_EQ(parsed.options->lcm_url, "udpm://239.255.76.67:7667?ttl=0");
   EXPECT_EQ(parsed.options->service.prefix, "CAMWAY");
   EXPECT_GE(parsed.options->service.workers, 1);
-  EXPECT_EQ(parsed.options->log_level, spdlog::level::info);
+  EXPECT_EQ(parsed.options->log_level, LogLevel::kInfo);
 }
 
 TEST(DaemonOptions, TheEnvironmentNamesTheUrlUnlessTheCommandLineDoes) {
@@ -50,7 +50,7 @@ TEST(DaemonOptions, ReadsEveryFlag) {
   EXPECT_EQ(options.service.queue.jobs_of_a_client, 2U);
   EXPECT_EQ(options.service.deadline.default_s, 1.5);
   EXPECT_EQ(options.service.deadline.max_s, 4.0);
-  EXPECT_EQ(options.log_level, spdlog::level::warn);
+  EXPECT_EQ(options.log_level, LogLevel::kWarn);
 }
 
 TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
@@ -66,7 +66,8 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
       {{"--scene", "a=b", "--client-queue", "0"}, "--client-queue"},
       {{"--scene", "a=b", "--prefix", "no blanks"}, "prefix 'no blanks'"},
       {{"--scene", "a=b", "--deadline-s", "nan"}, "deadline"},
-      {{"--scene", "a=b", "--log-level", "loud"}, "--log-level"},
+      {{"--scene", "a=b", "--log-level", "loud"}, "--log-level: must be one of trace, "},
+      {{"--scene", "a=b", "--log-format", "xml"}, "--log-format: must be one of text, json"},
       {{"--scene", "a=b", "--colour"}, "--colour"},
   };
   for (const auto& [arguments, reason] : table) {
@@ -110,7 +111,7 @@ TEST_F(DaemonOptionsFile, TheCommandLineGoesBeforeTheFileAndTheFileBeforeTheDefa
   EXPECT_EQ(options.config_file, file);
   EXPECT_EQ(options.service.prefix, "FILE");
   EXPECT_EQ(options.service.queue.jobs, 9U);
-  EXPECT_EQ(options.log_level, spdlog::level::err);
+  EXPECT_EQ(options.log_level, LogLevel::kError);
   EXPECT_EQ(options.service.deadline.default_s, 10.0);
   EXPECT_GE(options.service.workers, 1);
   ASSERT_EQ(options.scenes.size(), 3U);
@@ -118,8 +119,10 @@ TEST_F(DaemonOptionsFile, TheCommandLineGoesBeforeTheFileAndTheFileBeforeTheDefa
   EXPECT_EQ(options.scenes[1].file, "other.obj");
   EXPECT_EQ(options.scenes[2].file, "attic.obj");
 
-  EXPECT_EQ(parse({"--config", file.c_str(), "--log-level", "warn"}).options->log_level,
-            spdlog::level::warn);
+  const auto flags =
+      parse({"--config", file.c_str(), "--log-level", "warn", "--log-format", "json"});
+  EXPECT_EQ(flags.options->log_level, LogLevel::kWarn);
+  EXPECT_EQ(flags.options->log_format, LogFormat::kJson);
 }
 
 TEST_F(DaemonOptionsFile, ChecksAConfigurationAndSaysWhatItComesTo) {

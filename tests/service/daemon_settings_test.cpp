@@ -41,9 +41,10 @@ TEST(DaemonSettings, EveryLogLevelHasAName) {
   DaemonOptions options = default_options();
   for (const Setting& setting : settings_of(options)) {
     if (setting.key != "log.level") continue;
-    for (const std::string_view name : kLogLevels) {
-      EXPECT_EQ(setting.set(name), "");
-      EXPECT_EQ(log_level_name(options.log_level), name);
+    for (std::size_t i = 0; i < kLogLevels.size(); ++i) {
+      EXPECT_EQ(setting.set(kLogLevels[i]), "");
+      EXPECT_EQ(options.log_level, static_cast<LogLevel>(i));
+      EXPECT_EQ(setting.text(), '"' + std::string(kLogLevels[i]) + '"');
     }
     EXPECT_NE(setting.set("loud").find("trace, debug, info, warn, error, off"), std::string::npos);
   }
@@ -51,7 +52,7 @@ TEST(DaemonSettings, EveryLogLevelHasAName) {
 
 TEST(DaemonSettings, ChangesNameTheKeyBothValuesAndWhetherTheyReload) {
   DaemonOptions after = default_options();
-  after.log_level = spdlog::level::debug;
+  after.log_level = LogLevel::kDebug;
   after.service.heartbeat_period = std::chrono::milliseconds(250);
   const std::vector<SettingChange> changes = changes_between(default_options(), after);
   ASSERT_EQ(changes.size(), 2U);

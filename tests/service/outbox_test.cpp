@@ -96,16 +96,24 @@ TEST(Outbox, AnAnswerThatStillWaitsIsNotQueuedAgain) {
 
 TEST(Outbox, IsBounded) {
   FakeTransport transport;
-  Outbox outbox(transport);
-  for (std::size_t i = 0; i < Outbox::kChannelCapacity; ++i) {
+  const Outbox::Limits limits{.answers = 20, .answers_of_a_channel = 5, .bytes = 1000};
+  Outbox outbox(transport, limits);
+  for (std::size_t i = 0; i < limits.answers_of_a_channel; ++i) {
     ASSERT_TRUE(outbox.add("A", pages_of(1, 1, 1)));
   }
   EXPECT_FALSE(outbox.add("A", pages_of(1, 1, 1)));
-  for (std::size_t i = Outbox::kChannelCapacity; i < Outbox::kCapacity; ++i) {
+  for (std::size_t i = limits.answers_of_a_channel; i < limits.answers; ++i) {
     ASSERT_TRUE(outbox.add("B" + std::to_string(i), pages_of(1, 1, 1)));
   }
   EXPECT_FALSE(outbox.add("C", pages_of(1, 1, 1)));
   EXPECT_EQ(outbox.dropped(), 2);
+  while (!outbox.empty()) outbox.send_burst();
+  EXPECT_TRUE(outbox.add("A", pages_of(5, 500, 1))) << "alone it may be larger than the limit";
+  EXPECT_FALSE(outbox.add("B", pages_of(1, 1, 1)));
+  while (!outbox.empty()) outbox.send_burst();
+  EXPECT_TRUE(outbox.add("B", pages_of(1, 600, 1)));
+  EXPECT_TRUE(outbox.add("C", pages_of(2, 200, 1)));
+  EXPECT_FALSE(outbox.add("D", pages_of(1, 1, 1)));
 }
 
 TEST(Outbox, WhatTheTransportRefusesIsLost) {

@@ -165,6 +165,37 @@ TEST(PlanService, RefusesWhatTheQueueCannotHoldAndTakesItLater) {
   EXPECT_EQ(later->status, plan_response_t::STATUS_OK);
 }
 
+TEST(PlanService, RefusesRequestsThatTogetherAreTooLargeAndTakesThemLater) {
+  ServiceConfig config = with_workers(1, 10);
+  config.request_bytes = 3 * static_cast<std::size_t>(request_with(1).getEncodedSize());
+  RunningService daemon(config);
+  daemon.planner.hold();
+  for (std::int64_t id = 1; id <= 3; ++id) daemon.send(request_with(id));
+  const plan_request_t refused = request_with(4);
+  daemon.send(refused);
+  const std::optional<plan_response_t> answer = daemon.answer_to(refused);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_OVERLOADED);
+  EXPECT_NE(answer->message.find("queue.request_bytes"), std::string::npos) << answer->message;
+  daemon.planner.release();
+  for (std::int64_t id = 1; id <= 3; ++id) ASSERT_TRUE(daemon.answer_to(request_with(id)));
+  daemon.send(refused);
+  EXPECT_EQ(daemon.answer_to(refused, 4)->status, plan_response_t::STATUS_OK);
+}
+
+TEST(PlanService, RefusesMoreKeyframesThanConfigured) {
+  ServiceConfig config = with_workers(1, 10);
+  config.keyframes = 5;
+  RunningService daemon(config);
+  daemon.send(request_with(1, 6));
+  const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1, 6));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
+  EXPECT_NE(answer->message.find("planning.keyframes"), std::string::npos) << answer->message;
+  daemon.send(request_with(2, 5));
+  EXPECT_EQ(daemon.answer_to(request_with(2, 5))->status, plan_response_t::STATUS_OK);
+}
+
 TEST(PlanService, SaysWhichScenesThereAre) {
   RunningService daemon;
   plan_request_t request = request_with(1);

@@ -27,7 +27,7 @@ class ReloaderTest : public ::testing::Test {
     running_.scenes.push_back(scene_of("room"));
     EXPECT_TRUE(scenes_.update(running_.scenes)) << log_.text();
     reloader_.emplace(
-        running_, [this] { return read_(); }, scenes_, manager_, log_.logger());
+        running_, [this] { return read_(); }, scenes_, manager_, log_.log());
   }
 
   SceneArgument scene_of(const std::string& name) const {
@@ -51,7 +51,7 @@ class ReloaderTest : public ::testing::Test {
   const ServiceManager manager_{(folder_.path() / "notify").string(), std::nullopt};
   testing::CapturedLog log_;
   scene::SceneStore store_;
-  ConfiguredScenes scenes_{store_, log_.logger()};
+  ConfiguredScenes scenes_{store_, log_.log()};
   DaemonOptions running_ = default_options();
   Reloader::Read read_;
   std::optional<Reloader> reloader_;
@@ -60,10 +60,10 @@ class ReloaderTest : public ::testing::Test {
 TEST_F(ReloaderTest, TakesOverScenesAndLogLevel) {
   DaemonOptions next = running_;
   next.scenes = {scene_of("hall")};
-  next.log_level = spdlog::level::debug;
+  next.log_level = LogLevel::kDebug;
   const std::string said = reload([&] { return ParsedOptions{next, 0, {}}; });
-  EXPECT_THAT(said, HasSubstr("info reload: log.level = \"debug\""));
-  EXPECT_EQ(log_.logger()->level(), spdlog::level::debug);
+  EXPECT_THAT(said, HasSubstr("info reloaded setting setting=log.level value=debug"));
+  EXPECT_EQ(log_.log()->level(), LogLevel::kDebug);
   EXPECT_NE(store_.find("hall"), nullptr);
   EXPECT_EQ(store_.find("room"), nullptr);
 }
@@ -73,7 +73,7 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
   running_.scenes.front().watch = true;
   ASSERT_TRUE(scenes_.update(running_.scenes));
   reloader_.emplace(
-      running_, [this] { return read_(); }, scenes_, manager_, log_.logger(), nullptr,
+      running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
       std::chrono::milliseconds(5));
   folder_.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -83,21 +83,58 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
   EXPECT_EQ(store_.find("room")->index.size(), 2U);
   EXPECT_EQ(store_.find("room")->revision, 2U);
   DaemonOptions next = running_;
-  next.log_level = spdlog::level::debug;
+  next.log_level = LogLevel::kDebug;
   EXPECT_THAT(reload([&] {
                 return ParsedOptions{next, 0, {}};
               }),
-              HasSubstr("reload: done"))
+              HasSubstr("info reloaded configured_scenes=1"))
       << "and reloads as ever";
+}
+
+TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
+  // Of zeros, which take no room on the disk; reading it takes longer than an import may.
+  const auto make_endless = [](const std::filesystem::path& file) {
+    std::filesystem::resize_file(file, std::uintmax_t{100} << 30);
+  };
+  const auto is_reading = [this](const std::string& scene) {
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (log_.text().find("reading scene scene=" + scene) == std::string::npos &&
+           std::chrono::steady_clock::now() < patience) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return std::chrono::steady_clock::now() < patience;
+  };
+  reloader_.reset();
+  running_.scenes.front().watch = true;
+  ASSERT_TRUE(scenes_.update(running_.scenes));
+  log_.clear();
+  DaemonOptions next = running_;
+  next.scenes = {scene_of("hall")};
+  make_endless(next.scenes.front().file);
+  read_ = [&] { return ParsedOptions{next, 0, {}}; };
+  reloader_.emplace(
+      running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
+      std::chrono::milliseconds(5));
+  make_endless(running_.scenes.front().file);
+  ASSERT_TRUE(is_reading("room")) << "because it changed";
+  const auto begin = std::chrono::steady_clock::now();
+  reloader_->request();
+  ASSERT_TRUE(is_reading("hall")) << "because of the reload";
+  next.scenes = {scene_of("attic")};
+  EXPECT_THAT(reload(read_), HasSubstr("info reloaded configured_scenes=1"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(40))
+      << "an import may take a minute";
+  EXPECT_NE(store_.find("attic"), nullptr);
+  EXPECT_THAT(log_.text(), HasSubstr("info reload called off"));
+  EXPECT_THAT(log_.text(), Not(HasSubstr("cannot be read")));
 }
 
 TEST_F(ReloaderTest, SaysWhatNeedsARestart) {
   DaemonOptions next = running_;
   next.service.queue.jobs = 9;
   const std::string said = reload([&] { return ParsedOptions{next, 0, {}}; });
-  EXPECT_THAT(said,
-              HasSubstr("warning reload: queue.requests stays 256 until the daemon is started "
-                        "again; the configuration says 9"));
+  EXPECT_THAT(said, HasSubstr("warning setting stays until the daemon is started again "
+                              "setting=queue.requests value=256 wanted=9"));
   EXPECT_THAT(said, Not(HasSubstr("log.level")));
 }
 
@@ -105,22 +142,22 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
   const std::string said = reload([] {
     return ParsedOptions{std::nullopt, 2, "camwayd: c.toml:3: no"};
   });
-  EXPECT_THAT(said, HasSubstr("all stays as it was:\ncamwayd: c.toml:3: no"));
+  EXPECT_THAT(said, HasSubstr("all stays as it was reason=\"camwayd: c.toml:3: no\""));
   EXPECT_NE(store_.find("room"), nullptr);
 
   DaemonOptions next = running_;
-  next.log_level = spdlog::level::err;
+  next.log_level = LogLevel::kError;
   next.scenes = {scene_of("hall")};
   next.scenes.back().file = "/nowhere.obj";
   EXPECT_THAT(reload([&] {
                 return ParsedOptions{next, 0, {}};
               }),
               HasSubstr("not all scenes could be taken over"));
-  EXPECT_EQ(log_.logger()->level(), spdlog::level::info);
+  EXPECT_EQ(log_.log()->level(), LogLevel::kInfo);
   EXPECT_NE(store_.find("room"), nullptr);
 
   EXPECT_THAT(reload([]() -> ParsedOptions { throw std::runtime_error("boo"); }),
-              HasSubstr("error reload: boo; all stays as it was"));
+              HasSubstr("error reload failed, all stays as it was reason=boo"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "tests/service/running_service.h"
 
 #include <gtest/gtest.h>
-#include <spdlog/sinks/base_sink.h>
 
 #include <chrono>
 
@@ -67,38 +66,16 @@ planning::PlanResult echo_result(const planning::PlanRequest& request) {
   return result;
 }
 
-/// What the service logs. The sink locks for writing; the text is read under the same lock.
-struct RunningService::Log {
-  class Sink final : public spdlog::sinks::base_sink<std::mutex> {
-   public:
-    std::string text() {
-      const std::lock_guard lock(mutex_);
-      return text_;
-    }
-
-   private:
-    void sink_it_(const spdlog::details::log_msg& message) override {
-      text_.append(message.payload.data(), message.payload.size()).append("\n");
-    }
-    void flush_() override {}
-
-    std::string text_;
-  };
-
-  std::shared_ptr<Sink> sink = std::make_shared<Sink>();
-  std::shared_ptr<spdlog::logger> logger = std::make_shared<spdlog::logger>("test", sink);
-};
-
 RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result,
                                service::ServiceHooks hooks)
-    : planner(std::move(result)), channels{config.prefix}, log_(std::make_unique<Log>()) {
+    : planner(std::move(result)), channels{config.prefix} {
   scenes.put(empty_scene("room"));
   scenes.put(empty_scene("hall"));
   service_.emplace(
       transport, scenes, std::move(config),
       [this](const scene::Snapshot&, const planning::PlanRequest& request,
              const collision::Deadline& deadline) { return planner.plan(request, deadline); },
-      log_->logger, std::move(hooks));
+      log_.log(), std::move(hooks));
   loop_ = std::thread([this] { outcome_ = service_->run(); });
 }
 
@@ -144,8 +121,6 @@ service::RunOutcome RunningService::wait_for_end() {
   loop_.join();
   return *outcome_;
 }
-
-std::string RunningService::log_text() const { return log_->sink->text(); }
 
 plan_request_t request_with(std::int64_t request_id, std::size_t keyframes) {
   Random random(kSeed + static_cast<std::uint64_t>(request_id));

@@ -3,7 +3,6 @@
 
 #include <condition_variable>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include "daemon/service/service.h"
 #include "daemon/service/wire_pages.h"
 #include "tests/service/fake_transport.h"
+#include "tests/support/captured_log.h"
 
 namespace camway::testing {
 
@@ -67,7 +67,7 @@ class RunningService {
   service::RunOutcome stop();
   service::RunOutcome wait_for_end();
 
-  [[nodiscard]] std::string log_text() const;
+  [[nodiscard]] std::string log_text() const { return log_.text(); }
 
   FakeTransport transport;
   scene::SceneStore scenes;
@@ -75,8 +75,7 @@ class RunningService {
   const wire::Channels channels;
 
  private:
-  struct Log;
-  std::unique_ptr<Log> log_;
+  CapturedLog log_;
   std::optional<service::Service> service_;
   std::optional<service::RunOutcome> outcome_;
   std::thread loop_;

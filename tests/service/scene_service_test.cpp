@@ -212,7 +212,7 @@ TEST_F(SceneServiceTest, SendsAnExportedMapPageByPage) {
             scene_response_t::STATUS_NO_MAP);
   scene_request_t to_file = request_for(8, scene_request_t::EXPORT, "yard");
   to_file.file = "yard.bt";
-  EXPECT_THAT(ask(to_file).message, HasSubstr("no scene roots"));
+  EXPECT_THAT(ask(to_file).message, HasSubstr("scenes.write_maps is false"));
 }
 
 TEST_F(SceneServiceTest, SaysWhatIsWrongWithARequest) {

@@ -131,7 +131,7 @@ TEST(Service, IsAliveUntilAWorkerHangs) {
   daemon.planner.hold();
   daemon.send(request_with(1));
   ASSERT_TRUE(daemon.planner.wait_for_calls(1));
-  while (daemon.log_text().find("a worker is at one request for") == std::string::npos) {
+  while (daemon.log_text().find("warning a worker hangs at one request") == std::string::npos) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   while (alive.try_acquire()) {
@@ -194,7 +194,9 @@ TEST(Service, AnswersMalformedRequestsToTheirSender) {
 }
 
 TEST(Service, ReportsWhatCannotBeAnswered) {
-  RunningService daemon(quick_heartbeats());
+  ServiceConfig config = quick_heartbeats();
+  config.log_limits = {.lines_per_s = 1e-3, .burst_lines = 1.0};
+  RunningService daemon(config);
   plan_request_t nameless = request_with(1);
   nameless.client_id = "";
   plan_request_t injection = request_with(1);
@@ -221,9 +223,21 @@ TEST(Service, ReportsWhatCannotBeAnswered) {
     return status.malformed_messages == static_cast<std::int64_t>(messages.size());
   }));
   const std::string log = daemon.log_text();
-  const std::string line = "malformed message of";
+  const std::string line = "warning malformed message channel=CAMWAY_PLAN_REQUEST";
   EXPECT_NE(log.find(line), std::string::npos);
   EXPECT_EQ(log.find(line), log.rfind(line)) << "only the first of a burst is logged\n" << log;
+}
+
+TEST(Service, AnswersOnlySoManyMessagesThatCannotBeRead) {
+  ServiceConfig config = quick_heartbeats();
+  config.malformed_answers_per_s = 5.0;
+  RunningService daemon(config);
+  for (int i = 0; i < 1000; ++i) daemon.send_on(daemon.channels.plan_request(), Bytes(7, 0));
+  EXPECT_TRUE(status_with(
+      daemon, [](const status_t& status) { return status.malformed_messages == 1000; }));
+  daemon.stop();
+  EXPECT_LE(daemon.transport.published_on(daemon.channels.error()).size(), 500U)
+      << "5 at once, then 5 a second";
 }
 
 TEST(Service, LivesThroughAFloodOfMutants) {
@@ -368,12 +382,13 @@ TEST(Service, SaysWhenNothingCanBeSubscribed) {
   testing::FakeTransport transport;
   transport.fail_subscribe();
   scene::SceneStore scenes;
+  const testing::CapturedLog log;
   Service service(
       transport, scenes, {},
       [](const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&) {
         return planning::PlanResult{};
       },
-      std::make_shared<spdlog::logger>("silent"));
+      log.log());
   EXPECT_EQ(service.run(), RunOutcome::kNotSubscribed);
   EXPECT_TRUE(transport.published().empty());
 }

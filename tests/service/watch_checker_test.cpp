@@ -9,8 +9,8 @@
 
 #include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
-#include "daemon/scene/shape_mesh.h"
 #include "tests/support/scenes.h"
+#include "tests/support/watched_scenes.h"
 
 namespace camway::service {
 namespace {
@@ -20,29 +20,9 @@ using geometry::Quat;
 using geometry::Vec3;
 using planning::WatchedPath;
 using scene::SceneChange;
-
-scene::Placement at(const Vec3& position, const Quat& orientation = Quat::Identity()) {
-  std::string fault;
-  return scene::Placement::make(position, orientation, fault);
-}
-
-std::shared_ptr<const scene::ObjectSource> box(const Vec3& size_m) {
-  scene::Mesh mesh = *scene::box_mesh(size_m).mesh;
-  const scene::ImportReport report = scene::report_of(mesh, "box");
-  return scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {});
-}
-
-planning::PlanRequest random_request(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> place(-4.0, 4.0);
-  planning::PlanRequest request;
-  request.camera = testing::small_camera();
-  for (int i = 0; i < 4; ++i) {
-    request.keyframes.push_back(
-        {0.0,
-         {Vec3(place(random), place(random), place(random)), testing::random_rotation(random)}});
-  }
-  return request;
-}
+using testing::at;
+using testing::box_source;
+using testing::random_path_request;
 
 /// What a checker told so far.
 class Told {
@@ -85,14 +65,14 @@ class WatchCheckerTest : public ::testing::Test {
 
   void change(SceneChange::Kind kind, const std::string& object, const Vec3& size_m = Vec3::Ones(),
               const scene::Placement& placement = {}) {
-    const auto source = kind == SceneChange::Kind::kPut ? box(size_m) : nullptr;
+    const auto source = kind == SceneChange::Kind::kPut ? box_source(size_m) : nullptr;
     store_.change("room", {kind, object, source, placement});
   }
 
   /// Watches the path of a random request, if there is one.
   bool watch_random(WatchChecker& checker, WatchChecker::Id id) {
     const auto snapshot = store_.find("room");
-    const planning::PlanRequest request = random_request(random_);
+    const planning::PlanRequest request = random_path_request(4, random_);
     auto path = WatchedPath::of(request, planning::plan(*snapshot, request));
     if (!path) return false;
     paths_[id] = std::make_shared<const WatchedPath>(std::move(*path));
@@ -148,7 +128,7 @@ TEST_F(WatchCheckerTest, KnowsWhatCheckingFromScratchSaysAfterAnyChanges) {
 TEST_F(WatchCheckerTest, APathThatIsLeftLateIsBroughtToTheNewestRevision) {
   WatchChecker checker(store_, told_.take());
   const auto before = store_.find("room");
-  const planning::PlanRequest request = random_request(random_);
+  const planning::PlanRequest request = random_path_request(4, random_);
   const auto path = std::make_shared<const WatchedPath>(
       *WatchedPath::of(request, planning::plan(*before, request)));
   change(SceneChange::Kind::kPut, "a", Vec3::Ones(), at(request.keyframes[1].pose.position));

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spdlog/sinks/null_sink.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,6 +17,7 @@
 #include "daemon/service/service.h"
 #include "daemon/service/wire_convert.h"
 #include "tests/service/fake_transport.h"
+#include "tests/support/captured_log.h"
 #include "tests/support/scenes.h"
 
 namespace camway::service {
@@ -46,7 +46,7 @@ class WatchesTest : public ::testing::Test {
           ++planned_;
           return planning::plan(snapshot, request, deadline);
         },
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>()));
+        log_.log());
     loop_ = std::thread([this] { service_->run(); });
   }
 
@@ -154,6 +154,7 @@ class WatchesTest : public ::testing::Test {
                    [&](const status_t& status) { return status.watched_paths == count; });
   }
 
+  testing::CapturedLog log_;
   testing::FakeTransport transport_;
   scene::SceneStore scenes_;
   const wire::Channels channels_;

@@ -204,7 +204,9 @@ TEST(PageAssembly, GivesUpTheOneThatWaitedLongest) {
     if (id == 3) {
       EXPECT_FALSE(assembly.add(decoded<plan_request_t>(messages[0][1])).whole);
     }
-    EXPECT_FALSE(assembly.add(decoded<plan_request_t>(messages.back()[0])).whole);
+    const auto outcome = assembly.add(decoded<plan_request_t>(messages.back()[0]));
+    EXPECT_FALSE(outcome.whole);
+    EXPECT_EQ(outcome.given_up, id == 3 ? 1U : 0U);
   }
   EXPECT_EQ(assembly.half_received(), 3U);
   EXPECT_TRUE(assembly.add(decoded<plan_request_t>(messages[0][2])).whole);

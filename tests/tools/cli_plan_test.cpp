@@ -245,7 +245,7 @@ TEST_F(CliPlan, SaysWhichFilesCannotBeUsed) {
   EXPECT_THAT(run.err, HasSubstr("camway: /nonexistent/R.json: cannot be opened"));
   run = run_camway({"plan", "--request", free_, "--response", "/nonexistent/P.json"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("/nonexistent/P.json: cannot be opened for writing"));
+  EXPECT_THAT(run.err, HasSubstr("/nonexistent/P.json: cannot be written: No such file"));
 }
 
 TEST_F(CliPlan, ScalesAndTurnsTheScene) {

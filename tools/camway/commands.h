@@ -37,9 +37,6 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code);
 /// `camway: message` on standard error.
 void print_error(std::string_view message);
 
-/// Writes all of `text` to `file`; an error text that names the file, empty on success.
-std::string write_file(const std::string& file, std::string_view text);
-
 /// The paragraph on exit codes that ends the help of every subcommand. `negative` says what 3
 /// means.
 std::string exit_code_help(std::string_view negative);

@@ -19,6 +19,7 @@
 #include "tools/camway/scene_flags.h"
 #include "tools/client_request.h"
 #include "tools/json_io.h"
+#include "tools/output_file.h"
 
 namespace camway::tools {
 namespace {

@@ -20,6 +20,7 @@
 #include "tools/json_angle.h"
 #include "tools/json_io.h"
 #include "tools/json_options.h"
+#include "tools/output_file.h"
 
 namespace camway::tools {
 namespace {

@@ -14,6 +14,7 @@
 #include "tools/camway/replay_run.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/json_io.h"
+#include "tools/output_file.h"
 
 namespace camway::tools {
 namespace {
@@ -78,7 +79,7 @@ std::string write_responses(const ReplayFlags& flags, const Session& session, co
     const std::string name =
         fmt::format("{:04}_{}_{}.json", i, recorded.ids.client_id, recorded.ids.request_id);
     const auto file = std::filesystem::path(flags.responses_dir) / name;
-    if (std::string fault = write_file(file.string(), *text.value); !fault.empty()) return fault;
+    if (std::string fault = write_file(file, *text.value); !fault.empty()) return fault;
   }
   return {};
 }

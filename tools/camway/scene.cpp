@@ -13,6 +13,7 @@
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/key_file.h"
+#include "tools/output_file.h"
 
 namespace camway::tools {
 namespace {
@@ -211,13 +212,10 @@ ExitCode run_scan(const SceneCommandFlags& flags) {
 }
 
 ExitCode save_map(const SceneMap& map, const std::string& file) {
-  const std::string unfinished = file + ".unfinished";
-  std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(map.bytes.data()),
-            static_cast<std::streamsize>(map.bytes.size()));
-  out.close();
-  if (!out || std::rename(unfinished.c_str(), file.c_str()) != 0) {
-    print_error("cannot write '" + file + "'");
+  const std::string error =
+      write_file(file, {reinterpret_cast<const char*>(map.bytes.data()), map.bytes.size()});
+  if (!error.empty()) {
+    print_error(error);
     return ExitCode::kInvalidInput;
   }
   print_scene(map.scene);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <ostream>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+namespace camway::service {
+
+enum class LogLevel : std::uint8_t { kTrace, kDebug, kInfo, kWarn, kError, kOff };
+enum class LogFormat : std::uint8_t { kText, kJson };
+
+/// What `--log-level` and the configuration take, in the order of the values.
+inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "info",
+                                                            "warn",  "error", "off"};
+inline constexpr std::array<std::string_view, 2> kLogFormats{"text", "json"};
+
+/// A fact of a line of the log. It does not keep its texts.
+struct LogField {
+  using Value = std::variant<std::string_view, std::int64_t, double>;
+
+  LogField(std::string_view name, std::string_view text) : key(name), value(text) {}
+  LogField(std::string_view name, double number) : key(name), value(number) {}
+  template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
+  LogField(std::string_view name, Integer number)
+      : key(name), value(static_cast<std::int64_t>(number)) {}
+
+  std::string_view key;
+  Value value;
+};
+using LogFields = std::initializer_list<LogField>;
+
+/// The daemon's log: a line for each event, with facts that a machine can read. The only place that
+/// knows the logging library (spdlog). From any thread; nothing here throws.
+///
+/// As text: `[time] [camwayd] [info] answered client=a request=7 message="no way"`. As JSON: an
+/// object on each line with `time`, `level`, `event` and the facts, of which none has such a name.
+/// Control characters never reach the log as they are, so nobody can forge a line.
+class Log {
+ public:
+  /// `out` must outlive this, and be written to by nobody else.
+  Log(std::ostream& out, LogFormat format, LogLevel level);
+  ~Log();
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  void write(LogLevel level, std::string_view event, LogFields facts = {}) noexcept;
+  void info(std::string_view event, LogFields facts = {}) noexcept {
+    write(LogLevel::kInfo, event, facts);
+  }
+  void warn(std::string_view event, LogFields facts = {}) noexcept {
+    write(LogLevel::kWarn, event, facts);
+  }
+  void error(std::string_view event, LogFields facts = {}) noexcept {
+    write(LogLevel::kError, event, facts);
+  }
+
+  /// Whether lines of that level are written.
+  [[nodiscard]] bool writes(LogLevel level) const;
+  void set_level(LogLevel level);
+  [[nodiscard]] LogLevel level() const;
+
+ private:
+  struct Library;
+  std::unique_ptr<Library> library_;
+};
+
+}  // namespace camway::service

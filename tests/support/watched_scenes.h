@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <random>
+
+#include "daemon/planning/request.h"
+#include "daemon/scene/scene_object.h"
+#include "daemon/scene/shape_mesh.h"
+#include "tests/support/scenes.h"
+
+namespace camway::testing {
+
+inline scene::Placement at(const geometry::Vec3& position,
+                           const geometry::Quat& orientation = geometry::Quat::Identity()) {
+  std::string fault;
+  return scene::Placement::make(position, orientation, fault);
+}
+
+/// What a box is made of, to be put into a scene.
+inline std::shared_ptr<const scene::ObjectSource> box_source(const geometry::Vec3& size_m) {
+  scene::Mesh mesh = *scene::box_mesh(size_m).mesh;
+  const scene::ImportReport report = scene::report_of(mesh, "box");
+  return scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {});
+}
+
+/// So many keyframes of a small camera in a cube of side 8.
+inline planning::PlanRequest random_path_request(std::size_t keyframes, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-4.0, 4.0);
+  planning::PlanRequest request;
+  request.camera = small_camera();
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    request.keyframes.push_back(
+        {0.0,
+         {geometry::Vec3(place(random), place(random), place(random)), random_rotation(random)}});
+  }
+  return request;
+}
+
+}  // namespace camway::testing
