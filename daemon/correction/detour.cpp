@@ -224,8 +224,8 @@ class Detour {
   /// Through the narrow places of a way by straight motions, and by trees between them. Empty where
   /// there is none.
   Guide threaded(const std::vector<Vec3>& way_W) {
-    const std::vector<NarrowPassage> passages = narrow_passages(
-        space_, way_W, from_, to_, 0.5 * kLeastMargin * radius_m_, deadline_);
+    const std::vector<NarrowPassage> passages =
+        narrow_passages(space_, way_W, from_, to_, 0.5 * kLeastMargin * radius_m_, deadline_);
     if (passages.empty()) return {};
     Guide guide = {from_};
     std::size_t begin = 0;

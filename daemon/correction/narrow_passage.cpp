@@ -27,6 +27,8 @@ constexpr double kHalfLength = 0.7;  // of the line that is to have room
 constexpr double kFirstShift = 0.4;  // of its ends
 constexpr double kLeastShift = 0.01;
 constexpr int kMostShifts = 200;
+constexpr double kAsMuch = 0.9;         // of the room: not worth a difference
+constexpr int kSides = 4;               // to which a line is centred
 constexpr int kPlaces = 16;             // of the line, to find where it is tightest
 constexpr int kTurns = 48;              // about the line, in a full turn
 constexpr std::size_t kMostTried = 24;  // poses that fit, from which the body is moved
@@ -74,7 +76,7 @@ class Threader {
   /// Through where the way has the least room; then each end is moved to where there is more.
   [[nodiscard]] Line widest(std::span<const Vec3> way_W) const {
     const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
-    const Line line = widened(line_about(tightest(way_W), along_W));
+    const Line line = centered(widened(line_about(tightest(way_W), along_W)));
     return line_about(tightest(places_on(line)), line.direction_W());
   }
 
@@ -131,6 +133,34 @@ class Threader {
       if (!any) shift_m *= 0.5;
     }
     return line;
+  }
+
+  /// To the middle of where there is about as much room: a hole that is longer than wide has it on
+  /// a stretch, and turned the body may need both of its ends.
+  [[nodiscard]] Line centered(Line line) const {
+    const double enough_m = kAsMuch * room_m(line);
+    const Vec3 across_W = line.direction_W().unitOrthogonal();
+    for (int i = 0; i < kSides; ++i) {
+      const double angle_rad = std::numbers::pi * i / kSides;
+      const Vec3 side_W = Eigen::AngleAxisd(angle_rad, line.direction_W()) * across_W;
+      const double shift_m =
+          0.5 * (room_beside_m(line, side_W, enough_m) - room_beside_m(line, -side_W, enough_m));
+      line = shifted(line, shift_m * side_W);
+    }
+    return line;
+  }
+
+  static Line shifted(const Line& line, const Vec3& by_W) {
+    return {line.begin_W + by_W, line.end_W + by_W};
+  }
+
+  /// How far the line can be shifted and still has `enough_m` about it, if that ends once.
+  [[nodiscard]] double room_beside_m(const Line& line, const Vec3& side_W, double enough_m) const {
+    double room_m = 0.0;
+    for (double step_m = 0.5 * radius_m_; step_m > kLeastShift * radius_m_; step_m *= 0.5) {
+      if (this->room_m(shifted(line, (room_m + step_m) * side_W)) >= enough_m) room_m += step_m;
+    }
+    return room_m;
   }
 
   struct Fit {
