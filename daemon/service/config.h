@@ -39,6 +39,9 @@ struct ServiceConfig {
   /// Bytes of the plan requests that wait or are planned.
   std::size_t request_bytes = std::size_t{256} << 20;
   Outbox::Limits answers;  ///< that wait to be sent; `queue.answers` and others
+  /// Answers to messages that cannot be read, to whomever, and at once: they must not keep those
+  /// that others wait for. [Limit: 1 <= value]
+  double malformed_answers_per_s = 100.0;
   DeadlineLimits deadline;
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;

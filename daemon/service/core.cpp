@@ -25,6 +25,7 @@ Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
       log(std::move(service_log)),
       transport(inner_transport),
       limited_log(log, config.log_limits),
+      malformed_answers(config.malformed_answers_per_s, config.malformed_answers_per_s),
       outbox(transport, config.answers),
       mailbox(transport),
       workers(config.workers, config.queue) {}
@@ -58,11 +59,12 @@ std::string Core::refusal_text(Refusal why) const {
       config.workers, config.queue.jobs);
 }
 
-void Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
+bool Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
   ++counters.malformed;
   limited_log.malformed.write(
       "malformed message",
       {{"channel", channel}, {"bytes", size}, {"reason", clipped(reason, wire::kMaxTextBytes)}});
+  return malformed_answers.take(TokenBucket::Clock::now());
 }
 
 void Core::report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,

@@ -51,8 +51,8 @@ struct Core {
   /// For whoever asked for a job that is refused for want of room or time to live.
   [[nodiscard]] std::string refusal_text(Refusal why) const;
 
-  /// Counts and logs a message that could not be read.
-  void note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
+  /// Counts and logs a message that could not be read. Whether its sender may be told.
+  bool note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
 
   const ServiceConfig config;
   const wire::Channels channels;
@@ -61,6 +61,7 @@ struct Core {
   MeteredTransport transport;
   Counters counters;
   LimitedLogs limited_log;
+  TokenBucket malformed_answers;
   Outbox outbox;
   Mailbox mailbox;
   WorkerPool workers;

@@ -108,6 +108,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"queue.answers", &service.answers.answers, 1, 1e6},
       {"queue.answers_of_a_client", &service.answers.answers_of_a_channel, 1, 1e6},
       {"queue.answer_bytes", &service.answers.bytes, 1, kManyBytes},
+      {"queue.malformed_answers_per_s", &service.malformed_answers_per_s, 1, 1e6},
       {"memory.remembered_answers", &service.cache.max_answers, 0, 1e6},
       {"memory.remembered_answer_bytes", &service.cache.max_bytes, 0, kManyBytes},
       {"memory.half_received_requests", &service.assembly.max_messages, 1, 1e6},

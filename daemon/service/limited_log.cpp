@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/limited_log.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace camway::service {
@@ -9,7 +8,7 @@ namespace camway::service {
 void LimitedLog::write(std::string_view event, LogFields facts, Clock::time_point now) {
   if (!log_->writes(level_)) return;
   tell_left_out(now);
-  if (left_out_ > 0 || !take_token(now)) {
+  if (left_out_ > 0 || !bucket_.take(now)) {
     ++left_out_;
     return;
   }
@@ -17,20 +16,9 @@ void LimitedLog::write(std::string_view event, LogFields facts, Clock::time_poin
 }
 
 void LimitedLog::tell_left_out(Clock::time_point now) {
-  if (left_out_ == 0 || !take_token(now)) return;
+  if (left_out_ == 0 || !bucket_.take(now)) return;
   const std::int64_t lines = std::exchange(left_out_, 0);
   log_->write(level_, "lines left out", {{"kind", kind_}, {"lines", lines}});
-}
-
-bool LimitedLog::take_token(Clock::time_point now) {
-  const std::chrono::duration<double> passed = now - filled_;
-  if (passed.count() > 0.0) {
-    tokens_ = std::min(limits_.burst_lines, tokens_ + passed.count() * limits_.lines_per_s);
-    filled_ = now;
-  }
-  if (tokens_ < 1.0) return false;
-  tokens_ -= 1.0;
-  return true;
 }
 
 LimitedLogs::LimitedLogs(const std::shared_ptr<Log>& log, const LimitedLog::Limits& limits)

@@ -9,12 +9,13 @@
 #include <utility>
 
 #include "daemon/service/log.h"
+#include "daemon/service/token_bucket.h"
 
 namespace camway::service {
 
-/// Lines of one kind that somebody else can provoke, limited by a bucket of tokens so that he
-/// cannot fill the disk: so many at once, then so many a second. What is left out is counted, and
-/// the number said when there is room again. For one thread at a time.
+/// Lines of one kind that somebody else can provoke, limited by a `TokenBucket` so that he cannot
+/// fill the disk: so many at once, then so many a second. What is left out is counted, and the
+/// number said when there is room again. For one thread at a time.
 class LimitedLog {
  public:
   using Clock = std::chrono::steady_clock;
@@ -29,8 +30,7 @@ class LimitedLog {
       : log_(std::move(log)),
         level_(level),
         kind_(std::move(kind)),
-        limits_(limits),
-        tokens_(limits.burst_lines) {}
+        bucket_(limits.lines_per_s, limits.burst_lines) {}
 
   /// Logs a line, or only counts it.
   void write(std::string_view event, LogFields facts = {}, Clock::time_point now = Clock::now());
@@ -40,14 +40,10 @@ class LimitedLog {
   void tell_left_out(Clock::time_point now = Clock::now());
 
  private:
-  bool take_token(Clock::time_point now);
-
   std::shared_ptr<Log> log_;
   LogLevel level_;
   std::string kind_;
-  Limits limits_;
-  double tokens_;
-  Clock::time_point filled_{};  ///< when the tokens were last counted
+  TokenBucket bucket_;
   std::int64_t left_out_ = 0;
 };
 

@@ -41,7 +41,7 @@ void OccupancyService::on_message(std::span<const std::uint8_t> message) {
 
 void OccupancyService::on_malformed(std::span<const std::uint8_t> message,
                                     std::string_view reason) {
-  core_.note_malformed(core_.channels.occupancy_request(), message.size(), reason);
+  if (!core_.note_malformed(core_.channels.occupancy_request(), message.size(), reason)) return;
   const std::optional<wire::Sender> sender =
       wire::peek_sender(wire::layout_of<occupancy_request_t>(), message);
   if (!sender) {

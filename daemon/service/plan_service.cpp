@@ -75,7 +75,7 @@ std::optional<Message> PlanService::read(const std::string& channel,
 template <class Message>
 void PlanService::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
                                std::string_view reason) {
-  core_.note_malformed(channel, message.size(), reason);
+  if (!core_.note_malformed(channel, message.size(), reason)) return;
   const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
   if (!sender) {
     core_.report_unanswerable(channel, message, reason);

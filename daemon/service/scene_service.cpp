@@ -173,7 +173,7 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
 
 void SceneService::refuse_malformed(std::span<const std::uint8_t> message,
                                     std::string_view reason) {
-  core_.note_malformed(core_.channels.scene_request(), message.size(), reason);
+  if (!core_.note_malformed(core_.channels.scene_request(), message.size(), reason)) return;
   const std::optional<wire::Sender> sender =
       wire::peek_sender(wire::layout_of<scene_request_t>(), message);
   if (!sender) {
@@ -195,8 +195,9 @@ void SceneService::on_upload(std::span<const std::uint8_t> message) {
     reason = "upload_page_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
   }
   if (!reason.empty()) {
-    core_.note_malformed(core_.channels.upload(), message.size(), reason);
-    core_.report_unanswerable(core_.channels.upload(), message, reason);
+    if (core_.note_malformed(core_.channels.upload(), message.size(), reason)) {
+      core_.report_unanswerable(core_.channels.upload(), message, reason);
+    }
     return;
   }
   Uploads::Taken taken = uploads_.take(*decoded.message, Uploads::Clock::now());
@@ -216,8 +217,9 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
     reason = "missing_pages_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
   }
   if (!reason.empty()) {
-    core_.note_malformed(core_.channels.missing_map_pages(), message.size(), reason);
-    core_.report_unanswerable(core_.channels.missing_map_pages(), message, reason);
+    if (core_.note_malformed(core_.channels.missing_map_pages(), message.size(), reason)) {
+      core_.report_unanswerable(core_.channels.missing_map_pages(), message, reason);
+    }
     return;
   }
   const RequestKey key{decoded.message->client_id, decoded.message->request_id};

@@ -136,8 +136,9 @@ void Watches::on_message(std::span<const std::uint8_t> bytes) {
     reason = "watch_t.lease_s: is not a number";
   }
   if (!reason.empty()) {
-    core_.note_malformed(core_.channels.watch(), bytes.size(), reason);
-    core_.report_unanswerable(core_.channels.watch(), bytes, reason);
+    if (core_.note_malformed(core_.channels.watch(), bytes.size(), reason)) {
+      core_.report_unanswerable(core_.channels.watch(), bytes, reason);
+    }
     return;
   }
   apply(*decoded.message, Clock::now());

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/exercise_mesh.h"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "daemon/scene/mesh_readers/mesh_collector.h"
 #include "daemon/scene/mesh_readers/mesh_reader.h"
+#include "tests/fuzz/targets.h"
 #include "tests/scene/mesh_readers/mesh_files.h"
 
 namespace camway::testing {
 namespace {
 
 namespace format = scene::import_format;
-
-void promise(bool kept, const char* what) {
-  if (kept) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 }  // namespace
 

@@ -2,20 +2,27 @@
 #include "tests/fuzz/exercise_message.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include <camway/cancel_t.hpp>
+#include <camway/envelope_t.hpp>
+#include <camway/error_t.hpp>
+#include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 #include <camway/occupancy_request_t.hpp>
+#include <camway/occupancy_response_t.hpp>
 #include <camway/plan_progress_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_response_t.hpp>
+#include <camway/status_t.hpp>
+#include <camway/upload_status_t.hpp>
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
+#include "client/occupancy_wire.h"
 #include "client/plan_wire.h"
+#include "client/status_wire.h"
 #include "daemon/planning/request.h"
 #include "daemon/scene/scene_store.h"
 #include "daemon/scene/shape_mesh.h"
@@ -25,27 +32,23 @@
 #include "daemon/service/uploads.h"
 #include "daemon/service/wire_convert.h"
 #include "daemon/service/wire_pages.h"
+#include "lcmtypes/envelope.h"
 #include "lcmtypes/wire_check.h"
+#include "tests/fuzz/targets.h"
 
 namespace camway::testing {
 namespace {
-
-void require(bool promise, const char* text) {
-  if (promise) return;
-  std::fprintf(stderr, "broken promise: %s\n", text);
-  std::abort();
-}
 
 template <class Message>
 std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
   wire::Decoded<Message> result = wire::decode<Message>(bytes);
   if (!result.message) {
-    require(!result.fault.reason.empty(), "a refusal has a reason");
+    promise(!result.fault.reason.empty(), "a refusal has a reason");
     static_cast<void>(wire::peek_sender(wire::layout_of<Message>(), bytes));
     return std::nullopt;
   }
   const std::vector<std::uint8_t> again = wire::encode(*result.message);
-  require(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()),
+  promise(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()),
           "what is accepted encodes to the same bytes");
   return std::move(result.message);
 }
@@ -53,12 +56,12 @@ std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
 void exercise(const plan_request_t& message) {
   service::PageAssembly<plan_request_t> pages;
   const auto outcome = pages.add(message);
-  require(outcome.whole.has_value() + !outcome.error.empty() + (pages.half_received() > 0) == 1,
+  promise(outcome.whole.has_value() + !outcome.error.empty() + (pages.half_received() > 0) == 1,
           "a page completes a message, waits or is refused");
   if (!outcome.whole) return;
   static_cast<void>(service::digest_of(*outcome.whole));
   const service::ConvertedRequest converted = service::from_wire(*outcome.whole);
-  require(converted.request.has_value() == converted.error.empty(), "a request or a reason");
+  promise(converted.request.has_value() == converted.error.empty(), "a request or a reason");
   if (converted.request) static_cast<void>(planning::validate(*converted.request));
 }
 
@@ -72,7 +75,7 @@ void exercise(const scene_request_t& message) {
   scenes.put(
       scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh, options).snapshot);
   const scene_response_t answer = service::perform(message, nullptr, {}, scenes).answer;
-  require(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
+  promise(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
           "a refusal has a reason");
 }
 
@@ -81,16 +84,25 @@ void exercise(const upload_page_t& message) {
   limits.bytes = 100'000;
   service::Uploads uploads(limits);
   static_cast<void>(uploads.take(message, {}));
-  require(uploads.bytes() <= limits.bytes, "uploads keep within their limits");
+  promise(uploads.bytes() <= limits.bytes, "uploads keep within their limits");
 }
 
 /// As `camway replay` reads it from a log, and as a client does.
 void exercise(const plan_response_t& message, std::span<const std::uint8_t> bytes) {
   const service::ConvertedResult converted = service::from_wire(message);
-  require(converted.result.has_value() == converted.error.empty(), "a result or a reason");
+  promise(converted.result.has_value() == converted.error.empty(), "a result or a reason");
   PlanCollector collector(message.client_id, message.request_id);
   collector.take(bytes);
   if (collector.complete()) static_cast<void>(collector.response());
+}
+
+/// As an answer to a question of nothing.
+void exercise(const occupancy_response_t& message, std::span<const std::uint8_t> bytes) {
+  OccupancyCollector collector(message.client_id, message.request_id);
+  collector.take(bytes);
+  if (!collector.response()) return;
+  OccupancyAnswer answer;
+  static_cast<void>(append(occupancy_request_t{}, *collector.response(), answer));
 }
 
 }  // namespace
@@ -125,6 +137,20 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
     exercise(*answer, bytes);
     ++right;
   }
+  if (const auto answer = decoded<occupancy_response_t>(bytes)) {
+    exercise(*answer, bytes);
+    ++right;
+  }
+  if (const auto status = decoded<status_t>(bytes)) {
+    promise(read_status(bytes).has_value(), "a status that is right is one for clients");
+    ++right;
+  }
+  if (decoded<scene_response_t>(bytes)) ++right;
+  if (decoded<upload_status_t>(bytes)) ++right;
+  if (decoded<map_page_t>(bytes)) ++right;
+  if (decoded<error_t>(bytes)) ++right;
+  if (decoded<envelope_t>(bytes)) ++right;
+  static_cast<void>(wire::payload_unchecked(bytes));
   return right;
 }
 

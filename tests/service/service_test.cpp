@@ -228,6 +228,18 @@ TEST(Service, ReportsWhatCannotBeAnswered) {
   EXPECT_EQ(log.find(line), log.rfind(line)) << "only the first of a burst is logged\n" << log;
 }
 
+TEST(Service, AnswersOnlySoManyMessagesThatCannotBeRead) {
+  ServiceConfig config = quick_heartbeats();
+  config.malformed_answers_per_s = 5.0;
+  RunningService daemon(config);
+  for (int i = 0; i < 1000; ++i) daemon.send_on(daemon.channels.plan_request(), Bytes(7, 0));
+  EXPECT_TRUE(status_with(
+      daemon, [](const status_t& status) { return status.malformed_messages == 1000; }));
+  daemon.stop();
+  EXPECT_LE(daemon.transport.published_on(daemon.channels.error()).size(), 500U)
+      << "5 at once, then 5 a second";
+}
+
 TEST(Service, LivesThroughAFloodOfMutants) {
   RunningService daemon;
   Random random(kSeed);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/targets.h"
+
+#include <algorithm>
+#include <array>
+
+namespace camway::testing {
+
+std::span<const FuzzTarget> fuzz_targets() {
+  static const std::array all{kWireTarget,        kEnvelopeTarget,     kMeshTarget,
+                              kRequestJsonTarget, kResponseJsonTarget, kPathJsonTarget,
+                              kSessionTarget,     kImportRecordTarget, kMapFileTarget,
+                              kConfigTarget,      kKeyFileTarget};
+  return all;
+}
+
+const FuzzTarget* fuzz_target(std::string_view name) {
+  const std::span<const FuzzTarget> all = fuzz_targets();
+  const auto found = std::ranges::find(all, name, &FuzzTarget::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace camway::testing

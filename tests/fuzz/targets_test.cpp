@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// The fuzzers' entry points on mutants of a fixed seed, so that every build runs them.
+#include "tests/fuzz/targets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/service/message_mutation.h"
+#include "tests/service/random_messages.h"
+
+namespace camway::testing {
+namespace {
+
+class FuzzTargetTest : public ::testing::TestWithParam<FuzzTarget> {
+ protected:
+  const FuzzTarget& target() const { return GetParam(); }
+};
+
+TEST_P(FuzzTargetTest, SomeOfItsSeedsAreRight) {
+  std::size_t right = 0;
+  const std::vector<FuzzBytes> seeds = target().seeds();
+  for (const FuzzBytes& seed : seeds) right += target().exercise(seed) ? 1U : 0U;
+  EXPECT_GT(right, 0U);
+}
+
+TEST_P(FuzzTargetTest, MutantsBreakNoPromise) {
+  Random random(kSeed);
+  const std::vector<FuzzBytes> seeds = target().seeds();
+  constexpr std::size_t kLargest = 20'000;
+  int right = 0;
+  for (int trial = 0; trial < target().mutants; ++trial) {
+    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    FuzzBytes bytes = seeds[below(random, seeds.size())];
+    if (bytes.size() > kLargest) continue;
+    if (trial % 5 == 0) bytes.resize(below(random, bytes.size() + 1));
+    mutate(bytes, random);
+    bytes.shrink_to_fit();  // so that a sanitizer sees one byte too many
+    ASSERT_NO_THROW(right += target().exercise(bytes) ? 1 : 0);
+  }
+  EXPECT_LT(right, target().mutants) << "the mutants are too tame";
+}
+
+TEST_P(FuzzTargetTest, NoiseBreaksNoPromise) {
+  Random random(kSeed);
+  for (int trial = 0; trial < target().mutants / 10; ++trial) {
+    FuzzBytes bytes(below(random, 300));
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    ASSERT_NO_THROW(target().exercise(bytes)) << "seed " << kSeed << ", trial " << trial;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FuzzTargetTest, ::testing::ValuesIn(fuzz_targets()),
+                         [](const auto& target) { return std::string(target.param.name); });
+
+}  // namespace
+}  // namespace camway::testing
