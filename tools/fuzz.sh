@@ -12,7 +12,8 @@
 #               wire envelope mesh import_record map_file request_json response_json path_json
 #               session config key_file
 #
-# Needs clang (apt-get install clang). Builds in build/fuzz. What was found to be of interest stays
+# Needs clang 16 or later, as older ones cannot read the ranges of Debian's C++ library (apt-get install
+# --no-install-recommends clang-16 libclang-rt-16-dev). Builds in build/fuzz. What was found to be of interest stays
 # in build/fuzz/corpus/TARGET, and the next run goes on from there; inputs that broke something are
 # in build/fuzz/found. Exit code: 0 nothing was found, 3 something was, anything else: it did not run.
 set -euo pipefail
@@ -40,10 +41,20 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 [[ ${#targets[@]} -gt 0 ]] || targets=("${kTargets[@]}")
-command -v clang++ >/dev/null || { echo "fuzz: clang++ is not there: apt-get install clang" >&2; exit 2; }
+newest_clang() {
+  local name
+  for name in clang++-{19,18,17,16} clang++; do
+    command -v "$name" >/dev/null || continue
+    [[ $("$name" -dumpversion) =~ ^(1[6-9]|[2-9][0-9])\. ]] && echo "$name" && return
+  done
+  echo "fuzz: needs clang 16 or later: apt-get install --no-install-recommends clang-16" \
+    "libclang-rt-16-dev" >&2
+  return 2
+}
+clang=$(newest_clang)
 
 cd "$root"
-cmake --preset dev -B "$build" -DCMAKE_CXX_COMPILER=clang++ -DCAMWAY_FUZZ=ON \
+cmake --preset dev -B "$build" -DCMAKE_CXX_COMPILER="$clang" -DCAMWAY_FUZZ=ON \
   -DCAMWAY_SANITIZE=fuzzer-no-link,address,undefined >/dev/null
 cmake --build "$build" --parallel "$jobs" --target "${targets[@]/#/fuzz_}"
 

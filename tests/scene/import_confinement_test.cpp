@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 #include <linux/landlock.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -127,6 +129,23 @@ TEST_F(ImportConfinement, MakesNoMemoryExecutable) {
 
 TEST_F(ImportConfinement, SignalsNobodyElse) {
   expect_denied([] { return verdict(kill(getppid(), 0)); });
+  expect_denied([] { return verdict(syscall(SYS_tgkill, getppid(), getppid(), 0)); });
+}
+
+TEST_F(ImportConfinement, LoosensNoLimitsAndTakesNoLocks) {
+  expect_allowed([] {
+    rlimit limit{};
+    return verdict(getrlimit(RLIMIT_CPU, &limit));
+  });
+  expect_denied([] {
+    const rlimit limit{1, 1};
+    return verdict(setrlimit(RLIMIT_CPU, &limit));
+  });
+  expect_denied([] { return verdict(fcntl(kOutputFd, F_SETFL, O_APPEND)); });
+  expect_denied([] {
+    const iovec piece{const_cast<char*>("x"), 1};
+    return verdict(writev(STDERR_FILENO, &piece, 1));
+  });
 }
 
 TEST_F(ImportConfinement, ReadsNothingElseWhereTheKernelHasLandlock) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+
 #include "daemon/service/latency_histogram.h"
 #include "tests/support/prometheus_checker.h"
 
@@ -37,6 +40,59 @@ TEST(MetricsText, IsWhatPrometheusReads) {
   EXPECT_EQ(page.value(R"(camway_receipt_to_answer_seconds_bucket{le="0.00256"})"), 3);
   EXPECT_EQ(page.value(R"(camway_receipt_to_answer_seconds_bucket{le="+Inf"})"), 5);
   EXPECT_EQ(page.value("camway_waiting_seconds_count"), 0);
+}
+
+TEST(MetricsText, EachCounterStandsUnderItsOwnName) {
+  status_t status{};
+  std::int64_t next = 100;
+  for (std::int64_t* counter : {&status.repeated_requests,
+                                &status.cache_hits,
+                                &status.overloaded_requests,
+                                &status.malformed_messages,
+                                &status.dropped_answers,
+                                &status.request_pages_asked_again,
+                                &status.answer_pages_asked_again,
+                                &status.unsigned_messages,
+                                &status.broken_envelopes,
+                                &status.unknown_key_messages,
+                                &status.altered_messages,
+                                &status.stale_messages,
+                                &status.replayed_messages,
+                                &status.crowded_messages,
+                                &status.received_messages,
+                                &status.received_bytes,
+                                &status.sent_messages,
+                                &status.sent_bytes,
+                                &status.unsent_messages,
+                                &status.scene_changes,
+                                &status.broken_paths}) {
+    *counter = next++;
+  }
+  const PrometheusChecker page(metrics_text(status));
+  next = 100;
+  for (const char* name : {"repeated_requests_total",
+                           "cache_hits_total",
+                           "overloaded_requests_total",
+                           "malformed_messages_total",
+                           "dropped_answers_total",
+                           R"(pages_asked_again_total{of="request"})",
+                           R"(pages_asked_again_total{of="answer"})",
+                           R"(distrusted_messages_total{cause="unsigned"})",
+                           R"(distrusted_messages_total{cause="broken"})",
+                           R"(distrusted_messages_total{cause="unknown_key"})",
+                           R"(distrusted_messages_total{cause="altered"})",
+                           R"(distrusted_messages_total{cause="stale"})",
+                           R"(distrusted_messages_total{cause="replayed"})",
+                           R"(distrusted_messages_total{cause="crowded"})",
+                           "received_messages_total",
+                           "received_bytes_total",
+                           "sent_messages_total",
+                           "sent_bytes_total",
+                           "unsent_messages_total",
+                           "scene_changes_total",
+                           "broken_paths_total"}) {
+    EXPECT_EQ(page.value(std::string("camway_") + name), next++) << name;
+  }
 }
 
 /// The checker sees what it is for.
