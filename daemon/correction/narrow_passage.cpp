@@ -22,6 +22,7 @@ using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
 constexpr double kStep = 0.25;       // between the places of a way that are looked at
+constexpr double kMostPlaces = 4e3;  // longer ways are not looked at
 constexpr double kApart = 2.0;       // narrow places closer to each other are one
 constexpr double kHalfLength = 0.7;  // of the line that is to have room
 constexpr double kFirstShift = 0.4;  // of its ends
@@ -223,7 +224,11 @@ struct Place {
   std::size_t leg;
 };
 
+/// Nothing where they would be too many.
 std::vector<Place> places_of(std::span<const Vec3> way_W, double step_m) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
+  if (!(length_m <= kMostPlaces * step_m)) return {};
   std::vector<Place> places = {{way_W.front(), 0}};
   for (std::size_t i = 1; i < way_W.size(); ++i) {
     const int parts = 1 + static_cast<int>((way_W[i] - way_W[i - 1]).norm() / step_m);

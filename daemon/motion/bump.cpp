@@ -63,7 +63,10 @@ int knot_before(const KnotRow& knots, double time_s) {
 /// Adds what `row` is on `piece`, which lies between two knots that follow each other, but for
 /// `kSameKnot`.
 void add(CubicPiece& piece, const BumpRow& row) {
-  const int before = knot_before(row.knots, 0.5 * (piece.t0_s + piece.t1_s));
+  const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
+  // So far away, in spacings, as no number of a knot can say.
+  if (middle_s <= row.begin_s() || middle_s >= row.end_s()) return;
+  const int before = knot_before(row.knots, middle_s);
   const double from_s = row.knots.knot_s(before);
   const double to_s = row.knots.knot_s(before + 1);
   const auto parameter = [&](double time_s) {

@@ -110,6 +110,20 @@ TEST(NarrowPassages, NoneWhereTheBodyCannotPass) {
   EXPECT_TRUE(narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never()).empty());
 }
 
+// In a moment: there is a place for each quarter of the ball's radius.
+TEST(NarrowPassages, NoneOnWaysWithoutAnEnd) {
+  scene::Mesh mesh;
+  add_plate(mesh, 0.0, 0.25);
+  const SearchScene scene(mesh, wide_camera());
+  FreeSpace space = scene.space();
+  for (const double far_m : {1e5, 1e9, 1e300}) {
+    const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}, {0, 0, -far_m}};
+    const SignedPose from{way_W.front(), Vec4::UnitX()};
+    const SignedPose to{way_W.back(), Vec4::UnitX()};
+    EXPECT_TRUE(narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never()).empty());
+  }
+}
+
 TEST(NarrowPassages, NoneWhereTheBallFits) {
   scene::Mesh mesh;
   add_plate(mesh, 0.0, 1.0);

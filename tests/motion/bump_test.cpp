@@ -98,6 +98,23 @@ TEST(Bump, KeepsThePathSmooth) {
   }
 }
 
+// The piece under the wide row is more spacings of the narrow one away than an int can count: to
+// step there would take for ever.
+TEST(Bump, OfRowsOfVeryDifferentWidths) {
+  Random random(816);
+  const CubicPath path = random_path(random, 6);
+  const double begin_s = path.begin_s();
+  const double middle_s = 0.5 * (begin_s + path.end_s());
+  const CubicPoint up{{0.0, 0.1, 0.0}, geometry::Vec4::Zero()};
+  const BumpRow wide{{begin_s, path.end_s(), 4}, 2, {up}};
+  const BumpRow narrow{{middle_s, middle_s + 4e-12, 4}, 2, {up}};
+  const std::vector<BumpRow> both = {wide, narrow};
+  const CubicPath changed = with_bumps(path, both);
+  const CubicPath by_wide = with_bumps(path, {&wide, 1});
+  const double away_s = begin_s + 0.3 * (path.end_s() - begin_s);
+  EXPECT_LT((changed.at(away_s).position - by_wide.at(away_s).position).norm(), 1e-12);
+}
+
 TEST(Bump, ChangesNoBitOutsideItsSupport) {
   Random random(814);
   for (int round = 0; round < 100; ++round) {
