@@ -5,14 +5,7 @@
 #include <cstring>
 #include <limits>
 
-// Two versions of a function, and the loader takes the one for this processor. Sanitizers run
-// before they can cope with that.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define CAMWAY_FOR_EVERY_PROCESSOR __attribute__((target_clones("avx2", "default")))
-#else
-#define CAMWAY_FOR_EVERY_PROCESSOR
-#endif
+#include "daemon/geometry/every_processor.h"
 
 namespace camway::scene {
 namespace {

@@ -99,15 +99,22 @@ TEST(NarrowPassages, AreInTheOrderOfTheWay) {
   EXPECT_EQ(passages[1].first, 2U);
 }
 
-TEST(NarrowPassages, NoneWhereTheBodyCannotPass) {
+/// Straight through a hole of that size.
+std::vector<NarrowPassage> passages_of_hole(double hole_m) {
   scene::Mesh mesh;
-  add_plate(mesh, 0.0, 0.9 * kShortSide_m / std::sqrt(2.0));
+  add_plate(mesh, 0.0, hole_m);
   const SearchScene scene(mesh, wide_camera());
   FreeSpace space = scene.space();
   const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}};
   const SignedPose from{way_W.front(), Vec4::UnitX()};
   const SignedPose to{way_W.back(), Vec4::UnitX()};
-  EXPECT_TRUE(narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never()).empty());
+  return narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
+}
+
+TEST(NarrowPassages, NoneWhereTheBodyCannotPassOrItsBallFits) {
+  EXPECT_TRUE(passages_of_hole(0.9 * kShortSide_m / std::sqrt(2.0)).empty());
+  EXPECT_EQ(passages_of_hole(1.2 * kShortSide_m / std::sqrt(2.0)).size(), 1U);
+  EXPECT_TRUE(passages_of_hole(1.0).empty());
 }
 
 // In a moment: there is a place for each quarter of the ball's radius.
@@ -122,17 +129,6 @@ TEST(NarrowPassages, NoneOnWaysWithoutAnEnd) {
     const SignedPose to{way_W.back(), Vec4::UnitX()};
     EXPECT_TRUE(narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never()).empty());
   }
-}
-
-TEST(NarrowPassages, NoneWhereTheBallFits) {
-  scene::Mesh mesh;
-  add_plate(mesh, 0.0, 1.0);
-  const SearchScene scene(mesh, wide_camera());
-  FreeSpace space = scene.space();
-  const std::vector<Vec3> way_W = {{0, 0, 1.5}, {0, 0, -1.5}};
-  const SignedPose from{way_W.front(), Vec4::UnitX()};
-  const SignedPose to{way_W.back(), Vec4::UnitX()};
-  EXPECT_TRUE(narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never()).empty());
 }
 
 }  // namespace
