@@ -25,13 +25,7 @@ using testing::echo_result;
 using testing::request_of;
 using testing::request_with;
 using testing::RunningService;
-
-ServiceConfig with_workers(int workers, std::size_t queue_capacity) {
-  ServiceConfig config;
-  config.workers = workers;
-  config.queue.jobs = queue_capacity;
-  return config;
-}
+using testing::with_workers;
 
 /// The answer without what may differ between two runs.
 Bytes without_time(plan_response_t answer) {
@@ -143,57 +137,6 @@ TEST(PlanService, TheSameIdForAnotherRequestIsAnError) {
   daemon.send(request);
   EXPECT_EQ(daemon.answer_to(request, 2)->status, plan_response_t::STATUS_OK)
       << "the first request keeps its answer";
-}
-
-TEST(PlanService, RefusesWhatTheQueueCannotHoldAndTakesItLater) {
-  RunningService daemon(with_workers(1, 1));
-  daemon.planner.hold();
-  daemon.send(request_with(1));
-  ASSERT_TRUE(daemon.planner.wait_for_calls(1));
-  daemon.send(request_with(2));
-  const plan_request_t refused = request_with(3);
-  daemon.send(refused);
-  const std::optional<plan_response_t> answer = daemon.answer_to(refused);
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, plan_response_t::STATUS_OVERLOADED);
-  EXPECT_NE(answer->message.find("send it again later"), std::string::npos) << answer->message;
-  daemon.planner.release();
-  ASSERT_TRUE(daemon.answer_to(request_with(2)));
-  daemon.send(refused);
-  const std::optional<plan_response_t> later = daemon.answer_to(refused, 3);
-  ASSERT_TRUE(later);
-  EXPECT_EQ(later->status, plan_response_t::STATUS_OK);
-}
-
-TEST(PlanService, RefusesRequestsThatTogetherAreTooLargeAndTakesThemLater) {
-  ServiceConfig config = with_workers(1, 10);
-  config.request_bytes = 3 * static_cast<std::size_t>(request_with(1).getEncodedSize());
-  RunningService daemon(config);
-  daemon.planner.hold();
-  for (std::int64_t id = 1; id <= 3; ++id) daemon.send(request_with(id));
-  const plan_request_t refused = request_with(4);
-  daemon.send(refused);
-  const std::optional<plan_response_t> answer = daemon.answer_to(refused);
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, plan_response_t::STATUS_OVERLOADED);
-  EXPECT_NE(answer->message.find("queue.request_bytes"), std::string::npos) << answer->message;
-  daemon.planner.release();
-  for (std::int64_t id = 1; id <= 3; ++id) ASSERT_TRUE(daemon.answer_to(request_with(id)));
-  daemon.send(refused);
-  EXPECT_EQ(daemon.answer_to(refused, 4)->status, plan_response_t::STATUS_OK);
-}
-
-TEST(PlanService, RefusesMoreKeyframesThanConfigured) {
-  ServiceConfig config = with_workers(1, 10);
-  config.keyframes = 5;
-  RunningService daemon(config);
-  daemon.send(request_with(1, 6));
-  const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1, 6));
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
-  EXPECT_NE(answer->message.find("planning.keyframes"), std::string::npos) << answer->message;
-  daemon.send(request_with(2, 5));
-  EXPECT_EQ(daemon.answer_to(request_with(2, 5))->status, plan_response_t::STATUS_OK);
 }
 
 TEST(PlanService, SaysWhichScenesThereAre) {

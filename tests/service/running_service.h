@@ -47,6 +47,14 @@ class FakePlanner {
 /// An answer that depends on nothing but the request: a path of one segment for each keyframe.
 planning::PlanResult echo_result(const planning::PlanRequest& request);
 
+/// The service's own settings but for these.
+inline service::ServiceConfig with_workers(int workers, std::size_t queue_capacity) {
+  service::ServiceConfig config;
+  config.workers = workers;
+  config.queue.jobs = queue_capacity;
+  return config;
+}
+
 /// A service on a fake transport, run by a thread of its own, with scenes "room" and "hall".
 class RunningService {
  public:
