@@ -9,54 +9,21 @@
 #include <limits>
 #include <numbers>
 #include <queue>
-#include <utility>
 #include <vector>
+
+#include "daemon/correction/cell_numbers.h"
 
 namespace camway::correction {
 
 namespace {
 
 using geometry::Vec3;
-using Cell = std::array<std::int32_t, 3>;
-using Key = std::uint64_t;  ///< of a cell
 
-// Nobody gets further from where it begins than there are points to be met.
-constexpr std::int32_t kFarthest = (1 << 20) - 1;
-constexpr int kKeyBits = 21;  // of a coordinate, so that a key takes 63
-
-constexpr Key key_of(const Cell& cell) {
-  Key key = 0;
-  for (const std::int32_t c : cell) key = (key << kKeyBits) | static_cast<Key>(c + kFarthest);
-  return key;
-}
-
-constexpr Cell cell_of(Key key) {
-  constexpr Key kMask = (Key{1} << kKeyBits) - 1;
-  const auto number = [&](int place) {
-    return static_cast<std::int32_t>(key >> (place * kKeyBits) & kMask) - kFarthest;
-  };
-  return {number(2), number(1), number(0)};
-}
-
-constexpr int kSteps = 27;
-constexpr int kHere = 13;  // the one of them that leads nowhere
-// The one back has the number `kSteps - 1 - step`.
-
-/// What to add to the key of a cell.
-constexpr std::array<Key, kSteps> kKeySteps = [] {
-  std::array<Key, kSteps> steps{};
-  for (int i = 0; i < kSteps; ++i) {
-    steps[static_cast<std::size_t>(i)] =
-        key_of({i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1}) - key_of({0, 0, 0});
-  }
-  return steps;
-}();
-
-/// How long each is. [Units: spacing of the lattice]
-constexpr std::array<double, kSteps> kLengths = [] {
+/// How long the steps to neighbours are. [Units: spacing of the lattice]
+constexpr std::array<double, kCellSteps> kLengths = [] {
   constexpr std::array<double, 4> kRoots = {0.0, 1.0, std::numbers::sqrt2, std::numbers::sqrt3};
-  std::array<double, kSteps> lengths{};
-  for (int i = 0; i < kSteps; ++i) {
+  std::array<double, kCellSteps> lengths{};
+  for (int i = 0; i < static_cast<int>(kCellSteps); ++i) {
     const int axes = (i % 3 != 1 ? 1 : 0) + (i / 3 % 3 != 1 ? 1 : 0) + (i / 9 != 1 ? 1 : 0);
     lengths[static_cast<std::size_t>(i)] = kRoots[static_cast<std::size_t>(axes)];
   }
@@ -68,44 +35,6 @@ constexpr double kStray = 0.15;   // share of its length that a step there costs
 constexpr double kComfort = 0.5;  // of the ball: gap from which a way is not near
 constexpr double kHorizon = 0.9;  // of a step: two gaps are more than the longest diagonal
 
-/// Numbers by keys, which are never 0: open addressing, as a point is looked up some 50 times.
-class KeyTable {
- public:
-  /// The number of `key`; if it has none, `number` from now on.
-  std::uint32_t find_or_add(std::uint64_t key, std::uint32_t number) {
-    Slot& slot = slot_of(key);
-    if (slot.key == key) return slot.number;
-    slot = {key, number};
-    if (2 * ++used_ > slots_.size()) grow();
-    return number;
-  }
-
- private:
-  struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t number = 0;
-  };
-
-  /// That of the key, or where it belongs.
-  Slot& slot_of(std::uint64_t key) {
-    constexpr std::uint64_t kMixer = 0x9E3779B97F4A7C15U;  // 2^64 by the golden ratio (Knuth)
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = (key * kMixer) >> 32U & mask;
-    while (slots_[at].key != 0 && slots_[at].key != key) at = (at + 1) & mask;
-    return slots_[at];
-  }
-
-  void grow() {
-    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
-    for (const Slot& slot : old) {
-      if (slot.key != 0) slot_of(slot.key) = slot;
-    }
-  }
-
-  std::vector<Slot> slots_ = std::vector<Slot>(1024);  // always a power of two
-  std::size_t used_ = 0;
-};
-
 class LatticeSearch {
  public:
   LatticeSearch(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
@@ -116,7 +45,11 @@ class LatticeSearch {
         options_(options),
         deadline_(deadline),
         comfort_m_(kComfort * options.ball_radius_m),
-        horizon_m_(std::max(kHorizon * options.spacing_m, comfort_m_)) {}
+        horizon_m_(std::max(kHorizon * options.spacing_m, comfort_m_)) {
+    for (std::size_t i = 1; i < options.about_W.size(); ++i) {
+      legs_.emplace_back(options.about_W[i - 1], options.about_W[i]);
+    }
+  }
 
   LatticeResult run() {
     LatticeResult result = search();
@@ -126,7 +59,8 @@ class LatticeSearch {
 
  private:
   LatticeResult search() {
-    points_[point_at(key_of({0, 0, 0}))].claim_m = 0.0;
+    numbers_.around({0, 0, 0})[kNoStep] = 0;
+    points_.push_back({key_of({0, 0, 0}), 0.0});
     queue_.push({rest_m(points_[0].key), 0});
     LatticeResult result;
     while (!queue_.empty()) {
@@ -144,16 +78,16 @@ class LatticeSearch {
     return result;
   }
 
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   static constexpr double kUnknown_m = std::numeric_limits<double>::infinity();
 
   struct Point {
-    Key key;
+    CellKey key;
     /// What the way here costs: at least, before it is settled.
     double claim_m = std::numeric_limits<double>::infinity();
     double gap_m = kUnknown_m;  ///< before the scene is asked
-    double stray = 0.0;         ///< share that a step there costs more; told with the gap
-    std::uint32_t parent = kNone;
+    double near = 0.0;          ///< share that a step costs more for the gap, told with it
+    double stray = 0.0;         ///< and for being away from what is kept to
+    std::uint32_t parent = CellNumbers::kNone;
     std::uint32_t settled_from = 0;  ///< a bit for each step that leads here from what is settled
     bool is_settled = false;
 
@@ -166,6 +100,22 @@ class LatticeSearch {
     bool operator<(const Waiting& other) const {
       return estimate_m != other.estimate_m ? estimate_m > other.estimate_m : point > other.point;
     }
+  };
+
+  /// Of the way that is to be kept to.
+  struct Leg {
+    Leg(const Vec3& begin_W, const Vec3& end_W)
+        : from_W(begin_W), along_W(end_W - begin_W), square_m2(along_W.squaredNorm()) {}
+
+    [[nodiscard]] double squared_distance_m2(const Vec3& place_W) const {
+      const Vec3 there_W = place_W - from_W;
+      const double share = square_m2 > 0.0 ? along_W.dot(there_W) / square_m2 : 0.0;
+      return (std::clamp(share, 0.0, 1.0) * along_W - there_W).squaredNorm();
+    }
+
+    Vec3 from_W;
+    Vec3 along_W;
+    double square_m2;
   };
 
   // The clock is not asked at every point.
@@ -182,26 +132,20 @@ class LatticeSearch {
     return FreeSpace::kBallShare * (gap_m + keep_m) - keep_m;
   }
 
-  [[nodiscard]] Vec3 place_W(Key key) const {
+  [[nodiscard]] Vec3 place_W(CellKey key) const {
     const Cell cell = cell_of(key);
     return from_W_ + options_.spacing_m * Vec3(cell[0], cell[1], cell[2]);
   }
 
   /// How far it is to the end for who steps as on the lattice: along the diagonals of cells as far
   /// as that gets nearer, then along those of their sides, then along their edges.
-  [[nodiscard]] double rest_m(Key key) const {
-    std::array<double, 3> away;
-    Eigen::Map<Vec3>(away.data()) = (place_W(key) - to_W_).cwiseAbs();
-    std::ranges::sort(away);
-    return away[2] + (std::numbers::sqrt2 - 1.0) * away[1] +
-           (std::numbers::sqrt3 - std::numbers::sqrt2) * away[0];
-  }
-
-  std::uint32_t point_at(Key key) {
-    const auto next = static_cast<std::uint32_t>(points_.size());
-    const std::uint32_t index = known_.find_or_add(key, next);
-    if (index == next) points_.push_back({key});
-    return index;
+  [[nodiscard]] double rest_m(CellKey key) const {
+    const Vec3 away = (place_W(key) - to_W_).cwiseAbs();
+    const double less = std::min(away[0], away[1]);
+    const double more = std::max(away[0], away[1]);
+    const double middle = std::max(less, std::min(more, away[2]));
+    return std::max(more, away[2]) + (std::numbers::sqrt2 - 1.0) * middle +
+           (std::numbers::sqrt3 - std::numbers::sqrt2) * std::min(less, away[2]);
   }
 
   void claim(std::uint32_t index, double cost_m) {
@@ -213,7 +157,7 @@ class LatticeSearch {
 
   /// By what is known: at least.
   [[nodiscard]] double cost_of_step_m(std::size_t step, const Point& a, const Point& b) const {
-    const double near = std::max(0.0, 1.0 - std::min(a.gap_m, b.gap_m) / comfort_m_);
+    const double near = std::max(a.near, b.near);
     const double stray = 0.5 * (a.stray + b.stray);
     return options_.spacing_m * kLengths[step] * (1.0 + near + stray);
   }
@@ -221,22 +165,24 @@ class LatticeSearch {
   void ask(Point& point) const {
     const Vec3 place = place_W(point.key);
     point.gap_m = gap_m(place);
-    double away_m = kFarAway * options_.spacing_m;
-    for (std::size_t i = 1; i < options_.about_W.size(); ++i) {
-      const Vec3 from = options_.about_W[i - 1];
-      const Vec3 leg = options_.about_W[i] - from;
-      const double square_m2 = leg.squaredNorm();
-      const double share = square_m2 > 0.0 ? leg.dot(place - from) / square_m2 : 0.0;
-      away_m = std::min(away_m, (from + std::clamp(share, 0.0, 1.0) * leg - place).norm());
-    }
-    if (!options_.about_W.empty()) point.stray = kStray * away_m / (kFarAway * options_.spacing_m);
+    point.near = std::max(0.0, 1.0 - point.gap_m / comfort_m_);
+    if (legs_.empty()) return;
+    const double far_m = kFarAway * options_.spacing_m;
+    double away_m2 = far_m * far_m;
+    for (const Leg& leg : legs_) away_m2 = std::min(away_m2, leg.squared_distance_m2(place));
+    point.stray = kStray * std::sqrt(away_m2) / far_m;
   }
 
   void expand(std::uint32_t index) {
     const Point from = points_[index];
-    for (std::size_t step = 0; step < kSteps; ++step) {
-      if (step == kHere) continue;
-      const std::uint32_t next = point_at(from.key + kKeySteps[step]);
+    const CellNumbers::Around around = numbers_.around(cell_of(from.key));
+    for (std::size_t step = 0; step < kCellSteps; ++step) {
+      if (step == kNoStep) continue;
+      std::uint32_t& next = around[step];
+      if (next == CellNumbers::kNone) {
+        next = static_cast<std::uint32_t>(points_.size());
+        points_.push_back({from.key + kKeySteps[step]});
+      }
       Point& to = points_[next];
       if (to.is_settled || to.is_blocked()) continue;
       to.settled_from |= 1U << step;
@@ -280,15 +226,16 @@ class LatticeSearch {
 
   struct Entry {
     double cost_m = std::numeric_limits<double>::infinity();
-    std::uint32_t from = kNone;
+    std::uint32_t from = CellNumbers::kNone;
     std::size_t step = 0;
   };
 
   [[nodiscard]] Entry cheapest_entry(const Point& point) {
     Entry best;
+    const CellNumbers::Around around = numbers_.around(cell_of(point.key));
     for (std::uint32_t steps = point.settled_from; steps != 0; steps &= steps - 1) {
       const auto step = static_cast<std::size_t>(std::countr_zero(steps));
-      const std::uint32_t index = point_at(point.key + kKeySteps[kSteps - 1 - step]);
+      const std::uint32_t index = around[kCellSteps - 1 - step];
       const Point& from = points_[index];
       const double cost_m = from.claim_m + cost_of_step_m(step, from, point);
       if (cost_m < best.cost_m) best = {cost_m, index, step};
@@ -312,7 +259,7 @@ class LatticeSearch {
 
   [[nodiscard]] std::vector<Vec3> way(std::uint32_t last) const {
     std::vector<Vec3> way_W = {to_W_};
-    for (std::uint32_t i = last; i != kNone; i = points_[i].parent) {
+    for (std::uint32_t i = last; i != CellNumbers::kNone; i = points_[i].parent) {
       way_W.push_back(place_W(points_[i].key));
     }
     std::ranges::reverse(way_W);
@@ -326,8 +273,9 @@ class LatticeSearch {
   const collision::Deadline& deadline_;
   const double comfort_m_;
   const double horizon_m_;
+  std::vector<Leg> legs_;
   std::vector<Point> points_;
-  KeyTable known_;  ///< numbers of points, by the keys of their cells
+  CellNumbers numbers_;  ///< of points
   std::priority_queue<Waiting> queue_;
   std::size_t settled_ = 0;
 };

@@ -29,7 +29,7 @@ VoxelSet random_voxels(std::mt19937_64& random) {
   }
   const auto beside = [&](std::int32_t at, std::int32_t reach) { return at + pick(-reach, reach); };
   for (int i = pick(0, 150); i > 0; --i) {
-    set.insert({beside(middle[0], 12), beside(middle[1], 12), beside(middle[2], 40)});
+    set.insert(Voxel{beside(middle[0], 12), beside(middle[1], 12), beside(middle[2], 40)});
   }
   for (int i = pick(0, 3); i > 0; --i) {
     const std::int32_t size = 1 << pick(0, 4);
