@@ -229,6 +229,14 @@ TEST_F(CommandTest, DoctorFindsTheDaemonTheNetworkAndTheScenes) {
     EXPECT_EQ(severities[check], "good") << check;
   }
 
+  Process second({CAMWAYD_BINARY, "--scene", "maze=" + scene_file("maze")}, file("second.log"));
+  EXPECT_TRUE(eventually([&] {
+    camway({"doctor"}, said);
+    return said.find("more than one is heard") != std::string::npos;
+  })) << said;
+  second.signal(SIGTERM);
+  EXPECT_EQ(second.wait(), 0) << second.output();
+
   stop_daemon();
   EXPECT_EQ(camway({"doctor", "--timeout-s", "0.1"}, said), 3) << said;
   EXPECT_THAT(said, HasSubstr("mend: systemctl start camwayd"));

@@ -92,6 +92,8 @@ std::vector<Illness> illnesses() {
        Severity::kProblem, "LCM cannot be opened", "mend what is said above"},
       {[](HostFacts& facts) { facts.daemon.reset(); }, "daemon", Severity::kProblem,
        "no status of a daemon", "systemctl start camwayd"},
+      {[](HostFacts& facts) { facts.daemon->is_alone = false; }, "daemon", Severity::kWarning,
+       "more than one is heard", "--prefix"},
       {[](HostFacts& facts) { facts.daemon->version = "1.2.2"; }, "daemon", Severity::kWarning,
        "version 1.2.2, this is 1.2.3", "install the same version"},
       {[](HostFacts& facts) { facts.daemon->clock_ahead_s = 90.0; }, "clocks", Severity::kWarning,

@@ -41,6 +41,7 @@ struct SceneFileFact {
 struct DaemonFact {
   std::string version;
   double clock_ahead_s = 0.0;  ///< of ours, transport included
+  bool is_alone = true;        ///< until its next status nothing was heard of another one
 };
 
 struct HostFacts {

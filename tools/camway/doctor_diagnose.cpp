@@ -168,6 +168,11 @@ Finding judge_daemon(const HostFacts& facts) {
     return {"daemon", Severity::kProblem, "no status of a daemon was heard",
             "systemctl start camwayd, or camwayd --scene NAME=FILE, with the same url and prefix"};
   }
+  if (!facts.daemon->is_alone) {
+    return {"daemon", Severity::kWarning,
+            "more than one is heard; each answers all requests, and clients take the first answer",
+            "stop the others, or give each a prefix of its own (camwayd --prefix)"};
+  }
   if (facts.daemon->version != facts.own_version) {
     return {"daemon", Severity::kWarning,
             fmt::format("version {}, this is {}", facts.daemon->version, facts.own_version),

@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -109,26 +110,42 @@ std::int64_t dropped_datagrams() {
   return 0;
 }
 
-/// Takes the first status that can be read.
+/// Takes the first status that can be read, and those after it until the same daemon is heard
+/// again.
 class StatusListener {
  public:
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/) {
-    if (fact_) return;
     // Whether it is signed is no matter here.
     const auto message = wire::payload_unchecked(
         {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
     if (!message) return;
     const wire::Decoded<status_t> decoded = wire::decode<status_t>(*message);
     if (!decoded.message) return;
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-    fact_ = DaemonFact{decoded.message->version,
-                       static_cast<double>(decoded.message->utime - now_us) * 1e-6};
+    note(*decoded.message);
   }
   [[nodiscard]] const std::optional<DaemonFact>& fact() const { return fact_; }
+  [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
+  void note(const status_t& status) {
+    // Daemons are told apart by when they were started, which each computes anew for each status.
+    constexpr double kSameStart_s = 0.05;
+    const double utime_s = static_cast<double>(status.utime) * 1e-6;
+    const double started_s = utime_s - status.uptime_s;
+    if (!fact_) {
+      const std::chrono::duration<double> now = std::chrono::system_clock::now().time_since_epoch();
+      fact_ = DaemonFact{status.version, utime_s - now.count()};
+      started_s_ = started_s;
+    } else if (std::abs(started_s - started_s_) <= kSameStart_s) {
+      is_done_ = true;
+    } else {
+      fact_->is_alone = false;
+    }
+  }
+
   std::optional<DaemonFact> fact_;
+  double started_s_ = 0.0;
+  bool is_done_ = false;
 };
 
 /// Opens LCM and listens for a status; both outcomes go into `facts`.
@@ -146,7 +163,7 @@ void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(questions.timeout_s));
-  while (!listener.fact() && Clock::now() < end) {
+  while (!listener.is_done() && Clock::now() < end) {
     constexpr int kLook_ms = 50;
     if (lcm.handleTimeout(kLook_ms) < 0) {
       facts.lcm_error = "LCM failed at '" + questions.url + "'";
