@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <list>
 #include <thread>
 #include <vector>
@@ -74,6 +75,18 @@ TEST(HttpPage, SlowOnesAndManyHoldUpNobody) {
     }
   }
   EXPECT_EQ(good, 200);
+}
+
+TEST(HttpPage, IdleConnectionsAreFewAndNotKeptForLong) {
+  const OpenedHttpPage opened = open_page();
+  ASSERT_TRUE(opened.page) << opened.error;
+  const int port = opened.page->port();
+  const auto begin = std::chrono::steady_clock::now();
+  std::list<LocalConnection> idle;
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(idle.emplace_back(port).good());
+  EXPECT_EQ(body_of(http_request(port, "GET", "/page")), "hello\n");
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::seconds(4))
+      << "it had to wait until one of the 16 was closed";
 }
 
 TEST(HttpPage, RubbishDoesNotEndIt) {

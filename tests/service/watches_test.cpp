@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <thread>
@@ -23,6 +24,7 @@
 namespace camway::service {
 namespace {
 
+using namespace std::chrono_literals;
 using geometry::Quat;
 using geometry::Vec3;
 using scene::SceneChange;
@@ -233,6 +235,13 @@ TEST_F(WatchesTest, ToldAgainUntilTheClientKnows) {
   EXPECT_EQ(again.paths[0].serial, first.path.serial);
 }
 
+TEST_F(WatchesTest, IsToldLessAndLessOften) {
+  const auto begin = std::chrono::steady_clock::now();
+  send(request(1));
+  for (int told = 0; told < 4; ++told) wait_for(1, path_state_t::FREE);
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 200ms + 400ms + 800ms);
+}
+
 TEST_F(WatchesTest, SaysThatItDoesNotKnowAPath) {
   send_watch(7, {{.request_id = 99, .known_serial = 5}});
   const watch_report_t report = answer_to(7);
@@ -256,6 +265,24 @@ TEST_F(WatchesTest, ALeaseEndsUnlessItIsRenewed) {
   EXPECT_EQ(next_answer().scene_revision,
             static_cast<std::int64_t>(scenes_.find("room")->revision));
   EXPECT_EQ(planned_, 2);
+}
+
+TEST_F(WatchesTest, ARenewalLastsAsLongAsItSays) {
+  // Longer leases until one is renewed before it is over, however busy the machine is.
+  std::int64_t id = 0;
+  auto lease = 250ms;
+  const auto renewed_state = [&](std::int64_t message_id) {
+    send_watch(message_id, {{.request_id = id, .known_serial = 0}}, kLongLease_s);
+    const watch_report_t report = answer_to(message_id);
+    return report.paths.empty() ? path_state_t::UNKNOWN : report.paths[0].state;
+  };
+  do {
+    lease *= 2;
+    send(request(++id, std::chrono::duration<double>(lease).count()));
+    wait_for(id, path_state_t::FREE);
+  } while (renewed_state(100 + id) == path_state_t::UNKNOWN && lease < 30s);
+  std::this_thread::sleep_for(2 * lease);
+  EXPECT_EQ(renewed_state(200), path_state_t::FREE);
 }
 
 TEST_F(WatchesTest, AClientEndsItsWatch) {
