@@ -23,6 +23,9 @@ struct HttpAddress {
   int port = 0;                  ///< 0: any that is free [Limit: 0 <= value <= 65535]
 };
 
+/// Whether `text` is an IPv4 or IPv6 address.
+bool is_ip_address(const std::string& text);
+
 struct HttpLimits {
   int connections = 16;  ///< at a time [Limit: 1 <= value <= 1000]
   int idle_s = 5;        ///< that a connection may be silent [Limit: 1 <= value <= 86400]
