@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/ask_occupancy.h"
 
+#include <deque>
 #include <future>
 #include <memory>
 #include <optional>
@@ -49,7 +50,8 @@ class PartCall final : public Call {
       collector_.clear();
     }
   }
-  bool answered() const override { return collector_.response().has_value(); }
+  bool answered() const override { return !wanted_ || collector_.response().has_value(); }
+  void cancel() override { wanted_ = false; }
   void finish(Outcome outcome) override {
     PartAnswer answer{collector_.response(), {Status::kOk, {}}};
     if (outcome != Outcome::kAnswered) {
@@ -65,25 +67,64 @@ class PartCall final : public Call {
   Context& context_;
   OccupancyCollector collector_;
   std::optional<Failure> refusal_;
+  bool wanted_ = true;
   std::promise<PartAnswer> promise_;
 };
 
-PartAnswer ask_part(Context& context, Engine& engine, const occupancy_request_t& request,
-                    Clock::time_point deadline) {
-  const auto call = std::make_shared<PartCall>(context, request, deadline);
-  std::future<PartAnswer> answer = call->answer();
-  engine.start(call);
-  return answer.get();
-}
+/// Asks the parts one after the other, and one while another is being answered.
+class PartsInTurn {
+ public:
+  PartsInTurn(Context& context, Engine& engine, std::vector<occupancy_request_t>& parts,
+              Clock::time_point deadline)
+      : context_(context), engine_(engine), parts_(parts), deadline_(deadline) {}
+  /// Nobody waits for those that are still on their way.
+  ~PartsInTurn() {
+    for (std::size_t i = taken_; i < begun_; ++i) {
+      engine_.cancel(Call::Kind::kOccupancy, parts_[i].request_id);
+    }
+  }
+  PartsInTurn(const PartsInTurn&) = delete;
+  PartsInTurn& operator=(const PartsInTurn&) = delete;
 
-/// Asks all parts in turn; nothing if the scene changed between them.
+  /// The answer to the next part. Precondition: there is one.
+  PartAnswer next() {
+    while (begun_ < parts_.size() && begun_ < taken_ + kAtOnce) begin_next();
+    PartAnswer answer = answers_.front().get();
+    answers_.pop_front();
+    ++taken_;
+    return answer;
+  }
+
+ private:
+  /// So that the daemon's workers need not wait for the wire; no more, since each part is a message
+  /// of full size, and the usual receive buffer holds few of them.
+  static constexpr std::size_t kAtOnce = 2;
+
+  void begin_next() {
+    parts_[begun_].request_id = context_.new_request_id();
+    const auto call = std::make_shared<PartCall>(context_, parts_[begun_], deadline_);
+    answers_.push_back(call->answer());
+    engine_.start(call);
+    ++begun_;
+  }
+
+  Context& context_;
+  Engine& engine_;
+  std::vector<occupancy_request_t>& parts_;
+  Clock::time_point deadline_;
+  std::deque<std::future<PartAnswer>> answers_;
+  std::size_t begun_ = 0;
+  std::size_t taken_ = 0;
+};
+
+/// Asks all parts; nothing if the scene changed between them.
 std::optional<OccupancyAnswer> ask_parts(Context& context, Engine& engine,
                                          std::vector<occupancy_request_t>& parts,
                                          Clock::time_point deadline) {
   OccupancyAnswer answer;
+  PartsInTurn turns(context, engine, parts, deadline);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].request_id = context.new_request_id();
-    const PartAnswer part = ask_part(context, engine, parts[i], deadline);
+    const PartAnswer part = turns.next();
     if (!part.response) return failed<OccupancyAnswer>(part.failure);
     const occupancy_response_t& response = *part.response;
     if (response.status != occupancy_response_t::STATUS_OK) {

@@ -44,6 +44,9 @@ class Client::Impl {
     error_status = Status::kNetworkUnusable;
     error = link.open(context.options().url);
     context.set_url(link.url());
+    if (!link.warning().empty()) {
+      warning = "other hosts of the network can be heard though ttl is 0: " + link.warning();
+    }
     if (const auto& authentication = context.options().authentication) {
       link.authenticate(authentication->begin());
     }
@@ -78,6 +81,7 @@ class Client::Impl {
   Context context;
   Link link;
   std::string error;
+  std::string warning;
   Status error_status = Status::kInvalid;
   std::optional<Engine> engine;  ///< last: its thread uses all else
 };
@@ -93,6 +97,8 @@ Client::~Client() {
 }
 
 const std::string& Client::error() const { return impl_->error; }
+
+const std::string& Client::warning() const { return impl_->warning; }
 
 const std::string& Client::client_id() const { return impl_->context.options().client_id; }
 

@@ -15,6 +15,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "lcmtypes/envelope.h"
+#include "lcmtypes/local_traffic.h"
 
 namespace camway {
 namespace {
@@ -47,9 +48,13 @@ Link::~Link() {
 std::string Link::open(const std::string& url) {
   url_ = url_or_default(url);
   if (wake_.read_end < 0) return "this process has no file descriptors left";
+  const wire::LocalTraffic local(url_);
   lcm_ = std::make_unique<lcm::LCM>(url_);
   // getFileno makes the receiving half set itself up and test itself, which is when LCM finds out.
-  if (lcm_->good() && lcm_->getFileno() >= 0) return {};
+  if (lcm_->good() && lcm_->getFileno() >= 0) {
+    warning_ = local.guard();
+    return {};
+  }
   lcm_.reset();
   return "LCM cannot use " + url_ +
          ". For udpm, check that multicast has a route: ip link set lo up; ip link set lo "

@@ -33,12 +33,16 @@ class Link {
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// Connects; returns what is wrong and what mends it, nothing if all is well.
-  /// An empty url means LCM_DEFAULT_URL, or multicast with ttl 0 where that is not set.
+  /// Connects; returns what is wrong and what mends it, nothing if all is well. With ttl 0 only
+  /// this host is heard. An empty url means LCM_DEFAULT_URL, or multicast with ttl 0 where that is
+  /// not set.
   std::string open(const std::string& url);
 
   /// The network in use.
   const std::string& url() const { return url_; }
+
+  /// Why other hosts can be heard though they should not; empty if all is well.
+  const std::string& warning() const { return warning_; }
 
   /// From now on messages are signed and checked. Before `listen`.
   void authenticate(std::unique_ptr<Authentication::Session> session);
@@ -77,6 +81,7 @@ class Link {
   void clear_wake() const;
 
   std::string url_;
+  std::string warning_;
   Pipe wake_;
   bool broken_ = false;
   std::unique_ptr<lcm::LCM> lcm_;

@@ -19,6 +19,8 @@ namespace {
 constexpr std::string_view kDomain = "camway envelope 1";
 constexpr std::size_t kMaxFileBytes = 16'384;
 constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
+/// Of files of root's, their group may do the rest: read.
+constexpr mode_t kOthersOfRoots = S_IWGRP | S_IXGRP | S_IRWXO;
 
 static_assert(MessageKeys::kSecretBytes >= crypto_generichash_KEYBYTES_MIN &&
               MessageKeys::kSecretBytes <= crypto_generichash_KEYBYTES_MAX);
@@ -46,11 +48,15 @@ std::string fault_of(int fd) {
   struct stat information {};
   if (fstat(fd, &information) != 0) return std::strerror(errno);
   if (!S_ISREG(information.st_mode)) return "is no regular file";
-  if (information.st_uid != geteuid()) {
-    return "belongs to another user (chown it to who runs this program)";
+  const bool is_of_root = information.st_uid == 0;
+  if (!is_of_root && information.st_uid != geteuid()) {
+    return "belongs to another user (chown it to who runs this program, or to root)";
   }
-  if ((information.st_mode & kOthers) != 0) {
+  if (!is_of_root && (information.st_mode & kOthers) != 0) {
     return "may be used by others than its owner (chmod 600)";
+  }
+  if ((information.st_mode & kOthersOfRoots) != 0) {
+    return "may be used by others than root and who its group lets read (chmod 600 or 640)";
   }
   if (information.st_size > static_cast<off_t>(kMaxFileBytes)) return "is longer than any key file";
   return {};

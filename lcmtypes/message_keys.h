@@ -29,7 +29,9 @@ class MessageKeys {
   };
   /// Reads a file with a key on each line: its id, 0 to 2147483647, and 64 hexadecimal digits; `#`
   /// begins a remark. The first key signs, all of them are accepted. The file must be a regular one
-  /// that belongs to who runs this process and that nobody else may read or write.
+  /// that belongs to who runs this process and that nobody else may read or write; or one of root's
+  /// that at most its group may read, for a service whose user owns nothing. (An access list shows
+  /// as the rights of the group, so what systemd's LoadCredential makes passes, too.)
   static Read from_file(const std::string& file);
   /// The same of the text of such a file; `file` is for messages.
   static Read from_text(std::string_view text, const std::string& file);

@@ -21,6 +21,7 @@ namespace camway {
 
 struct ClientOptions {
   /// LCM network; empty: the environment's LCM_DEFAULT_URL, else multicast that stays on this host.
+  /// With ttl 0 no other host is heard either.
   /// To reach other hosts: "udpm://239.255.76.67:7667?ttl=1", the daemon's `--url` likewise.
   std::string url;
   std::string prefix = "CAMWAY";  ///< of all channels, as the daemon's [Limit: [A-Za-z0-9_-]{1,11}]
@@ -84,6 +85,10 @@ class Client {
   /// Why this client cannot be used (bad options, no network); empty when it can.
   const std::string& error() const;
   bool good() const { return error().empty(); }
+
+  /// What somebody should know though the client can be used; empty: nothing. With ttl 0 a client
+  /// hears this host only; where the kernel does not permit that, this says why.
+  const std::string& warning() const;
 
   /// What the daemon knows this client by.
   const std::string& client_id() const;

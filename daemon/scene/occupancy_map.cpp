@@ -1,105 +1,115 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/occupancy_map.h"
 
-#include <octomap/OcTree.h>
-
 #include <algorithm>
-#include <cassert>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <ostream>
 #include <sstream>
 #include <utility>
+
+#include "daemon/scene/box_costs.h"
 
 namespace camway::scene {
 namespace {
 
 using geometry::Box;
 using geometry::Vec3;
-using octomap::OcTree;
-using octomap::OcTreeKey;
-using octomap::OcTreeNode;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-OcTreeKey key_of(const Voxel& voxel) {
-  const auto key = [](std::int32_t v) {
-    return static_cast<octomap::key_type>(v - VoxelGrid::kMinVoxel);
-  };
-  return {key(voxel[0]), key(voxel[1]), key(voxel[2])};
-}
-
-/// The cube of a leaf with this key that is so many levels above a voxel.
-VoxelCube cube_of(const OcTreeKey& key, unsigned levels_above_voxel) {
-  VoxelCube cube;
-  for (unsigned k = 0; k < 3; ++k) cube.min[k] = std::int32_t{key[k]} + VoxelGrid::kMinVoxel;
-  cube.size = std::int32_t{1} << levels_above_voxel;
-  return cube;
-}
-
-/// The least value that `cost` takes on the boxes of occupied leaves, or nothing if none is
-/// finite and <= `limit`. Branch and bound, cheapest octant first; see `box_costs.h` for what a
-/// cost has to keep.
+/// The least value that `cost` takes on the boxes of occupied cubes, or nothing if none is finite
+/// and <= `limit`. Branch and bound, cheapest octant first; see `box_costs.h` for what a cost has
+/// to keep.
 template <typename Cost>
-class CheapestLeaf {
+class CheapestCube {
  public:
-  CheapestLeaf(const OcTree& tree, const VoxelGrid& grid, const Cost& cost, double limit)
-      : tree_(tree), grid_(grid), cost_(cost), limit_(limit) {}
+  /// What costs no more than `enough` will do instead of the least.
+  CheapestCube(const VoxelTree& tree, const VoxelGrid& grid, const Cost& cost, double limit,
+               double enough)
+      : tree_(tree), grid_(grid), cost_(cost), limit_(limit), enough_(enough) {}
 
   std::optional<double> run() {
-    if (const OcTreeNode* root = tree_.getRoot(); root != nullptr) {
-      visit(*root, VoxelGrid::kRoot, cost_(grid_.box(VoxelGrid::kRoot)));
+    Faces faces;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t first = tree_.root_cube().min[axis];
+      faces[axis] = {grid_.low_face_m(first), grid_.high_face_m(first + tree_.root_cube().size)};
     }
+    visit(tree_.root(), tree_.root_cube(), faces);
     return best_;
   }
 
  private:
-  struct Child {
-    const OcTreeNode* node;
-    VoxelCube cube;
+  /// Lower and upper face, as those of `VoxelGrid::box`.
+  using Pair = std::array<double, 2>;
+  using Faces = std::array<Pair, 3>;
+
+  struct Way {
     double cost;
+    unsigned octant;
   };
 
-  void visit(const OcTreeNode& node, const VoxelCube& cube, double cost) {
-    if (!(cost <= limit_ && cost < kInfinity) || (best_ && cost >= *best_)) return;
-    if (!tree_.isNodeOccupied(node)) return;  // an inner node holds the maximum of its children
-    if (!tree_.nodeHasChildren(&node)) {
-      best_ = cost;
-      return;
-    }
-    std::array<Child, 8> children;
-    std::size_t count = 0;
-    for (unsigned index = 0; index < 8; ++index) {
-      if (!tree_.nodeChildExists(&node, index)) continue;
-      const VoxelCube child = cube.child(index);
-      const double child_cost = cost_(grid_.box(child));
-      if (!(child_cost <= limit_)) continue;
-      // In order of cost; what costs the same stays in the order of the octants.
-      std::size_t place = count++;
-      for (; place > 0 && children[place - 1].cost > child_cost; --place) {
-        children[place] = children[place - 1];
+  [[nodiscard]] bool is_of_use(double cost) const {
+    return cost <= limit_ && cost < kInfinity && !(best_ && (cost >= *best_ || *best_ <= enough_));
+  }
+
+  void visit(const VoxelTree::Node& node, const VoxelCube& cube, const Faces& faces) {
+    const std::int32_t half = cube.size / 2;
+    std::array<std::array<Pair, 2>, 3> halves;  // by axis, lower and upper half of the cube
+    std::array<std::array<typename Cost::Part, 2>, 3> parts;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t middle = cube.min[axis] + half;
+      halves[axis] = {Pair{faces[axis][0], grid_.high_face_m(middle)},
+                      Pair{grid_.low_face_m(middle), faces[axis][1]}};
+      for (std::size_t side = 0; side < 2; ++side) {
+        parts[axis][side] = cost_.along(static_cast<Eigen::Index>(axis), halves[axis][side][0],
+                                        halves[axis][side][1]);
       }
-      children[place] = {tree_.getNodeChild(&node, index), child, child_cost};
     }
+    take_full(node.full, parts);
+    std::array<Way, 8> ways;
+    const std::size_t count = sorted_ways(node.nodes, parts, ways);
     for (std::size_t i = 0; i < count; ++i) {
-      visit(*children[i].node, children[i].cube, children[i].cost);
+      if (!is_of_use(ways[i].cost)) return;
+      const unsigned octant = ways[i].octant;
+      Faces within;
+      for (std::size_t axis = 0; axis < 3; ++axis) within[axis] = halves[axis][octant >> axis & 1U];
+      visit(tree_.child(node, octant), cube.child(octant), within);
     }
   }
 
-  const OcTree& tree_;
+  template <typename Parts>
+  void take_full(unsigned octants, const Parts& parts) {
+    for (; octants != 0; octants &= octants - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(octants));
+      const double cost = cost_.total(parts[0][i & 1U], parts[1][i >> 1 & 1U], parts[2][i >> 2]);
+      if (is_of_use(cost)) best_ = cost;
+    }
+  }
+
+  /// In order of cost; what costs the same stays in the order of the octants.
+  template <typename Parts>
+  std::size_t sorted_ways(unsigned octants, const Parts& parts, std::array<Way, 8>& ways) const {
+    std::size_t count = 0;
+    for (; octants != 0; octants &= octants - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(octants));
+      const double cost = cost_.bound(parts[0][i & 1U], parts[1][i >> 1 & 1U], parts[2][i >> 2]);
+      if (!is_of_use(cost)) continue;
+      std::size_t place = count++;
+      for (; place > 0 && ways[place - 1].cost > cost; --place) ways[place] = ways[place - 1];
+      ways[place] = {cost, i};
+    }
+    return count;
+  }
+
+  const VoxelTree& tree_;
   const VoxelGrid& grid_;
   const Cost& cost_;
   double limit_;
+  double enough_;
   std::optional<double> best_;
 };
-
-/// `bounds` is the box of all occupied leaves.
-template <typename Cost>
-std::optional<double> cheapest_leaf(const OcTree& tree, const VoxelGrid& grid, const Box& bounds,
-                                    const Cost& cost, double limit) {
-  if (bounds.isEmpty() || !(cost(bounds) <= limit)) return std::nullopt;
-  return CheapestLeaf<Cost>(tree, grid, cost, limit).run();
-}
 
 std::string describe(const Box& box) {
   std::ostringstream text;
@@ -176,17 +186,17 @@ bool fill(const PlacedVoxelMap& solid, const VoxelGrid& grid, std::uint64_t max_
 }
 
 /// What is occupied, or nothing if it is too much.
-std::optional<VoxelSet> occupied_voxels(const Mesh& mesh, const VoxelGrid& grid,
-                                        const std::optional<PlacedVoxelMap>& solid,
-                                        std::uint64_t max_voxels) {
+std::optional<VoxelTree> occupied_tree(const Mesh& mesh, const VoxelGrid& grid,
+                                       const std::optional<PlacedVoxelMap>& solid,
+                                       std::uint64_t max_voxels) {
   if (solid && solid->placement.is_identity() &&
       solid->map->resolution_m() == grid.resolution_m()) {
     const VoxelSet& voxels = solid->map->solid();
-    return voxels.size() <= max_voxels ? std::optional(voxels) : std::nullopt;
+    return voxels.size() <= max_voxels ? std::optional<VoxelTree>(voxels) : std::nullopt;
   }
   std::optional<VoxelSet> voxels = touched_voxels(mesh, grid, max_voxels);
   if (voxels && solid && !fill(*solid, grid, max_voxels, *voxels)) return std::nullopt;
-  return voxels;
+  return voxels ? std::optional<VoxelTree>(*voxels) : std::nullopt;
 }
 
 }  // namespace
@@ -196,8 +206,8 @@ OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolutio
                                               std::uint64_t max_voxels) {
   if (std::string error = refusal(mesh, resolution_m); !error.empty()) return {nullptr, error};
   const VoxelGrid grid(resolution_m);
-  const std::optional<VoxelSet> voxels = occupied_voxels(mesh, grid, solid, max_voxels);
-  if (!voxels) {
+  std::optional<VoxelTree> tree = occupied_tree(mesh, grid, solid, max_voxels);
+  if (!tree) {
     Box bounds;
     for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
     std::ostringstream text;
@@ -205,78 +215,66 @@ OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolutio
          << max_voxels << " voxels for the scene extent " << describe(bounds);
     return {nullptr, text.str()};
   }
-  auto tree = std::make_unique<OcTree>(resolution_m);
-  const float occupied = tree->getClampingThresMaxLog();
-  voxels->for_each(
-      [&](const Voxel& voxel) { tree->setNodeValue(key_of(voxel), occupied, /*lazy_eval=*/true); });
-  tree->updateInnerOccupancy();
-  tree->prune();
-  return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(std::move(tree), grid)), {}};
+  return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(*std::move(tree), grid)), {}};
 }
 
-OccupancyMap::OccupancyMap(std::unique_ptr<const OcTree> tree, const VoxelGrid& grid)
+OccupancyMap::OccupancyMap(VoxelTree tree, const VoxelGrid& grid)
     : tree_(std::move(tree)), grid_(grid) {
   statistics_.resolution_m = grid.resolution_m();
-  statistics_.nodes = tree_->size();
-  statistics_.memory_bytes = tree_->memoryUsage();
-  if (tree_->getRoot() == nullptr) return;
-  for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    const unsigned levels_above_voxel = tree_->getTreeDepth() - leaf.getDepth();
-    if (tree_->isNodeOccupied(*leaf)) {
-      statistics_.occupied_voxels += std::uint64_t{1} << (3 * levels_above_voxel);
-      bounds_.extend(grid_.box(cube_of(leaf.getIndexKey(), levels_above_voxel)));
-    }
-  }
+  statistics_.nodes = tree_.node_count();
+  statistics_.memory_bytes = tree_.memory_bytes();
+  tree_.for_each_cube([this](const VoxelCube& cube) {
+    const auto edge = static_cast<std::uint64_t>(cube.size);
+    statistics_.occupied_voxels += edge * edge * edge;
+    bounds_.extend(grid_.box(cube));
+  });
 }
 
-OccupancyMap::~OccupancyMap() = default;
+/// Whether there is one at all is all that is asked where any that costs `enough` will do.
+template <typename Cost>
+std::optional<double> OccupancyMap::cheapest(const Cost& cost, double limit, double enough) const {
+  if (bounds_.isEmpty()) return std::nullopt;
+  const auto along = [&](Eigen::Index axis) {
+    return cost.along(axis, bounds_.min()[axis], bounds_.max()[axis]);
+  };
+  if (!(cost.bound(along(0), along(1), along(2)) <= limit)) return std::nullopt;
+  return CheapestCube<Cost>(tree_, grid_, cost, limit, enough).run();
+}
 
 bool OccupancyMap::occupied_at(const Vec3& point_W) const {
   if (!bounds_.contains(point_W)) return false;
   const std::optional<Voxel> voxel = grid_.voxel_of(point_W);
   if (!voxel) return false;
-  const OcTreeNode* node = tree_->search(key_of(*voxel));
-  return node != nullptr && tree_->isNodeOccupied(node);
+  return tree_.contains(*voxel);
 }
 
 bool OccupancyMap::occupied_in_box(const Box& box_W) const {
   if (!(box_W.min().array() <= box_W.max().array()).all()) return false;  // empty, or NaN
-  return cheapest_leaf(*tree_, grid_, bounds_, BoxTouch(box_W), 0.0).has_value();
+  return cheapest(BoxTouch(box_W), 0.0, 0.0).has_value();
 }
 
 bool OccupancyMap::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
-  return distance_m(center_W, radius_m).has_value();
+  if (!center_W.allFinite()) return false;
+  return cheapest(PointDistance(center_W), radius_m, radius_m).has_value();
 }
 
 std::optional<double> OccupancyMap::ray_hit_m(const Vec3& origin_W, const Vec3& direction_W,
                                               double max_range_m) const {
   if (!origin_W.allFinite() || !direction_W.allFinite()) return std::nullopt;
   if ((direction_W.array() == 0.0).all()) return std::nullopt;
-  return cheapest_leaf(*tree_, grid_, bounds_, RayEntry(origin_W, direction_W), max_range_m);
+  return cheapest(RayEntry(origin_W, direction_W), max_range_m, 0.0);
 }
 
 std::optional<double> OccupancyMap::distance_m(const Vec3& point_W, double max_distance_m) const {
   if (!point_W.allFinite()) return std::nullopt;
-  return cheapest_leaf(*tree_, grid_, bounds_, PointDistance(point_W), max_distance_m);
+  return cheapest(PointDistance(point_W), max_distance_m, 0.0);
 }
 
 std::optional<double> OccupancyMap::sphere_path_hit_m(const Vec3& from_W, const Vec3& to_W,
                                                       double radius_m) const {
   if (!from_W.allFinite() || !to_W.allFinite() || !(radius_m >= 0.0)) return std::nullopt;
   const BallWay way(from_W, to_W, radius_m);
-  return cheapest_leaf(*tree_, grid_, bounds_, way, way.length_m());
-}
-
-void write_bt_of(const OcTree& tree, std::ostream& out) {
-  // Not OcTree::writeBinaryConst: it prints the resolution with six digits, which scales the map of
-  // any other resolution, and chats on stderr. The call below is not virtual for the latter reason:
-  // the installed library was built with its debug output on.
-  const std::streamsize precision = out.precision(std::numeric_limits<double>::max_digits10);
-  out << "# Octomap OcTree binary file\n# conservative mirror of a Camway scene\n#\n"
-      << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
-      << "\ndata\n";
-  out.precision(precision);
-  tree.octomap::OccupancyOcTreeBase<OcTreeNode>::writeBinaryData(out);
+  return cheapest(way, way.length_m(), 0.0);
 }
 
 }  // namespace camway::scene

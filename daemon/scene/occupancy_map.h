@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,29 +11,24 @@
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_grid.h"
 #include "daemon/scene/voxel_map.h"
-
-namespace octomap {
-class OcTree;
-}
+#include "daemon/scene/voxel_tree.h"
 
 namespace camway::scene {
 
 struct OccupancyStatistics {
   double resolution_m = 0.0;
-  std::uint64_t occupied_voxels =
-      0;  ///< at full resolution, pruned nodes counted as what they cover
+  std::uint64_t occupied_voxels = 0;  ///< at full resolution, large cubes as what they cover
   std::uint64_t nodes = 0;
   std::uint64_t memory_bytes = 0;
 };
 
-/// The OctoMap mirror of a scene (Hornung et al. 2013, "OctoMap"). Conservative: every voxel that a
-/// triangle touches is occupied, and what is not occupied is unknown to the tree, which counts as
-/// free here. The voxels of a query are closed boxes, faces moved outwards by
-/// `VoxelGrid::face_error_m`, so that rounding can add a touch and never lose one.
-/// OctoMap's own ray casting is not used: it works in single precision, gives the centre of the
-/// voxel that it hits, and stops where the start lies outside the keys' range.
-/// A query with NaN, or an infinity where it has no meaning, answers false or nothing.
-/// Immutable; queries are const and safe from any thread.
+/// The OctoMap mirror of a scene (Hornung et al. 2013, "OctoMap"): its voxels and the cubes that
+/// its tree makes of them, in a form that is faster to search (`VoxelTree`); `OccupancyMirror`
+/// writes them as OctoMap does. Conservative: every voxel that a triangle touches is occupied, and
+/// what is not occupied is unknown to the tree, which counts as free here. The voxels of a query
+/// are closed boxes, faces moved outwards by `VoxelGrid::face_error_m`, so that rounding can add a
+/// touch and never lose one. A query with NaN, or an infinity where it has no meaning, answers
+/// false or nothing. Immutable; queries are const and safe from any thread.
 class OccupancyMap {
  public:
   /// Largest distance of a coordinate from the origin that OctoMap's 16-bit keys can hold, in
@@ -58,10 +52,6 @@ class OccupancyMap {
   static BuildResult build(const Mesh& mesh, double resolution_m,
                            const std::optional<PlacedVoxelMap>& solid = std::nullopt,
                            std::uint64_t max_voxels = 50'000'000);
-
-  ~OccupancyMap();
-  OccupancyMap(const OccupancyMap&) = delete;
-  OccupancyMap& operator=(const OccupancyMap&) = delete;
 
   [[nodiscard]] double resolution_m() const { return grid_.resolution_m(); }
   [[nodiscard]] const OccupancyStatistics& statistics() const { return statistics_; }
@@ -97,19 +87,18 @@ class OccupancyMap {
                                                         const geometry::Vec3& to_W,
                                                         double radius_m) const;
 
-  /// The map itself, for those in daemon/scene who know OctoMap.
-  [[nodiscard]] const octomap::OcTree& tree() const { return *tree_; }
+  [[nodiscard]] const VoxelTree& tree() const { return tree_; }
 
  private:
-  OccupancyMap(std::unique_ptr<const octomap::OcTree> tree, const VoxelGrid& grid);
+  OccupancyMap(VoxelTree tree, const VoxelGrid& grid);
 
-  std::unique_ptr<const octomap::OcTree> tree_;
+  template <typename Cost>
+  [[nodiscard]] std::optional<double> cheapest(const Cost& cost, double limit, double enough) const;
+
+  VoxelTree tree_;
   VoxelGrid grid_;
   geometry::Box bounds_;  ///< of the occupied voxels
   OccupancyStatistics statistics_;
 };
-
-/// Writes OctoMap's binary format, which octovis opens.
-void write_bt_of(const octomap::OcTree& tree, std::ostream& out);
 
 }  // namespace camway::scene

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 namespace camway::scene {
@@ -18,32 +19,28 @@ using octomap::OcTreeKey;
 
 using Maps = std::vector<std::shared_ptr<const OccupancyMap>>;
 
-/// Marks in `whole` every voxel of an occupied cube of `size` voxels with the lowest key `low`.
-void mark_cube(const OcTreeKey& low, unsigned size, OcTree& whole) {
-  const auto key = [](octomap::key_type k, unsigned step) {
-    return static_cast<octomap::key_type>(k + step);
+/// Marks in `whole` every voxel of an occupied cube.
+void mark(const VoxelCube& cube, OcTree& whole) {
+  const auto key = [](std::int32_t voxel, std::int32_t step) {
+    return static_cast<octomap::key_type>(voxel - VoxelGrid::kMinVoxel + step);
   };
   const float occupied = whole.getClampingThresMaxLog();
-  for (unsigned x = 0; x < size; ++x) {
-    for (unsigned y = 0; y < size; ++y) {
-      for (unsigned z = 0; z < size; ++z) {
-        whole.setNodeValue(OcTreeKey(key(low[0], x), key(low[1], y), key(low[2], z)), occupied,
-                           true);
+  for (std::int32_t x = 0; x < cube.size; ++x) {
+    for (std::int32_t y = 0; y < cube.size; ++y) {
+      for (std::int32_t z = 0; z < cube.size; ++z) {
+        whole.setNodeValue(OcTreeKey(key(cube.min[0], x), key(cube.min[1], y), key(cube.min[2], z)),
+                           occupied,
+                           /*lazy_eval=*/true);
       }
     }
   }
 }
 
-/// All maps in one.
+/// All maps in one, as OctoMap has it.
 OcTree united(const Maps& maps, double resolution_m) {
   OcTree whole(resolution_m);
   for (const std::shared_ptr<const OccupancyMap>& map : maps) {
-    const OcTree& tree = map->tree();
-    if (tree.getRoot() == nullptr) continue;
-    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-      if (!tree.isNodeOccupied(*leaf)) continue;
-      mark_cube(leaf.getIndexKey(), 1U << (tree.getTreeDepth() - leaf.getDepth()), whole);
-    }
+    map->tree().for_each_cube([&](const VoxelCube& cube) { mark(cube, whole); });
   }
   whole.updateInnerOccupancy();
   whole.prune();
@@ -111,11 +108,16 @@ std::optional<double> OccupancyMirror::sphere_path_hit_m(const Vec3& from_W, con
 }
 
 void OccupancyMirror::write_bt(std::ostream& out) const {
-  if (maps_.size() == 1) {
-    write_bt_of(maps_.front()->tree(), out);
-  } else {
-    write_bt_of(united(maps_, resolution_m()), out);
-  }
+  const OcTree tree = united(maps_, resolution_m());
+  // Not OcTree::writeBinaryConst: it prints the resolution with six digits, which scales the map of
+  // any other resolution, and chats on stderr. The call below is not virtual for the latter reason:
+  // the installed library was built with its debug output on.
+  const std::streamsize precision = out.precision(std::numeric_limits<double>::max_digits10);
+  out << "# Octomap OcTree binary file\n# conservative mirror of a Camway scene\n#\n"
+      << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
+      << "\ndata\n";
+  out.precision(precision);
+  tree.octomap::OccupancyOcTreeBase<octomap::OcTreeNode>::writeBinaryData(out);
 }
 
 std::string OccupancyMirror::write_bt(const std::filesystem::path& file) const {

@@ -5,9 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 
-#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_box.h"
 
 namespace camway::scene {
@@ -124,18 +122,14 @@ std::optional<Voxel> VoxelGrid::voxel_of(const geometry::Vec3& point) const {
   return Voxel{*x, *y, *z};
 }
 
-double VoxelGrid::face_error_m(std::int32_t index) const {
-  return kFaceErrorUnits * geometry::kUnitRoundoff * (std::abs(index) + 1) * resolution_m_;
-}
-
 geometry::Box VoxelGrid::box(const VoxelCube& cube) const {
   geometry::Vec3 low;
   geometry::Vec3 high;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t first = cube.min[axis];
     const std::int32_t end = first + cube.size;
-    low[static_cast<Eigen::Index>(axis)] = first * resolution_m_ - face_error_m(first);
-    high[static_cast<Eigen::Index>(axis)] = end * resolution_m_ + face_error_m(end);
+    low[static_cast<Eigen::Index>(axis)] = low_face_m(first);
+    high[static_cast<Eigen::Index>(axis)] = high_face_m(end);
   }
   return {low, high};
 }

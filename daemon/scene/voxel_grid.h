@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <optional>
 
+#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/types.h"
 
 namespace camway::scene {
@@ -61,9 +63,19 @@ class VoxelGrid {
   /// The closed box of `cube`, each face moved outwards by at most `face_error_m`: it holds every
   /// double that OctoMap maps into the cube, and the exact box.
   [[nodiscard]] geometry::Box box(const VoxelCube& cube) const;
+  /// Its faces on one axis: the lower one of a cube that begins with voxel `index`, and the upper
+  /// one of a cube that ends before it.
+  [[nodiscard]] double low_face_m(std::int32_t index) const {
+    return index * resolution_m_ - face_error_m(index);
+  }
+  [[nodiscard]] double high_face_m(std::int32_t index) const {
+    return index * resolution_m_ + face_error_m(index);
+  }
 
   /// Upper bound of how far the face at `index·resolution` is moved.
-  [[nodiscard]] double face_error_m(std::int32_t index) const;
+  [[nodiscard]] double face_error_m(std::int32_t index) const {
+    return kFaceErrorUnits * geometry::kUnitRoundoff * (std::abs(index) + 1) * resolution_m_;
+  }
 
  private:
   double resolution_m_;

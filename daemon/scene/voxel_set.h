@@ -22,6 +22,9 @@ class VoxelSet {
   /// Voxels from -kMostVoxels to kMostVoxels - 1 on each axis.
   static constexpr std::int32_t kMostVoxels = std::int32_t{1} << 20;
 
+  /// Of a block: bit y * 8 + x of word z.
+  using Bits = std::array<std::uint64_t, 8>;
+
   /// The first and the last voxel on each axis.
   using Range = std::array<VoxelRange, 3>;
 
@@ -43,24 +46,26 @@ class VoxelSet {
   /// Calls `visit` for every voxel, in an order that depends on the set only.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (const std::uint64_t key : sorted_keys()) {
-      const Voxel low = low_of(key);
-      const Bits& bits = blocks_.find(key)->second;
+    for_each_block([&](const Voxel& low, const Bits& bits) {
       for (std::int32_t z = 0; z < 8; ++z) {
         for (std::uint64_t left = bits[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left);
           visit(Voxel{low[0] + bit % 8, low[1] + bit / 8, low[2] + z});
         }
       }
-    }
+    });
+  }
+
+  /// Calls `visit` for every block with its lowest voxel and its bits, in such an order. A
+  /// block may have no voxels.
+  template <class Visit>
+  void for_each_block(const Visit& visit) const {
+    for (const std::uint64_t key : sorted_keys()) visit(low_of(key), blocks_.find(key)->second);
   }
 
  private:
   friend class VoxelMarker;
   friend class VoxelSkin;
-
-  /// Bit y * 8 + x of word z.
-  using Bits = std::array<std::uint64_t, 8>;
 
   static std::uint64_t key_of(const Voxel& voxel);
   static Voxel low_of(std::uint64_t key);

@@ -15,6 +15,7 @@
 
 #include <toml++/toml.h>
 
+#include "daemon/scene/voxel_grid.h"
 #include "daemon/service/daemon_settings.h"
 
 namespace camway::service {
@@ -111,7 +112,9 @@ std::string read_number_above_0(const toml::node& node, double& value) {
 std::string apply_to_scene(std::string_view key, const toml::node& node, SceneArgument& scene) {
   if (key == "scale") return read_number_above_0(node, scene.options.import.scale);
   if (key == "occupancy_resolution_m") {
-    return read_number_above_0(node, scene.options.occupancy_resolution_m.emplace());
+    const double resolution_m = node.value<double>().value_or(0.0);
+    scene.options.occupancy_resolution_m = resolution_m;
+    return scene::VoxelGrid::valid_resolution(resolution_m) ? "" : kResolutionRule;
   }
   if (key == "watch") {
     const auto* const wanted = node.as_boolean();

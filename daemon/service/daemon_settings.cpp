@@ -7,6 +7,9 @@
 #include <cmath>
 #include <span>
 #include <type_traits>
+#include <utility>
+
+#include "daemon/service/http_page.h"
 
 namespace camway::service {
 namespace {
@@ -34,6 +37,10 @@ std::string choose(Choice& place, std::string_view word) {
   return {};
 }
 
+std::string fault_of_address(const std::string& text) {
+  return is_ip_address(text) ? "" : "must be an IPv4 or IPv6 address";
+}
+
 }  // namespace
 
 std::string Setting::text() const {
@@ -56,8 +63,10 @@ std::string Setting::text() const {
 std::string Setting::set(std::string_view value) const {
   if (const auto* const level = std::get_if<LogLevel*>(&target)) return choose(**level, value);
   if (const auto* const format = std::get_if<LogFormat*>(&target)) return choose(**format, value);
-  *std::get<std::string*>(target) = value;
-  return {};
+  std::string text(value);
+  std::string fault = fault_of_text != nullptr ? fault_of_text(text) : std::string();
+  if (fault.empty()) *std::get<std::string*>(target) = std::move(text);
+  return fault;
 }
 
 std::string Setting::set(double value) const {
@@ -140,7 +149,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"auth.required", &options.auth.required},
       {"auth.window_s", &options.auth.window, 0.001, kDayS},
       {"auth.senders", &options.auth.senders, 1, 1e7},
-      {"metrics.address", &options.metrics.ip},
+      {"metrics.address", &options.metrics.ip, 0, 0, false, &fault_of_address},
       {"metrics.port", &options.metrics.port, 0, 65'535},
       {"log.level", &options.log_level, 0, 0, true},
       {"log.format", &options.log_format},

@@ -24,6 +24,8 @@ struct Setting {
   double least = 0.0;
   double most = 0.0;
   bool reloads = false;  ///< whether SIGHUP takes it over; else it needs a restart
+  /// Of a text: what is wrong with it, or nothing. Null if any text will do.
+  std::string (*fault_of_text)(const std::string&) = nullptr;
 
   /// The value as the file says it.
   [[nodiscard]] std::string text() const;

@@ -146,6 +146,11 @@ class MicroHttpPage final : public HttpPage {
 
 }  // namespace
 
+bool is_ip_address(const std::string& text) {
+  Address address;
+  return parse({text, 0}, address);
+}
+
 OpenedHttpPage open_http_page(const HttpAddress& address, std::string path, std::string type,
                               std::function<std::string()> text) {
   Address parsed;

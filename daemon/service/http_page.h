@@ -22,6 +22,9 @@ struct HttpAddress {
   int port = 0;                  ///< 0: any that is free [Limit: 0 <= value <= 65535]
 };
 
+/// Whether `text` is an IPv4 or IPv6 address.
+bool is_ip_address(const std::string& text);
+
 /// A page, or why there is none, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in
 /// use".
 struct OpenedHttpPage {

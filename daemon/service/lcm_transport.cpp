@@ -8,11 +8,10 @@
 
 #include <array>
 #include <cerrno>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "daemon/service/local_traffic.h"
+#include "lcmtypes/local_traffic.h"
 
 namespace camway::service {
 namespace {
@@ -43,9 +42,7 @@ struct LcmDestroy {
 class LcmTransport final : public Transport {
  public:
   LcmTransport(const std::string& url, std::function<void(const std::string&)> warn)
-      : lcm_(lcm_create(url.c_str())), warn_(std::move(warn)) {
-    local_port_ = port_of_local_network(url);
-  }
+      : local_(url), lcm_(lcm_create(url.c_str())), warn_(std::move(warn)) {}
 
   [[nodiscard]] bool good() const { return lcm_ != nullptr && wake_.get() >= 0; }
 
@@ -98,9 +95,8 @@ class LcmTransport final : public Transport {
 
   /// LCM makes the socket that it hears with at the first subscription.
   void stay_local() {
-    if (!local_port_) return;
-    const std::string fault = hear_this_host_only(*local_port_);
-    local_port_.reset();
+    if (handlers_.size() > 1) return;
+    const std::string fault = local_.guard();
     if (!fault.empty() && warn_) warn_(fault);
   }
 
@@ -109,9 +105,9 @@ class LcmTransport final : public Transport {
     [[maybe_unused]] const ssize_t got = read(wake_.get(), &count, sizeof count);
   }
 
+  const wire::LocalTraffic local_;  ///< made before LCM is
   std::unique_ptr<lcm_t, LcmDestroy> lcm_;
   EventFd wake_;
-  std::optional<int> local_port_;  ///< of sockets that still have to be kept from other hosts
   std::function<void(const std::string&)> warn_;
   std::vector<std::unique_ptr<Handler>> handlers_;  ///< LCM holds their addresses
 };

@@ -40,22 +40,53 @@ spdlog::level::level_enum library_level(LogLevel level) {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
-bool needs_quotes(char c) { return is_control(c) || c == ' ' || c == '"' || c == '=' || c == '\\'; }
+bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
-/// Text without control characters; in quotes, and escaped as in C, if it could be taken for
-/// several words.
+bool needs_quotes(char c) {
+  return is_control(c) || is_beyond_ascii(c) || c == ' ' || c == '"' || c == '=' || c == '\\';
+}
+
+/// What a character may be that has its place in a log: no control (of Latin-1, U+0080 and on), and
+/// none that begins a line or turns the direction of writing.
+bool is_shown(char32_t c) {
+  return c >= 0xA0 && !(c >= 0x2028 && c <= 0x202E) && !(c >= 0x2066 && c <= 0x2069);
+}
+
+/// The bytes of the character beyond ASCII that `text` begins with, if it is well-formed UTF-8 and
+/// to be shown; else none.
+std::string_view shown_character(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < size) return {};
+  char32_t character = first & (0xFFU >> (size + 1));
+  for (const char next : text.substr(1, size - 1)) {
+    const auto byte = static_cast<unsigned char>(next);
+    if ((byte & 0xC0U) != 0x80) return {};
+    character = (character << 6U) | (byte & 0x3FU);
+  }
+  const bool is_shortest = size == 2 || character >= (size == 3 ? 0x800U : 0x10000U);
+  const bool is_surrogate = character >= 0xD800 && character <= 0xDFFF;
+  const bool is_right = is_shortest && !is_surrogate && character <= 0x10FFFF;
+  return is_right && is_shown(character) ? text.substr(0, size) : std::string_view{};
+}
+
+/// Text without control characters and bytes that are no text; in quotes, and escaped as in C, if
+/// it could be taken for several words.
 std::string as_value(std::string_view text) {
   if (!text.empty() && std::ranges::none_of(text, needs_quotes)) return std::string(text);
   std::string value = "\"";
-  for (const char c : text) {
+  while (!text.empty()) {
+    const char c = text.front();
+    const std::string_view shown = is_beyond_ascii(c) ? shown_character(text) : text.substr(0, 1);
     if (c == '\n') {
       value += "\\n";
-    } else if (is_control(c)) {
+    } else if (is_control(c) || shown.empty()) {
       fmt::format_to(std::back_inserter(value), "\\x{:02x}", static_cast<unsigned char>(c));
     } else {
       if (c == '"' || c == '\\') value += '\\';
-      value += c;
+      value += shown;
     }
+    text.remove_prefix(std::max<std::size_t>(shown.size(), 1));
   }
   return value + '"';
 }
@@ -65,7 +96,7 @@ std::string as_value(double number) { return fmt::format("{:g}", number); }
 
 std::string text_line(std::string_view event, LogFields facts) {
   std::string line;
-  for (const char c : event) line += is_control(c) ? '?' : c;
+  for (const char c : event) line += is_control(c) || is_beyond_ascii(c) ? '?' : c;
   for (const LogField& fact : facts) {
     line += fmt::format(" {}={}", fact.key,
                         std::visit([](const auto& value) { return as_value(value); }, fact.value));
@@ -79,7 +110,8 @@ std::string json_line(std::string_view event, LogFields facts) {
     std::visit([&](const auto& value) { object[std::string(fact.key)] = value; }, fact.value);
   }
   using Json = nlohmann::ordered_json;
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace).substr(1);
+  constexpr bool kEscapeBeyondAscii = true;
+  return object.dump(-1, ' ', kEscapeBeyondAscii, Json::error_handler_t::replace).substr(1);
 }
 
 /// Writes each line at once. A line that found no room (a full disk) is lost, but not those after

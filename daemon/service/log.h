@@ -40,7 +40,8 @@ using LogFields = std::initializer_list<LogField>;
 ///
 /// As text: `[time] [camwayd] [info] answered client=a request=7 message="no way"`. As JSON: an
 /// object on each line with `time`, `level`, `event` and the facts, of which none has such a name.
-/// Control characters never reach the log as they are, so nobody can forge a line.
+/// Control characters and bytes that are no UTF-8 never reach the log as they are (`\x1b`), so
+/// nobody can forge a line, or have a reader of logs take one for binary data.
 class Log {
  public:
   /// `out` must outlive this, and be written to by nobody else.

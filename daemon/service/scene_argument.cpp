@@ -7,6 +7,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "daemon/scene/voxel_grid.h"
+
 namespace camway::service {
 namespace {
 
@@ -48,10 +50,11 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
   }
   if (key == "scale") {
     scene.options.import.scale = *number;
-  } else {
-    scene.options.occupancy_resolution_m = *number;
+    return {};
   }
-  return {};
+  scene.options.occupancy_resolution_m = *number;
+  if (scene::VoxelGrid::valid_resolution(*number)) return {};
+  return std::string(key) + "=" + std::string(value) + ": " + kResolutionRule;
 }
 
 /// Takes options off the end of `rest` until what follows the last comma is none.

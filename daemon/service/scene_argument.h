@@ -26,6 +26,9 @@ inline constexpr char kSceneNameRule[] =
     "must be of letters, digits, '_', '-' and '.', at most 128";
 static_assert(wire::kMaxSceneNameBytes == 128);
 
+/// What `scene::VoxelGrid::valid_resolution` asks for, in metres.
+inline constexpr char kResolutionRule[] = "must be from 1e-9 to 1e9 m";
+
 /// "as-in-file", "z-to-y" or "y-to-z"; nothing for another word.
 std::optional<scene::UpAxis> up_axis_named(std::string_view word);
 

@@ -402,7 +402,7 @@ class Work {
     if (request_.file.empty() && request_.upload_bytes == 0) {
       if (options.occupancy_resolution_m &&
           !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
-        return invalid("occupancy_resolution_m: must be from 1e-9 to 1e9 m");
+        return invalid(std::string("occupancy_resolution_m: ") + kResolutionRule);
       }
       return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
     }

@@ -44,17 +44,19 @@ struct UploadKey {
   auto operator<=>(const UploadKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Puts uploads together from their pages, which come in any order and any number of times. What
-/// was not touched for the longest makes room for what is new. For one thread.
+/// Puts uploads together from their pages, which come in any order and any number of times. Who
+/// takes the most makes room for what is new: his upload that was not touched for the longest. So
+/// nobody's is driven out by somebody who begins many. For one thread.
 class Uploads {
  public:
   using Clock = std::chrono::steady_clock;
 
   struct Limits {
-    std::size_t uploads = 16;                          ///< begun or complete
-    std::size_t bytes = std::size_t{64} << 20;         ///< of one upload
-    std::size_t total_bytes = std::size_t{256} << 20;  ///< of all
-    std::chrono::milliseconds idle{600'000};           ///< then it is forgotten
+    std::size_t uploads = 16;                   ///< begun or complete
+    std::size_t bytes = std::size_t{64} << 20;  ///< of one upload
+    /// Of all, and of those that are forgotten but still read.
+    std::size_t total_bytes = std::size_t{256} << 20;
+    std::chrono::milliseconds idle{600'000};  ///< then it is forgotten
   };
 
   explicit Uploads(const Limits& limits) : limits_(limits) {}
@@ -70,7 +72,7 @@ class Uploads {
   /// The complete upload, or null.
   [[nodiscard]] UploadedBytes find(const UploadKey& key) const;
 
-  /// Of all uploads.
+  /// Of all uploads that can be found, begun or complete.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
@@ -84,15 +86,20 @@ class Uploads {
   using Map = std::map<UploadKey, Upload>;
 
   [[nodiscard]] std::string fault_of(const upload_page_t& page) const;
-  Upload& find_or_begin(const UploadKey& key, Clock::time_point now);
+  Upload* find_or_begin(const UploadKey& key, Clock::time_point now);
   void forget(Map::iterator upload);
-  void make_room(std::size_t bytes, Clock::time_point now);
+  [[nodiscard]] bool make_room(std::size_t bytes, Clock::time_point now);
+  [[nodiscard]] static bool is_read(const Upload& upload);
+  [[nodiscard]] std::size_t held_bytes();
+  [[nodiscard]] std::size_t read_bytes();
+  [[nodiscard]] Map::iterator next_to_forget(bool by_number);
   static void report(const Upload& upload, upload_status_t& status);
   static std::int64_t checksum_of(const Upload& complete);
 
   Limits limits_;
   Map uploads_;
   std::size_t bytes_ = 0;
+  std::vector<std::weak_ptr<const UploadRoom>> held_;  ///< forgotten, but perhaps still read
 };
 
 }  // namespace camway::service

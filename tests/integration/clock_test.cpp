@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -85,6 +87,47 @@ TEST_F(ClockTest, AJumpChangesNothingForRequestsAndLeases) {
   EXPECT_EQ(lost, 0);
   client.unload_scene("office");
   EXPECT_TRUE(eventually([&] { return broken > 0; }));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t number = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++number;
+  }
+  return number;
+}
+
+TEST_F(ClockTest, AJumpNeitherFloodsTheLogNorSilencesIt) {
+  constexpr double kLines_per_s = 2.0;
+  constexpr double kBurst = 5.0;
+  std::ofstream(file("camwayd.toml"))
+      << "[log]\nlines_per_s = " << kLines_per_s << "\nburst_lines = " << kBurst
+      << "\n[status]\nperiod_s = 0.05\n[[scene]]\nname = \"maze\"\nfile = \"" << scene_file("maze")
+      << "\"\n";
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
+  lcm::LCM lcm;
+  std::int64_t sent = 0;
+  const auto say_nonsense = [&](int messages) {
+    const std::array<std::uint8_t, 10> nonsense{};
+    for (int i = 0; i < messages; ++i, ++sent) {
+      lcm.publish(wire::Channels{}.cancel(), nonsense.data(), nonsense.size());
+    }
+    return eventually([&] { return Client().status().malformed_messages >= sent; });
+  };
+  const auto lines_with = [&](const std::string& part) { return count(daemon().output(), part); };
+
+  const auto begin = std::chrono::steady_clock::now();
+  for (const long ahead_s : {0L, kDay_s, kTwentyYears_s, 0L, kTwentyYears_s}) {
+    set_clock(ahead_s);
+    ASSERT_TRUE(say_nonsense(20));
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LE(static_cast<double>(lines_with("malformed message")),
+            kBurst + kLines_per_s * took.count());
+  set_clock(-kTwentyYears_s);
+  ASSERT_TRUE(say_nonsense(20));
+  const std::size_t before = lines_with("lines left out kind=malformed");
+  EXPECT_TRUE(eventually([&] { return lines_with("lines left out kind=malformed") > before; }));
 }
 
 class SignedClockTest : public ClockTest {

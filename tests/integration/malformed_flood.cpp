@@ -3,10 +3,12 @@
 // Sends malformed messages to a running daemon, on all its channels, and measures how it bears
 // them:
 //
-//   malformed_flood DAEMON_PID MESSAGES [SEED]
+//   malformed_flood DAEMON_PID MESSAGES [SEED [KEY_FILE]]
 //
 // Mutants of right messages, right ones of another type, pieces, noise, lengths of billions; each
-// is looked at before it is sent, so that none is right. After every few a small question is asked:
+// is looked at before it is sent, so that none is right. For a daemon with keys, some are well
+// signed; the others, right ones among them, are unsigned, signed for another channel or with
+// another key, or altered. After every few a small question is asked:
 // the time until its answer is how long the daemon stood still for others. Prints the numbers. Exit
 // code 0 if every question was answered within 50 ms and, after the first tenth, the daemon's
 // memory grew by no more than 1 %; 3 if not; 2 if it cannot be said.
@@ -17,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +28,9 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "lcmtypes/channels.h"
+#include "lcmtypes/envelope.h"
+#include "lcmtypes/message_auth.h"
+#include "lcmtypes/message_keys.h"
 #include "lcmtypes/wire_check.h"
 #include "tests/service/message_mutation.h"
 #include "tests/service/random_messages.h"
@@ -115,10 +121,47 @@ Bytes attempt(const std::vector<Target>& all, const Target& target, Random& rand
   }
 }
 
+/// Signs what a daemon with keys is to believe, and what it is not.
+class Signatures {
+ public:
+  explicit Signatures(std::shared_ptr<const wire::MessageKeys> keys)
+      : right_(std::move(keys), {}), wrong_(wire::MessageKeys::from_text(kWrongKey, "").keys, {}) {}
+
+  Bytes right(const std::string& channel, const Bytes& bytes) {
+    return right_.seal(channel, bytes);
+  }
+  /// In one of many ways.
+  Bytes wrong(const std::string& channel, const Bytes& bytes, Random& random) {
+    switch (below(random, 4)) {
+      case 0:
+        return bytes;
+      case 1:
+        return right_.seal(channel + "_", bytes);
+      case 2:
+        return wrong_.seal(channel, bytes);
+      default: {
+        const Bytes sealed = right_.seal(channel, bytes);
+        Bytes altered = sealed;
+        while (altered == sealed) testing::mutate(altered, random);
+        return altered;
+      }
+    }
+  }
+
+ private:
+  static constexpr char kWrongKey[] =
+      "2147483647 0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
+
+  wire::MessageAuth right_;
+  wire::MessageAuth wrong_;
+};
+
 /// What is heard of the daemon.
 class Daemon {
  public:
-  explicit Daemon(int pid) : memory_("/proc/" + std::to_string(pid) + "/statm") {
+  /// `signatures` is null for a daemon without keys, else outlives this.
+  Daemon(int pid, Signatures* signatures)
+      : memory_("/proc/" + std::to_string(pid) + "/statm"), signatures_(signatures) {
     lcm_.subscribeFunction(channels_.occupancy_response(kClient), &Daemon::take_answer, this);
     lcm_.subscribeFunction(channels_.status(), &Daemon::take_status, this);
   }
@@ -135,7 +178,9 @@ class Daemon {
     question.request_id = ++asked_;
     question.scene = "nowhere";
     const Clock::time_point begin = Clock::now();
-    send(channels_.occupancy_request(), wire::encode(question));
+    const std::string channel = channels_.occupancy_request();
+    const Bytes bytes = wire::encode(question);
+    send(channel, signatures_ != nullptr ? signatures_->right(channel, bytes) : bytes);
     constexpr std::chrono::seconds kPatience(5);
     while (answered_ < asked_) {
       if (Clock::now() - begin > kPatience) return std::nullopt;
@@ -144,12 +189,13 @@ class Daemon {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   }
 
-  /// As the next status has it; -1 if there is none.
-  std::int64_t malformed() {
-    malformed_ = -1;
+  /// Messages that it could not read or did not believe, as the next status has it; -1 if there is
+  /// none.
+  std::int64_t dropped() {
+    dropped_ = -1;
     const Clock::time_point begin = Clock::now();
-    while (malformed_ < 0 && Clock::now() - begin < std::chrono::seconds(5)) lcm_.handleTimeout(10);
-    return malformed_;
+    while (dropped_ < 0 && Clock::now() - begin < std::chrono::seconds(5)) lcm_.handleTimeout(10);
+    return dropped_;
   }
 
   [[nodiscard]] double resident_mb() const {
@@ -162,23 +208,32 @@ class Daemon {
   }
 
  private:
-  static void take_answer(const lcm::ReceiveBuffer* buffer, const std::string&, Daemon* self) {
-    const auto decoded = wire::decode<occupancy_response_t>(
+  /// The message within, whoever signed it.
+  template <class Message>
+  static std::optional<Message> read(const lcm::ReceiveBuffer* buffer) {
+    const std::optional<Bytes> bytes = wire::payload_unchecked(
         {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
-    if (decoded.message) self->answered_ = std::max(self->answered_, decoded.message->request_id);
+    return bytes ? wire::decode<Message>(*bytes).message : std::nullopt;
+  }
+  static void take_answer(const lcm::ReceiveBuffer* buffer, const std::string&, Daemon* self) {
+    const auto answer = read<occupancy_response_t>(buffer);
+    if (answer) self->answered_ = std::max(self->answered_, answer->request_id);
   }
   static void take_status(const lcm::ReceiveBuffer* buffer, const std::string&, Daemon* self) {
-    const auto decoded =
-        wire::decode<status_t>({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
-    if (decoded.message) self->malformed_ = decoded.message->malformed_messages;
+    const auto status = read<status_t>(buffer);
+    if (!status) return;
+    self->dropped_ = status->malformed_messages + status->unsigned_messages +
+                     status->broken_envelopes + status->unknown_key_messages +
+                     status->altered_messages;
   }
 
   const std::string memory_;
+  Signatures* const signatures_;
   const wire::Channels channels_;
   lcm::LCM lcm_;
   std::int64_t asked_ = 0;
   std::int64_t answered_ = 0;
-  std::int64_t malformed_ = -1;
+  std::int64_t dropped_ = -1;
 };
 
 struct Outcome {
@@ -187,15 +242,28 @@ struct Outcome {
   double warm_mb = 0.0;  ///< the daemon's memory after the first tenth
 };
 
+/// Something that the daemon has to drop.
+Bytes message_for(const Target& target, const std::vector<Target>& all, Signatures* signatures,
+                  Random& random) {
+  Bytes bytes = attempt(all, target, random);
+  if (signatures == nullptr) {
+    while (target.is_right(bytes)) bytes = attempt(all, target, random);
+    return bytes;
+  }
+  if (below(random, 4) == 0) bytes = target.right[below(random, target.right.size())];
+  const bool may_be_believed = !target.is_right(bytes) && below(random, 3) == 0;
+  return may_be_believed ? signatures->right(target.channel, bytes)
+                         : signatures->wrong(target.channel, bytes, random);
+}
+
 /// Sends a few messages; returns how many.
 std::int64_t send_batch(const std::vector<Target>& all, std::int64_t most, Daemon& daemon,
-                        Random& random) {
+                        Signatures* signatures, Random& random) {
   std::int64_t sent = 0;
   std::size_t room = kBatchBytes;
   while (sent < std::min<std::int64_t>(most, kBatchMessages)) {
     const Target& target = all[below(random, all.size())];
-    const Bytes bytes = attempt(all, target, random);
-    if (target.is_right(bytes)) continue;
+    const Bytes bytes = message_for(target, all, signatures, random);
     if (sent > 0 && bytes.size() > room) break;
     room -= std::min(room, bytes.size());
     daemon.send(target.channel, bytes);
@@ -204,11 +272,11 @@ std::int64_t send_batch(const std::vector<Target>& all, std::int64_t most, Daemo
   return sent;
 }
 
-Outcome flood(Daemon& daemon, std::int64_t messages, Random& random) {
+Outcome flood(Daemon& daemon, std::int64_t messages, Signatures* signatures, Random& random) {
   const std::vector<Target> all = targets(random);
   Outcome outcome;
   for (std::int64_t sent = 0; sent < messages;) {
-    sent += send_batch(all, messages - sent, daemon, random);
+    sent += send_batch(all, messages - sent, daemon, signatures, random);
     if (const std::optional<double> took_ms = daemon.ping_ms()) {
       outcome.stalls_ms.push_back(*took_ms);
     } else {
@@ -224,22 +292,32 @@ Outcome flood(Daemon& daemon, std::int64_t messages, Random& random) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: malformed_flood DAEMON_PID MESSAGES [SEED]\n");
+    std::fprintf(stderr, "usage: malformed_flood DAEMON_PID MESSAGES [SEED [KEY_FILE]]\n");
     return 2;
   }
-  Daemon daemon(std::atoi(argv[1]));
+  std::optional<Signatures> with_keys;
+  if (argc > 4) {
+    wire::MessageKeys::Read keys = wire::MessageKeys::from_file(argv[4]);
+    if (!keys.keys) {
+      std::fprintf(stderr, "malformed_flood: %s\n", keys.error.c_str());
+      return 2;
+    }
+    with_keys.emplace(std::move(keys.keys));
+  }
+  Signatures* const signatures = with_keys ? &*with_keys : nullptr;
+  Daemon daemon(std::atoi(argv[1]), signatures);
   const std::int64_t messages = std::atoll(argv[2]);
   Random random(argc > 3 ? static_cast<std::uint64_t>(std::atoll(argv[3])) : testing::kSeed);
-  const std::int64_t counted_before = daemon.good() ? daemon.malformed() : -1;
+  const std::int64_t counted_before = daemon.good() ? daemon.dropped() : -1;
   if (counted_before < 0 || !daemon.ping_ms()) {
     std::fprintf(stderr, "malformed_flood: there is no daemon to be heard\n");
     return 2;
   }
   const double first_mb = daemon.resident_mb();
   const Clock::time_point begin = Clock::now();
-  const Outcome outcome = flood(daemon, messages, random);
+  const Outcome outcome = flood(daemon, messages, signatures, random);
   const double took_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  const std::int64_t counted = daemon.malformed() - counted_before;
+  const std::int64_t counted = daemon.dropped() - counted_before;
   const double last_mb = daemon.resident_mb();
   const auto quantile = [&](double share) {
     const std::vector<double>& all = outcome.stalls_ms;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -144,6 +145,26 @@ TEST_F(OperationTest, IsScrapedUnderLoad) {
   EXPECT_EQ(second.wait(), 1);
   EXPECT_THAT(second.output(), HasSubstr("cannot listen on 127.0.0.1 port 9464: Address "
                                          "already in use"));
+}
+
+TEST_F(OperationTest, ItsUnitLetsItMakeTheSystemCallsThatItNeeds) {
+#ifdef UNIT_FILTER_BINARY
+  if (access("/usr/bin/systemd-analyze", X_OK) != 0) GTEST_SKIP() << "there is no systemd";
+  write_config("info", {"office"});
+  std::ofstream(file("camwayd.toml"), std::ios::app) << "occupancy_resolution_m = 0.2\n";
+  run_daemons_by({UNIT_FILTER_BINARY, CAMWAYD_UNIT_FILE});
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
+  Client client(patient());
+  EXPECT_TRUE(client.plan(request_of("office-graze-column", "office")).ok());
+  const SceneAnswer loaded = client.load_scene("uploaded", long_mesh(200'000));
+  EXPECT_TRUE(loaded.ok()) << loaded.error;
+  daemon().signal(SIGHUP);
+  EXPECT_TRUE(eventually(
+      [&] { return daemon().output().find("reloaded configured_scenes=1") != std::string::npos; }));
+  EXPECT_NE(testing::http_request(kMetricsPort, "GET", "/metrics"), "");
+#else
+  GTEST_SKIP() << "a sanitizer makes system calls of its own";
+#endif
 }
 
 TEST_F(OperationTest, IsNotCalledAliveWhileItStandsStill) {

@@ -165,5 +165,24 @@ TEST_F(TwoHostsTest, ADaemonForThisHostOnlyDoesNotHearTheOther) {
   EXPECT_EQ(scenes_at(kBothHosts), 2U) << "or what it says above would mean nothing";
 }
 
+TEST_F(TwoHostsTest, AClientForThisHostOnlyDoesNotHearTheOther) {
+  const auto daemon = start_over_there(
+      {CAMWAYD_BINARY, "--url", kBothHosts, "--scene", "office=" + scene_file("office")});
+  ASSERT_TRUE(
+      eventually([&] { return !daemon->running() || status_at(kBothHosts, 0.5) == Status::kOk; }));
+  // Two heartbeats have come by then.
+  EXPECT_EQ(status_at(kThisHostOnly, 2.5), Status::kNoDaemon);
+  EXPECT_EQ(status_at(kBothHosts, 10.0), Status::kOk) << "or what it says above would mean nothing";
+
+  // A program that listens to others as well keeps hearing them.
+  ClientOptions other;
+  other.url = kBothHosts;
+  Client before(other);
+  EXPECT_EQ(status_at(kThisHostOnly, 2.5), Status::kNoDaemon);
+  EXPECT_EQ(before.status(10.0).status, Status::kOk);
+  daemon->signal(SIGTERM);
+  EXPECT_EQ(daemon->wait(), 0) << daemon->output();
+}
+
 }  // namespace
 }  // namespace camway::integration

@@ -50,21 +50,58 @@ TEST(MessageKeys, NamesTheLineThatIsWrongAndNeverTheSecret) {
   EXPECT_EQ(error_of(many), "keys:65: more than 64 keys");
 }
 
+/// The rights of another user for as long as it lives, but still in the group of root.
+class AsSomebody {
+ public:
+  static constexpr uid_t kUser = 65534;
+  AsSomebody() { EXPECT_EQ(seteuid(kUser), 0); }
+  ~AsSomebody() { EXPECT_EQ(seteuid(0), 0); }
+  AsSomebody(const AsSomebody&) = delete;
+  AsSomebody& operator=(const AsSomebody&) = delete;
+};
+
+/// A key file of that owner, in the group of root, with that mode.
+class OwnedFile {
+ public:
+  OwnedFile() : name_(folder_.write("keys", "1 " + kOne + "\n")) {
+    chmod(folder_.path().c_str(), 0711);
+  }
+  [[nodiscard]] MessageKeys::Read read(mode_t mode) const {
+    chmod(name_.c_str(), mode);
+    return MessageKeys::from_file(name_);
+  }
+  [[nodiscard]] MessageKeys::Read read_as_somebody(uid_t owner, mode_t mode) const {
+    EXPECT_EQ(chown(name_.c_str(), owner, 0), 0);
+    chmod(name_.c_str(), mode);
+    const AsSomebody rights;
+    return MessageKeys::from_file(name_);
+  }
+
+ private:
+  const testing::TemporaryFolder folder_;
+  const std::string name_;
+};
+
 TEST(MessageKeys, AFileThatOthersMayReadIsRefused) {
-  const testing::TemporaryFolder folder;
-  const std::string file = folder.write("keys", "1 " + kOne + "\n");
-  for (const mode_t mode : {0640U, 0604U, 0620U, 0602U, 0610U, 0601U, 0666U}) {
-    chmod(file.c_str(), mode);
-    EXPECT_THAT(MessageKeys::from_file(file).error, HasSubstr("chmod 600")) << mode;
+  const OwnedFile file;
+  for (const mode_t mode : {0604U, 0620U, 0602U, 0610U, 0601U, 0666U}) {
+    EXPECT_THAT(file.read(mode).error, HasSubstr("chmod 600")) << mode;
   }
-  for (const mode_t mode : {0600U, 0400U}) {
-    chmod(file.c_str(), mode);
-    EXPECT_TRUE(MessageKeys::from_file(file).keys) << mode;
+  for (const mode_t mode : {0600U, 0400U}) EXPECT_TRUE(file.read(mode).keys) << mode;
+}
+
+TEST(MessageKeys, AFileOfRootsMayBeReadByItsGroup) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
+  const OwnedFile file;
+  for (const mode_t mode : {0640U, 0440U}) {
+    EXPECT_TRUE(file.read_as_somebody(0, mode).keys) << mode;
+    EXPECT_TRUE(file.read(mode).keys) << mode << ": nor does root need another one";
   }
-  if (geteuid() == 0) {
-    ASSERT_EQ(chown(file.c_str(), 1, 0), 0);
-    EXPECT_THAT(MessageKeys::from_file(file).error, HasSubstr("belongs to another user"));
+  for (const mode_t mode : {0660U, 0650U, 0644U, 0642U, 0641U}) {
+    EXPECT_THAT(file.read_as_somebody(0, mode).error, HasSubstr("chmod 600 or 640")) << mode;
   }
+  EXPECT_THAT(file.read_as_somebody(AsSomebody::kUser, 0640).error, HasSubstr("(chmod 600)"));
+  EXPECT_THAT(file.read_as_somebody(1, 0640).error, HasSubstr("belongs to another user"));
 }
 
 TEST(MessageKeys, WhatIsNoFileIsRefusedWithoutWaiting) {

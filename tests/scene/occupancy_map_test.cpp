@@ -13,6 +13,7 @@
 #include <limits>
 #include <set>
 
+#include "daemon/scene/box_costs.h"
 #include "daemon/scene/occupancy_mirror.h"
 #include "tests/scene/voxel_oracle.h"
 
@@ -167,6 +168,38 @@ TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
       const bool in_box = sample.map->occupied_in_box(query);
       ASSERT_TRUE(in_box || !box_exact);
       ASSERT_TRUE(!in_box || box_grown);
+    }
+  }
+}
+
+/// The search leaves out nothing that counts: what it says is what asking every cube says.
+TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
+  std::cout << "seed " << kSeed << '\n';
+  std::mt19937_64 random(kSeed);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Sample sample(random);
+    const VoxelGrid grid(sample.resolution_m);
+    const auto least = [&](const auto& cost, double limit) {
+      double cheapest = kInfinity;
+      sample.map->tree().for_each_cube([&](const VoxelCube& cube) {
+        const Box box = grid.box(cube);
+        const auto along = [&](Eigen::Index k) {
+          return cost.along(k, box.min()[k], box.max()[k]);
+        };
+        cheapest = std::min(cheapest, cost.total(along(0), along(1), along(2)));
+      });
+      return cheapest <= limit ? cheapest : kInfinity;
+    };
+    for (int i = 0; i < 30; ++i) {
+      const Vec3 p = sample.point(random);
+      const Vec3 to = sample.point(random);
+      const double limit = sample.resolution_m * oracle::log_uniform(random, 0.1, 100.0);
+      ASSERT_EQ(sample.map->distance_m(p, limit).value_or(kInfinity),
+                least(PointDistance(p), limit));
+      ASSERT_EQ(sample.map->occupied_in_sphere(p, limit), least(PointDistance(p), limit) <= limit);
+      if (to.isZero(0.0)) continue;
+      ASSERT_EQ(sample.map->ray_hit_m(p, to, limit).value_or(kInfinity),
+                least(RayEntry(p, to), limit));
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -75,9 +76,39 @@ TEST_F(ConfigFile, TheSceneOfTheSampleIsRight) {
   EXPECT_TRUE(options_.scenes.back().watch);
 }
 
+TEST_F(ConfigFile, EverySettingIsNamedWhereItsValueIsWrong) {
+  const auto expect_named = [&](const std::string& head, const std::string& key,
+                                const std::string& value) {
+    const std::vector<std::string> faults = read(head + "\n" + key + " = " + value + "\n");
+    const bool named = std::any_of(faults.begin(), faults.end(), [&](const std::string& fault) {
+      return fault.find("c.toml:2: ") != std::string::npos && fault.find(key) != std::string::npos;
+    });
+    EXPECT_TRUE(named) << key << " = " << value << ::testing::PrintToString(faults);
+  };
+  for (const Setting& setting : settings_of(options_)) {
+    const std::size_t dot = setting.key.find('.');
+    const std::string head = "[" + std::string(setting.key.substr(0, dot)) + "]";
+    const std::string key(setting.key.substr(dot + 1));
+    for (const char* value : {"[]", "{}", "1979-05-27", "nan", "-inf", "-1"}) {
+      expect_named(head, key, value);
+    }
+    if (!setting.is_text()) expect_named(head, key, "\"a\"");
+    if (!setting.is_switch()) expect_named(head, key, "true");
+  }
+  for (const char* key :
+       {"name", "file", "scale", "up", "unknown", "occupancy_resolution_m", "watch"}) {
+    for (const char* value : {"[]", "{}", "1979-05-27", "nan", "-1"}) {
+      expect_named("[[scene]]", key, value);
+    }
+  }
+}
+
 TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
   const std::vector<std::pair<std::string, std::string>> table{
       {"[queue\n", ":1: "},
+      {"[metrics]\naddress = \"localhost\"\n", ":2: metrics.address: must be an IPv4 or IPv6"},
+      {"[[scene]]\nname = \"a\"\nfile = \"f\"\noccupancy_resolution_m = 1e-10\n",
+       ":4: scene.occupancy_resolution_m: must be from 1e-9"},
       {"\nqueue = 1\n", ":2: 'queue' must be a table"},
       {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has auth, lcm, "},
       {"[queue]\nlenght = 5\n",

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <random>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -66,6 +68,52 @@ TEST(Log, NobodyForgesALine) {
     const std::string text = out.str();
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  }
+}
+
+/// The text between the quotes of `value="..."`, its escapes undone.
+std::string unescaped(const std::string& line) {
+  std::string text;
+  const std::size_t begin = line.find("value=\"") + 7;
+  for (std::size_t i = begin; i + 2 < line.size(); ++i) {
+    if (line[i] != '\\') {
+      text += line[i];
+    } else if (line[++i] == 'x') {
+      text += static_cast<char>(std::stoi(line.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      text += line[i] == 'n' ? '\n' : line[i];
+    }
+  }
+  return text;
+}
+
+TEST(Log, TextBeyondAsciiIsKeptIfItIsTextAndNothingIsLost) {
+  const auto line_of = [](const std::string& value) {
+    std::ostringstream out;
+    Log log(out, LogFormat::kText, LogLevel::kInfo);
+    log.info("event", {{"value", value}});
+    return out.str().substr(out.str().find("event"));
+  };
+  EXPECT_EQ(line_of("Büro 間 \U0001F3A5"), "event value=\"Büro 間 \U0001F3A5\"\n");
+  EXPECT_EQ(line_of("\u0085"), "event value=\"\\xc2\\x85\"\n") << "a new line to some";
+  EXPECT_EQ(line_of("\u202Ea"), "event value=\"\\xe2\\x80\\xaea\"\n") << "written backwards";
+  EXPECT_EQ(line_of("\xed\xa0\x80"), "event value=\"\\xed\\xa0\\x80\"\n") << "a surrogate";
+  EXPECT_EQ(line_of("\xc0\xaf\xe2\x82"), "event value=\"\\xc0\\xaf\\xe2\\x82\"\n");
+
+  constexpr std::uint64_t kSeed = 20261122;
+  std::mt19937_64 random(kSeed);
+  const std::string starts =
+      "a\"\\\n\x1b\x80\xbf\xc2\xdf\xe0\xa0\xed\x9f\xe2\xef\xf0\x90\xf4\x8f\xff";
+  for (int trial = 0; trial < 20'000; ++trial) {
+    std::string text = "=";  // so that it is quoted
+    for (std::size_t size = random() % 8; size > 0; --size) {
+      text += random() % 4 == 0 ? static_cast<char>(random()) : starts[random() % starts.size()];
+    }
+    const std::string line = line_of(text);
+    ASSERT_EQ(unescaped(line), text) << "seed " << kSeed << ", trial " << trial;
+    // It throws where a string is not well-formed UTF-8.
+    ASSERT_NO_THROW((void)nlohmann::json(line).dump()) << "seed " << kSeed << ", trial " << trial;
   }
 }
 

@@ -54,6 +54,7 @@ TEST(SceneArgument, ErrorsQuoteTheTextAndSayWhatIsWrong) {
       {"a=b,scale=inf", "must be a number above 0"},
       {"a=b,scale=2x", "must be a number above 0"},
       {"a=b,occupancy=", "occupancy=: must be a number above 0"},
+      {"a=b,occupancy=1e10", "occupancy=1e10: must be from 1e-9 to 1e9 m"},
       {"a=b,up=x-to-y", "up=x-to-y: must be as-in-file, z-to-y or y-to-z"},
       {"a=b,watch=maybe", "watch=maybe: must be yes or no"},
       {"a=b,ocupancy=0.1", "'ocupancy' is no option"},

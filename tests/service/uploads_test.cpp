@@ -15,6 +15,7 @@
 namespace camway::service {
 namespace {
 
+using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
@@ -160,6 +161,9 @@ TEST(Uploads, RefusesPagesThatAreWrong) {
     EXPECT_THAT(refusal(page), HasSubstr("total_bytes"));
   }
   EXPECT_EQ(uploads.bytes(), 0U) << "what is refused takes no room";
+  page = page_of(whole, 1);
+  page.total_bytes = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(uploads.take(page, kNow).status.status, upload_status_t::STATUS_LIMIT);
 }
 
 TEST(Uploads, StartsAnewWhenTheWholeIsNotWhatWasSaid) {
@@ -204,6 +208,55 @@ TEST(Uploads, KeepsWithinItsLimits) {
   EXPECT_LE(uploads.bytes(), 3U * 10);
   static_cast<void>(take(some_bytes(5, 40), 100));
   EXPECT_EQ(uploads.bytes(), 5U) << "the idle ones are forgotten";
+}
+
+TEST(Uploads, WhoBeginsManyDrivesNobodyOut) {
+  const Bytes whole = some_bytes(20 * kPage + 3, 11);
+  Uploads uploads({});
+  upload_page_t question = page_of(whole, -1, "hostile");
+  auto now = kNow;
+  for (int number = 0; number <= 20; ++number) {
+    static_cast<void>(uploads.take(page_of(whole, number), now += milliseconds(1)));
+    for (int i = 0; i < 500; ++i) {  // 10,000 in all, each the largest that may be
+      question.total_bytes = static_cast<std::int64_t>(Uploads::Limits{}.bytes);
+      question.checksum = 1000 * number + i;
+      static_cast<void>(uploads.take(question, now += milliseconds(1)));
+      question.total_bytes = 1;
+      static_cast<void>(uploads.take(question, now += milliseconds(1)));
+    }
+    ASSERT_LE(uploads.bytes(), Uploads::Limits{}.total_bytes);
+  }
+  EXPECT_TRUE(uploads.find(key_of(whole)));
+}
+
+TEST(Uploads, WhatIsReadCountsThoughItIsForgotten) {
+  Uploads::Limits limits;
+  limits.bytes = 1000;
+  limits.total_bytes = 2500;
+  Uploads uploads(limits);
+  const Bytes first = some_bytes(900, 12);
+  const Bytes second = some_bytes(900, 13);
+  const Bytes third = some_bytes(900, 14);
+  auto now = kNow;
+  const auto take = [&](const Bytes& whole) {
+    return uploads.take(page_of(whole, 0), now += seconds(1)).status.status;
+  };
+  static_cast<void>(take(first));
+  UploadedBytes first_change = uploads.find(key_of(first));
+  static_cast<void>(take(second));
+  UploadedBytes second_change = uploads.find(key_of(second));
+  // To forget one that is read makes no room.
+  EXPECT_EQ(take(third), upload_status_t::STATUS_LIMIT);
+  EXPECT_THAT(uploads.take(page_of(third, 0), now).status.message, HasSubstr("all_uploads_bytes"));
+  EXPECT_EQ(uploads.find(key_of(second)), second_change) << "nor is it";
+  // By number it may be forgotten, and still counts.
+  for (unsigned i = 0; i < 20; ++i) static_cast<void>(take(some_bytes(1 + i, 20 + i)));
+  EXPECT_FALSE(uploads.find(key_of(first)));
+  EXPECT_EQ(take(third), upload_status_t::STATUS_LIMIT);
+  first_change.reset();
+  second_change.reset();
+  EXPECT_EQ(take(third), upload_status_t::STATUS_OK);
+  EXPECT_TRUE(uploads.find(key_of(third)));
 }
 
 }  // namespace

@@ -56,6 +56,9 @@ std::vector<Illness> illnesses() {
          facts.route = MulticastRoute{"eth0", true};
        },
        "ttl", Severity::kWarning, "passes routers", "udpm://239.255.76.67:7667?ttl=1"},
+      {[](HostFacts& facts) { facts.unguarded = "Operation not permitted"; }, "ttl",
+       Severity::kWarning, "what others send to it is heard: Operation not permitted",
+       "ip route add 239.255.76.67 dev lo"},
       {[](HostFacts& facts) { facts.other_hosts = true; }, "ttl", Severity::kProblem,
        "nothing leaves this host", "udpm://239.255.76.67:7667?ttl=1"},
       {[](HostFacts& facts) { facts.route.reset(); }, "multicast route", Severity::kProblem,

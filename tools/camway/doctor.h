@@ -52,6 +52,7 @@ struct HostFacts {
   std::optional<std::int64_t> largest_receive_buffer_bytes;  ///< net.core.rmem_max
   std::int64_t dropped_datagrams = 0;  ///< since boot, for want of room in receive buffers
   std::string lcm_error;               ///< why LCM cannot be opened; empty when it can
+  std::string unguarded;               ///< why other hosts are heard though ttl is 0; else empty
   std::optional<DaemonFact> daemon;    ///< nothing: none was heard
   std::string config_file;             ///< empty: none was named
   std::vector<std::string> config_faults;

@@ -72,6 +72,12 @@ Finding judge_reach(const HostFacts& facts) {
                         "lcm.url in its configuration",
                         url_with_ttl(facts.network, 1))};
   }
+  if (ttl == 0 && !facts.unguarded.empty()) {
+    return {"ttl", Severity::kWarning,
+            fmt::format("0: nothing leaves this host, but what others send to it is heard: {}",
+                        facts.unguarded),
+            fmt::format("sudo ip route add {} dev lo", facts.network.group)};
+  }
   if (ttl == 0) return {"ttl", Severity::kGood, "0: traffic stays on this host"};
   if (ttl > 1) {
     return {"ttl", Severity::kWarning,

@@ -21,6 +21,7 @@
 #include "daemon/service/version.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/envelope.h"
+#include "lcmtypes/local_traffic.h"
 #include "lcmtypes/wire_check.h"
 #include "tools/camway/doctor.h"
 
@@ -132,6 +133,7 @@ class StatusListener {
 
 /// Opens LCM and listens for a status; both outcomes go into `facts`.
 void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
+  const wire::LocalTraffic local(questions.url);
   lcm::LCM lcm(questions.url);
   StatusListener listener;
   const wire::Channels channels{questions.prefix};
@@ -140,6 +142,7 @@ void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
     facts.lcm_error = "LCM cannot be opened at '" + questions.url + "'";
     return;
   }
+  facts.unguarded = local.guard();
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(questions.timeout_s));

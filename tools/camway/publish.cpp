@@ -18,6 +18,7 @@
 
 #include "lcmtypes/channels.h"
 #include "lcmtypes/envelope.h"
+#include "lcmtypes/local_traffic.h"
 #include "lcmtypes/message_auth.h"
 #include "lcmtypes/wire_check.h"
 #include "tools/camway/event_log.h"
@@ -114,6 +115,7 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
                      std::shared_ptr<const wire::MessageKeys> keys) {
   std::vector<LogEvent> requests;
   const wire::Channels channels{options.prefix};
+  const wire::LocalTraffic local(options.url);
   lcm::LCM lcm(options.url);
   if (!lcm.good()) {
     print_error(
@@ -126,6 +128,9 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
   limits.only_since_start = false;  // this lives for moments, and the daemon's clock may be behind
   if (keys) auth.emplace(keys, limits);
   Publisher publisher(lcm, channels, auth ? &*auth : nullptr);
+  if (const std::string fault = local.guard(); !fault.empty()) {
+    print_error("other hosts of the network can be heard: " + fault);
+  }
   std::uint64_t distrusted = 0;
   const LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
     if (!publisher.is_request(event)) return;

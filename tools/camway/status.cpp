@@ -231,6 +231,7 @@ ExitCode run_status(StatusFlags flags) {
     print_error(client.error());
     return ExitCode::kInvalidInput;
   }
+  if (!client.warning().empty()) print_error(client.warning());
   std::optional<DaemonStatus> before;
   for (std::int64_t heard = 0;;) {
     DaemonStatus status = client.status(flags.timeout_s);

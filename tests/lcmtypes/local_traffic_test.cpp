@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/local_traffic.h"
+#include "lcmtypes/local_traffic.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace camway::service {
+#include <cstdint>
+#include <string>
+
+namespace camway::wire {
 namespace {
 
 TEST(LocalTraffic, IsWhatTheUrlSays) {
@@ -26,8 +29,9 @@ TEST(LocalTraffic, IsWhatTheUrlSays) {
 /// A UDP socket on the loopback.
 class LoopbackSocket {
  public:
-  LoopbackSocket() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+  explicit LoopbackSocket(int port = 0) : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     address_.sin_family = AF_INET;
+    address_.sin_port = htons(static_cast<std::uint16_t>(port));
     address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address_;
     EXPECT_EQ(::bind(socket_, address(), size), 0);
@@ -38,6 +42,12 @@ class LoopbackSocket {
   LoopbackSocket& operator=(const LoopbackSocket&) = delete;
 
   [[nodiscard]] int port() const { return ntohs(address_.sin_port); }
+  [[nodiscard]] bool is_guarded() const {
+    socklen_t instructions = 0;
+    // How long its filter is, where it has one.
+    return ::getsockopt(socket_, SOL_SOCKET, SO_GET_FILTER, nullptr, &instructions) == 0 &&
+           instructions > 0;
+  }
   bool hears_itself() {
     char byte = 'x';
     return ::sendto(socket_, &byte, 1, 0, address(), sizeof address_) == 1 &&
@@ -50,19 +60,34 @@ class LoopbackSocket {
   sockaddr_in address_{};
 };
 
+std::string url_of(int port) { return "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0"; }
+
 /// Two hosts are needed to see what is dropped: tests/integration/two_hosts_test.cpp.
 TEST(LocalTraffic, HearsThisHost) {
-  LoopbackSocket socket;
-  ASSERT_TRUE(socket.hears_itself());
-  EXPECT_EQ(hear_this_host_only(socket.port()), "");
-  EXPECT_TRUE(socket.hears_itself());
-}
-
-TEST(LocalTraffic, SaysThatThereIsNoSuchSocket) {
   int port = 0;
   { port = LoopbackSocket().port(); }
-  EXPECT_THAT(hear_this_host_only(port), testing::HasSubstr("no socket is bound to UDP port"));
+  const LocalTraffic local(url_of(port));
+  LoopbackSocket socket(port);
+  ASSERT_TRUE(socket.hears_itself());
+  EXPECT_EQ(local.guard(), "");
+  EXPECT_TRUE(socket.hears_itself());
+  EXPECT_TRUE(socket.is_guarded());
+}
+
+TEST(LocalTraffic, LeavesSocketsOfOthersAsTheyAre) {
+  LoopbackSocket before;
+  LocalTraffic local(url_of(before.port()));
+  EXPECT_THAT(local.guard(), testing::HasSubstr("no new socket is bound to UDP port"));
+  EXPECT_FALSE(before.is_guarded());
+  LoopbackSocket elsewhere;
+  EXPECT_NE(local.guard(), "");
+  EXPECT_FALSE(elsewhere.is_guarded());
+}
+
+TEST(LocalTraffic, DoesNothingWhereOthersMaySpeak) {
+  EXPECT_EQ(LocalTraffic("udpm://239.255.76.67:7667?ttl=1").guard(), "");
+  EXPECT_EQ(LocalTraffic("memq://").guard(), "");
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::wire

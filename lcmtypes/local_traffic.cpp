@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/local_traffic.h"
+#include "lcmtypes/local_traffic.h"
 
-#include <fmt/format.h>
 #include <linux/filter.h>
 #include <linux/if_packet.h>
 #include <net/if_arp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -16,13 +16,14 @@
 #include <filesystem>
 #include <system_error>
 
-namespace camway::service {
+namespace camway::wire {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::string_view kProvider = "udpm://";
 constexpr int kDefaultPort = 7667;  ///< LCM's
+constexpr const char* kDescriptors = "/proc/self/fd";
 
 /// What follows `name=` among the options of a URL; empty if it is not there.
 std::string option(std::string_view options, std::string_view name) {
@@ -36,6 +37,12 @@ std::string option(std::string_view options, std::string_view name) {
   return {};
 }
 
+std::string_view as_lcm_has(std::string_view url) {
+  if (!url.empty()) return url;
+  const char* const from_environment = std::getenv("LCM_DEFAULT_URL");
+  return from_environment != nullptr ? from_environment : kProvider;
+}
+
 bool is_bound_to(int socket, int port) {
   sockaddr_in address{};
   socklen_t size = sizeof address;
@@ -44,6 +51,18 @@ bool is_bound_to(int socket, int port) {
   socklen_t type_size = sizeof type;
   return address.sin_family == AF_INET && ntohs(address.sin_port) == port &&
          ::getsockopt(socket, SOL_SOCKET, SO_TYPE, &type, &type_size) == 0 && type == SOCK_DGRAM;
+}
+
+std::set<std::pair<int, ino_t>> sockets_bound_to(int port, std::error_code& failed) {
+  std::set<std::pair<int, ino_t>> sockets;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kDescriptors, failed)) {
+    const int descriptor = std::atoi(entry.path().filename().c_str());
+    struct stat what {};
+    if (is_bound_to(descriptor, port) && ::fstat(descriptor, &what) == 0) {
+      sockets.emplace(descriptor, what.st_ino);
+    }
+  }
+  return sockets;
 }
 
 /// Lets pass what the kernel looped back on its way out, and what came by the loopback device. No
@@ -78,17 +97,23 @@ std::optional<int> port_of_local_network(std::string_view url) {
   return std::atoi(std::string(host.substr(colon + 1)).c_str());
 }
 
-std::string hear_this_host_only(int port) {
-  std::error_code failed;
-  int sockets = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/fd", failed)) {
-    const int socket = std::atoi(entry.path().filename().c_str());
-    if (!is_bound_to(socket, port)) continue;
-    if (!attach_filter(socket)) return std::generic_category().message(errno);
-    ++sockets;
-  }
-  if (failed) return "/proc/self/fd: " + failed.message();
-  return sockets > 0 ? "" : fmt::format("no socket is bound to UDP port {}", port);
+LocalTraffic::LocalTraffic(std::string_view url) : port_(port_of_local_network(as_lcm_has(url))) {
+  if (!port_) return;
+  std::error_code unseen;  // then `guard` says so
+  others_ = sockets_bound_to(*port_, unseen);
 }
 
-}  // namespace camway::service
+std::string LocalTraffic::guard() const {
+  if (!port_) return {};
+  std::error_code failed;
+  int guarded = 0;
+  for (const auto& socket : sockets_bound_to(*port_, failed)) {
+    if (others_.contains(socket)) continue;
+    if (!attach_filter(socket.first)) return std::generic_category().message(errno);
+    ++guarded;
+  }
+  if (failed) return std::string(kDescriptors) + ": " + failed.message();
+  return guarded > 0 ? "" : "no new socket is bound to UDP port " + std::to_string(*port_);
+}
+
+}  // namespace camway::wire
