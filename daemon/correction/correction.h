@@ -24,7 +24,8 @@ std::string_view to_string(Rung rung);
 struct Effort {
   std::int32_t directions = 0;      ///< to one side or about an axis, to move or turn the camera
   std::int32_t paths = 0;           ///< changed paths that were checked for collisions
-  std::int32_t lattice_points = 0;  ///< at which there might have been room on a way round
+  /// Of lattices and cells, at which there might have been room on a way round.
+  std::int32_t lattice_points = 0;
   std::int32_t tree_samples = 0;    ///< poses towards which ways round were looked for that turn
 
   Effort& operator+=(const Effort& other);

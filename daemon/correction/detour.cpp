@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "daemon/correction/cell_search.h"
 #include "daemon/correction/guide.h"
 #include "daemon/correction/lattice_search.h"
 #include "daemon/correction/narrow_passage.h"
@@ -26,8 +27,10 @@ constexpr int kMostRefinements = 40;  // of parts of a row of bumps
 constexpr int kFinest = 2048;
 constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
 constexpr double kLeastMargin = 0.02;
-constexpr std::array<double, 3> kBallShares = {0.6, 0.35, 0.15};  // of the ball's radius
-constexpr int kLegsAsInterpolated = 16;   // what lattices keep to, where there is a choice
+constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // of the ball's radius
+constexpr double kSmallestCell = 0.02;
+constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
+constexpr int kLegsAsInterpolated = 16;        // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
 constexpr int kJoiningSamples = 1000;     // of trees between narrow places
 constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
@@ -194,13 +197,13 @@ class Detour {
     return candidate;
   }
 
-  // Ways where the body has to be turned to get through: where a smaller ball does, trees look for
-  // how.
+  // Ways where the body has to be turned to get through: where a smaller ball does, straight
+  // motions through narrow places, or trees, look for how. Where the smallest has no way, none has.
   std::optional<Candidate> with_turns() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
       const std::vector<Vec3> way_W = way_for_ball(share * radius_m_);
-      if (way_W.empty()) continue;
+      if (way_W.empty()) break;
       if (auto found = follow(threaded(way_W), Turning::kAsGuide)) return found;
       const Guide guide = tree_way(space_, from_, to_, tree_about(way_W), deadline_);
       if (auto found = follow(guide, Turning::kAsGuide)) return found;
@@ -265,15 +268,18 @@ class Detour {
     const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
     const std::optional<SignedPose> end = escape(to_, ball_radius_m);
     if (!begin || !end) return {};
-    std::vector<Vec3> result_W;
-    for_each_way({ball_radius_m, center_W(*begin), center_W(*end)}, 0, kFinestLevel,
-                 [&](const std::vector<Vec3>& way_W) {
-                   result_W = {center_W(from_)};
-                   result_W.insert(result_W.end(), way_W.begin(), way_W.end());
-                   result_W.push_back(center_W(to_));
-                   return true;
-                 });
-    return result_W;
+    const CellOptions options{ball_radius_m, kSmallestCell * radius_m_, kMostCells, radius_m_};
+    CellResult found = cell_way(space_, center_W(*begin), center_W(*end), options, deadline_);
+    count_points(found.cells);
+    if (found.way_W.empty()) return {};
+    found.way_W.insert(found.way_W.begin(), center_W(from_));
+    found.way_W.push_back(center_W(to_));
+    return found.way_W;
+  }
+
+  void count_points(std::size_t points) const {
+    if (problem_.effort != nullptr)
+      problem_.effort->lattice_points += static_cast<std::int32_t>(points);
   }
 
   struct Ball {
@@ -313,9 +319,7 @@ class Detour {
     if (!level.is_wide) options.about_W = about_W_;
     LatticeResult found = lattice_way(space_, from_end ? ball.to_W : ball.from_W,
                                       from_end ? ball.from_W : ball.to_W, options, deadline_);
-    if (problem_.effort != nullptr) {
-      problem_.effort->lattice_points += static_cast<std::int32_t>(found.points);
-    }
+    count_points(found.points);
     if (from_end) std::ranges::reverse(found.way_W);
     return found;
   }

@@ -24,16 +24,21 @@ using motion::SignedPose;
 constexpr double kStep = 0.25;       // between the places of a way that are looked at
 constexpr double kMostPlaces = 4e3;  // longer ways are not looked at
 constexpr double kApart = 2.0;       // narrow places closer to each other are one
-constexpr double kHalfLength = 0.7;  // of the line that is to have room
-constexpr double kFirstShift = 0.4;  // of its ends
+constexpr double kHalfLength = 0.7;  // of the line on which a pose is to fit
+constexpr std::array<double, 3> kFirstHalfLengths = {kHalfLength, 0.2, 0.05};
+constexpr double kGrowth = 1.5;  // of its length, time after time
+constexpr double kLongest = 3.5;
+constexpr std::array<double, 3> kMiddles = {0.5, 0.25, 0.75};  // of a narrow stretch
+constexpr double kFirstShift = 0.4;                            // of a line's ends
 constexpr double kLeastShift = 0.01;
+constexpr double kMostTurn = 0.25;  // of the line's length: shift of one end alone
 constexpr int kMostShifts = 200;
-constexpr double kAsMuch = 0.9;         // of the room: not worth a difference
-constexpr int kSides = 4;               // to which a line is centred
+constexpr double kWide = 0.9;           // room from which on a line is not in a narrow place
 constexpr int kPlaces = 16;             // of the line, to find where it is tightest
-constexpr int kTurns = 48;              // about the line, in a full turn
+constexpr std::size_t kTurns = 48;      // about the line, in a full turn; four times a number
+constexpr int kMostSteps = 32;          // to what is free beside the line
 constexpr std::size_t kMostTried = 24;  // poses that fit, from which the body is moved
-constexpr double kFarthest = 3.0;       // that it is moved to either side
+constexpr double kFarthest = 3.0;       // that it is moved to either side, or the stretch's length
 constexpr double kNearest = 1.05;       // the least that takes it out of a thin wall
 
 /// A line with as much room about it as was found.
@@ -42,7 +47,14 @@ struct Line {
   Vec3 end_W;
 
   [[nodiscard]] Vec3 center_W() const { return 0.5 * (begin_W + end_W); }
+  [[nodiscard]] double length_m() const { return (end_W - begin_W).norm(); }
   [[nodiscard]] Vec3 direction_W() const { return (end_W - begin_W).normalized(); }
+};
+
+/// A direction across a line, and from the line to the middle of what is free there.
+struct Side {
+  Vec3 direction_W;
+  Vec3 to_middle_W;
 };
 
 class Threader {
@@ -54,43 +66,74 @@ class Threader {
         margin_m_(margin_m),
         radius_m_(space.ball_radius_m()) {}
 
-  /// A motion through the middle of `way_W`, where that is narrow.
+  /// A motion through `way_W`, where that is narrow.
   std::optional<NarrowPassage> through(std::span<const Vec3> way_W) {
-    const Line line = widest(way_W);
-    const Vec3 along_W = line.direction_W();
-    for (const auto& [likeness, pose] : fitting(line)) {
-      const double back = freely_moved(pose, -along_W);
-      if (back < kNearest) continue;
-      const double forth = freely_moved(pose, along_W);
-      if (forth < kNearest) continue;
-      return NarrowPassage{moved(pose, -back * radius_m_ * along_W),
-                           moved(pose, forth * radius_m_ * along_W)};
+    farthest_m_ = std::max(kFarthest * radius_m_, length_m(way_W));
+    const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
+    std::vector<Vec3> middles_W = {tightest(way_W)};
+    for (const double share : kMiddles) {
+      const auto at = static_cast<std::size_t>(share * static_cast<double>(way_W.size()));
+      middles_W.push_back(way_W[at]);
+    }
+    for (const Vec3& middle_W : middles_W) {
+      for (const double half_length : kFirstHalfLengths) {
+        if (auto found = along_grown(middle_W, along_W, half_length)) return found;
+      }
     }
     return std::nullopt;
   }
 
  private:
+  static double length_m(std::span<const Vec3> way_W) {
+    double sum_m = 0.0;
+    for (std::size_t i = 1; i < way_W.size(); ++i) sum_m += (way_W[i] - way_W[i - 1]).norm();
+    return sum_m;
+  }
+
   static SignedPose moved(const SignedPose& pose, const Vec3& by_W) {
     return {pose.position + by_W, pose.orientation};
   }
 
-  /// Through where the way has the least room; then each end is moved to where there is more.
-  [[nodiscard]] Line widest(std::span<const Vec3> way_W) const {
-    const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
-    const Line line = centered(widened(line_about(tightest(way_W), along_W)));
-    return line_about(tightest(places_on(line)), line.direction_W());
+  [[nodiscard]] Line line_about(const Vec3& center_W, const Vec3& along_W,
+                                double half_length) const {
+    const Vec3 half_W = half_length * radius_m_ * along_W;
+    return {center_W - half_W, center_W + half_W};
   }
 
-  [[nodiscard]] Line line_about(const Vec3& center_W, const Vec3& along_W) const {
-    const Vec3 half_W = kHalfLength * radius_m_ * along_W;
-    return {center_W - half_W, center_W + half_W};
+  /// A motion along a line that is moved to where there is room, and grows: the longer it is, the
+  /// better it shows where a hole leads.
+  std::optional<NarrowPassage> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
+    for (; half_length < kLongest; half_length *= kGrowth) {
+      Line line = line_about(center_W, along_W, half_length);
+      if (!(room_m(line) > 0.0)) return std::nullopt;
+      line = widened(line);
+      if (room_m(line) > kWide * radius_m_) return std::nullopt;
+      center_W = line.center_W();
+      along_W = line.direction_W();
+      if (half_length < kHalfLength) continue;
+      const Vec3 place_W = tightest(places_on(line));
+      if (auto found = along(line_about(place_W, along_W, kHalfLength))) return found;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<NarrowPassage> along(const Line& line) {
+    const Vec3 along_W = line.direction_W();
+    for (const auto& [likeness, pose] : fitting(line)) {
+      const double back_m = freely_moved_m(pose, -along_W);
+      if (back_m < kNearest * radius_m_) continue;
+      const double forth_m = freely_moved_m(pose, along_W);
+      if (forth_m < kNearest * radius_m_) continue;
+      return NarrowPassage{moved(pose, -back_m * along_W), moved(pose, forth_m * along_W)};
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] Vec3 tightest(std::span<const Vec3> places_W) const {
     Vec3 place_W = places_W.front();
     double least_m = std::numeric_limits<double>::infinity();
     for (const Vec3& next_W : places_W) {
-      const double room_m = space_.way_gap_m(next_W, next_W, radius_m_);
+      const double room_m = room_about_m(next_W);
       if (room_m >= least_m) continue;
       least_m = room_m;
       place_W = next_W;
@@ -106,24 +149,30 @@ class Threader {
     return places_W;
   }
 
+  [[nodiscard]] double room_about_m(const Vec3& place_W) const {
+    return space_.way_gap_m(place_W, place_W, radius_m_);
+  }
   [[nodiscard]] double room_m(const Line& line) const {
     return space_.way_gap_m(line.begin_W, line.end_W, radius_m_);
   }
 
+  /// Each end is moved to where there is more room.
   [[nodiscard]] Line widened(Line line) const {
     double best_m = room_m(line);
     double shift_m = kFirstShift * radius_m_;
+    const double most_turn_m = kMostTurn * line.length_m();
     for (int shifts = 0; shift_m > kLeastShift * radius_m_ && shifts < kMostShifts;) {
       const Vec3 along_W = line.direction_W();
       const Vec3 across_W = along_W.unitOrthogonal();
       const Vec3 other_W = along_W.cross(across_W);
       bool any = false;
       for (const Vec3& side_W : {across_W, Vec3(-across_W), other_W, Vec3(-other_W)}) {
-        // Both ends, or one: that turns the line.
+        // Both ends, or one: that turns the line, and a short one is not to be whirled about. Not
+        // further than there is room: what is behind a wall may not be where the way leads.
         for (const auto& [begin, end] : {std::pair{1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}) {
           ++shifts;
-          const Line next{line.begin_W + begin * shift_m * side_W,
-                          line.end_W + end * shift_m * side_W};
+          const double by_m = std::min({shift_m, best_m, begin == end ? best_m : most_turn_m});
+          const Line next{line.begin_W + begin * by_m * side_W, line.end_W + end * by_m * side_W};
           const double next_m = room_m(next);
           if (!(next_m > best_m)) continue;
           line = next;
@@ -136,51 +185,28 @@ class Threader {
     return line;
   }
 
-  /// To the middle of where there is about as much room: a hole that is longer than wide has it on
-  /// a stretch, and turned the body may need both of its ends.
-  [[nodiscard]] Line centered(Line line) const {
-    const double enough_m = kAsMuch * room_m(line);
-    const Vec3 across_W = line.direction_W().unitOrthogonal();
-    for (int i = 0; i < kSides; ++i) {
-      const double angle_rad = std::numbers::pi * i / kSides;
-      const Vec3 side_W = Eigen::AngleAxisd(angle_rad, line.direction_W()) * across_W;
-      const double shift_m =
-          0.5 * (room_beside_m(line, side_W, enough_m) - room_beside_m(line, -side_W, enough_m));
-      line = shifted(line, shift_m * side_W);
-    }
-    return line;
-  }
-
-  static Line shifted(const Line& line, const Vec3& by_W) {
-    return {line.begin_W + by_W, line.end_W + by_W};
-  }
-
-  /// How far the line can be shifted and still has `enough_m` about it, if that ends once.
-  [[nodiscard]] double room_beside_m(const Line& line, const Vec3& side_W, double enough_m) const {
-    double room_m = 0.0;
-    for (double step_m = 0.5 * radius_m_; step_m > kLeastShift * radius_m_; step_m *= 0.5) {
-      if (this->room_m(shifted(line, (room_m + step_m) * side_W)) >= enough_m) room_m += step_m;
-    }
-    return room_m;
-  }
-
   struct Fit {
     double likeness;  ///< to the end that it is less like
     SignedPose pose;
   };
 
-  /// Poses in the middle of the line that are free along it, those that are turned least first.
+  /// Poses with an axis of the body along the line that are free on it, beside where that is in the
+  /// middle of what the other axes see; those that are turned least first.
   [[nodiscard]] std::vector<Fit> fitting(const Line& line) {
+    const std::vector<Side> sides = sides_of(line);
     const Vec3 along_W = line.direction_W();
     std::vector<Fit> fits;
-    for (const Vec3& axis_C : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
-      for (int step = 0; step < 2 * kTurns; ++step) {
-        const Vec3 signed_C = step < kTurns ? axis_C : Vec3(-axis_C);
-        const double angle_rad = 2.0 * std::numbers::pi * (step % kTurns) / kTurns;
-        const Quat orientation =
-            Quat(Eigen::AngleAxisd(angle_rad, along_W)) * Quat::FromTwoVectors(signed_C, along_W);
-        if (!fits_on(line, orientation)) continue;
-        fits.push_back(signed_as_ends(space_.pose_around(line.center_W(), orientation)));
+    for (const auto& [first, second] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
+      for (std::size_t i = 0; i < 2 * kTurns; ++i) {
+        const Vec3 first_W = i < kTurns ? along_W : Vec3(-along_W);
+        const Side& side = sides[i % kTurns];
+        const Side& other = sides[(i + kTurns / 4) % kTurns];
+        Eigen::Matrix3d axes_W;
+        axes_W.col(first) = first_W;
+        axes_W.col(second) = side.direction_W;
+        axes_W.col(3 - first - second) = first_W.cross(side.direction_W);
+        const std::optional<Vec3> place_W = fitting_place_W(line, Quat(axes_W), side, other);
+        if (place_W) fits.push_back(signed_as_ends(space_.pose_around(*place_W, Quat(axes_W))));
       }
     }
     std::ranges::stable_sort(fits, std::greater(), &Fit::likeness);
@@ -188,11 +214,46 @@ class Threader {
     return fits;
   }
 
-  [[nodiscard]] bool fits_on(const Line& line, const Quat& orientation) {
-    const std::array<Vec3, 3> places_W = {line.center_W(), line.begin_W, line.end_W};
-    return std::ranges::all_of(places_W, [&](const Vec3& place_W) {
-      return space_.is_free(space_.pose_around(place_W, orientation), margin_m_);
-    });
+  [[nodiscard]] std::optional<Vec3> fitting_place_W(const Line& line, const Quat& orientation,
+                                                    const Side& side, const Side& other) {
+    const Vec3 both_W = side.to_middle_W + other.to_middle_W;
+    for (const Vec3& shift_W : {Vec3(Vec3::Zero()), side.to_middle_W, other.to_middle_W, both_W}) {
+      const std::array<Vec3, 3> places_W = {line.center_W() + shift_W, line.begin_W + shift_W,
+                                            line.end_W + shift_W};
+      const bool fits = std::ranges::all_of(places_W, [&](const Vec3& place_W) {
+        return space_.is_free(space_.pose_around(place_W, orientation), margin_m_);
+      });
+      if (fits) return places_W.front();
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<Side> sides_of(const Line& line) const {
+    const Vec3 across_W = line.direction_W().unitOrthogonal();
+    std::array<Vec3, kTurns> directions_W;
+    std::array<double, kTurns> free_m;
+    for (std::size_t i = 0; i < kTurns; ++i) {
+      const double angle_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / kTurns;
+      directions_W[i] = Eigen::AngleAxisd(angle_rad, line.direction_W()) * across_W;
+      free_m[i] = free_way_m(line.center_W(), directions_W[i]);
+    }
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i < kTurns; ++i) {
+      const double shift_m = 0.5 * (free_m[i] - free_m[(i + kTurns / 2) % kTurns]);
+      sides.push_back({directions_W[i], shift_m * directions_W[i]});
+    }
+    return sides;
+  }
+
+  /// From a place to the scene in that direction, about; no further than the body is long.
+  [[nodiscard]] double free_way_m(const Vec3& place_W, const Vec3& direction_W) const {
+    double way_m = 0.0;
+    for (int i = 0; i < kMostSteps && way_m < 2.0 * radius_m_; ++i) {
+      const double room_m = room_about_m(place_W + way_m * direction_W);
+      if (room_m < kLeastShift * radius_m_) break;
+      way_m += room_m;
+    }
+    return way_m;
   }
 
   [[nodiscard]] Fit signed_as_ends(const motion::Pose& pose) const {
@@ -204,11 +265,11 @@ class Threader {
     return {std::min(-from, -to), result};
   }
 
-  /// How far the body can be moved, in radii of the ball.
-  [[nodiscard]] double freely_moved(const SignedPose& pose, const Vec3& direction_W) {
-    const Vec3 way_W = kFarthest * radius_m_ * direction_W;
-    const std::optional<double> hit = space_.first_hit(pose, moved(pose, way_W), margin_m_);
-    return kFarthest * (hit ? 0.9 * *hit : 1.0);
+  /// How far the body can be moved.
+  [[nodiscard]] double freely_moved_m(const SignedPose& pose, const Vec3& direction_W) {
+    const std::optional<double> hit =
+        space_.first_hit(pose, moved(pose, farthest_m_ * direction_W), margin_m_);
+    return farthest_m_ * (hit ? 0.9 * *hit : 1.0);
   }
 
   FreeSpace& space_;
@@ -216,6 +277,7 @@ class Threader {
   const SignedPose to_;
   const double margin_m_;
   const double radius_m_;
+  double farthest_m_ = 0.0;  ///< that the body is moved to either side
 };
 
 /// A place of a way, and the point of the way before it.

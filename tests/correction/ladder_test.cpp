@@ -105,25 +105,46 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
 
 // A closed room with a partition of 2 cm. The diagonal of its hole is 1.2 times the short side of
 // the near quadrilateral, which has to pass long side first, rolled by 45 degrees.
-TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
-  const double half_m = 0.127;
+/// A closed room of 2.4 x 2.4 x 3.6 m.
+Mesh closed_room() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-1.3, -1.3, 1.8}, {1.3, 1.3, 1.9});
   testing::add_cuboid(mesh, {-1.3, -1.3, -1.9}, {1.3, 1.3, -1.8});
-  for (const double side : {-1.0, 1.0}) {
-    const double wall_m = 1.25 * side;
+  for (const double wall_m : {-1.25, 1.25}) {
     testing::add_cuboid(mesh, {wall_m - 0.05, -1.3, -1.8}, {wall_m + 0.05, 1.3, 1.8});
     testing::add_cuboid(mesh, {-1.2, wall_m - 0.05, -1.8}, {1.2, wall_m + 0.05, 1.8});
-    const double out_m = 1.2 * side;
-    const double in_m = half_m * side;
-    testing::add_cuboid(mesh, {std::min(out_m, in_m), -1.2, -0.01},
-                        {std::max(out_m, in_m), 1.2, 0.01});
-    testing::add_cuboid(mesh, {-half_m, std::min(out_m, in_m), -0.01},
-                        {half_m, std::max(out_m, in_m), 0.01});
   }
+  return mesh;
+}
+
+/// Across the room, 2 cm thick, with a hole between two corners.
+void add_wall(Mesh& mesh, double z_m, const Vec3& low, const Vec3& high) {
+  testing::add_cuboid(mesh, {-1.2, -1.2, z_m - 0.01}, {low[0], 1.2, z_m + 0.01});
+  testing::add_cuboid(mesh, {high[0], -1.2, z_m - 0.01}, {1.2, 1.2, z_m + 0.01});
+  testing::add_cuboid(mesh, {low[0], -1.2, z_m - 0.01}, {high[0], low[1], z_m + 0.01});
+  testing::add_cuboid(mesh, {low[0], high[1], z_m - 0.01}, {high[0], 1.2, z_m + 0.01});
+}
+
+/// Of 40 x 30 cm.
+motion::Body wide_camera() {
+  return motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
+}
+
+TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
+  Mesh mesh = closed_room();
+  add_wall(mesh, 0.0, {-0.127, -0.127, 0}, {0.127, 0.127, 0});
   Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.1}), at(4, {0.3, 0.1, -0.8})});
-  c.body =
-      motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
+  c.body = wide_camera();
+  expect_corrected(c, {Rung::kGoRound});
+}
+
+// A slit, and a hole that is not in line with it, turned the other way.
+TEST(Ladder, ThreadsTwoHolesInARow) {
+  Mesh mesh = closed_room();
+  add_wall(mesh, 0.6, {-0.7, 0.1, 0}, {-0.3, 0.17, 0});
+  add_wall(mesh, -0.6, {0.3, -0.6, 0}, {0.45, -0.2, 0});
+  Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.4}), at(4, {0.3, 0.1, -1.4})});
+  c.body = wide_camera();
   expect_corrected(c, {Rung::kGoRound});
 }
 

@@ -82,6 +82,53 @@ TEST(NarrowPassages, LeadThroughHolesLittleWiderThanTheShortSide) {
   }
 }
 
+/// A plate without thickness in the plane z = 0 with a hole, its corners in turn about the z axis.
+void add_plate_with_hole(scene::Mesh& mesh, const std::vector<Vec3>& hole_W) {
+  for (std::size_t i = 0; i < hole_W.size(); ++i) {
+    const Vec3& a = hole_W[i];
+    const Vec3& b = hole_W[(i + 1) % hole_W.size()];
+    testing::add_triangle(mesh, a, b, 20.0 * a);
+    testing::add_triangle(mesh, b, 20.0 * b, 20.0 * a);
+  }
+}
+
+// The body fits where its middle is not in the middle of the hole.
+TEST(NarrowPassages, LeadThroughTrianglesAndSlits) {
+  std::mt19937_64 random = testing::seeded(4802);
+  std::uniform_real_distribution<double> off(-0.2, 0.2);
+  for (int run = 0; run < 20; ++run) {
+    SCOPED_TRACE(run);
+    const Quat turn_W = testing::random_rotation(random);
+    const double ratio = 1.35 + 0.02 * run;  // of the side, or the length, to the short side
+    const double side_m = ratio * kShortSide_m;
+    scene::Mesh mesh;
+    double free_m = 0.0;  // along the y axis, to each side
+    if (run % 2 == 0) {
+      const double high_m = std::sqrt(3.0) / 6.0 * side_m;
+      add_plate_with_hole(
+          mesh, {{0.5 * side_m, -high_m, 0}, {0, 2.0 * high_m, 0}, {-0.5 * side_m, -high_m, 0}});
+      free_m = high_m;
+    } else {
+      const double half_m = 0.08 * side_m;
+      free_m = 0.5 * side_m;
+      add_plate_with_hole(
+          mesh,
+          {{half_m, -free_m, 0}, {half_m, free_m, 0}, {-half_m, free_m, 0}, {-half_m, -free_m, 0}});
+    }
+    turn(mesh, turn_W);
+    const SearchScene scene(mesh, wide_camera());
+    FreeSpace space = scene.space();
+    const double y_m = off(random) * free_m;
+    const std::vector<Vec3> way_W =
+        turned({{0, 0.2, 1.5}, {0, y_m, 0.2}, {0, y_m, -0.2}, {0, 0.3, -1.5}}, turn_W);
+    const SignedPose from = motion::signed_pose({way_W.front(), testing::random_rotation(random)});
+    const SignedPose to = motion::signed_pose({way_W.back(), testing::random_rotation(random)});
+    const std::vector<NarrowPassage> passages =
+        narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
+    expect_passed(scene, passages, {0.0}, turn_W);
+  }
+}
+
 TEST(NarrowPassages, AreInTheOrderOfTheWay) {
   const double hole_m = 0.25;
   scene::Mesh mesh;

@@ -18,16 +18,22 @@ using geometry::Vec3;
 using scene::Mesh;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kFar = 80.0;
+constexpr double kFar = 4.0;
 constexpr double kEnough_s = 300.0;  // far from what it takes: no outcome depends on it
 
 std::shared_ptr<const scene::Snapshot> snapshot_of(Mesh mesh) {
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
 }
 
-// A wall across z with an endless slit, 0.14 wide, at 30° from the x axis.
+// A wall across z with a slit from end to end, 0.14 wide, at 30° from the x axis, and a closed room
+// about it: there is no way but through the slit.
 std::shared_ptr<const scene::Snapshot> slanted_slit() {
   Mesh mesh;
+  for (const double side : {-kFar, kFar}) {
+    testing::add_cuboid(mesh, {side - 0.1, -kFar, -kFar}, {side + 0.1, kFar, kFar});
+    testing::add_cuboid(mesh, {-kFar, side - 0.1, -kFar}, {kFar, side + 0.1, kFar});
+    testing::add_cuboid(mesh, {-kFar, -kFar, side - 0.1}, {kFar, kFar, side + 0.1});
+  }
   testing::add_cuboid(mesh, {-kFar, 0.07, -0.25}, {kFar, kFar, 0.25});
   testing::add_cuboid(mesh, {-kFar, -kFar, -0.25}, {kFar, -0.07, 0.25});
   for (Vec3& vertex : mesh.vertices)
