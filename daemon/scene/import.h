@@ -26,6 +26,7 @@ struct ImportOptions {
   double scale = 1.0;  ///< file units to metres; multiplies every coordinate [Limit: 0 < value]
   UpAxis up = UpAxis::kAsInFile;
   UnknownSpace unknown = UnknownSpace::kFree;             ///< of an occupancy map
+  VoxelMapLimits map_limits = {};                         ///< of an occupancy map
   std::size_t memory_limit_bytes = std::size_t{4} << 30;  ///< address space of the import process
   double time_limit_s = 60.0;                             ///< wall clock of the import process
 };

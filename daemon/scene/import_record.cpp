@@ -191,13 +191,14 @@ VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
 }
 
 /// The voxels of the cubes, or nothing if they are not sound or too many.
-std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up) {
+std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up,
+                                  std::uint64_t most_voxels) {
   std::uint64_t voxels = 0;
   for (const format::Cube& cube : cubes) {
     if (!is_sound(cube)) return std::nullopt;
     const auto edge = static_cast<std::uint64_t>(cube.size);
     voxels += edge * edge * edge;
-    if (voxels > VoxelMap::kMostVoxels) return std::nullopt;
+    if (voxels > most_voxels) return std::nullopt;
   }
   VoxelSet set;
   for (const format::Cube& cube : cubes) set.insert(to_scene(cube, up));
@@ -207,18 +208,20 @@ std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis
 /// Makes map and mesh of a record with cubes, or says why not.
 std::string read_map(const Record& record, const ImportOptions& options,
                      ImportRecordResult& result) {
-  std::optional<VoxelSet> occupied = voxels_of(record.occupied, options.up);
-  std::optional<VoxelSet> free = voxels_of(record.free, options.up);
+  std::optional<VoxelSet> occupied =
+      voxels_of(record.occupied, options.up, options.map_limits.voxels);
+  std::optional<VoxelSet> free = voxels_of(record.free, options.up, options.map_limits.voxels);
   if (!occupied || !free) {
     return "has voxels that OctoMap cannot have, or more than " +
-           std::to_string(VoxelMap::kMostVoxels) + " that are occupied or free";
+           std::to_string(options.map_limits.voxels) + " that are occupied or free";
   }
-  VoxelMapResult built = VoxelMap::build(options.scale * record.header.map_resolution,
-                                         *std::move(occupied), *std::move(free), options.unknown);
+  VoxelMapResult built =
+      VoxelMap::build(options.scale * record.header.map_resolution, *std::move(occupied),
+                      *std::move(free), options.unknown, options.map_limits);
   if (!built.map) return built.error;
   result.mesh = built.map->skin();
   if (!result.mesh) {
-    return "has more than " + std::to_string(VoxelMap::kMostTriangles) + " triangles";
+    return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
   }
   result.map = std::move(built.map);
   return {};

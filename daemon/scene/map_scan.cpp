@@ -104,7 +104,7 @@ VoxelMapResult scanned(const VoxelMap& before, const Scan& scan, double most_vox
     (tree->isNodeOccupied(*leaf) ? occupied : free).insert(cube);
   }
   return VoxelMap::build(before.resolution_m(), std::move(occupied), std::move(free),
-                         before.unknown(), before.sensor(), std::move(tree));
+                         before.unknown(), before.limits(), before.sensor(), std::move(tree));
 }
 
 }  // namespace camway::scene

@@ -35,6 +35,8 @@ class OccupancyMap {
   /// voxels.
   static constexpr std::int32_t kMaxKeyVoxels = 32768;
 
+  static constexpr std::uint64_t kUsualMostVoxels = 50'000'000;
+
   /// Distances are rounded down by up to this factor.
   static constexpr double kDistanceRelativeError = kBoxCostRelativeError;
 
@@ -51,7 +53,7 @@ class OccupancyMap {
   /// resolution that is not moved gives its own voxels, and no others.
   static BuildResult build(const Mesh& mesh, double resolution_m,
                            const std::optional<PlacedVoxelMap>& solid = std::nullopt,
-                           std::uint64_t max_voxels = 50'000'000);
+                           std::uint64_t max_voxels = kUsualMostVoxels);
 
   [[nodiscard]] double resolution_m() const { return grid_.resolution_m(); }
   [[nodiscard]] const OccupancyStatistics& statistics() const { return statistics_; }

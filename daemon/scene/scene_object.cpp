@@ -63,8 +63,8 @@ const char* to_string(ObjectKind kind) {
 }
 
 std::uint64_t ObjectSource::memory_bytes() const {
-  return mesh_O->vertices.size() * sizeof(geometry::Vec3) +
-         mesh_O->triangles.size() * sizeof(mesh_O->triangles[0]) +
+  return mesh_O->vertices.capacity() * sizeof(geometry::Vec3) +
+         mesh_O->triangles.capacity() * sizeof(mesh_O->triangles[0]) +
          (field_O ? field_O->statistics().memory_bytes : 0) + (map_O ? map_O->memory_bytes() : 0);
 }
 
@@ -118,8 +118,8 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   object->source = std::move(source);
   object->placement = placement;
   if (options.occupancy_resolution_m) {
-    OccupancyMap::BuildResult mirror =
-        OccupancyMap::build(*mesh_W, *options.occupancy_resolution_m, object->solid());
+    OccupancyMap::BuildResult mirror = OccupancyMap::build(*mesh_W, *options.occupancy_resolution_m,
+                                                           object->solid(), options.mirror_voxels);
     if (!mirror.map) return {nullptr, name + ": " + mirror.error};
     object->occupancy = std::move(mirror.map);
   }

@@ -21,6 +21,7 @@ struct ObjectOptions {
   IndexOptions index;
   std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: not wanted
   std::optional<double> occupancy_resolution_m;                        ///< no mirror without it
+  std::uint64_t mirror_voxels = OccupancyMap::kUsualMostVoxels;        ///< of an object, at most
 };
 
 enum class ObjectKind : std::uint8_t { kMesh, kBox, kSphere, kCylinder, kPointCloud, kMap };

@@ -56,9 +56,8 @@ double volume(const VoxelSet::Range& range) {
   return voxels;
 }
 
-std::string too_many(const char* what) {
-  return std::string("has more than ") + std::to_string(VoxelMap::kMostVoxels) + " " + what +
-         "; use a coarser map";
+std::string too_many(const VoxelMapLimits& limits, const char* what) {
+  return "has more than " + std::to_string(limits.voxels) + " " + what + "; use a coarser map";
 }
 
 }  // namespace
@@ -84,23 +83,25 @@ VoxelMap::VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, Unknow
       free_(std::move(free)) {}
 
 VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet free,
-                               UnknownSpace unknown, const SensorModel& sensor,
+                               UnknownSpace unknown, const VoxelMapLimits& limits,
+                               const SensorModel& sensor,
                                std::shared_ptr<const octomap::OcTree> beliefs) {
   if (!VoxelGrid::valid_resolution(resolution_m)) {
     return {nullptr, "has a resolution that is not between 1e-9 and 1e9 m"};
   }
-  if (occupied.size() > kMostVoxels || free.size() > kMostVoxels) {
-    return {nullptr, too_many("occupied or free voxels")};
+  if (occupied.size() > limits.voxels || free.size() > limits.voxels) {
+    return {nullptr, too_many(limits, "occupied or free voxels")};
   }
   std::shared_ptr<VoxelMap> map(
       new VoxelMap(resolution_m, std::move(occupied), std::move(free), unknown));
+  map->limits_ = limits;
   map->sensor_ = sensor;
   map->beliefs_ = std::move(beliefs);
   const bool knows_something = !map->occupied_.empty() || !map->free_.empty();
   if (unknown == UnknownSpace::kOccupied && knows_something) {
     const VoxelSet::Range range = with_a_layer_about(joined(map->occupied_, map->free_));
-    if (volume(range) > static_cast<double>(kMostVoxels)) {
-      return {nullptr, too_many("voxels in its box, which the unknown fills")};
+    if (volume(range) > static_cast<double>(limits.voxels)) {
+      return {nullptr, too_many(limits, "voxels in its box, which the unknown fills")};
     }
     map->solid_ = map->free_.complement_in(range);
     map->occupied_.for_each([&](const Voxel& voxel) { map->solid_.insert(voxel); });

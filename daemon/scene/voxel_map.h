@@ -39,6 +39,14 @@ struct SensorModel {
 /// Which of its numbers cannot be, or an empty text.
 std::string fault_in(const SensorModel& sensor);
 
+/// How large a map may be.
+struct VoxelMapLimits {
+  /// That are known to be occupied, or known to be free, or in the box of both where the unknown
+  /// counts as occupied. [Limit: 1 <= value]
+  std::uint64_t voxels = std::uint64_t{1} << 27;
+  std::size_t triangles = 8'000'000;  ///< of its faces [Limit: 12 <= value]
+};
+
 struct VoxelMapResult;
 
 /// An occupancy map as a thing in a scene: a solid that consists of voxels, and what is known of
@@ -47,19 +55,17 @@ struct VoxelMapResult;
 /// Immutable; safe from any thread.
 class VoxelMap {
  public:
-  /// A map with more voxels that are known to be occupied, or known to be free, or with more in the
-  /// box of both where the unknown counts as occupied, is refused.
-  static constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 27;
-  static constexpr std::size_t kMostTriangles = 8'000'000;
-
   /// A voxel in both sets is occupied. `beliefs`: of a map that was scanned, what the sets follow
-  /// from. Preconditions: within the limits of `VoxelGrid`; the sensor has no `fault_in`.
+  /// from. One of too many voxels is refused; of its faces, `skin` knows the limit. Preconditions:
+  /// within the limits of `VoxelGrid`; the sensor has no `fault_in`.
   static VoxelMapResult build(double resolution_m, VoxelSet occupied, VoxelSet free,
-                              UnknownSpace unknown, const SensorModel& sensor = {},
+                              UnknownSpace unknown, const VoxelMapLimits& limits = {},
+                              const SensorModel& sensor = {},
                               std::shared_ptr<const octomap::OcTree> beliefs = nullptr);
 
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   [[nodiscard]] UnknownSpace unknown() const { return unknown_; }
+  [[nodiscard]] const VoxelMapLimits& limits() const { return limits_; }
   [[nodiscard]] const SensorModel& sensor() const { return sensor_; }
   /// Null for a map that was never scanned. For those in daemon/scene who know OctoMap.
   [[nodiscard]] const std::shared_ptr<const octomap::OcTree>& beliefs() const { return beliefs_; }
@@ -71,9 +77,9 @@ class VoxelMap {
   }
   [[nodiscard]] std::uint64_t memory_bytes() const;
 
-  /// The faces of the solid, in the frame of the map.
+  /// The faces of the solid, in the frame of the map; nothing if there are too many.
   [[nodiscard]] std::optional<Mesh> skin() const {
-    return skin_of(solid(), resolution_m_, kMostTriangles);
+    return skin_of(solid(), resolution_m_, limits_.triangles);
   }
 
   /// Whether a point of the solid is within `error_m` of `point_O` on every axis, or may be. True
@@ -88,6 +94,7 @@ class VoxelMap {
   VoxelSet occupied_;
   VoxelSet free_;
   VoxelSet solid_;  ///< where the unknown is occupied
+  VoxelMapLimits limits_;
   SensorModel sensor_;
   std::shared_ptr<const octomap::OcTree> beliefs_;
 };

@@ -15,6 +15,7 @@
 #include "daemon/service/uploads.h"
 #include "daemon/service/wire_convert.h"
 #include "daemon/service/wire_pages.h"
+#include "lcmtypes/wire_layout.h"
 
 namespace camway::service {
 
@@ -38,6 +39,8 @@ struct ServiceConfig {
   FairQueue::Limits queue;
   /// Bytes of the plan requests that wait or are planned.
   std::size_t request_bytes = std::size_t{256} << 20;
+  /// Of an answer; `queue.answer_pages` [Limit: 1 <= value <= wire::kMaxResponsePages]
+  int answer_pages = wire::kMaxResponsePages;
   Outbox::Limits answers;  ///< that wait to be sent; `queue.answers` and others
   /// Answers to messages that cannot be read, to whomever, and at once: they must not keep those
   /// that others wait for. [Limit: 1 <= value]

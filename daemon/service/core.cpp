@@ -74,7 +74,8 @@ void Core::report_unanswerable(std::string_view channel, std::span<const std::ui
   error.channel = channel;
   error.size_bytes = static_cast<std::int64_t>(message.size());
   error.message = clipped(reason, wire::kMaxTextBytes);
-  outbox.add(channels.error(), std::make_shared<const std::vector<Bytes>>(1, wire::encode(error)));
+  outbox.add(channels.error(), std::make_shared<const std::vector<Bytes>>(1, wire::encode(error)),
+             {}, Outbox::Kind::kRefusal);
 }
 
 }  // namespace camway::service

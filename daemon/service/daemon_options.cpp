@@ -165,6 +165,10 @@ std::string resolve(const Raw& raw, DaemonOptions& options) {
     return "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
            "--scene-roots where clients may load scenes from";
   }
+  for (SceneArgument& scene : options.scenes) {
+    scene.options.import.map_limits = options.service.scene_rules.maps;
+    scene.options.mirror_voxels = options.service.scene_rules.mirror_voxels;
+  }
   if (std::string fault = open_roots(options.scene_roots, options.service.scene_rules.roots);
       !fault.empty()) {
     return fault;

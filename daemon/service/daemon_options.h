@@ -39,6 +39,7 @@ struct DaemonOptions {
   LogFormat log_format = LogFormat::kText;
   std::string scene_roots;  ///< folders with ':' between them; see `SceneRoots`
   HttpAddress metrics;      ///< of the page for Prometheus; there is none if the port is 0
+  HttpLimits metrics_limits = {};
   AuthOptions auth;
   scene::SceneStoreLimits store;
   ServiceConfig service;

@@ -64,10 +64,21 @@ std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::st
 }
 
 /// The page for Prometheus, if one is asked for.
-OpenedHttpPage open_metrics(const HttpAddress& address, const LatestStatus& latest) {
-  if (address.port == 0) return {};
-  return open_http_page(address, "/metrics", "text/plain; version=0.0.4; charset=utf-8",
-                        [&latest] { return metrics_text(latest.get()); });
+OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& latest,
+                            const std::shared_ptr<Log>& log) {
+  if (options.metrics.port == 0) return {};
+  HttpContent content;
+  content.path = "/metrics";
+  content.type = "text/plain; version=0.0.4; charset=utf-8";
+  content.text = [&latest] { return metrics_text(latest.get()); };
+  // For the page's thread alone, as the limits of lines are.
+  const auto crowded =
+      std::make_shared<LimitedLog>(log, LogLevel::kWarn, "metrics", options.service.log_limits);
+  content.full = [crowded, most = options.metrics_limits.connections] {
+    crowded->write("the page of metrics has as many connections as it may",
+                   {{"metrics.connections", most}});
+  };
+  return open_http_page(options.metrics, std::move(content), options.metrics_limits);
 }
 
 /// What the outcome of a run means for the process.
@@ -118,7 +129,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   }
   Transport& transport = signing ? static_cast<Transport&>(*signing) : *opened.transport;
   LatestStatus latest;
-  const OpenedHttpPage metrics = open_metrics(options.metrics, latest);
+  const OpenedHttpPage metrics = open_metrics(options, latest, log);
   if (!metrics.error.empty()) {
     log->error("there can be no page of metrics", {{"reason", metrics.error}});
     return kExitMetrics;

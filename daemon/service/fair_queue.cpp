@@ -10,10 +10,6 @@ namespace {
 /// No job is free, so that clients whose jobs take no time to speak of still take turns.
 constexpr double kLeastCharge_s = 1e-4;
 
-/// How many clients are remembered that wait for nothing but had more than their part: enough that
-/// nobody gets rid of what he used by coming back, few enough to cost nothing.
-constexpr std::size_t kMostIdle = 1024;
-
 double weight_of(Priority priority) {
   constexpr double kStep = 4.0;
   switch (priority) {
@@ -55,13 +51,14 @@ std::optional<FairQueue::Refused> FairQueue::push(Job job) {
 }
 
 FairQueue::Begun FairQueue::pop() {
-  const Clients::iterator position = clients_.find(std::get<std::string>(*ready_.begin()));
+  const Clients::iterator position = clients_.find(std::get<std::string>(next_turn()));
   unlink(position);
   Client& client = position->second;
   now_s_ = std::max(now_s_, client.used_s);
-  Begun begun{take(position, client.waiting.begin()), 0.0};
+  newcomers_s_ = std::max(newcomers_s_, now_s_);
+  Begun begun{take(position, client.waiting.begin()), 0.0, client.is_newcomer};
   begun.charged_s = std::max(client.last_s, kLeastCharge_s) * weight_of(begun.job.priority);
-  client.used_s += begun.charged_s;
+  charge(client, begun.charged_s, begun.of_newcomer);
   client.turn = ++next_number_;
   ++client.running;
   ++running_;
@@ -74,7 +71,10 @@ void FairQueue::finish(const Begun& begun, Clock::duration took) {
   unlink(position);
   Client& client = position->second;
   client.last_s = std::max(seconds(took), kLeastCharge_s);
-  client.used_s += client.last_s * weight_of(begun.job.priority) - begun.charged_s;
+  charge(client, client.last_s * weight_of(begun.job.priority) - begun.charged_s,
+         begun.of_newcomer);
+  known_.note_served(begun.job.client);
+  client.is_newcomer = false;
   --client.running;
   --running_;
   link(position);
@@ -134,13 +134,42 @@ FairQueue::Clock::time_point FairQueue::next_expiry() const {
 FairQueue::Clients::iterator FairQueue::find_or_begin(const std::string& name) {
   const auto [position, is_new] = clients_.try_emplace(name);
   Client& client = position->second;
-  if (is_new) client.turn = ++next_number_;
+  if (is_new) {
+    client.turn = ++next_number_;
+    client.is_newcomer = !known_.contains(name);
+  }
   // Who asked for nothing has no claim to make up for it now.
   if (client.waiting.empty() && client.running == 0) {
     unlink(position);
     client.used_s = std::max(client.used_s, now_s_);
   }
   return position;
+}
+
+const FairQueue::Turn& FairQueue::next_turn() const {
+  if (newcomers_.empty()) return *ready_.begin();
+  if (ready_.empty()) return *newcomers_.begin();
+  const Turn& other = *ready_.begin();
+  const bool have_their_part = newcomers_s_ > std::get<double>(other);
+  return have_their_part ? other : std::min(other, *newcomers_.begin());
+}
+
+void FairQueue::charge(Client& client, double charge_s, bool of_newcomer) {
+  client.used_s += charge_s;
+  if (of_newcomer) newcomers_s_ += charge_s / static_cast<double>(limits_.newcomers_count_as);
+}
+
+std::optional<FairQueue::Clients::iterator> FairQueue::crowd() {
+  std::size_t jobs = 0;
+  Clients::iterator longest = clients_.end();
+  for (const Turn& turn : newcomers_) {
+    const Clients::iterator client = clients_.find(std::get<std::string>(turn));
+    const std::size_t waiting = client->second.waiting.size();
+    jobs += waiting;
+    // Of those who have as many, who is last in turn.
+    if (longest == clients_.end() || waiting >= longest->second.waiting.size()) longest = client;
+  }
+  return 2 * jobs > limits_.jobs ? std::optional(longest) : std::nullopt;
 }
 
 std::optional<FairQueue::Victim> FairQueue::victim_for(Clients::iterator client,
@@ -155,6 +184,9 @@ std::optional<FairQueue::Victim> FairQueue::victim_for(Clients::iterator client,
           return a.second.waiting.size() < b.second.waiting.size();
         });
     if (longest->second.waiting.size() > own.size() + 1) return Victim{why, longest};
+    if (!client->second.is_newcomer) {
+      if (const auto newcomer = crowd()) return Victim{why, *newcomer};
+    }
   }
   if (!own.empty() && std::prev(own.end())->second.job.priority < priority) {
     return Victim{why, client};
@@ -174,13 +206,14 @@ Job FairQueue::take(Clients::iterator client, std::map<Place, Waiting>::iterator
 void FairQueue::unlink(Clients::iterator client) {
   const Turn turn{client->second.used_s, client->second.turn, client->first};
   ready_.erase(turn);
+  newcomers_.erase(turn);
   idle_.erase(turn);
 }
 
 void FairQueue::link(Clients::iterator client) {
   const Turn turn{client->second.used_s, client->second.turn, client->first};
   if (!client->second.waiting.empty()) {
-    ready_.insert(turn);
+    (client->second.is_newcomer ? newcomers_ : ready_).insert(turn);
   } else if (client->second.running == 0) {
     if (client->second.used_s > now_s_) {
       idle_.insert(turn);
@@ -191,13 +224,13 @@ void FairQueue::link(Clients::iterator client) {
 }
 
 void FairQueue::forget_idle() {
-  const bool all_idle = ready_.empty() && running_ == 0;
-  while (!idle_.empty() &&
-         (all_idle || idle_.size() > kMostIdle || std::get<double>(*idle_.begin()) <= now_s_)) {
+  const bool all_idle = empty() && running_ == 0;
+  while (!idle_.empty() && (all_idle || idle_.size() > limits_.remembered_clients ||
+                            std::get<double>(*idle_.begin()) <= now_s_)) {
     clients_.erase(std::get<std::string>(*idle_.begin()));
     idle_.erase(idle_.begin());
   }
-  if (all_idle) now_s_ = 0.0;
+  if (all_idle) now_s_ = newcomers_s_ = 0.0;
 }
 
 }  // namespace camway::service

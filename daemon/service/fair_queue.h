@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/service/known_clients.h"
+
 namespace camway::service {
 
 enum class Priority : std::int8_t { kLow = -1, kNormal = 0, kHigh = 1 };
@@ -42,7 +44,12 @@ struct Job {
 /// others ask for: start-time fair queueing (Goyal, Vin and Cheng, 1997), where a job is charged
 /// with what its client's last one took until its own time is known. A client's own jobs go by
 /// priority, then first come first served; one of high priority is charged a quarter of its time,
-/// one of low priority four times. For one thread at a time.
+/// one of low priority four times.
+///
+/// An id costs nothing, so who invents many would have as many turns. Therefore newcomers, of whom
+/// no job was finished as far as is remembered, take turns like all others, but together they get
+/// no more time than a few clients, and when the queue is full no more than half of its places if
+/// others want them. For one thread at a time.
 class FairQueue {
  public:
   using Clock = Job::Clock;
@@ -50,9 +57,13 @@ class FairQueue {
   struct Limits {
     std::size_t jobs = 256;             ///< that wait [Limit: 1 <= value]
     std::size_t jobs_of_a_client = 64;  ///< likewise
+    /// Clients that are remembered, and so are no newcomers. [Limit: 2 <= value]
+    std::size_t remembered_clients = 1024;
+    /// So many clients all newcomers together count as. [Limit: 1 <= value]
+    std::size_t newcomers_count_as = 8;
   };
 
-  explicit FairQueue(const Limits& limits) : limits_(limits) {}
+  explicit FairQueue(const Limits& limits) : limits_(limits), known_(limits.remembered_clients) {}
 
   struct Refused {
     Job job;
@@ -65,6 +76,7 @@ class FairQueue {
   struct Begun {
     Job job;
     double charged_s = 0.0;
+    bool of_newcomer = false;
   };
   /// The job that is next. Precondition: not empty.
   Begun pop();
@@ -101,18 +113,24 @@ class FairQueue {
     double used_s = 0.0;  ///< weighted time, on the scale of `now_s_`
     double last_s = 0.0;  ///< what its last job took
     std::uint64_t turn = 0;
+    bool is_newcomer = true;
   };
   using Clients = std::map<std::string, Client>;
   /// Least time used first, then who had to wait for his turn longest.
   using Turn = std::tuple<double, std::uint64_t, std::string>;
 
   Clients::iterator find_or_begin(const std::string& name);
+  /// Who has the next turn. Precondition: not empty.
+  const Turn& next_turn() const;
+  void charge(Client& client, double charge_s, bool of_newcomer);
   /// Who has to make way for a job of `client`: a job that waits, or nobody, then there is no room.
   struct Victim {
     Refusal why;
     std::optional<Clients::iterator> client;
   };
   std::optional<Victim> victim_for(Clients::iterator client, Priority priority);
+  /// A newcomer with most jobs, if newcomers have more than half of the places.
+  std::optional<Clients::iterator> crowd();
   Job take(Clients::iterator client, std::map<Place, Waiting>::iterator position);
   void unlink(Clients::iterator client);
   void link(Clients::iterator client);
@@ -120,12 +138,15 @@ class FairQueue {
 
   Limits limits_;
   Clients clients_;
-  std::set<Turn> ready_;  ///< clients with jobs that wait
-  std::set<Turn> idle_;   ///< clients without any job that used more than others
-  Expiries expiries_;     ///< of all jobs that wait
+  KnownClients known_;
+  std::set<Turn> ready_;      ///< clients with jobs that wait, but newcomers
+  std::set<Turn> newcomers_;  ///< newcomers with jobs that wait
+  std::set<Turn> idle_;       ///< clients without any job that used more than others
+  Expiries expiries_;         ///< of all jobs that wait
   std::size_t running_ = 0;
   std::uint64_t next_number_ = 0;
-  double now_s_ = 0.0;  ///< the time used by the client that was served last
+  double now_s_ = 0.0;        ///< the time used by the client that was served last
+  double newcomers_s_ = 0.0;  ///< by newcomers, each of the clients that they count as
 };
 
 }  // namespace camway::service

@@ -17,8 +17,6 @@
 namespace camway::service {
 namespace {
 
-constexpr unsigned int kMaxConnections = 16;
-constexpr unsigned int kConnectionTimeout_s = 5;
 constexpr std::size_t kConnectionBytes = 16'384;
 constexpr int kBacklog = 16;
 
@@ -86,8 +84,8 @@ int port_of(int socket) {
 
 class MicroHttpPage final : public HttpPage {
  public:
-  MicroHttpPage(std::string path, std::string type, std::function<std::string()> text)
-      : path_(std::move(path)), type_(std::move(type)), text_(std::move(text)) {}
+  MicroHttpPage(HttpContent content, const HttpLimits& limits)
+      : content_(std::move(content)), limits_(limits) {}
   ~MicroHttpPage() override {
     if (daemon_ != nullptr) MHD_stop_daemon(daemon_);
   }
@@ -99,9 +97,10 @@ class MicroHttpPage final : public HttpPage {
     port_ = port_of(socket.get());
     daemon_ = MHD_start_daemon(
         MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_AUTO, 0, nullptr, nullptr, &on_request, this,
-        MHD_OPTION_LISTEN_SOCKET, socket.get(), MHD_OPTION_CONNECTION_LIMIT, kMaxConnections,
-        MHD_OPTION_CONNECTION_TIMEOUT, kConnectionTimeout_s, MHD_OPTION_CONNECTION_MEMORY_LIMIT,
-        kConnectionBytes, MHD_OPTION_END);
+        MHD_OPTION_LISTEN_SOCKET, socket.get(), MHD_OPTION_CONNECTION_LIMIT,
+        static_cast<unsigned int>(limits_.connections), MHD_OPTION_CONNECTION_TIMEOUT,
+        static_cast<unsigned int>(limits_.idle_s), MHD_OPTION_CONNECTION_MEMORY_LIMIT,
+        kConnectionBytes, MHD_OPTION_NOTIFY_CONNECTION, &on_connection, this, MHD_OPTION_END);
     if (daemon_ != nullptr) socket.release();
     return daemon_ != nullptr;
   }
@@ -122,6 +121,15 @@ class MicroHttpPage final : public HttpPage {
     return queued;
   }
 
+  static void on_connection(void* self, MHD_Connection* /*connection*/, void** /*state*/,
+                            MHD_ConnectionNotificationCode what) {
+    auto& page = *static_cast<MicroHttpPage*>(self);
+    page.connections_ += what == MHD_CONNECTION_NOTIFY_STARTED ? 1 : -1;
+    const bool full =
+        what == MHD_CONNECTION_NOTIFY_STARTED && page.connections_ >= page.limits_.connections;
+    if (full && page.content_.full) page.content_.full();
+  }
+
   static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
                                const char* method, const char* /*version*/,
                                const char* /*upload_data*/, std::size_t* /*upload_size*/,
@@ -131,15 +139,16 @@ class MicroHttpPage final : public HttpPage {
     if (verb != "GET" && verb != "HEAD") {
       return answer(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "text/plain", "only GET and HEAD\n");
     }
-    if (url != page.path_) {
-      return answer(connection, MHD_HTTP_NOT_FOUND, "text/plain", "see " + page.path_ + "\n");
+    if (url != page.content_.path) {
+      return answer(connection, MHD_HTTP_NOT_FOUND, "text/plain",
+                    "see " + page.content_.path + "\n");
     }
-    return answer(connection, MHD_HTTP_OK, page.type_, page.text_());
+    return answer(connection, MHD_HTTP_OK, page.content_.type, page.content_.text());
   }
 
-  const std::string path_;
-  const std::string type_;
-  const std::function<std::string()> text_;
+  const HttpContent content_;
+  const HttpLimits limits_;
+  int connections_ = 0;  ///< the page's thread alone counts them
   MHD_Daemon* daemon_ = nullptr;
   int port_ = 0;
 };
@@ -151,8 +160,8 @@ bool is_ip_address(const std::string& text) {
   return parse({text, 0}, address);
 }
 
-OpenedHttpPage open_http_page(const HttpAddress& address, std::string path, std::string type,
-                              std::function<std::string()> text) {
+OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
+                              const HttpLimits& limits) {
   Address parsed;
   if (!parse(address, parsed)) {
     return {nullptr, fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
@@ -162,7 +171,7 @@ OpenedHttpPage open_http_page(const HttpAddress& address, std::string path, std:
   if (!listen_on(socket.get(), parsed)) {
     return {nullptr, fmt::format("{}: {}", where, std::strerror(errno))};
   }
-  auto page = std::make_unique<MicroHttpPage>(std::move(path), std::move(type), std::move(text));
+  auto page = std::make_unique<MicroHttpPage>(std::move(content), limits);
   if (!page->start(socket)) {
     return {nullptr, fmt::format("{}: the HTTP server does not start", where)};
   }

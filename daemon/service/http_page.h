@@ -8,8 +8,9 @@
 namespace camway::service {
 
 /// Serves one page of text over HTTP on a thread of its own, to few at a time, who are cut off when
-/// they are slow; everything else is refused. The only place that knows the HTTP library
-/// (libmicrohttpd). Ends, and waits for its thread, when it is destroyed.
+/// they are idle; others wait until one of these is gone, and everything else is refused. The only
+/// place that knows the HTTP library (libmicrohttpd). Ends, and waits for its thread, when it is
+/// destroyed.
 class HttpPage {
  public:
   virtual ~HttpPage() = default;
@@ -25,6 +26,19 @@ struct HttpAddress {
 /// Whether `text` is an IPv4 or IPv6 address.
 bool is_ip_address(const std::string& text);
 
+struct HttpLimits {
+  int connections = 16;  ///< at a time [Limit: 1 <= value <= 1000]
+  int idle_s = 5;        ///< that a connection may be silent [Limit: 1 <= value <= 86400]
+};
+
+/// What a page says. Both are called by the page's thread and must not throw.
+struct HttpContent {
+  std::string path;                      ///< "/metrics"
+  std::string type;                      ///< what the text is, as HTTP says it
+  std::function<std::string()> text;     ///< called anew for each request
+  std::function<void()> full = nullptr;  ///< as many are connected now as may be; may be null
+};
+
 /// A page, or why there is none, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in
 /// use".
 struct OpenedHttpPage {
@@ -32,9 +46,7 @@ struct OpenedHttpPage {
   std::string error;  ///< empty exactly when `page` is set
 };
 
-/// Serves what `text` gives, called anew for each request by the page's thread; it must not throw.
-/// `path`: "/metrics". `type`: what the text is, as HTTP says it.
-OpenedHttpPage open_http_page(const HttpAddress& address, std::string path, std::string type,
-                              std::function<std::string()> text);
+OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
+                              const HttpLimits& limits = {});
 
 }  // namespace camway::service

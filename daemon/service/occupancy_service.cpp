@@ -93,8 +93,10 @@ void OccupancyService::send(occupancy_response_t answer) {
        {"queries", answer.num_points + answer.num_boxes + answer.num_spheres + answer.num_rays +
                        answer.num_distances + answer.num_sphere_paths},
        {"message", answer.message}});
+  const bool was_asked_of_a_map = answer.status == occupancy_response_t::STATUS_OK;
   if (core_.outbox.add(core_.channels.occupancy_response(answer.client_id),
-                       std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)))) {
+                       std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)), {},
+                       was_asked_of_a_map ? Outbox::Kind::kAnswer : Outbox::Kind::kRefusal)) {
     ++core_.counters.answered;
   }
 }

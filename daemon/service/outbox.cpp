@@ -5,14 +5,16 @@
 
 namespace camway::service {
 
-bool Outbox::add(const std::string& channel, Pages pages, std::vector<std::size_t> which) {
+bool Outbox::add(const std::string& channel, Pages pages, std::vector<std::size_t> which,
+                 Kind kind) {
   if (here_.contains(pages.get())) return false;
   const auto [position, is_new] = channels_.try_emplace(channel);
   std::size_t bytes = 0;
   for (const Bytes& page : *pages) bytes += page.size();
   // An answer that is larger than the limit has its turn when nothing else waits.
   const bool is_too_much = bytes_ > 0 && bytes_ + bytes > limits_.bytes;
-  if (here_.size() >= limits_.answers || is_too_much ||
+  const bool one_refusal_more = kind == Kind::kRefusal && refusals_ >= limits_.refusals;
+  if (here_.size() >= limits_.answers || is_too_much || one_refusal_more ||
       position->second.size() >= limits_.answers_of_a_channel) {
     if (is_new) channels_.erase(position);
     ++dropped_;
@@ -20,8 +22,9 @@ bool Outbox::add(const std::string& channel, Pages pages, std::vector<std::size_
   }
   if (is_new) turns_.push_back(position);
   here_.insert(pages.get());
-  position->second.push_back({std::move(pages), std::move(which), bytes, 0});
+  position->second.push_back({std::move(pages), std::move(which), bytes, 0, kind});
   bytes_ += bytes;
+  if (kind == Kind::kRefusal) ++refusals_;
   return true;
 }
 
@@ -46,6 +49,7 @@ void Outbox::end_turn() {
   if (answers.front().sent()) {
     here_.erase(answers.front().pages.get());
     bytes_ -= answers.front().bytes;
+    if (answers.front().kind == Kind::kRefusal) --refusals_;
   } else {
     answers.push_back(std::move(answers.front()));
   }

@@ -33,7 +33,12 @@ class Outbox {
     std::size_t answers = 4096;
     std::size_t answers_of_a_channel = 1024;
     std::size_t bytes = std::size_t{256} << 20;
+    /// Refusals among them, which cost who causes them nothing: they must not take the room of
+    /// what was worked for.
+    std::size_t refusals = 1024;
   };
+  /// Whether something was done for it.
+  enum class Kind : bool { kAnswer, kRefusal };
 
   explicit Outbox(Transport& transport) : Outbox(transport, Limits{}) {}
   Outbox(Transport& transport, const Limits& limits) : transport_(transport), limits_(limits) {}
@@ -41,7 +46,8 @@ class Outbox {
   /// Queues an answer, or those of its pages that `which` lists, unless that is empty. False if
   /// there is no room, or if this very answer is still waiting to be sent.
   /// Precondition: `which` counts pages that there are.
-  bool add(const std::string& channel, Pages pages, std::vector<std::size_t> which = {});
+  bool add(const std::string& channel, Pages pages, std::vector<std::size_t> which = {},
+           Kind kind = Kind::kAnswer);
 
   /// Sends the next burst.
   void send_burst();
@@ -57,6 +63,7 @@ class Outbox {
     std::vector<std::size_t> which;
     std::size_t bytes = 0;  ///< of all pages, which stay as long as one of them waits
     std::size_t next = 0;   ///< in `which`, or in `pages` if that is empty
+    Kind kind = Kind::kAnswer;
 
     [[nodiscard]] const Bytes& page() const { return (*pages)[which.empty() ? next : which[next]]; }
     [[nodiscard]] bool sent() const {
@@ -74,6 +81,7 @@ class Outbox {
   std::deque<Channels::iterator> turns_;      ///< the same, who is next first
   std::set<const std::vector<Bytes>*> here_;  ///< the pages of all answers that wait
   std::size_t bytes_ = 0;                     ///< likewise
+  std::size_t refusals_ = 0;                  ///< that wait
   std::int64_t dropped_ = 0;
 };
 

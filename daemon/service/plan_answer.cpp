@@ -73,16 +73,17 @@ std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t
   return path ? std::make_shared<const planning::WatchedPath>(std::move(*path)) : nullptr;
 }
 
-Pages encode_answer(plan_response_t& answer) {
+Pages encode_answer(plan_response_t& answer, int most_pages) {
   const std::size_t pages = count_pages(answer);
-  if (pages > static_cast<std::size_t>(wire::kMaxResponsePages)) {
+  if (pages > static_cast<std::size_t>(most_pages)) {
     const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
                               answer.scene,
                               answer.scene_revision,
                               answer.scene_digest};
     answer = plain_answer(plan_response_t::STATUS_INTERNAL_ERROR,
-                          fmt::format("the answer takes {} pages, more than the {} allowed", pages,
-                                      wire::kMaxResponsePages),
+                          fmt::format("the answer takes {} pages, more than the {} allowed "
+                                      "(queue.answer_pages); ask for parts of the path",
+                                      pages, most_pages),
                           header);
   }
   return std::make_shared<const std::vector<Bytes>>(encode_pages(answer));

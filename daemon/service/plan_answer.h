@@ -31,7 +31,8 @@ std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t
                                                             const plan_response_t& answer,
                                                             const DeadlineLimits& limits);
 
-/// Encodes `answer`, or what takes its place: an answer that says that it is too long.
-Pages encode_answer(plan_response_t& answer);
+/// Encodes `answer`, or what takes its place: an answer that says that it has more than
+/// `most_pages`.
+Pages encode_answer(plan_response_t& answer, int most_pages);
 
 }  // namespace camway::service

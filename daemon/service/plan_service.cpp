@@ -249,7 +249,7 @@ void PlanService::run(const Pending& pending) {
   auto answer = std::make_shared<plan_response_t>(answer_of(
       planner_, *pending.snapshot, *pending.request, core_.config.deadline, pending.deadline));
   auto path = watchable_path(*pending.request, *answer, core_.config.deadline);
-  Pages pages = encode_answer(*answer);
+  Pages pages = encode_answer(*answer, core_.config.answer_pages);
   core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
                       path = std::move(path)] {
     core_.counters.waiting.add(waited_s);
@@ -321,7 +321,7 @@ void PlanService::run_again(const Replan& replan) {
   auto answer = std::make_shared<plan_response_t>(
       answer_of(planner_, *snapshot, *replan.request, core_.config.deadline, replan.deadline));
   auto path = watchable_path(*replan.request, *answer, core_.config.deadline);
-  Pages pages = encode_answer(*answer);
+  Pages pages = encode_answer(*answer, core_.config.answer_pages);
   core_.mailbox.post([this, replan, snapshot = std::move(snapshot), answer = std::move(answer),
                       pages = std::move(pages), path = std::move(path)] {
     finish_again(replan, *answer, pages, path, snapshot);
@@ -358,7 +358,7 @@ void PlanService::finish_plainly(const Pending& pending, std::int32_t status,
                                  std::string_view message) {
   plan_response_t answer =
       plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
-  Pages pages = encode_answer(answer);
+  Pages pages = encode_answer(answer, core_.config.answer_pages);
   finish(pending, answer, std::move(pages));
 }
 
@@ -392,11 +392,12 @@ void PlanService::answer_uncached(const plan_request_t& request, std::int32_t st
                                   std::string_view message) {
   plan_response_t answer = plain_answer(status, message, header_of(request, nullptr));
   core_.counters.plan_answers.add(status);
-  send({request.client_id, request.request_id}, encode_answer(answer));
+  send({request.client_id, request.request_id}, encode_answer(answer, core_.config.answer_pages),
+       Outbox::Kind::kRefusal);
 }
 
-void PlanService::send(const RequestKey& key, Pages pages) {
-  if (core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(pages))) {
+void PlanService::send(const RequestKey& key, Pages pages, Outbox::Kind kind) {
+  if (core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(pages), {}, kind)) {
     ++core_.counters.answered;
   }
 }

@@ -64,7 +64,7 @@ class PlanService {
   void refuse(const plan_request_t& request, const std::string& message);
   void answer_uncached(const plan_request_t& request, std::int32_t status,
                        std::string_view message);
-  void send(const RequestKey& key, Pages pages);
+  void send(const RequestKey& key, Pages pages, Outbox::Kind kind = Outbox::Kind::kAnswer);
 
   void watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path);
   void plan_broken(Clock::time_point now);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "daemon/scene/map_scan.h"
+#include "daemon/scene/occupancy_map.h"
 #include "daemon/service/scene_roots.h"
 
 namespace camway::service {
@@ -12,6 +15,9 @@ struct SceneRules {
   /// Whether clients may have maps written below the roots, over a file of the same name.
   bool write_maps = false;
   double scan_voxels = scene::kMostScanVoxels;  ///< that the rays of a scan may pass
+  scene::VoxelMapLimits maps;                   ///< `scenes.map_voxels` and `scenes.map_triangles`
+  /// Of the mirror of an object; `scenes.mirror_voxels`.
+  std::uint64_t mirror_voxels = scene::OccupancyMap::kUsualMostVoxels;
 };
 
 }  // namespace camway::service

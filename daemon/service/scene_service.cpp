@@ -155,7 +155,12 @@ Pages SceneService::send(scene_response_t answer) {
   core_.counters.scene_answers.add(answer.status);
   const std::string channel = core_.channels.scene_response(answer.client_id);
   auto pages = std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer));
-  if (core_.outbox.add(channel, pages)) ++core_.counters.answered;
+  const bool is_refused = answer.status == scene_response_t::STATUS_OVERLOADED ||
+                          answer.status == scene_response_t::STATUS_MALFORMED;
+  if (core_.outbox.add(channel, pages, {},
+                       is_refused ? Outbox::Kind::kRefusal : Outbox::Kind::kAnswer)) {
+    ++core_.counters.answered;
+  }
   return pages;
 }
 

@@ -105,8 +105,9 @@ Made<scene::UnknownSpace> unknown_space(const Request& request) {
   }
 }
 
-Made<scene::ImportOptions> import_options(const Request& request) {
+Made<scene::ImportOptions> import_options(const Request& request, const SceneRules& rules) {
   scene::ImportOptions options;
+  options.map_limits = rules.maps;
   if (request.scale != 0.0) options.scale = request.scale;
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
     return {std::nullopt, "scale: must be a number above 0"};
@@ -145,11 +146,11 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
 }
 
 Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
-                        const SceneRoots& roots) {
-  const Made<scene::ImportOptions> options = import_options(request);
+                        const SceneRules& rules) {
+  const Made<scene::ImportOptions> options = import_options(request, rules);
   if (!options.value) return {std::nullopt, options.error};
   if (request.upload_bytes == 0) {
-    const RootedFile rooted = roots.resolve(request.file);
+    const RootedFile rooted = rules.roots.resolve(request.file);
     if (!rooted.error.empty()) return {std::nullopt, rooted.error};
     return imported(rooted.file, wire::printable(request.file), *options.value);
   }
@@ -221,33 +222,33 @@ Made<scene::SensorModel> sensor_of(const Request& request) {
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
   std::optional<scene::Mesh> mesh = map->skin();
   if (!mesh) {
-    return {std::nullopt,
-            fmt::format("the map has more than {} triangles", scene::VoxelMap::kMostTriangles)};
+    return {std::nullopt, fmt::format("the map has more than {} triangles (scenes.map_triangles)",
+                                      map->limits().triangles)};
   }
   scene::ImportReport report = scene::report_of(*mesh, "OctoMap");
   return {Content{scene::ObjectKind::kMap, *std::move(mesh), std::move(report), std::move(map)},
           {}};
 }
 
-Made<Content> empty_map(const Request& request) {
+Made<Content> empty_map(const Request& request, const SceneRules& rules) {
   const Made<scene::UnknownSpace> unknown = unknown_space(request);
   if (!unknown.value) return {std::nullopt, unknown.error};
   const Made<scene::SensorModel> sensor = sensor_of(request);
   if (!sensor.value) return {std::nullopt, sensor.error};
   scene::VoxelMapResult built =
-      scene::VoxelMap::build(request.cell_m, {}, {}, *unknown.value, *sensor.value);
+      scene::VoxelMap::build(request.cell_m, {}, {}, *unknown.value, rules.maps, *sensor.value);
   if (!built.map) return {std::nullopt, "cell_m: the map " + built.error};
   return of_map(std::move(built.map));
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
-                        const SceneRoots& roots) {
+                        const SceneRules& rules) {
   constexpr double kDefaultChordShare = 0.01;
   const double chord_error_m =
       request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;
   switch (kind) {
     case scene::ObjectKind::kMesh:
-      return read_mesh(request, upload, roots);
+      return read_mesh(request, upload, rules);
     case scene::ObjectKind::kBox:
       return of_shape(scene::box_mesh(vec3(request.size_m)), kind);
     case scene::ObjectKind::kSphere:
@@ -256,7 +257,7 @@ Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const Up
       return of_shape(scene::cylinder_mesh(request.radius_m, request.height_m, chord_error_m),
                       kind);
     case scene::ObjectKind::kMap:
-      return empty_map(request);
+      return empty_map(request, rules);
     case scene::ObjectKind::kPointCloud: {
       const Made<std::vector<Vec3>> points = read_points(upload);
       if (!points.value) return {std::nullopt, points.error};
@@ -396,6 +397,7 @@ class Work {
   Answer load() {
     if (!is_scene_name(request_.scene)) return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
     scene::ObjectOptions options;
+    options.mirror_voxels = rules_.mirror_voxels;
     if (request_.occupancy_resolution_m != 0.0) {
       options.occupancy_resolution_m = request_.occupancy_resolution_m;
     }
@@ -406,7 +408,7 @@ class Work {
       }
       return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
     }
-    Made<Content> made = read_mesh(request_, upload_, rules_.roots);
+    Made<Content> made = read_mesh(request_, upload_, rules_);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed = scene::place_object(
@@ -453,7 +455,7 @@ class Work {
     if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
-    Made<Content> made = make_mesh(request_, *kind, upload_, rules_.roots);
+    Made<Content> made = make_mesh(request_, *kind, upload_, rules_);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     const auto source = source_of(*std::move(made.value), snapshot->options);

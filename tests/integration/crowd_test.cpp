@@ -12,6 +12,9 @@
 #include <thread>
 #include <vector>
 
+#include <lcm/lcm-cpp.hpp>
+
+#include "client/plan_wire.h"
 #include "tests/integration/fixture.h"
 #include "tools/camway/load_tally.h"
 
@@ -55,6 +58,37 @@ TEST_F(CrowdTest, WhoFloodsKeepsNobodyWaiting) {
   EXPECT_LT(flooded, kFlood) << "or there was no flood";
   const int so_far = flooded;
   EXPECT_TRUE(eventually([&] { return flooded > so_far; })) << "nor does the flood get nothing";
+}
+
+/// A host that invents a client for each request. Time is shared by clients, so he would have as
+/// much of it as he invents; but newcomers together count as a few.
+TEST_F(CrowdTest, WhoInventsClientsKeepsNobodyWaiting) {
+  start_daemon({"--workers", "1"});
+  ClientOptions options = patient();
+  options.try_timeout_s = 10.0;
+  options.max_try_timeout_s = 10.0;
+  Client client(options);
+  const PlanRequest quick = request_of("office-free-door", "office");
+  ASSERT_TRUE(client.plan(quick).ok());
+
+  const PlanRequest slow = request_of("maze-wall-neighbours", "maze");
+  std::jthread flood([&](const std::stop_token& stop) {
+    lcm::LCM lcm;
+    for (int i = 0; !stop.stop_requested(); ++i) {
+      for (const auto& page : to_pages(slow, "invented" + std::to_string(i), 1)) {
+        lcm.publish("CAMWAY_PLAN_REQUEST", page.data(), static_cast<unsigned>(page.size()));
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  });
+  ASSERT_TRUE(eventually([&] { return client.status().overloaded_requests > 0; }))
+      << "the queue is full";
+  const std::int64_t answered_before = client.status().answered_requests;
+  for (int i = 0; i < 10; ++i) {
+    const PlanResponse answer = client.plan(quick);
+    EXPECT_TRUE(answer.ok()) << answer.error;
+  }
+  EXPECT_GT(client.status().answered_requests, answered_before + 10) << "or there was no flood";
 }
 
 /// A process that is stopped reads nothing, acknowledges nothing, and its sockets are full.

@@ -90,6 +90,32 @@ TEST_F(OperationTest, TellsTheServiceManagerAndReloads) {
   EXPECT_EQ(daemon().wait(), 0) << daemon().output();
 }
 
+TEST_F(OperationTest, WarnsOfAnEnvironmentThatDoesNotCount) {
+  const char* const usual = std::getenv("LCM_DEFAULT_URL");
+  const std::string before = usual == nullptr ? "" : usual;
+  const std::string here = "udpm://239.255.76.67:7700?ttl=0";
+  {
+    std::ofstream config(file("camwayd.toml"));
+    config << "[lcm]\nurl = \"" << here << "\"\n[[scene]]\nname = \"maze\"\nfile = \""
+           << scene_file("maze") << "\"\n";
+  }
+  int runs = 0;
+  const auto warned = [&](const std::string& environment) {
+    setenv("LCM_DEFAULT_URL", environment.c_str(), 1);
+    Process process({CAMWAYD_BINARY, "--config", file("camwayd.toml")},
+                    file(std::to_string(++runs) + ".log"));
+    EXPECT_NE(socket_->next_of("READY=1"), "") << process.output();
+    process.signal(SIGTERM);
+    EXPECT_EQ(process.wait(), 0) << process.output();
+    EXPECT_NE(socket_->next_of("STOPPING=1"), "");
+    return process.output().find("LCM_DEFAULT_URL is set, but does not count") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("udpm://239.255.76.67:7800?ttl=0"));
+  EXPECT_FALSE(warned(here)) << "they agree";
+  EXPECT_FALSE(warned("")) << "there is none";
+  setenv("LCM_DEFAULT_URL", before.c_str(), 1);
+}
+
 TEST_F(OperationTest, LogsObjectsOfJsonWhereThatIsAskedFor) {
   write_config("info", {"office"});
   start_daemon_with_scenes({}, {"--config", file("camwayd.toml"), "--log-format", "json"});

@@ -20,7 +20,7 @@ constexpr std::uint64_t kSeed = 77301;
 constexpr double kResolutionM = 0.1;
 
 std::shared_ptr<const VoxelMap> empty_map(const SensorModel& sensor) {
-  return VoxelMap::build(kResolutionM, {}, {}, UnknownSpace::kFree, sensor).map;
+  return VoxelMap::build(kResolutionM, {}, {}, UnknownSpace::kFree, {}, sensor).map;
 }
 
 /// What somebody sees who stands in a room of 4 m, with what does not come back.

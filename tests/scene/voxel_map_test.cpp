@@ -253,5 +253,20 @@ TEST(Snapshot, OfAMapHasItsVoxelsInTheMirror) {
   });
 }
 
+TEST(VoxelMap, KeepsWithinItsLimits) {
+  VoxelSet cube;
+  cube.insert(VoxelCube{{0, 0, 0}, 2});
+  const auto build = [&](const VoxelMapLimits& limits, UnknownSpace unknown) {
+    return VoxelMap::build(0.1, cube, {}, unknown, limits);
+  };
+  EXPECT_TRUE(build({.voxels = 8}, UnknownSpace::kFree).map);
+  EXPECT_THAT(build({.voxels = 7}, UnknownSpace::kFree).error, HasSubstr("more than 7 occupied"));
+  // With a layer about it, four on each side.
+  EXPECT_TRUE(build({.voxels = 64}, UnknownSpace::kOccupied).map);
+  EXPECT_THAT(build({.voxels = 63}, UnknownSpace::kOccupied).error, HasSubstr("more than 63"));
+  EXPECT_TRUE(build({.triangles = 48}, UnknownSpace::kFree).map->skin());
+  EXPECT_FALSE(build({.triangles = 47}, UnknownSpace::kFree).map->skin());
+}
+
 }  // namespace
 }  // namespace camway::scene

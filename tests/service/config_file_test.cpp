@@ -112,8 +112,9 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
       {"\nqueue = 1\n", ":2: 'queue' must be a table"},
       {"[lcm]\n\n[qeue]\nrequests = 1\n", ":3: 'qeue' is no setting; the file has auth, lcm, "},
       {"[queue]\nlenght = 5\n",
-       ":2: 'queue.lenght' is no setting; [queue] has answer_bytes, answers, answers_of_a_client, "
-       "malformed_answers_per_s, request_bytes, requests, requests_of_a_client"},
+       ":2: 'queue.lenght' is no setting; [queue] has answer_bytes, answer_pages, answers, "
+       "answers_of_a_client, malformed_answers_per_s, newcomers_count_as, refusals, "
+       "remembered_clients, request_bytes, requests, requests_of_a_client"},
       {"[queue]\nrequests = 0\n", ":2: queue.requests: must be within 1 to 100000"},
       {"[queue]\nrequests = 1.5\n", ":2: queue.requests: must be a whole number"},
       {"[queue]\nrequests = \"5\"\n", ":2: queue.requests: must be a whole number"},

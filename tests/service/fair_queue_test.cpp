@@ -236,6 +236,80 @@ TEST(FairQueue, KnowsHowManyAreAheadIfNoMoreCome) {
   }
 }
 
+/// A client that comes back with a job whenever its last one is done, while so many ids are
+/// invented between two jobs that the queue is always full. How much of the time it gets, and how
+/// often it is refused, of the jobs after the first.
+struct Siege {
+  double share = 0.0;
+  int refused = 0;
+};
+Siege besieged(const FairQueue::Limits& limits, int jobs) {
+  FairQueue queue(limits);
+  Siege siege;
+  int invented = 0;
+  int of_client = 0;
+  int all = 0;
+  bool waits = false;
+  const auto ask = [&] {
+    const auto refused = queue.push(job_of("client"));
+    waits = !refused || refused->job.client != "client";
+    siege.refused += waits ? 0 : 1;
+  };
+  ask();
+  queue.finish(queue.pop(), milliseconds(5));
+  waits = false;
+  while (of_client < jobs) {
+    for (int i = 0; i < 50; ++i) {
+      (void)queue.push(job_of("invented" + std::to_string(invented++)));
+    }
+    if (!waits) ask();
+    const FairQueue::Begun begun = queue.pop();
+    queue.finish(begun, milliseconds(5));
+    ++all;
+    if (begun.job.client != "client") continue;
+    ++of_client;
+    waits = false;
+  }
+  siege.share = static_cast<double>(of_client) / all;
+  return siege;
+}
+
+TEST(FairQueue, InventedIdsTogetherGetThePartOfAFewClients) {
+  for (const std::size_t clients : {1U, 4U, 8U}) {
+    const Siege siege = besieged({.jobs = 100, .newcomers_count_as = clients}, 500);
+    EXPECT_GE(siege.share, 0.95 / (1.0 + static_cast<double>(clients)));
+    EXPECT_EQ(siege.refused, 0) << "who was served before finds room";
+  }
+}
+
+TEST(FairQueue, NewcomersMayHaveAllThatNobodyElseWants) {
+  FairQueue queue({.jobs = 10});
+  for (int i = 0; i < 10; ++i) ASSERT_FALSE(queue.push(job_of("new" + std::to_string(i))));
+  const auto refused = queue.push(job_of("another"));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->job.client, "another");
+  EXPECT_EQ(refused->why, Refusal::kQueueFull);
+  while (!queue.empty()) queue.finish(queue.pop(), milliseconds(1));
+}
+
+TEST(FairQueue, AFullQueueMakesRoomForWhoIsKnownUpToHalfOfIt) {
+  FairQueue queue({.jobs = 10});
+  for (const char* const client : {"a", "b", "c", "d", "e", "f"}) {
+    ASSERT_FALSE(queue.push(job_of(client)));
+    queue.finish(queue.pop(), milliseconds(1));
+  }
+  for (int i = 0; i < 10; ++i) ASSERT_FALSE(queue.push(job_of("new" + std::to_string(i))));
+  for (const char* const client : {"a", "b", "c", "d", "e"}) {
+    const auto displaced = queue.push(job_of(client));
+    ASSERT_TRUE(displaced);
+    EXPECT_EQ(displaced->job.client.substr(0, 3), "new");
+    EXPECT_EQ(displaced->why, Refusal::kQueueFull);
+  }
+  const auto refused = queue.push(job_of("f"));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->job.client, "f");
+}
+
 // Against what must hold whatever happens: no job is lost or doubled.
 TEST(FairQueue, EveryJobLeavesOnceWhateverHappens) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);

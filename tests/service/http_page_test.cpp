@@ -20,8 +20,12 @@ using testing::http_request;
 using testing::LocalConnection;
 using ::testing::StartsWith;
 
-OpenedHttpPage open_page(const HttpAddress& address = {}) {
-  return open_http_page(address, "/page", "text/plain; charset=x", [] { return "hello\n"; });
+HttpContent hello() {
+  return {"/page", "text/plain; charset=x", [] { return "hello\n"; }};
+}
+
+OpenedHttpPage open_page(const HttpAddress& address = {}, const HttpLimits& limits = {}) {
+  return open_http_page(address, hello(), limits);
 }
 
 TEST(HttpPage, AnswersItsPathAndNothingElse) {
@@ -74,6 +78,40 @@ TEST(HttpPage, SlowOnesAndManyHoldUpNobody) {
     }
   }
   EXPECT_EQ(good, 200);
+}
+
+TEST(HttpPage, ASilentConnectionIsClosed) {
+  const OpenedHttpPage opened = open_page({}, {.idle_s = 1});
+  ASSERT_TRUE(opened.page) << opened.error;
+  const LocalConnection silent(opened.page->port());
+  ASSERT_TRUE(silent.good());
+  const LocalConnection slow(opened.page->port());
+  ASSERT_TRUE(slow.send("GET /page HT"));
+  EXPECT_TRUE(silent.ends()) << "and this test did not give up first";
+  EXPECT_TRUE(slow.ends());
+}
+
+/// Those who are over the limit wait for others to go.
+TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
+  std::atomic<int> full = 0;
+  HttpContent content = hello();
+  content.full = [&full] { ++full; };
+  const OpenedHttpPage opened = open_http_page({}, content, {.connections = 3, .idle_s = 600});
+  ASSERT_TRUE(opened.page) << opened.error;
+  const int port = opened.page->port();
+  std::list<LocalConnection> silent;
+  for (int i = 0; i < 3; ++i) silent.emplace_back(port);
+  std::list<LocalConnection> others;
+  for (int i = 0; i < 5; ++i) {
+    others.emplace_back(port);
+    ASSERT_TRUE(others.back().send("GET /page HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"));
+  }
+  EXPECT_FALSE(others.front().has_something(0.3)) << "there was no room yet";
+  silent.clear();
+  for (const LocalConnection& connection : others) {
+    EXPECT_EQ(body_of(connection.receive()), "hello\n");
+  }
+  EXPECT_GE(full, 1) << "somebody is told";
 }
 
 TEST(HttpPage, RubbishDoesNotEndIt) {

@@ -58,6 +58,23 @@ TEST(Outbox, ChannelsGetTheSameNumberOfPages) {
               Outbox::kBurstMessages);
 }
 
+TEST(Outbox, RefusalsTakeNoMoreThanTheirPart) {
+  FakeTransport transport;
+  Outbox outbox(transport, {.answers = 10, .refusals = 3});
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(
+        outbox.add("STRANGER" + std::to_string(i), pages_of(1, 100, 1), {}, Outbox::Kind::kRefusal),
+        i < 3);
+  }
+  EXPECT_EQ(outbox.dropped(), 17);
+  for (int i = 0; i < 7; ++i) {
+    ASSERT_TRUE(outbox.add("CLIENT" + std::to_string(i), pages_of(1, 100, 2)));
+  }
+  outbox.send_burst();
+  EXPECT_TRUE(outbox.add("STRANGER", pages_of(1, 100, 1), {}, Outbox::Kind::kRefusal))
+      << "those that were sent make room";
+}
+
 TEST(Outbox, EveryPageGoesOutOnceAndInOrder) {
   FakeTransport transport;
   Outbox outbox(transport);

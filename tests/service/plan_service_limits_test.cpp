@@ -64,5 +64,20 @@ TEST(PlanService, RefusesMoreKeyframesThanConfigured) {
   EXPECT_EQ(daemon.answer_to(request_with(2, 5))->status, plan_response_t::STATUS_OK);
 }
 
+TEST(PlanService, RefusesAnswersOfMorePagesThanConfigured) {
+  ServiceConfig config = with_workers(1, 10);
+  config.answer_pages = 1;
+  RunningService daemon(config);
+  const plan_request_t long_one = request_with(1, 400);
+  daemon.send(long_one);
+  const std::optional<plan_response_t> answer = daemon.answer_to(long_one);
+  ASSERT_TRUE(answer);
+  EXPECT_NE(answer->status, plan_response_t::STATUS_OK);
+  EXPECT_NE(answer->message.find("queue.answer_pages"), std::string::npos) << answer->message;
+  EXPECT_TRUE(answer->segments.empty());
+  daemon.send(request_with(2, 50));
+  EXPECT_EQ(daemon.answer_to(request_with(2, 50))->status, plan_response_t::STATUS_OK);
+}
+
 }  // namespace
 }  // namespace camway::service

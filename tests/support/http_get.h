@@ -3,11 +3,13 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <string>
 
@@ -32,6 +34,19 @@ class LocalConnection {
   [[nodiscard]] bool good() const { return good_; }
   bool send(const std::string& text) const {
     return ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+  /// Whether something comes, or the end, before so long.
+  [[nodiscard]] bool has_something(double timeout_s) const {
+    pollfd input{fd_, POLLIN, 0};
+    return poll(&input, 1, static_cast<int>(timeout_s * 1e3)) > 0;
+  }
+  /// Whether the other side closes, whatever it says before.
+  [[nodiscard]] bool ends() const {
+    std::array<char, 4096> part{};
+    ssize_t got = 0;
+    do got = recv(fd_, part.data(), part.size(), 0);
+    while (got > 0);
+    return got == 0 || errno == ECONNRESET;
   }
   /// All that comes until the other side closes.
   [[nodiscard]] std::string receive() const {
