@@ -263,15 +263,6 @@ class CellSearch {
     }
   }
 
-  // The middle of the face that two cells have in common: that of the smaller one.
-  [[nodiscard]] Vec3 door_W(std::uint32_t a, std::uint32_t b) const {
-    const Cell& small = tree_[tree_[a].level >= tree_[b].level ? a : b];
-    const Cell& large = tree_[tree_[a].level >= tree_[b].level ? b : a];
-    const Vec3 there_W = tree_.center_W(large);
-    const Vec3 half_W = Vec3::Constant(0.5 * tree_.side_m(large.level));
-    return tree_.center_W(small).cwiseMax(there_W - half_W).cwiseMin(there_W + half_W);
-  }
-
   [[nodiscard]] double step_cost_m(std::uint32_t a, std::uint32_t b) const {
     const double gap_m = std::min(tree_[a].gap_m, tree_[b].gap_m);
     const double near = std::clamp(1.0 - gap_m / options_.comfort_m, 0.0, 1.0);
@@ -279,7 +270,9 @@ class CellSearch {
     return length_m * (1.0 + kMostNear * near);
   }
 
-  /// Dijkstra's algorithm on the free cells that were reached.
+  /// Dijkstra's algorithm on the free cells that were reached. The straight way between the middles
+  /// of two that have a face, or part of one, in common stays within the two: where it steps
+  /// through it is nearer to the middle of the smaller one than that is wide, by similar triangles.
   [[nodiscard]] std::vector<Vec3> way() const {
     struct Step {
       double cost_m = std::numeric_limits<double>::infinity();
@@ -304,7 +297,6 @@ class CellSearch {
     }
     std::vector<Vec3> way_W = {to_W_, tree_.center_W(tree_[goal_])};
     for (std::uint32_t cell = goal_; cell != start_; cell = steps[cell].parent) {
-      way_W.push_back(door_W(cell, steps[cell].parent));
       way_W.push_back(tree_.center_W(tree_[steps[cell].parent]));
     }
     way_W.push_back(from_W_);

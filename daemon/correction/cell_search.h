@@ -34,8 +34,8 @@ struct CellResult {
 /// What can be reached from the begin grows; next to it the largest cells are divided first, those
 /// further from the straight way to the end later (deviation: the cited methods divide along a way
 /// that is guessed). Of the free cells then known the way takes those with more room where it can.
-/// It leads through faces that two free cells have in common, so it is free as far as distances are
-/// computed right. Deterministic, unless the deadline strikes.
+/// It leads from the middle of a free cell to that of the next, so it is free as far as distances
+/// are computed right. Deterministic, unless the deadline strikes.
 /// Precondition: the ball is free at both ends.
 CellResult cell_way(const FreeSpace& space, const geometry::Vec3& from_W,
                     const geometry::Vec3& to_W, const CellOptions& options,
