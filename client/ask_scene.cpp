@@ -136,7 +136,7 @@ Uploaded upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
     if (Clock::now() >= asker.deadline) {
       return {false, Failure{Status::kNoAnswer,
                              "the upload was not complete by the deadline; ask again to "
-                             "go on, or raise ClientOptions.deadline_s"}};
+                             "go on, or wait longer"}};
     }
     pages.assign(status.missing.begin(),
                  status.missing.begin() +

@@ -156,6 +156,11 @@ void Client::unwatch(std::int64_t request_id) {
   if (impl_->engine) impl_->engine->unwatch(request_id);
 }
 
+bool Client::unwatch(std::int64_t request_id, double timeout_s) {
+  if (impl_->failure_to_wait()) return false;
+  return impl_->engine->unwatch(request_id, after(timeout_s)).get();
+}
+
 OccupancyAnswer Client::occupancy(const OccupancyBatch& batch) {
   if (const auto failure = impl_->failure_to_wait()) return failed<OccupancyAnswer>(*failure);
   return ask_occupancy(impl_->context, *impl_->engine, batch);

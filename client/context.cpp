@@ -77,6 +77,13 @@ std::string Context::where() const {
   return " (channels " + options_.prefix + "_*, LCM network " + url_ + ")";
 }
 
+std::string Context::about_keys() const {
+  return options_.authentication
+             ? "; or its keys are others: both sides drop what is signed with those, and say "
+               "nothing"
+             : "; or it has keys: then it drops what is not signed with them, and says nothing";
+}
+
 Failure Context::explain(Outcome outcome, bool ever_heard, std::string_view partly,
                          std::string_view fault) const {
   if (outcome == Outcome::kBroken) {
@@ -93,13 +100,15 @@ Failure Context::explain(Outcome outcome, bool ever_heard, std::string_view part
   }
   if (!ever_heard) {
     return {Status::kNoDaemon, "no daemon was heard" + where() +
-                                   "; start camwayd with the same prefix on the same network"};
+                                   "; start camwayd with the same prefix on the same network" +
+                                   about_keys()};
   }
   std::string text = outcome == Outcome::kSilence ? "the daemon fell silent"
                                                   : "the daemon did not answer by the deadline";
   if (!partly.empty()) text += ", only " + std::string(partly) + " came";
-  return {Status::kNoAnswer,
-          text + where() + "; raise ClientOptions.deadline_s or look at the daemon's log"};
+  // What came in part was asked with the right keys.
+  return {Status::kNoAnswer, text + where() + "; wait longer, or look at the daemon's log" +
+                                 (partly.empty() ? about_keys() : std::string())};
 }
 
 Clock::time_point after(double seconds) {

@@ -54,6 +54,8 @@ class Context {
 
  private:
   std::string where() const;
+  /// Keys that do not match look like a daemon that is not there.
+  std::string about_keys() const;
 
   ClientOptions options_;
   wire::Channels channels_;

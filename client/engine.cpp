@@ -134,6 +134,17 @@ void Engine::unwatch(std::int64_t request_id) {
   post([this, request_id] { watches_.remove(request_id); });
 }
 
+std::future<bool> Engine::unwatch(std::int64_t request_id, Clock::time_point until) {
+  auto promise = std::make_shared<std::promise<bool>>();
+  std::future<bool> ended = promise->get_future();
+  post([this, request_id, until, promise] {
+    watches_.remove(request_id);
+    if (Call* const call = find(Call::Kind::kPlan, request_id)) call->cancel();
+    leavers_.push_back({request_id, until, std::move(*promise)});
+  });
+  return ended;
+}
+
 std::future<std::optional<DaemonStatus>> Engine::next_heartbeat(Clock::time_point until) {
   auto promise = std::make_shared<std::promise<std::optional<DaemonStatus>>>();
   std::future<std::optional<DaemonStatus>> heartbeat = promise->get_future();
@@ -156,6 +167,7 @@ void Engine::run() {
     step(now);
     watches_.step(now);
     end_waiters(now);
+    end_leavers(now);
     send_some(now);
     if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
     if (broken_) end_all(Outcome::kBroken);
@@ -230,6 +242,7 @@ Clock::time_point Engine::next_wake() const {
     next = std::min(next, call->answered() ? Clock::time_point{} : call->retry().wake());
   }
   for (const Waiter& waiter : waiters_) next = std::min(next, waiter.until);
+  for (const Leaver& leaver : leavers_) next = std::min(next, leaver.until);
   return next;
 }
 
@@ -242,6 +255,17 @@ void Engine::end_waiters(Clock::time_point now) {
   waiters_.erase(over, waiters_.end());
 }
 
+void Engine::end_leavers(Clock::time_point now) {
+  std::erase_if(leavers_, [&](Leaver& leaver) {
+    // What is being planned would be watched once it is answered.
+    const bool is_over = find(Call::Kind::kPlan, leaver.request_id) == nullptr &&
+                         !watches_.is_ending(leaver.request_id);
+    if (!is_over && now < leaver.until) return false;
+    leaver.promise.set_value(is_over);
+    return true;
+  });
+}
+
 void Engine::end_all(Outcome outcome) {
   for (const auto& [key, call] : calls_) ending_.push_back(call);
   calls_.clear();
@@ -252,6 +276,7 @@ void Engine::end_all(Outcome outcome) {
     call->finish(outcome);
   }
   end_waiters(Clock::time_point::max());
+  end_leavers(Clock::time_point::max());
 }
 
 Call* Engine::find(Call::Kind kind, std::int64_t request_id) {

@@ -45,6 +45,9 @@ class Engine {
   /// As those of `WatchList`.
   void watch(const PlanRequest& request, WatchHandler handler);
   void unwatch(std::int64_t request_id);
+  /// The same, and cancels its planning: true once the daemon does not watch it any more, as it
+  /// said or as the lease is over; false if `until` passes or the network breaks.
+  std::future<bool> unwatch(std::int64_t request_id, Clock::time_point until);
 
   /// The next heartbeat; none if `until` passes or the network breaks.
   std::future<std::optional<DaemonStatus>> next_heartbeat(Clock::time_point until);
@@ -57,6 +60,13 @@ class Engine {
   struct Waiter {
     Clock::time_point until;
     std::promise<std::optional<DaemonStatus>> promise;
+  };
+
+  /// Somebody who waits for the end of a watch.
+  struct Leaver {
+    std::int64_t request_id;
+    Clock::time_point until;
+    std::promise<bool> promise;
   };
 
   void listen(const std::string& client_id);
@@ -72,6 +82,7 @@ class Engine {
   void step(Clock::time_point now);
   std::optional<Outcome> step(Call& call, Clock::time_point now);
   void end_waiters(Clock::time_point now);
+  void end_leavers(Clock::time_point now);
   void end_all(Outcome outcome);
   Call* find(Call::Kind kind, std::int64_t request_id);
   void take_missing_pages(std::span<const std::uint8_t> bytes);
@@ -88,6 +99,7 @@ class Engine {
   std::map<Key, std::shared_ptr<Call>> calls_;
   WatchList watches_;
   std::vector<Waiter> waiters_;
+  std::vector<Leaver> leavers_;
   std::deque<Outgoing> outgoing_;
   Clock::time_point send_at_{};  ///< no message leaves before
   bool broken_ = false;

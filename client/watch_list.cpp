@@ -60,6 +60,13 @@ void WatchList::remove(std::int64_t request_id) {
   unwanted_.insert(request_id);
 }
 
+bool WatchList::is_ending(std::int64_t request_id) const {
+  return unwanted_.contains(request_id) ||
+         std::ranges::any_of(endings_, [request_id](const auto& ending) {
+           return std::ranges::find(ending.second.paths, request_id) != ending.second.paths.end();
+         });
+}
+
 void WatchList::ask(Watched& watched) {
   const std::int64_t id = watched.request.request_id;
   watched.is_asked = true;
@@ -93,7 +100,12 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
   if (has_proof(response)) {
     watched.is_broken = false;
     to_acknowledge_.insert(request_id);
+    if (!watched.refusal.empty() && !is_first) {
+      watched.untold = {std::move(event)};
+      return;
+    }
     tell(watched, std::move(event));
+    if (!watched.refusal.empty()) tell_lost(watched, watched.refusal);
     return;
   }
   if (!is_first && watched.serial != 0) {  // the path before is watched on
@@ -157,11 +169,18 @@ void WatchList::take_state(const path_state_t& state, const watch_report_t& repo
     case path_state_t::REFUSED:
       watched.serial = 0;
       ask_later(watched, now);
-      tell_lost(watched, report.message);
+      // It is asked for again and again, and to say so each time is no news. The refusal may
+      // overtake the first answer, which is told before it.
+      if (watched.refusal.empty()) {
+        watched.refusal = "the daemon has no room to watch it: " + report.message;
+        if (watched.held_revision >= 0) tell_lost(watched, watched.refusal);
+      }
       return;
     case path_state_t::FREE:
     case path_state_t::BROKEN:
       to_acknowledge_.insert(state.request_id);
+      watched.refusal.clear();
+      for (WatchEvent& answer : std::exchange(watched.untold, {})) tell(watched, std::move(answer));
       if (state.serial > watched.serial) take_new_state(watched, state, report, now);
       return;
     default:

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <camway/watch_report_t.hpp>
@@ -34,6 +35,8 @@ class WatchList {
   void add(const PlanRequest& request, WatchHandler handler);
   /// Also of the daemon's list: it is told until it says that it heard, or the lease is over.
   void remove(std::int64_t request_id);
+  /// Whether the daemon is still to be told so.
+  bool is_ending(std::int64_t request_id) const;
 
   /// A page of an answer that no call waits for.
   void take_answer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
@@ -58,6 +61,8 @@ class WatchList {
     std::int64_t held_revision = -1;  ///< of the answer that is here; below 0: none
     std::int64_t serial = 0;          ///< of the daemon's newest state that is here
     bool is_broken = false;
+    std::string refusal = {};             ///< why the daemon does not watch it; empty if it may
+    std::vector<WatchEvent> untold = {};  ///< the answer since then, told once it is watched
   };
   /// A message that ends the watching of some paths, until it is answered.
   struct Ending {

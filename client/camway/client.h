@@ -115,6 +115,11 @@ class Client {
   /// for other ids.
   void unwatch(std::int64_t request_id);
 
+  /// The same, and waits until the daemon does not watch any more; for who destroys the client
+  /// next. True if the daemon said so, or the lease is over; false if `timeout_s` passed or the
+  /// network broke. Not for handlers of this client, where it is false at once.
+  bool unwatch(std::int64_t request_id, double timeout_s);
+
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);
 

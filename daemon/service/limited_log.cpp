@@ -8,7 +8,7 @@ namespace camway::service {
 void LimitedLog::write(std::string_view event, LogFields facts, Clock::time_point now) {
   if (!log_->writes(level_)) return;
   tell_left_out(now);
-  if (left_out_ > 0 || !bucket_.take(now)) {
+  if (!bucket_.take(now)) {
     ++left_out_;
     return;
   }
@@ -16,7 +16,8 @@ void LimitedLog::write(std::string_view event, LogFields facts, Clock::time_poin
 }
 
 void LimitedLog::tell_left_out(Clock::time_point now) {
-  if (left_out_ == 0 || !bucket_.take(now)) return;
+  if (left_out_ == 0 || now < tell_at_ || !bucket_.take(now)) return;
+  tell_at_ = now + kTellEvery;
   const std::int64_t lines = std::exchange(left_out_, 0);
   log_->write(level_, "lines left out", {{"kind", kind_}, {"lines", lines}});
 }

@@ -15,10 +15,12 @@ namespace camway::service {
 
 /// Lines of one kind that somebody else can provoke, limited by a `TokenBucket` so that he cannot
 /// fill the disk: so many at once, then so many a second. What is left out is counted, and the
-/// number said when there is room again. For one thread at a time.
+/// number said when there is room again, but not in each pause of a flood: at most every
+/// `kTellEvery`. For one thread at a time.
 class LimitedLog {
  public:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kTellEvery{10};
 
   struct Limits {
     double lines_per_s = 10.0;  ///< [Limit: 0 < value]
@@ -35,8 +37,8 @@ class LimitedLog {
   /// Logs a line, or only counts it.
   void write(std::string_view event, LogFields facts = {}, Clock::time_point now = Clock::now());
 
-  /// Says what was left out since the last line, if anything was and there is room. To be called
-  /// now and then, for there may be no next line.
+  /// Says what was left out since that was last said, if anything was, it is time to, and there is
+  /// room. To be called now and then, for there may be no next line.
   void tell_left_out(Clock::time_point now = Clock::now());
 
  private:
@@ -45,6 +47,7 @@ class LimitedLog {
   std::string kind_;
   TokenBucket bucket_;
   std::int64_t left_out_ = 0;
+  Clock::time_point tell_at_ = Clock::time_point::min();  ///< not before
 };
 
 /// The lines of the service that clients can provoke, each kind within the same limits of its own.

@@ -283,6 +283,35 @@ TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
   EXPECT_TRUE(sent().empty()) << "once";
 }
 
+TEST_F(WatchListTest, ARefusalIsToldOnceAndTheAnswerAgainOnceItIsWatched) {
+  step_at({});
+  finish_call(answer(3));
+  for (std::size_t asked = 1; asked < 5; ++asked) {
+    report(0, path_state_t::REFUSED, 0, 0);
+    for (int i = 0; i < 50 && calls_.size() == asked; ++i) step_at(milliseconds(100));
+    ASSERT_EQ(calls_.size(), asked + 1) << "it is asked for on and on";
+    finish_call(answer(3));
+    ASSERT_EQ(events_.size(), 2u) << "the first answer, and that it is not watched";
+  }
+  EXPECT_EQ(events_[1].kind, Kind::kLost);
+  report(100, path_state_t::FREE, 3, 3);
+  ASSERT_EQ(events_.size(), 3u);
+  EXPECT_EQ(events_[2].kind, Kind::kAnswer);
+  report(101, path_state_t::BROKEN, 4, 3);
+  ASSERT_EQ(events_.size(), 4u);
+  EXPECT_EQ(events_[3].kind, Kind::kBroken);
+}
+
+TEST_F(WatchListTest, ARefusalThatOvertakesTheAnswerIsToldAfterIt) {
+  step_at({});
+  report(0, path_state_t::REFUSED, 0, 0);
+  EXPECT_TRUE(events_.empty());
+  finish_call(answer(3));
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[1].kind, Kind::kLost);
+}
+
 TEST_F(WatchListTest, UnwatchingTellsTheDaemonUntilItAnswers) {
   begin();
   list_.remove(kId);
@@ -297,10 +326,12 @@ TEST_F(WatchListTest, UnwatchingTellsTheDaemonUntilItAnswers) {
   const std::vector<watch_t> again = sent();
   ASSERT_EQ(again.size(), 1u);
   EXPECT_EQ(again[0].request_id, said[0].request_id);
+  EXPECT_TRUE(list_.is_ending(kId));
   EXPECT_LT(again[0].lease_s, 0.0);
   step_at(milliseconds(250));
   EXPECT_TRUE(sent().empty()) << "less and less often";
   report(102, path_state_t::BROKEN, 4, 3, said[0].request_id);
+  EXPECT_FALSE(list_.is_ending(kId));
   EXPECT_EQ(list_.wake(), Clock::time_point::max());
   step_at(seconds(10));
   EXPECT_TRUE(sent().empty());

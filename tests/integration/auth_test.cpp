@@ -86,9 +86,22 @@ TEST_F(AuthTest, ListensToThoseWithItsKeysOnly) {
 
   std::string said;
   EXPECT_EQ(camway({"status", "--key-file", file("mine")}, said), 0) << said;
-  EXPECT_EQ(camway({"status", "--key-file", file("other"), "--timeout-s", "1.5"}, said), 3) << said;
+  EXPECT_EQ(camway({"status", "--key-file", file("other"), "--timeout-s", "1.5"}, said), 4) << said;
+  EXPECT_THAT(said, HasSubstr("its keys are others"));
   EXPECT_EQ(camway({"scene", "list", "--key-file", file("mine")}, said), 0) << said;
+  EXPECT_EQ(camway({"scene", "list"}, said), 4) << said;
+  EXPECT_THAT(said, HasSubstr("drops what is not signed"));
+  EXPECT_THAT(said, HasSubstr("--key-file"));
   EXPECT_EQ(camway({"doctor"}, said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("the daemon signs with keys"));
+  EXPECT_EQ(camway({"doctor", "--key-file", file("mine")}, said), 0) << said;
+  EXPECT_EQ(camway({"doctor", "--key-file", file("other")}, said), 3) << said;
+  EXPECT_THAT(said, HasSubstr("not signed with a key of --key-file"));
+  EXPECT_EQ(camway({"watch", "office", "--request", request_file("office-free-door"), "--count",
+                    "1", "--key-file", file("mine")},
+                   said),
+            0)
+      << said;
   chmod(file("mine").c_str(), 0644);
   EXPECT_EQ(camway({"status", "--key-file", file("mine")}, said), 2) << said;
   EXPECT_THAT(said, HasSubstr("chmod 600"));

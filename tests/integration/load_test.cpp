@@ -78,7 +78,7 @@ TEST_F(LoadTest, AnotherSceneUnderTheSameNameIsFoundOut) {
 }
 
 TEST_F(LoadTest, SaysThatThereIsNoDaemon) {
-  EXPECT_EQ(load({"--requests", "3"}), 2);
+  EXPECT_EQ(load({"--requests", "3"}), 4);
   EXPECT_THAT(output_, HasSubstr("no daemon was heard"));
 }
 

@@ -233,8 +233,16 @@ TEST_F(CommandTest, StatusSaysHowTheDaemonIs) {
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
 
   stop_daemon();
-  EXPECT_EQ(camway({"status", "--timeout-s", "0.1"}, said), 3) << said;
+  EXPECT_EQ(camway({"status", "--timeout-s", "0.1"}, said), 4) << said;
   EXPECT_THAT(said, HasSubstr("no daemon was heard"));
+  // One code for all, which tells a daemon that is not there from a scene that is not.
+  EXPECT_EQ(camway({"scene", "list"}, said), 4) << said;
+  EXPECT_EQ(camway({"occupancy", "--daemon", "office", "--point", "1,1,1"}, said), 4) << said;
+  EXPECT_EQ(
+      camway({"watch", "office", "--request", request_file("office-free-door"), "--for-s", "0.2"},
+             said),
+      4)
+      << said;
 }
 
 TEST_F(CommandTest, DoctorFindsTheDaemonTheNetworkAndTheScenes) {

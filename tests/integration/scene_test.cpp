@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 
 #include "tests/integration/fixture.h"
@@ -213,6 +215,38 @@ TEST_F(SceneTest, TakesALargeUploadAndGoesOnAfterAnInterruption) {
   const SceneAnswer answer = Client(options).load_scene("comb", mesh);
   ASSERT_TRUE(answer.ok()) << answer.error;
   EXPECT_EQ(answer.scene.num_triangles, 40'000);
+}
+
+TEST_F(SceneTest, TheCommandMovesWhatItIsToldAndRefusesWhatIsAmbiguous) {
+  Client client(patient());
+  ASSERT_TRUE(client.load_scene("yard", {}).ok());
+  std::string said;
+  const auto camway = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {CAMWAY_BINARY, "scene"});
+    Process process(arguments, file("camway.log"));
+    const std::optional<int> code = process.wait();
+    said = process.output();
+    return code.value_or(-1);
+  };
+  const auto pose = [&] { return client.describe_scene("yard").objects.at(0).pose; };
+  using Position = std::array<double, 3>;
+  using Orientation = std::array<double, 4>;
+  ASSERT_EQ(camway({"add", "yard", "crate", "--box", "1,1,1", "--position", "4,0.5,2"}), 0) << said;
+  EXPECT_EQ(camway({"move", "yard", "crate", "--orientation", "0,0,1,0"}), 0) << said;
+  EXPECT_EQ(pose().position_m, (Position{4, 0.5, 2}));
+  EXPECT_EQ(pose().orientation_wxyz, (Orientation{0, 0, 1, 0}));
+  EXPECT_EQ(camway({"move", "yard", "crate", "--position", "5,0.5,2"}), 0) << said;
+  EXPECT_EQ(pose().position_m, (Position{5, 0.5, 2}));
+  EXPECT_EQ(pose().orientation_wxyz, (Orientation{0, 0, 1, 0}));
+
+  EXPECT_EQ(camway({"move", "yard", "crate"}), 2);
+  EXPECT_THAT(said, HasSubstr("--position, --orientation or both"));
+  EXPECT_EQ(camway({"move", "yard", "crate", "--orientation", "0,0,0,0"}), 2);
+  EXPECT_THAT(said, HasSubstr("0,0,0,0 is no quaternion"));
+  EXPECT_EQ(camway({"add", "yard", "both", "--box", "1,1,1", "--sphere", "1"}), 2);
+  EXPECT_THAT(said, HasSubstr("no more than one"));
+  EXPECT_EQ(camway({"move", "yard", "nothing", "--position", "1,1,1"}), 2) << said;
+  EXPECT_EQ(pose().position_m, (Position{5, 0.5, 2}));
 }
 
 }  // namespace

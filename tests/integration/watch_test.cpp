@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <deque>
@@ -174,6 +175,44 @@ TEST_F(WatchTest, TheCommandPrintsWhatHappens) {
   EXPECT_EQ(watch.wait(), 0) << watch.output();
   EXPECT_THAT(watch.output(), HasSubstr("\"event\":\"broken\""));
   EXPECT_THAT(watch.output(), HasSubstr("\"t_begin\""));
+}
+
+TEST_F(WatchTest, TheCommandEndsItsWatch) {
+  start_daemon();
+  Client client(patient());
+  const std::vector<std::string> command{CAMWAY_BINARY, "watch", "office", "--request",
+                                         request_file("office-free-door")};
+  const auto is_watched = [&] { return client.status().watched_paths == 1; };
+  {
+    std::vector<std::string> counted = command;
+    counted.insert(counted.end(), {"--count", "1"});
+    Process watch(counted, file("watch.log"));
+    EXPECT_EQ(watch.wait(), 0) << watch.output();
+  }
+  // The first heartbeat may have been on its way, and of a time before.
+  client.status();
+  EXPECT_EQ(client.status().watched_paths, 0) << "long before its lease is over";
+
+  Process watch(command, file("watch.log"));
+  ASSERT_TRUE(eventually(is_watched)) << watch.output();
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0) << watch.output();
+  client.status();
+  EXPECT_EQ(client.status().watched_paths, 0);
+}
+
+TEST_F(WatchTest, TheCommandSaysOnceThatALimitIsInTheWay) {
+  std::ofstream(file("camwayd.toml"))
+      << "[watch]\npaths = 0\n[[scene]]\nname = \"office\"\nfile = \"" << scene_file("office")
+      << "\"\n";
+  start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
+  Process watch({CAMWAY_BINARY, "watch", "office", "--request", request_file("office-free-door"),
+                 "--for-s", "3", "--json"},
+                file("watch.log"));
+  EXPECT_EQ(watch.wait(), 3) << watch.output();
+  const std::string said = watch.output();
+  EXPECT_THAT(said, HasSubstr("watch.paths"));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
 }
 
 }  // namespace

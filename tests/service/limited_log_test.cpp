@@ -37,6 +37,26 @@ TEST(LimitedLog, ABurstThenTheRateAndWhatWasLeftOutIsSaid) {
   EXPECT_EQ(log.text(), "warning line\n");
 }
 
+TEST(LimitedLog, AFloodIsCountedButEveryTenSeconds) {
+  testing::CapturedLog log;
+  LimitedLog limited(log.log(), LogLevel::kWarn, "answers",
+                     {.lines_per_s = 10.0, .burst_lines = 5.0});
+  std::size_t written = 0;
+  for (Time now = kBegin; now < kBegin + 35s; now += 10ms, ++written) {
+    limited.write("line", {}, now);
+    limited.tell_left_out(now);
+  }
+  std::size_t told = 0;
+  const std::string text = log.text();
+  for (std::size_t at = text.find("left out"); at != std::string::npos;
+       at = text.find("left out", at + 1)) {
+    ++told;
+  }
+  EXPECT_EQ(told, 4u) << "one soon after the burst, then every ten seconds";
+  EXPECT_GT(lines_of(text), 300u) << "the others go on at their rate";
+  EXPECT_GT(written, 3000u);
+}
+
 TEST(LimitedLog, NoStretchOfTimeHoldsMoreThanTheLimitsSayAndNothingIsForgotten) {
   testing::CapturedLog log;
   constexpr double kRate = 10.0;

@@ -8,7 +8,8 @@
 namespace camway::tools {
 
 ExitCode worse(ExitCode a, ExitCode b) {
-  for (const ExitCode code : {ExitCode::kOurFault, ExitCode::kInvalidInput, ExitCode::kNegative}) {
+  for (const ExitCode code :
+       {ExitCode::kOurFault, ExitCode::kNoDaemon, ExitCode::kInvalidInput, ExitCode::kNegative}) {
     if (a == code || b == code) return code;
   }
   return ExitCode::kSuccess;
@@ -16,9 +17,10 @@ ExitCode worse(ExitCode a, ExitCode b) {
 
 void print_error(std::string_view message) { fmt::print(stderr, "camway: {}\n", message); }
 
-std::string exit_code_help(std::string_view negative) {
-  return fmt::format("Exit codes: 0 success; 1 our fault; 2 invalid input{}{}.",
-                     negative.empty() ? "" : "; 3 ", negative);
+std::string exit_code_help(std::string_view negative, bool asks_daemon) {
+  return fmt::format("Exit codes: 0 success; 1 our fault; 2 invalid input{}{}{}.",
+                     negative.empty() ? "" : "; 3 ", negative,
+                     asks_daemon ? "; 4 no daemon answered" : "");
 }
 
 }  // namespace camway::tools

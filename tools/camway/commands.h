@@ -8,16 +8,18 @@
 
 namespace camway::tools {
 
-/// What the shell sees. The same four numbers for every subcommand.
+/// What the shell sees. The same numbers for every subcommand.
 enum class ExitCode : int {
   kSuccess = 0,
   kOurFault = 1,
   kInvalidInput = 2,
   kNegative =
       3,  ///< the work was done and the answer is no: no free path, or a replay that differs
+  kNoDaemon = 4,  ///< no daemon was heard, or it did not answer
 };
 
-/// The worse of two outcomes of a set: our fault before invalid input before a negative answer.
+/// The worse of two outcomes of a set: our fault before no daemon, invalid input and a
+/// negative answer, in this order.
 ExitCode worse(ExitCode a, ExitCode b);
 
 /// Each adds its subcommand to `app`. When it is the one that was called it runs inside `app.parse`
@@ -38,7 +40,7 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code);
 void print_error(std::string_view message);
 
 /// The paragraph on exit codes that ends the help of every subcommand. `negative` says what 3
-/// means.
-std::string exit_code_help(std::string_view negative);
+/// means; empty: it does not occur. 4 does where a daemon is asked.
+std::string exit_code_help(std::string_view negative, bool asks_daemon = false);
 
 }  // namespace camway::tools

@@ -14,6 +14,7 @@
 #include "daemon/service/daemon_options.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 
 namespace camway::tools {
 namespace {
@@ -22,6 +23,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 struct DoctorFlags {
   DoctorQuestions questions;
+  std::string key_file;
   bool json = false;
 };
 
@@ -45,11 +47,17 @@ void print_json(const std::vector<Finding>& findings, std::ptrdiff_t problems) {
   fmt::print("{}\n", json.dump(2, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
-ExitCode run_doctor(const DoctorFlags& flags) {
+ExitCode run_doctor(DoctorFlags flags) {
   if (!wire::is_prefix(flags.questions.prefix)) {
     print_error("--prefix: must be of 1 to 11 letters, digits, '_' and '-'");
     return ExitCode::kInvalidInput;
   }
+  ClientOptions signing;
+  if (const std::string fault = use_key_file(flags.key_file, signing); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
+  flags.questions.authentication = signing.authentication;
   const std::vector<Finding> findings = diagnose(gather_facts(flags.questions));
   const auto problems = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
     return finding.severity == Severity::kProblem;
@@ -78,6 +86,7 @@ void add_doctor_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--config", flags->questions.config_file,
                    "Configuration of a daemon, to be looked at with its scene files")
       ->type_name("FILE");
+  add_key_file(*command, flags->key_file);
   command->add_flag("--other-hosts", flags->questions.other_hosts,
                     "Daemon and clients are to be on several hosts");
   command
@@ -87,7 +96,7 @@ void add_doctor_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer("Changes nothing. Notes and warnings are no problems.\n" +
-                  exit_code_help("there are problems") +
+                  exit_code_help("there are problems, as where no daemon is heard") +
                   "\nExample: camway doctor --config /etc/camway/camwayd.toml");
   command->callback([flags, &exit_code] { exit_code = run_doctor(*flags); });
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <camway/authentication.h>
+
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,11 +40,20 @@ struct SceneFileFact {
   bool readable = false;
 };
 
+/// How a daemon's messages and our keys go together.
+enum class Signature {
+  kNone,       ///< not signed, and we have no keys
+  kUnchecked,  ///< signed, and we have no keys
+  kOurs,       ///< signed with one of ours
+  kDistrusted  ///< we have keys, and clients with them drop it
+};
+
 /// The daemon's last status.
 struct DaemonFact {
   std::string version;
   double clock_ahead_s = 0.0;  ///< of ours, transport included
   bool is_alone = true;        ///< until its next status nothing was heard of another one
+  Signature signature = Signature::kNone;
 };
 
 struct HostFacts {
@@ -84,7 +96,8 @@ struct DoctorQuestions {
   std::string prefix = "CAMWAY";
   std::string config_file;
   bool other_hosts = false;
-  double timeout_s = 3.0;  ///< how long to listen for a daemon
+  double timeout_s = 3.0;                                ///< how long to listen for a daemon
+  std::shared_ptr<const Authentication> authentication;  ///< null: we have no keys
 };
 
 /// Looks at this machine. Changes nothing.

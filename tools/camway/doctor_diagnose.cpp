@@ -181,6 +181,28 @@ Finding judge_daemon(const HostFacts& facts) {
   return {"daemon", Severity::kGood, fmt::format("version {} was heard", facts.daemon->version)};
 }
 
+Finding judge_signature(const DaemonFact& daemon) {
+  constexpr std::string_view kCheck = "signatures";
+  switch (daemon.signature) {
+    case Signature::kNone:
+      return {kCheck, Severity::kGood, "the daemon signs nothing, and no --key-file was given"};
+    case Signature::kUnchecked:
+      return {
+          kCheck, Severity::kNote,
+          "the daemon signs with keys; what is not signed with one of them it drops in silence, "
+          "unless its auth.required is false",
+          "give the commands and this one --key-file"};
+    case Signature::kOurs:
+      return {kCheck, Severity::kGood, "the daemon signs with a key of --key-file"};
+    case Signature::kDistrusted:
+      break;
+  }
+  return {kCheck, Severity::kProblem,
+          "the daemon's messages are not signed with a key of --key-file, or its clock is too far "
+          "from ours; each side drops in silence what the other says",
+          "use the file that auth.key_file of the daemon's configuration names"};
+}
+
 Finding judge_clock(const DaemonFact& daemon) {
   if (std::abs(daemon.clock_ahead_s) <= kClockTolerance_s) {
     return {"clocks", Severity::kGood,
@@ -262,7 +284,10 @@ std::vector<Finding> diagnose(const HostFacts& facts) {
   }
   findings.push_back(judge_lcm(facts));
   findings.push_back(judge_daemon(facts));
-  if (facts.daemon) findings.push_back(judge_clock(*facts.daemon));
+  if (facts.daemon) {
+    findings.push_back(judge_signature(*facts.daemon));
+    findings.push_back(judge_clock(*facts.daemon));
+  }
   if (facts.config_file.empty()) return findings;
   for (const std::string& fault : facts.config_faults) {
     findings.push_back({"configuration", Severity::kProblem, fault, "mend that line of the file"});

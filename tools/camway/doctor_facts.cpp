@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <span>
 #include <sstream>
 #include <string>
 
@@ -114,20 +116,34 @@ std::int64_t dropped_datagrams() {
 /// again.
 class StatusListener {
  public:
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/) {
-    // Whether it is signed is no matter here.
-    const auto message = wire::payload_unchecked(
-        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+  /// `authentication` may be null.
+  explicit StatusListener(const std::shared_ptr<const Authentication>& authentication)
+      : session_(authentication ? authentication->begin() : nullptr) {}
+
+  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    const std::span<const std::uint8_t> bytes(static_cast<const std::uint8_t*>(buffer->data),
+                                              buffer->data_size);
+    // It is heard whoever signed it; who believes it is another question.
+    const auto message = wire::payload_unchecked(bytes);
     if (!message) return;
     const wire::Decoded<status_t> decoded = wire::decode<status_t>(*message);
     if (!decoded.message) return;
-    note(*decoded.message);
+    note(*decoded.message, signature_of(channel, bytes));
   }
   [[nodiscard]] const std::optional<DaemonFact>& fact() const { return fact_; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
-  void note(const status_t& status) {
+  [[nodiscard]] Signature signature_of(const std::string& channel,
+                                       std::span<const std::uint8_t> bytes) const {
+    if (session_) {
+      return session_->open(channel, bytes.data(), bytes.size()) ? Signature::kOurs
+                                                                 : Signature::kDistrusted;
+    }
+    return wire::is_envelope(bytes) ? Signature::kUnchecked : Signature::kNone;
+  }
+
+  void note(const status_t& status, Signature signature) {
     // Daemons are told apart by when they were started, which each computes anew for each status.
     constexpr double kSameStart_s = 0.05;
     const double utime_s = static_cast<double>(status.utime) * 1e-6;
@@ -135,6 +151,7 @@ class StatusListener {
     if (!fact_) {
       const std::chrono::duration<double> now = std::chrono::system_clock::now().time_since_epoch();
       fact_ = DaemonFact{status.version, utime_s - now.count()};
+      fact_->signature = signature;
       started_s_ = started_s;
     } else if (std::abs(started_s - started_s_) <= kSameStart_s) {
       is_done_ = true;
@@ -143,6 +160,7 @@ class StatusListener {
     }
   }
 
+  std::unique_ptr<Authentication::Session> session_;  ///< null: we have no keys
   std::optional<DaemonFact> fact_;
   double started_s_ = 0.0;
   bool is_done_ = false;
@@ -152,7 +170,7 @@ class StatusListener {
 void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
   const wire::LocalTraffic local(questions.url);
   lcm::LCM lcm(questions.url);
-  StatusListener listener;
+  StatusListener listener(questions.authentication);
   const wire::Channels channels{questions.prefix};
   if (!lcm.good() ||
       lcm.subscribe(channels.status(), &StatusListener::on_message, &listener) == nullptr) {

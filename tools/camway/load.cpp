@@ -13,6 +13,7 @@
 #include "daemon/service/scene_argument.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
 #include "tools/camway/load_occupancy.h"
 #include "tools/camway/load_run.h"
@@ -138,7 +139,7 @@ ExitCode load_occupancy(const LoadFlags& flags) {
   const scene::Snapshot& snapshot = *scene.result.snapshot;
   const OccupancyLoad load = run_occupancy_load(*snapshot.occupancy, snapshot.index.bounds(),
                                                 snapshot.name, flags.occupancy_queries, flags.run);
-  if (load.batches == 0) return invalid_input(load.error);
+  if (load.batches == 0) return report_failure(load.status, load.error, flags.key_file);
   const Percentiles latency = percentiles(load.latency_ms);
   fmt::print(
       "{} batches of {} queries by {} clients in {:.1f} s: {:.0f} queries a second, {} batches "
@@ -170,7 +171,7 @@ ExitCode run_command(LoadFlags flags) {
   const std::vector<LoadQuestion> questions = make_questions(flags);
   if (questions.empty()) return ExitCode::kInvalidInput;
   const LoadResult result = run_load(questions, flags.run);
-  if (!result.error.empty()) return invalid_input(result.error);
+  if (!result.error.empty()) return report_failure(result.status, result.error, flags.key_file);
   fmt::print("{}", summary(flags, result));
   if (!flags.json_file.empty()) {
     const std::string error =
@@ -247,7 +248,8 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
       "Answers to plan requests count as wrong unless every number of path, keyframes and "
       "collisions has the bits "
       "that planning here gives.\n" +
-      exit_code_help("an answer was wrong or lost, or memory grew by more than allowed") +
+      exit_code_help("an answer was wrong or lost, or memory grew by more than allowed",
+                     /*asks_daemon=*/true) +
       "\nExample: camway load --scene office=scenes/office.obj --request "
       "scenes/requests/office-graze-*.json --clients 8 --seconds 20");
   command->callback([flags, &exit_code] { exit_code = run_command(*flags); });

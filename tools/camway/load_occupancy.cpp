@@ -153,6 +153,11 @@ OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geomet
     load.error = clients.back()->error();
     if (!load.error.empty()) return load;
   }
+  if (const DaemonStatus status = clients.front()->status(); !status.ok()) {
+    load.error = status.error;
+    load.status = status.status;
+    return load;
+  }
   std::vector<OccupancyLoad> parts(clients.size());
   const Clock::time_point start = Clock::now();
   const Clock::time_point until = start + std::chrono::duration_cast<Clock::duration>(

@@ -18,8 +18,9 @@ struct OccupancyLoad {
   std::int64_t wrong = 0;    ///< batches with another answer
   std::int64_t lost = 0;     ///< batches without an answer
   double elapsed_s = 0.0;
-  std::vector<float> latency_ms;  ///< of batches
-  std::string error;              ///< why there was no run, or the first failure
+  std::vector<float> latency_ms;     ///< of batches
+  std::string error;                 ///< why there was no run, or the first failure
+  Status status = Status::kInvalid;  ///< of why there was no run
 };
 
 /// Lets clients ask the daemon's map of `scene`, batch after batch, for as long as the options say,

@@ -66,6 +66,7 @@ LoadResult run_load(const std::vector<LoadQuestion>& questions, const LoadOption
   }
   if (const DaemonStatus status = clients.front()->status(); !status.ok()) {
     result.error = status.error;
+    result.status = status.status;
     return result;
   }
   MemoryWatch memory(options.daemon_pid, memory_period_s(options.seconds));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <camway/authentication.h>
+#include <camway/status.h>
 
 #include <memory>
 #include <string>
@@ -22,7 +23,8 @@ struct LoadOptions {
 };
 
 struct LoadResult {
-  std::string error;  ///< why there was no run; empty if there was one
+  std::string error;                 ///< why there was no run; empty if there was one
+  Status status = Status::kInvalid;  ///< of that error
   LoadTally tally;
   double elapsed_s = 0.0;
   std::vector<MemorySample> memory;

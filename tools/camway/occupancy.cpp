@@ -7,6 +7,7 @@
 
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
 #include "tools/camway/occupancy_queries.h"
 #include "tools/camway/scene_flags.h"
@@ -20,6 +21,7 @@ struct OccupancyFlags {
   std::string url;
   std::string prefix = "CAMWAY";
   std::string key_file;
+  double timeout_s = ClientOptions{}.deadline_s;
   std::optional<double> resolution_m;
   OccupancyTexts queries;
   std::string map_file;
@@ -46,24 +48,11 @@ ExitCode ask_map(const OccupancyFlags& flags, const OccupancyBatch& batch) {
   return ExitCode::kInvalidInput;
 }
 
-/// A wrong request is the caller's; that nobody answers is neither his fault nor an answer.
-ExitCode exit_code_of(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return ExitCode::kSuccess;
-    case Status::kInvalid:
-    case Status::kUnknownScene:
-    case Status::kNoMap:
-      return ExitCode::kInvalidInput;
-    default:
-      return ExitCode::kOurFault;
-  }
-}
-
 ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
+  options.deadline_s = flags.timeout_s;
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
@@ -75,10 +64,7 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   }
   batch.scene = flags.daemon_scene;
   const OccupancyAnswer answer = client.occupancy(batch);
-  if (!answer.ok()) {
-    print_error(answer.error);
-    return exit_code_of(answer.status);
-  }
+  if (!answer.ok()) return report_failure(answer.status, answer.error, flags.key_file);
   fmt::print(stderr, "camway: scene {}, revision {}, voxels of {} m\n", flags.daemon_scene,
              answer.scene_revision, answer.resolution_m);
   fmt::print("{}", describe(flags.queries, answer));
@@ -148,13 +134,14 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
       ->needs(daemon)
       ->capture_default_str();
   add_key_file(*command, flags->key_file)->needs(daemon);
+  add_timeout(*command, flags->timeout_s)->needs(daemon);
   add_queries(*command, flags->queries);
   command
       ->add_option("--write", flags->map_file,
                    "Write the map as OctoMap's .bt, which octovis opens; with --scene")
       ->type_name("FILE")
       ->excludes(daemon);
-  command->footer(exit_code_help("") +
+  command->footer(exit_code_help("", /*asks_daemon=*/true) +
                   "\nCoordinates are metres in the scene's frame; write --point=-1,2,3 if the "
                   "first is negative."
                   "\nExample: camway occupancy --scene office.obj --resolution 0.1 --point 3,1.5,4 "

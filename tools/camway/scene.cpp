@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,7 @@
 
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
+#include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
 #include "tools/output_file.h"
 
@@ -23,6 +25,7 @@ struct SceneCommandFlags {
   std::string url;
   std::string prefix = "CAMWAY";
   std::string key_file;
+  double timeout_s = ClientOptions{}.deadline_s;
   std::string scene;
   std::string object;
   std::string file;         ///< below a root of the daemon
@@ -40,26 +43,11 @@ struct SceneCommandFlags {
   SceneSensor sensor;
   std::string points_file;
   std::vector<double> origin_m;
-  std::vector<double> position_m{0.0, 0.0, 0.0};
-  std::vector<double> orientation_wxyz{1.0, 0.0, 0.0, 0.0};
+  std::vector<double> position_m;  ///< empty: not given, as the next
+  std::vector<double> orientation_wxyz;
 };
 
 using Flags = std::shared_ptr<SceneCommandFlags>;
-
-/// A wrong request is the caller's; that nobody answers is neither his fault nor an answer.
-ExitCode exit_code_of(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return ExitCode::kSuccess;
-    case Status::kInvalid:
-    case Status::kUnknownScene:
-    case Status::kNoMap:
-    case Status::kLimit:
-      return ExitCode::kInvalidInput;
-    default:
-      return ExitCode::kOurFault;
-  }
-}
 
 void print_scene(const SceneInfo& scene) {
   fmt::print(
@@ -83,11 +71,8 @@ void print_object(const SceneObject& object) {
       pose.orientation_wxyz[2], pose.orientation_wxyz[3], object.digest);
 }
 
-ExitCode print_answer(const SceneAnswer& answer) {
-  if (!answer.ok()) {
-    print_error(answer.error);
-    return exit_code_of(answer.status);
-  }
+ExitCode print_answer(const SceneAnswer& answer, const std::string& key_file) {
+  if (!answer.ok()) return report_failure(answer.status, answer.error, key_file);
   if (!answer.message.empty()) print_error(answer.message);
   if (!answer.scene.name.empty()) print_scene(answer.scene);
   for (const SceneInfo& scene : answer.scenes) print_scene(scene);
@@ -127,24 +112,37 @@ std::optional<SceneMesh> mesh_of(const SceneCommandFlags& flags) {
 }
 
 std::optional<SceneShape> shape_of(const SceneCommandFlags& flags) {
+  const bool is_mesh = !flags.file.empty() || !flags.upload_file.empty();
+  const int shapes = (is_mesh ? 1 : 0) + (flags.box_m.empty() ? 0 : 1) + (flags.sphere_m ? 1 : 0) +
+                     (flags.cylinder_m.empty() ? 0 : 1) + (flags.map_m ? 1 : 0);
+  if (shapes != 1) {
+    print_error("one of --file, --upload, --box, --sphere, --cylinder and --map says what to add" +
+                std::string(shapes > 1 ? ", and no more than one" : ""));
+    return std::nullopt;
+  }
   if (!flags.box_m.empty()) return SceneBox{{flags.box_m[0], flags.box_m[1], flags.box_m[2]}};
   if (flags.sphere_m) return SceneSphere{*flags.sphere_m, flags.chord_error_m};
   if (!flags.cylinder_m.empty()) {
     return SceneCylinder{flags.cylinder_m[0], flags.cylinder_m[1], flags.chord_error_m};
   }
   if (flags.map_m) return SceneVoxels{*flags.map_m, flags.unknown, flags.sensor};
-  if (flags.file.empty() && flags.upload_file.empty()) {
-    print_error("one of --file, --upload, --box, --sphere, --cylinder and --map says what to add");
-    return std::nullopt;
-  }
   if (std::optional<SceneMesh> mesh = mesh_of(flags)) return *std::move(mesh);
   return std::nullopt;
 }
 
-Pose pose_of(const SceneCommandFlags& flags) {
-  Pose pose;
-  std::copy_n(flags.position_m.begin(), 3, pose.position_m.begin());
-  std::copy_n(flags.orientation_wxyz.begin(), 4, pose.orientation_wxyz.begin());
+/// Why the flags make no pose; empty if they do.
+std::string fault_in_pose(const SceneCommandFlags& flags) {
+  if (flags.orientation_wxyz.empty()) return {};
+  double largest = 0.0;
+  for (const double part : flags.orientation_wxyz) largest = std::max(largest, std::abs(part));
+  return largest > 0.0 ? std::string()
+                       : "--orientation: 0,0,0,0 is no quaternion of a turn; 1,0,0,0 turns nothing";
+}
+
+/// What the flags do not say is that of `pose`.
+Pose pose_of(const SceneCommandFlags& flags, Pose pose) {
+  std::ranges::copy(flags.position_m, pose.position_m.begin());
+  std::ranges::copy(flags.orientation_wxyz, pose.orientation_wxyz.begin());
   return pose;
 }
 
@@ -154,6 +152,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
+  options.deadline_s = flags.timeout_s;
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
@@ -163,7 +162,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
     print_error(client.error());
     return ExitCode::kOurFault;
   }
-  return print_answer(call(client));
+  return print_answer(call(client), flags.key_file);
 }
 
 ExitCode run_load(const SceneCommandFlags& flags) {
@@ -177,8 +176,41 @@ ExitCode run_load(const SceneCommandFlags& flags) {
 ExitCode run_add(const SceneCommandFlags& flags) {
   const std::optional<SceneShape> shape = shape_of(flags);
   if (!shape) return ExitCode::kInvalidInput;
+  if (const std::string fault = fault_in_pose(flags); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
   return with_client(flags, [&](Client& client) {
-    return client.put_object(flags.scene, flags.object, *shape, pose_of(flags));
+    return client.put_object(flags.scene, flags.object, *shape, pose_of(flags, {}));
+  });
+}
+
+/// The pose that the object has now; any if there is no such object, as the daemon says then.
+SceneAnswer find_pose(Client& client, const SceneCommandFlags& flags, Pose& pose) {
+  SceneAnswer answer = client.describe_scene(flags.scene);
+  for (const SceneObject& object : answer.objects) {
+    if (object.name == flags.object) pose = object.pose;
+  }
+  return answer;
+}
+
+ExitCode run_move(const SceneCommandFlags& flags) {
+  const bool has_all = !flags.position_m.empty() && !flags.orientation_wxyz.empty();
+  std::string fault = fault_in_pose(flags);
+  if (flags.position_m.empty() && flags.orientation_wxyz.empty()) {
+    fault = "--position, --orientation or both say where the object is to be";
+  }
+  if (!fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
+  return with_client(flags, [&](Client& client) {
+    Pose pose;
+    if (!has_all) {
+      SceneAnswer described = find_pose(client, flags, pose);
+      if (!described.ok()) return described;
+    }
+    return client.move_object(flags.scene, flags.object, pose_of(flags, pose));
   });
 }
 
@@ -247,6 +279,7 @@ CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, co
   command->add_option("--url", flags->url, "LCM network [LCM_DEFAULT_URL]");
   command->add_option("--prefix", flags->prefix, "Of the daemon's channels")->capture_default_str();
   add_key_file(*command, flags->key_file);
+  add_timeout(*command, flags->timeout_s);
   return command;
 }
 
@@ -287,13 +320,15 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
       ->type_name("STATE");
 }
 
-void add_pose_flags(CLI::App& command, const Flags& flags) {
-  command.add_option("--position", flags->position_m, "Of the object's origin, metres")
+/// `otherwise` is what holds where a flag is not given.
+void add_pose_flags(CLI::App& command, const Flags& flags, const char* otherwise) {
+  const std::string unsaid = std::string(" [") + otherwise + "]";
+  command.add_option("--position", flags->position_m, "Of the object's origin, metres" + unsaid)
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3)
       ->allow_extra_args(false);
-  command.add_option("--orientation", flags->orientation_wxyz, "Turns the object's axes")
+  command.add_option("--orientation", flags->orientation_wxyz, "Turns the object's axes" + unsaid)
       ->type_name("W,X,Y,Z")
       ->delimiter(',')
       ->expected(4)
@@ -348,18 +383,14 @@ void add_changes(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   add_object_name(*add, flags);
   add_mesh_flags(*add, flags);
   add_shape_flags(*add, flags);
-  add_pose_flags(*add, flags);
+  add_pose_flags(*add, flags, "as in the file, or at the origin");
   add->callback([flags, &exit_code] { exit_code = run_add(*flags); });
 
-  CLI::App* move = add_command(parent, flags, "move", "Put an object elsewhere");
+  CLI::App* move = add_command(parent, flags, "move", "Put an object elsewhere, or turn it");
   add_scene_name(*move, flags);
   add_object_name(*move, flags);
-  add_pose_flags(*move, flags);
-  move->callback([flags, &exit_code] {
-    exit_code = with_client(*flags, [&](Client& client) {
-      return client.move_object(flags->scene, flags->object, pose_of(*flags));
-    });
-  });
+  add_pose_flags(*move, flags, "as it is; one of both is needed");
+  move->callback([flags, &exit_code] { exit_code = run_move(*flags); });
 
   CLI::App* remove = add_command(parent, flags, "remove", "Take an object out of a scene");
   add_scene_name(*remove, flags);
@@ -424,7 +455,7 @@ void add_scene_command(CLI::App& app, ExitCode& exit_code) {
                                        "them, over LCM");
   scene->require_subcommand(1);
   scene->footer(
-      exit_code_help("") +
+      exit_code_help("", /*asks_daemon=*/true) +
       "\nWrite --position=-1,2,3 if the first number is negative."
       "\nExample: camway scene load hall --upload hall.obj && camway scene add hall crate "
       "--box 1,1,1 --position 4,0.5,2 && camway scene move hall crate --position 5,0.5,2");

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/camway/commands.h"
+#include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
 
 namespace camway::tools {
@@ -236,8 +237,8 @@ ExitCode run_status(StatusFlags flags) {
   for (std::int64_t heard = 0;;) {
     DaemonStatus status = client.status(flags.timeout_s);
     if (!status.ok()) {
-      print_error(status.error);
-      if (!flags.watch || flags.count > 0) return ExitCode::kNegative;
+      const ExitCode code = report_failure(status.status, status.error, flags.key_file);
+      if (!flags.watch || flags.count > 0) return code;
       continue;
     }
     print(flags, status, before);
@@ -269,7 +270,7 @@ void add_status_command(CLI::App& app, ExitCode& exit_code) {
                    "does not come")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53))
       ->needs(watch);
-  command->footer(exit_code_help("no daemon was heard") + "\nExample: camway status --watch");
+  command->footer(exit_code_help("", /*asks_daemon=*/true) + "\nExample: camway status --watch");
   command->callback([flags, &exit_code] { exit_code = run_status(*flags); });
 }
 

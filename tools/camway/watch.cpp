@@ -3,8 +3,10 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -13,11 +15,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "tools/camway/commands.h"
+#include "tools/camway/key_file.h"
 #include "tools/client_request.h"
 #include "tools/json_io.h"
 
@@ -28,6 +32,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 struct WatchFlags {
   ClientOptions client;
+  std::string key_file;
   std::string scene;
   std::string request;
   double for_s = 0.0;
@@ -129,31 +134,78 @@ class Events {
   std::deque<WatchEvent> events_;
 };
 
-ExitCode run_watch(const WatchFlags& flags) {
-  const Parsed<planning::PlanRequest> request = read_plan_request(flags.request);
-  if (!request.value) {
-    print_error(request.error);
-    return ExitCode::kInvalidInput;
+/// Keeps SIGINT and SIGTERM from ending this process at once, so that the daemon can be told first.
+/// To be made before the client, whose thread takes it over.
+class Interruption {
+ public:
+  Interruption() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals_, signal);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
+  /// Whether one came since the last time.
+  [[nodiscard]] bool came() const {
+    const timespec no_wait{};
+    return sigtimedwait(&signals_, nullptr, &no_wait) > 0;
+  }
+
+ private:
+  sigset_t signals_{};
+};
+
+/// Prints events until the flags or a signal end it.
+ExitCode follow(const WatchFlags& flags, const Interruption& interruption, Events& events) {
+  using Clock = std::chrono::steady_clock;
   constexpr double kForEver_s = 1e8;
+  constexpr std::chrono::milliseconds kLook{100};  // for signals
   const std::chrono::duration<double> patience(flags.for_s > 0.0 ? flags.for_s : kForEver_s);
-  const auto until = std::chrono::steady_clock::now() +
-                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(patience);
-  Events events;
-  Client client(flags.client);
-  const std::int64_t id = client.watch(to_client_request(*request.value, flags.scene),
-                                       [&](const WatchEvent& event) { events.add(event); });
-  std::int64_t heard = 0;
-  while (const std::optional<WatchEvent> event = events.take(until)) {
+  const Clock::time_point until =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
+  bool is_answered = false;
+  bool is_watched = false;
+  for (std::int64_t heard = 0; flags.count == 0 || heard < flags.count;) {
+    const Clock::time_point now = Clock::now();
+    if (interruption.came() || now >= until) break;
+    const std::optional<WatchEvent> event = events.take(std::min(until, now + kLook));
+    if (!event) continue;
     if (event->kind == WatchEvent::Kind::kEnded) {
       print_error(event->error);
       return ExitCode::kNegative;
     }
     print(*event, flags.json);
-    if (++heard == flags.count) break;
+    ++heard;
+    is_watched = event->kind != WatchEvent::Kind::kLost;
+    is_answered = is_answered || event->kind == WatchEvent::Kind::kAnswer;
   }
-  client.unwatch(id);
-  return ExitCode::kSuccess;
+  if (!is_answered) return ExitCode::kNoDaemon;
+  return is_watched ? ExitCode::kSuccess : ExitCode::kNegative;
+}
+
+ExitCode invalid_input(std::string_view message) {
+  print_error(message);
+  return ExitCode::kInvalidInput;
+}
+
+ExitCode run_watch(WatchFlags flags) {
+  const Parsed<planning::PlanRequest> request = read_plan_request(flags.request);
+  if (!request.value) return invalid_input(request.error);
+  if (const std::string fault = use_key_file(flags.key_file, flags.client); !fault.empty()) {
+    return invalid_input(fault);
+  }
+  const Interruption interruption;
+  Events events;
+  Client client(flags.client);
+  if (!client.good()) return invalid_input(client.error());
+  if (!client.warning().empty()) print_error(client.warning());
+  const std::int64_t id = client.watch(to_client_request(*request.value, flags.scene),
+                                       [&](const WatchEvent& event) { events.add(event); });
+  const ExitCode code = follow(flags, interruption, events);
+  // Else it would watch, and plan again, until the lease is over.
+  constexpr double kFarewell_s = 3.0;
+  if (!client.unwatch(id, kFarewell_s) && code == ExitCode::kSuccess) {
+    print_error("the daemon did not say that it heard of the end; it watches on until --lease-s");
+  }
+  return code;
 }
 
 }  // namespace
@@ -168,6 +220,7 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
                       "LCM network [LCM_DEFAULT_URL, else multicast on this host]");
   command->add_option("--prefix", flags->client.prefix, "Prefix of the daemon's channels")
       ->capture_default_str();
+  add_key_file(*command, flags->key_file);
   command
       ->add_option("--lease-s", flags->client.watch_lease_s,
                    "How long the daemon goes on watching when it hears nothing of us, seconds")
@@ -181,8 +234,12 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
   command->footer(
       "Events: answer (the first path, or a corrected one), broken (the path collides since a "
       "change,\nand a corrected one is being planned), free (it is proved free again), lost (the "
-      "daemon does not\nwatch for now; we go on trying).\n" +
-      exit_code_help("no path was proved, so there is nothing to watch") +
+      "daemon does not\nwatch for now, perhaps as a limit of its [watch] is reached; we go on "
+      "trying "
+      "in silence).\nAt the end, and when interrupted, the daemon is told to watch no more.\n" +
+      exit_code_help("no path was proved, so there is nothing to watch; or nobody watched it at "
+                     "the end",
+                     /*asks_daemon=*/true) +
       "\nExample: camway watch office --request request.json");
   command->callback([flags, &exit_code] { exit_code = run_watch(*flags); });
 }

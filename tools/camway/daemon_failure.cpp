@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/daemon_failure.h"
+
+namespace camway::tools {
+namespace {
+
+/// A wrong request is the caller's; that nobody answers is neither his fault nor an answer.
+ExitCode exit_code_of(Status status) {
+  switch (status) {
+    case Status::kInvalid:
+    case Status::kUnknownScene:
+    case Status::kNoMap:
+    case Status::kLimit:
+      return ExitCode::kInvalidInput;
+    case Status::kNoDaemon:
+    case Status::kNoAnswer:
+      return ExitCode::kNoDaemon;
+    default:
+      return ExitCode::kOurFault;
+  }
+}
+
+}  // namespace
+
+CLI::Option* add_timeout(CLI::App& command, double& timeout_s) {
+  return command
+      .add_option("--timeout-s", timeout_s, "How long to wait for the daemon's answer, seconds")
+      ->check(CLI::Range(0.01, 86'400.0))
+      ->capture_default_str();
+}
+
+ExitCode report_failure(Status status, const std::string& error, const std::string& key_file) {
+  const ExitCode code = exit_code_of(status);
+  std::string hint;
+  if (code == ExitCode::kNoDaemon) {
+    hint = key_file.empty() ? " (--key-file names the keys" : " (--key-file " + key_file;
+    hint += status == Status::kNoAnswer ? "; --timeout-s says how long to wait)" : ")";
+  }
+  print_error(error + hint);
+  return code;
+}
+
+}  // namespace camway::tools
