@@ -135,7 +135,7 @@ TEST_F(TwoHostsTest, ADaemonForThisHostOnlyIsNotHeardOnTheOther) {
   const std::vector<std::string> ask{CAMWAY_BINARY, "status",      "--url",
                                      kBothHosts,    "--timeout-s", "1.5"};
   const auto unheard = start_over_there(ask);
-  EXPECT_EQ(unheard->wait(), 3) << unheard->output();
+  EXPECT_EQ(unheard->wait(), 4) << unheard->output();
 
   // The same question is answered where the daemon says that it may be.
   start_daemon({"--url", kBothHosts});
