@@ -109,6 +109,8 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const collision::Deadline& deadline) {
   if (problem.effort != nullptr) ++problem.effort->paths;
+  // They change nothing, and end before they begin.
+  std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
   const std::optional<Span> changed = span_of(rows, problem);
   if (!changed) return {std::nullopt, problem.interval};
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace camway::correction {
@@ -10,8 +11,9 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement.
-constexpr int kMostSweeps = 10;  // over the bounds that feel a force
-constexpr int kMostRounds = 3;   // of looking for others
+constexpr int kMostSweeps = 10;          // over the bounds that feel a force
+constexpr int kMostRounds = 3;           // of looking for others
+constexpr std::size_t kMostLive = 1024;  // that feel a force: what they reply to each other is kept
 
 class Forces {
  public:
@@ -23,11 +25,11 @@ class Forces {
     }
   }
 
-  /// Looks for bounds that do not hold, and adds them to those that feel a force. Whether there
-  /// were any.
+  /// Looks for bounds that do not hold, and adds them to those that feel a force, those first that
+  /// miss most. Whether there were any.
   bool add_live() {
     const StackedPoints now = forced();
-    bool any = false;
+    std::vector<Missing> found;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
       // No force moves a sample that does not reply.
       if (is_live_[i] || !(stiffness_[i] > 0.0)) continue;
@@ -35,11 +37,16 @@ class Forces {
       const double missing_m =
           bound.bound_m - now.row(static_cast<Eigen::Index>(bound.sample)).dot(bound.direction);
       if (bound.force == 0.0 && missing_m <= 0.0) continue;
-      is_live_[i] = true;
-      any = true;
+      found.push_back({missing_m, i});
     }
-    if (any) set_up(now);
-    return any;
+    const std::size_t room = kMostLive - std::min(kMostLive, live_.size());
+    if (found.size() > room) {
+      std::ranges::stable_sort(found, std::greater(), &Missing::by_m);
+      found.resize(room);
+    }
+    for (const Missing& missing : found) is_live_[missing.bound] = true;
+    if (!found.empty()) set_up(now);
+    return !found.empty();
   }
 
   /// Each force once; how far that moved a sample at most.
@@ -63,6 +70,11 @@ class Forces {
   }
 
  private:
+  struct Missing {
+    double by_m;
+    std::size_t bound;
+  };
+
   /// Where the samples are. Bounds of a sample follow each other.
   [[nodiscard]] StackedPoints forced() const {
     StackedPoints now = unforced_;

@@ -32,6 +32,21 @@ Turns turns_of(const Vec4& reference, const Vec4& image) {
   return turns;
 }
 
+/// Of those from `first` on, in the order that they have.
+void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
+  constexpr std::size_t kMost = 48;  // of a triangle: more than those of a box
+  if (rows.size() - first <= kMost) return;
+  std::vector<double> rooms_m;
+  for (std::size_t i = first; i < rows.size(); ++i) rooms_m.push_back(rows[i].room_m);
+  std::ranges::nth_element(rooms_m, rooms_m.begin() + kMost - 1);
+  const double most_m = rooms_m[kMost - 1];
+  std::size_t kept = first;
+  for (std::size_t i = first; i < rows.size() && kept < first + kMost; ++i) {
+    if (rows[i].room_m <= most_m) rows[kept++] = rows[i];
+  }
+  rows.resize(kept);
+}
+
 }  // namespace
 
 void add_contact_rows(FreeSpace& space, bool may_turn, const Vec4& reference, double lever_m,
@@ -42,6 +57,7 @@ void add_contact_rows(FreeSpace& space, bool may_turn, const Vec4& reference, do
   const Turns turns = may_turn ? turns_of(reference, cubic.image) : Turns(Turns::Zero());
   const std::span<const Triangle> parts = space.placed(pose);
   for (const std::uint32_t index : triangles) {
+    const std::size_t first_row = rows.size();
     const Triangle obstacle = space.obstacles().index.triangle(index);
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const Triangle& part = parts[k];
@@ -66,6 +82,7 @@ void add_contact_rows(FreeSpace& space, bool may_turn, const Vec4& reference, do
         rows.push_back(row);
       }
     }
+    keep_tightest(rows, first_row);
   }
 }
 

@@ -59,11 +59,13 @@ struct Side {
 
 class Threader {
  public:
-  Threader(FreeSpace& space, const SignedPose& from, const SignedPose& to, double margin_m)
+  Threader(FreeSpace& space, const SignedPose& from, const SignedPose& to, double margin_m,
+           const collision::Deadline& deadline)
       : space_(space),
         from_(from),
         to_(to),
         margin_m_(margin_m),
+        deadline_(deadline),
         radius_m_(space.ball_radius_m()) {}
 
   /// A motion through `way_W`, where that is narrow.
@@ -103,7 +105,7 @@ class Threader {
   /// A motion along a line that is moved to where there is room, and grows: the longer it is, the
   /// better it shows where a hole leads.
   std::optional<NarrowPassage> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
-    for (; half_length < kLongest; half_length *= kGrowth) {
+    for (; half_length < kLongest && !deadline_.passed(); half_length *= kGrowth) {
       Line line = line_about(center_W, along_W, half_length);
       if (!(room_m(line) > 0.0)) return std::nullopt;
       line = widened(line);
@@ -120,6 +122,7 @@ class Threader {
   std::optional<NarrowPassage> along(const Line& line) {
     const Vec3 along_W = line.direction_W();
     for (const auto& [likeness, pose] : fitting(line)) {
+      if (deadline_.passed()) return std::nullopt;
       const double back_m = freely_moved_m(pose, -along_W);
       if (back_m < kNearest * radius_m_) continue;
       const double forth_m = freely_moved_m(pose, along_W);
@@ -197,7 +200,7 @@ class Threader {
     const Vec3 along_W = line.direction_W();
     std::vector<Fit> fits;
     for (const auto& [first, second] : {std::pair{0, 1}, {1, 2}, {2, 0}}) {
-      for (std::size_t i = 0; i < 2 * kTurns; ++i) {
+      for (std::size_t i = 0; i < 2 * kTurns && !deadline_.passed(); ++i) {
         const Vec3 first_W = i < kTurns ? along_W : Vec3(-along_W);
         const Side& side = sides[i % kTurns];
         const Side& other = sides[(i + kTurns / 4) % kTurns];
@@ -276,6 +279,7 @@ class Threader {
   const SignedPose from_;
   const SignedPose to_;
   const double margin_m_;
+  const collision::Deadline& deadline_;
   const double radius_m_;
   double farthest_m_ = 0.0;  ///< that the body is moved to either side
 };
@@ -335,7 +339,7 @@ std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec
                                            double margin_m, const collision::Deadline& deadline) {
   if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
   const std::vector<Place> places = places_of(way_W, kStep * space.ball_radius_m());
-  Threader threader(space, from, to, margin_m);
+  Threader threader(space, from, to, margin_m, deadline);
   std::vector<NarrowPassage> passages;
   for (const Narrow& narrow : narrow_places(space, places)) {
     if (deadline.passed()) return {};

@@ -221,6 +221,20 @@ TEST(Attempt, OthersMayStayAndMustNotGrow) {
   EXPECT_NEAR(grown.collision->t_begin_s, problem.others[0].t_end_s, 1e-9);
 }
 
+// As where all bumps of a row came out as nothing: nothing is corrected then.
+TEST(Attempt, RefusesRowsThatChangeNothing) {
+  scene::Mesh mesh;
+  add_plate(mesh, 1.0);
+  const SearchScene scene(mesh);
+  for (const int first : {0, 2, 4}) {
+    BumpRow nothing = single(Vec3::UnitX());
+    nothing.first = first;
+    nothing.bumps.clear();
+    const FreeSpace space = scene.space();
+    EXPECT_FALSE(attempt(middle_problem(), {nothing}, space, Deadline::never()).candidate);
+  }
+}
+
 TEST(Attempt, WhatCouldNotBeSearchedCountsAsColliding) {
   const SearchScene scene = plate_in_the_way();
   const FreeSpace space = scene.space();
