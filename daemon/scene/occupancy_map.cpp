@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -199,6 +200,17 @@ std::optional<VoxelTree> occupied_tree(const Mesh& mesh, const VoxelGrid& grid,
   return voxels ? std::optional<VoxelTree>(*voxels) : std::nullopt;
 }
 
+/// That a mirror surely has: those of the largest triangle, as no plane meets more of a cube than
+/// the rectangle through two opposite edges. So that what is hopeless is not begun.
+double least_voxels(const Mesh& mesh, double resolution_m) {
+  double largest_m2 = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const geometry::Triangle t = mesh.triangle(i);
+    largest_m2 = std::max(largest_m2, 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm());
+  }
+  return largest_m2 / (std::numbers::sqrt2 * resolution_m * resolution_m);
+}
+
 }  // namespace
 
 OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolution_m,
@@ -206,7 +218,9 @@ OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolutio
                                               std::uint64_t max_voxels) {
   if (std::string error = refusal(mesh, resolution_m); !error.empty()) return {nullptr, error};
   const VoxelGrid grid(resolution_m);
-  std::optional<VoxelTree> tree = occupied_tree(mesh, grid, solid, max_voxels);
+  std::optional<VoxelTree> tree;
+  if (least_voxels(mesh, resolution_m) <= static_cast<double>(max_voxels))
+    tree = occupied_tree(mesh, grid, solid, max_voxels);
   if (!tree) {
     Box bounds;
     for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);

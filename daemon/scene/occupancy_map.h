@@ -35,7 +35,7 @@ class OccupancyMap {
   /// voxels.
   static constexpr std::int32_t kMaxKeyVoxels = 32768;
 
-  static constexpr std::uint64_t kUsualMostVoxels = 50'000'000;
+  static constexpr std::uint64_t kUsualMostVoxels = 10'000'000;
 
   /// Distances are rounded down by up to this factor.
   static constexpr double kDistanceRelativeError = kBoxCostRelativeError;

@@ -138,15 +138,6 @@ TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
   expect_corrected(c, {Rung::kGoRound});
 }
 
-// Everything symmetric about the wall, so that coarse rows of bumps come out as nothing.
-TEST(Ladder, CorrectsWhatIsSymmetricAboutAWall) {
-  Mesh mesh = closed_room();
-  add_wall(mesh, 0.0, {-0.25, -1.0, 0}, {0.25, -0.5, 0});
-  Case c = case_with(mesh, {at(0, {0, 0.5, 1.2}), at(4, {0, 0.5, -1.2})});
-  c.body = motion::Body(motion::Camera{2.0 * std::atan(1.0), 2.0 * std::atan(0.6), 0.1});
-  expect_corrected(c, {Rung::kGoRound});
-}
-
 // A slit, and a hole that is not in line with it, turned the other way.
 TEST(Ladder, ThreadsTwoHolesInARow) {
   Mesh mesh = closed_room();

@@ -404,6 +404,26 @@ TEST(OccupancyMap, RefusesWhatItCannotHold) {
   }
 }
 
+// Who began to fill the last one would be at it for hours.
+TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  for (int run = 0; run < 30; ++run) {
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) {
+      for (double& coordinate : corner) coordinate = place(random);
+    }
+    const Mesh mesh = mesh_of({{corners[0], corners[1], corners[2]}});
+    const std::uint64_t voxels = build(mesh, 0.05)->statistics().occupied_voxels;
+    EXPECT_TRUE(OccupancyMap::build(mesh, 0.05, std::nullopt, voxels).map) << "never too early";
+  }
+  const Mesh floor = mesh_of({{Vec3(0, 0, 0), Vec3(30, 0, 0), Vec3(0, 30, 0)}});
+  const OccupancyMap::BuildResult result =
+      OccupancyMap::build(floor, 0.001, std::nullopt, 300'000'000);
+  EXPECT_FALSE(result.map);
+  EXPECT_THAT(result.error, HasSubstr("more than 300000000 voxels"));
+}
+
 TEST(OccupancyMap, TheVoxelLimitIsExact) {
   std::mt19937_64 random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
