@@ -198,7 +198,8 @@ class Detour {
   }
 
   // Ways where the body has to be turned to get through: where a smaller ball does, straight
-  // motions through narrow places, or trees, look for how. Where the smallest has no way, none has.
+  // motions through narrow places, or trees, look for how. The smallest is the first: where it has
+  // no way, none has.
   std::optional<Candidate> with_turns() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;

@@ -20,10 +20,11 @@ struct NarrowPassage {
 
 /// How the body, turned as suits best, gets through each narrow place of `way_W`, a way for
 /// something smaller, from the beginning to the end: what searches by random poses hardly ever
-/// meet, as a plate passes a hole little wider than its short side in few orientations only. In the
-/// middle of such a place the straight line with the most room is looked for; the body is put
-/// there with an axis of its own along the line, turned about it step by step, and moved along it
-/// to both sides. Motions are proved free with `margin_m` beside what is required.
+/// meet, as a plate passes a hole little wider than its short side in few orientations only. From
+/// the tightest point of such a place a straight line is grown to where it has the most room; the
+/// body is put there, or in the middle of what is free beside, with an axis of its own along the
+/// line, turned about it step by step, and moved along it to both sides. Motions are proved free
+/// with `margin_m` beside what is required.
 ///
 /// `from` and `to` are the poses at the ends: of all that fit, the one that is turned least from
 /// both is taken. Nothing where one of the places was not passed, where there is none, or where a

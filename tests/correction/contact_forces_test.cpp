@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -187,6 +188,30 @@ TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
 }
 
 // A sample that no variable moves: nothing helps there, and nobody else must suffer for it.
+// What they reply to each other is kept as a matrix, which must not grow with bodies of thousands
+// of triangles.
+TEST(ContactForces, AreOfLimitedNumber) {
+  Draw draw(4407);
+  Case c = random_case(draw, 40, 100, 0.0);
+  find_forces(c.bounds, c.unforced, c.reply, 0.0);
+  const auto felt =
+      std::ranges::count_if(c.bounds, [](const ForcedBound& bound) { return bound.force > 0.0; });
+  EXPECT_GT(felt, 100);
+  EXPECT_LE(felt, 1024);
+  // And those first that miss most, so the worst of all feels one or holds.
+  const Eigen::VectorXd missing_m = missing_in(c);
+  Eigen::Index worst = 0;
+  missing_m.maxCoeff(&worst);
+  StackedPoint moved = StackedPoint::Zero();
+  for (const ForcedBound& bound : c.bounds) {
+    moved += bound.force *
+             c.reply(static_cast<Eigen::Index>(bound.sample),
+                     static_cast<Eigen::Index>(c.bound(worst).sample)) *
+             bound.direction;
+  }
+  EXPECT_LT(missing_m[worst] - moved.dot(c.bound(worst).direction), missing_m[worst]);
+}
+
 TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
   Draw draw(4205);
   Case c = random_case(draw, 3, 1, 1.0);

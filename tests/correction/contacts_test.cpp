@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -153,6 +154,37 @@ TEST(Contacts, BoundTheDistanceAfterASmallStep) {
     }
   }
   EXPECT_GT(pairs, 2000);
+}
+
+// Of a body of many triangles; the oracle has a body for each of them.
+TEST(Contacts, AreTheTightestOfATriangleWhereThereAreMany) {
+  constexpr std::size_t kMost = 48;
+  Draw draw(4306);
+  Case c = random_case(draw);
+  motion::MeshShape shape;
+  for (std::uint32_t i = 0; i < 3 * 40; i += 3) {
+    const Vec3 center_C = draw.vector(0.2);
+    for (int k = 0; k < 3; ++k) shape.vertices_C.push_back(center_C + draw.vector(0.05));
+    shape.triangles.push_back({i, i + 1, i + 2});
+  }
+  std::map<std::uint32_t, std::vector<double>> rooms_m;
+  for (const auto& [a, b, d] : shape.triangles) {
+    c.body = made(motion::MeshShape{{shape.vertices_C[a], shape.vertices_C[b], shape.vertices_C[d]},
+                                    {{0, 1, 2}}});
+    for (const ContactRow& row : c.rows()) rooms_m[row.triangle].push_back(row.room_m);
+  }
+  c.body = made(shape);
+  std::map<std::uint32_t, std::vector<double>> kept_m;
+  for (const ContactRow& row : c.rows()) kept_m[row.triangle].push_back(row.room_m);
+  ASSERT_EQ(kept_m.size(), c.mesh.triangles.size());
+  for (auto& [triangle, kept] : kept_m) {
+    std::vector<double>& all = rooms_m[triangle];
+    ASSERT_EQ(all.size(), 3 * shape.triangles.size());
+    std::ranges::sort(all);
+    std::ranges::sort(kept);
+    all.resize(kMost);
+    EXPECT_EQ(kept, all);
+  }
 }
 
 TEST(Contacts, LeaveOutWhatIsBeyondTheHorizon) {
