@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +40,13 @@ struct StoreResult {
 
 /// The scenes that a daemon holds, by name: the newest snapshot of each, and how it came to be. A
 /// snapshot that someone took stays as it is when its scene changes. The revisions of a name only
-/// ever increase, even when its scene is removed and another comes. Safe from any thread; changes
-/// are made one after the other, and nobody who only looks waits for them.
+/// ever increase, even when its scene is removed and another comes.
+///
+/// Safe from any thread. Changes of one scene are made one after the other, those of different ones
+/// side by side: each holds the turn of its scene from its beginning to its end, and what all wait
+/// for, who only looks included, no longer than it takes to put the finished snapshot in its place.
+/// What all scenes together come to is looked at there, too, so no limit is ever broken; what is
+/// being made is not counted yet.
 class SceneStore {
  public:
   explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
@@ -54,8 +61,9 @@ class SceneStore {
   /// Whether there was such a scene.
   bool remove(std::string_view scene);
 
-  /// Calls `listener` from now on after each change, on the thread of whoever made it; no function
-  /// ends that. It must not change scenes. Once this returns the one before is not called any more.
+  /// Calls `listener` from now on after each change, on the thread of whoever made it, but never on
+  /// two at a time; no function ends that. It must not change scenes. Once this returns the one
+  /// before is not called any more.
   void on_change(std::function<void()> listener);
 
   /// The newest snapshot, or null.
@@ -73,26 +81,55 @@ class SceneStore {
   [[nodiscard]] const SceneStoreLimits& limits() const { return limits_; }
 
  private:
+  /// What counts of a scene, or of all together.
+  struct Load {
+    std::uint64_t triangles = 0;
+    std::uint64_t occupancy_bytes = 0;
+  };
   struct Entry {
     std::shared_ptr<const Snapshot> newest;
+    Load load;
     SceneHistory history;
   };
+  using Scenes = std::map<std::string, Entry, std::less<>>;
+
+  /// Nobody else changes the scene of that name, which may not be there, while this lives.
+  class Turn {
+   public:
+    Turn(SceneStore& store, std::string_view scene);
+    ~Turn();
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    SceneStore& store_;
+    std::set<std::string, std::less<>>::iterator scene_;
+  };
+
+  static Load load_of(const Snapshot& snapshot);
+
+  /// The lowest revision that the next scene of that name may have. Stays true while its turn
+  /// lasts.
+  [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
   /// What speaks against `next` in the place of the scene of its name; empty if nothing does.
-  [[nodiscard]] std::string over_limit(const Snapshot& next) const;
-
-  /// Shortens the longest histories until all keep to the limit. Precondition: mutex_ is held.
+  /// Precondition of this and the next two: mutex_ is held.
+  [[nodiscard]] std::string over_limit(const Snapshot& next, const Load& load) const;
+  /// Counts a scene of that load, or of none, in the place of the one that is there, or of none.
+  void count(const Load& before, const Load& after);
+  /// Shortens the longest histories until all keep to the limit.
   void forget_history();
 
-  void tell() const {
-    if (listener_) listener_();
-  }
+  void tell();
 
   const SceneStoreLimits limits_;
-  std::mutex changing_;             ///< held by who makes a change, from its beginning to its end
-  std::function<void()> listener_;  ///< guarded by changing_
-  mutable std::mutex mutex_;        ///< guards all below
-  std::map<std::string, Entry, std::less<>> scenes_;
+  std::mutex telling_;              ///< held while the listener is called; before mutex_
+  std::function<void()> listener_;  ///< guarded by telling_
+  mutable std::mutex mutex_;        ///< guards all below; held for moments only
+  std::condition_variable turn_ended_;
+  std::set<std::string, std::less<>> changing_;  ///< scenes of which it is somebody's turn
+  Scenes scenes_;
+  Load total_;                         ///< of `scenes_`
   std::uint64_t highest_removed_ = 0;  ///< revision of the scenes that are gone
 };
 

@@ -16,6 +16,10 @@ std::string ServiceConfig::fault() const {
     return "workers: " + std::to_string(workers) + " is not within 1 to " +
            std::to_string(kMaxWorkers);
   }
+  if (scene_workers < 1 || scene_workers > kMaxWorkers) {
+    return "scene workers: " + std::to_string(scene_workers) + " is not within 1 to " +
+           std::to_string(kMaxWorkers);
+  }
   for (const auto& [name, value] :
        {std::pair{"queue", queue.jobs}, std::pair{"client queue", queue.jobs_of_a_client}}) {
     if (value < 1 || value > kMaxQueueCapacity) {

@@ -56,8 +56,11 @@ struct ServiceConfig {
   SceneRules scene_rules;
   Uploads::Limits uploads;     ///< `scenes.uploads` and others
   MapExports::Limits exports;  ///< `scenes.exports` and others
-  FairQueue::Limits changes;   ///< of scenes that wait for the ones before them
-  WatchLimits watches;         ///< `watch.paths` and others
+  /// Changes of different scenes that are made at the same time; `scenes.workers`
+  /// [Limit: 1 <= value <= kMaxWorkers]
+  int scene_workers = 4;
+  FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
+  WatchLimits watches;        ///< `watch.paths` and others
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};

@@ -14,6 +14,7 @@
 #include "daemon/service/process_signals.h"
 #include "daemon/service/service.h"
 #include "daemon/service/service_manager.h"
+#include "daemon/service/upload_file.h"
 
 namespace camway::service {
 namespace {
@@ -154,10 +155,14 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
                              const collision::Deadline& deadline) {
     return planning::plan(snapshot, request, deadline);
   };
+  if (const std::size_t files = remove_left_upload_files(); files > 0) {
+    log->info("removed uploads that a daemon left behind", {{"files", files}});
+  }
   Service service(transport, scenes, options.service, planner, log, std::move(hooks));
   log->info("serving", {{"url", options.lcm_url},
                         {"prefix", options.service.prefix},
                         {"workers", options.service.workers},
+                        {"scene_workers", options.service.scene_workers},
                         {"queue", options.service.queue.jobs},
                         {"client_queue", options.service.queue.jobs_of_a_client}});
   Reloader reloader(options, std::move(read_again), configured, manager, log, auth);

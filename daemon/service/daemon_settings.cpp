@@ -128,6 +128,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
       {"scenes.roots", &options.scene_roots},
       {"scenes.write_maps", &service.scene_rules.write_maps},
+      {"scenes.workers", &service.scene_workers, 1, kMaxWorkers},
       {"scenes.scenes", &options.store.scenes, 1, 1e6},
       {"scenes.objects", &options.store.objects, 1, 1e6},
       {"scenes.triangles", &options.store.triangles, 1, 4e9},

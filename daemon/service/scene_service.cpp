@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <exception>
 #include <set>
 #include <utility>
@@ -25,9 +26,9 @@ RequestDigest digest_of(scene_request_t request) {
 
 /// The answer, whatever happens.
 Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
-                    const SceneRules& rules, scene::SceneStore& scenes) {
+                    const SceneContext& context) {
   try {
-    return perform(request, upload, rules, scenes);
+    return perform(request, upload, context);
   } catch (const std::exception& exception) {
     return {plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
                                std::string("internal error: ") + exception.what()),
@@ -60,6 +61,12 @@ const char* name_of(std::int8_t operation) {
   }
 }
 
+/// Of a client run all but one of the workers at most.
+FairQueue::Limits with_room_for_others(FairQueue::Limits limits, int workers) {
+  limits.running_of_a_client = static_cast<std::size_t>(std::max(workers - 1, 1));
+  return limits;
+}
+
 }  // namespace
 
 SceneService::SceneService(Core& core, scene::SceneStore& scenes)
@@ -69,7 +76,8 @@ SceneService::SceneService(Core& core, scene::SceneStore& scenes)
       uploads_(core.config.uploads),
       exports_(core.config.exports),
       cache_(core.config.cache),
-      thread_(1, core.config.changes) {}
+      workers_(core.config.scene_workers,
+               with_room_for_others(core.config.changes, core.config.scene_workers)) {}
 
 void SceneService::on_request(std::span<const std::uint8_t> message) {
   wire::Decoded<scene_request_t> decoded = wire::decode<scene_request_t>(message);
@@ -86,7 +94,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   decoded.message->object = wire::printable(decoded.message->object);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
   if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, rules_, scenes_).answer);
+    finish(*request, answer_of(*request, nullptr, context()).answer);
     return;
   }
   const RequestKey key{request->client_id, request->request_id};
@@ -116,18 +124,26 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
       uploads_.find({request->client_id, request->upload_bytes, request->upload_checksum});
   Job work;
   work.client = request->client_id;
+  work.strand = request->scene;
   work.run = [this, request, upload] {
-    auto done = std::make_shared<Performed>(answer_of(*request, upload, rules_, scenes_));
+    auto done = std::make_shared<Performed>(answer_of(*request, upload, context()));
     Pages map;
     if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
     core_.mailbox.post([this, request, done, map] {
-      if (map)
-        exports_.keep({request->client_id, request->request_id}, map, MapExports::Clock::now());
+      if (done->is_called_off) return refuse(*request, Refusal::kStopping);
+      const RequestKey key{request->client_id, request->request_id};
+      if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
+        done->answer = plain_scene_answer(
+            *request, scene_response_t::STATUS_LIMIT,
+            fmt::format("the map is larger than all exports may be together, {} bytes "
+                        "(scenes.all_exports_bytes)",
+                        core_.config.exports.bytes));
+      }
       finish(*request, std::move(done->answer));
     });
   };
   work.abandon = [this, request](Refusal why) { refuse(*request, why); };
-  if (std::optional<FairQueue::Refused> refused = thread_.submit(std::move(work))) {
+  if (std::optional<FairQueue::Refused> refused = workers_.submit(std::move(work))) {
     refused->job.abandon(refused->why);
   }
 }
@@ -244,8 +260,16 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
   if (!which.empty()) core_.outbox.add(channel, pages, {which.begin(), which.end()});
 }
 
+SceneContext SceneService::context() { return {rules_, scenes_, writing_, stop_.get_token()}; }
+
 void SceneService::close() {
-  for (const Job& job : thread_.close()) job.abandon(Refusal::kStopping);
+  stop_.request_stop();
+  for (const Job& job : workers_.close()) job.abandon(Refusal::kStopping);
+}
+
+void SceneService::stop() {
+  stop_.request_stop();
+  workers_.stop();
 }
 
 }  // namespace camway::service

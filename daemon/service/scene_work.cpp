@@ -2,13 +2,11 @@
 #include "daemon/service/scene_work.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -17,7 +15,9 @@
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/map_scan.h"
 #include "daemon/scene/shape_mesh.h"
+#include "daemon/scene/stoppable_load.h"
 #include "daemon/service/scene_argument.h"
+#include "daemon/service/upload_file.h"
 #include "daemon/service/wire_convert.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/checksum.h"
@@ -30,41 +30,6 @@ using geometry::Vec3;
 using scene::SceneChange;
 using Request = scene_request_t;
 using Answer = scene_response_t;
-
-/// A file of our own that goes when this does.
-class TemporaryFile {
- public:
-  /// The name ends with `.extension`, which tells the importer the format.
-  TemporaryFile(const UploadRoom& bytes, const std::string& extension) {
-    std::error_code failed;
-    std::string name =
-        (std::filesystem::temp_directory_path(failed) / ("camway_upload_XXXXXX." + extension))
-            .string();
-    const int file = mkstemps(name.data(), static_cast<int>(extension.size()) + 1);
-    if (file < 0) return;
-    path_ = name;
-    std::ofstream out(path_, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    close(file);
-    is_good_ = static_cast<bool>(out);
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  /// Whether all bytes are in it.
-  [[nodiscard]] bool is_good() const { return is_good_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-  bool is_good_ = false;
-};
 
 /// What came of reading or making something, or what is wrong.
 template <class Value>
@@ -131,8 +96,8 @@ Made<scene::ImportOptions> import_options(const Request& request, const SceneRul
 }
 
 Made<Content> imported(const std::filesystem::path& file, const std::string& shown,
-                       const scene::ImportOptions& options) {
-  scene::ImportResult result = scene::import_mesh(file, options);
+                       const scene::ImportOptions& options, const std::stop_token& stop) {
+  scene::ImportResult result = scene::import_mesh(file, options, stop);
   if (result.mesh) {
     const scene::ObjectKind kind = result.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
     return {Content{kind, std::move(*result.mesh), std::move(result.report), result.map}, {}};
@@ -146,21 +111,21 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
 }
 
 Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
-                        const SceneRules& rules) {
-  const Made<scene::ImportOptions> options = import_options(request, rules);
+                        const SceneContext& context) {
+  const Made<scene::ImportOptions> options = import_options(request, context.rules);
   if (!options.value) return {std::nullopt, options.error};
   if (request.upload_bytes == 0) {
-    const RootedFile rooted = rules.roots.resolve(request.file);
+    const RootedFile rooted = context.rules.roots.resolve(request.file);
     if (!rooted.error.empty()) return {std::nullopt, rooted.error};
-    return imported(rooted.file, wire::printable(request.file), *options.value);
+    return imported(rooted.file, wire::printable(request.file), *options.value, context.stop);
   }
   if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
   if (!is_extension(request.upload_format)) {
     return {std::nullopt, "upload_format: must be a file name extension of [a-z0-9]{1,8}"};
   }
-  const TemporaryFile file(*upload, request.upload_format);
+  const UploadFile file(*upload, request.upload_format);
   if (!file.is_good()) return {std::nullopt, "upload: the daemon has no room for the file"};
-  return imported(file.path(), "upload." + request.upload_format, *options.value);
+  return imported(file.path(), "upload." + request.upload_format, *options.value, context.stop);
 }
 
 /// Doubles of an upload of points; empty, with an error, if its size is not that of any.
@@ -242,13 +207,13 @@ Made<Content> empty_map(const Request& request, const SceneRules& rules) {
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
-                        const SceneRules& rules) {
+                        const SceneContext& context) {
   constexpr double kDefaultChordShare = 0.01;
   const double chord_error_m =
       request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;
   switch (kind) {
     case scene::ObjectKind::kMesh:
-      return read_mesh(request, upload, rules);
+      return read_mesh(request, upload, context);
     case scene::ObjectKind::kBox:
       return of_shape(scene::box_mesh(vec3(request.size_m)), kind);
     case scene::ObjectKind::kSphere:
@@ -257,7 +222,7 @@ Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const Up
       return of_shape(scene::cylinder_mesh(request.radius_m, request.height_m, chord_error_m),
                       kind);
     case scene::ObjectKind::kMap:
-      return empty_map(request, rules);
+      return empty_map(request, context.rules);
     case scene::ObjectKind::kPointCloud: {
       const Made<std::vector<Vec3>> points = read_points(upload);
       if (!points.value) return {std::nullopt, points.error};
@@ -333,9 +298,12 @@ std::string warnings_of(const scene::ImportReport& report) {
 /// One request on its way.
 class Work {
  public:
-  Work(const Request& request, const UploadedBytes& upload, const SceneRules& rules,
-       scene::SceneStore& scenes)
-      : request_(request), upload_(upload), rules_(rules), scenes_(scenes) {}
+  Work(const Request& request, const UploadedBytes& upload, const SceneContext& context)
+      : request_(request),
+        upload_(upload),
+        context_(context),
+        rules_(context.rules),
+        scenes_(context.scenes) {}
 
   Answer run() {
     switch (request_.operation) {
@@ -408,7 +376,7 @@ class Work {
       }
       return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
     }
-    Made<Content> made = read_mesh(request_, upload_, rules_);
+    Made<Content> made = read_mesh(request_, upload_, context_);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed = scene::place_object(
@@ -455,7 +423,7 @@ class Work {
     if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
-    Made<Content> made = make_mesh(request_, *kind, upload_, rules_);
+    Made<Content> made = make_mesh(request_, *kind, upload_, context_);
     if (!made.value) return invalid(made.error);
     const std::string warnings = warnings_of(made.value->report);
     const auto source = source_of(*std::move(made.value), snapshot->options);
@@ -512,6 +480,7 @@ class Work {
       map_.assign(bytes.begin(), bytes.end());
       return answer;
     }
+    const std::lock_guard writing(context_.writing);
     const std::string fault = rules_.roots.write(request_.file, ".bt", bytes);
     return fault.empty() ? answer : invalid(fault);
   }
@@ -522,6 +491,7 @@ class Work {
 
   const Request& request_;
   const UploadedBytes& upload_;
+  const SceneContext& context_;
   const SceneRules& rules_;
   scene::SceneStore& scenes_;
   std::vector<std::uint8_t> map_;
@@ -559,10 +529,12 @@ bool only_looks(const scene_request_t& request) {
 }
 
 Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneRules& rules, scene::SceneStore& scenes) {
-  Work work(request, upload, rules, scenes);
-  Answer answer = work.run();
-  return {std::move(answer), work.take_map()};
+                  const SceneContext& context) {
+  Work work(request, upload, context);
+  Performed performed{work.run(), work.take_map()};
+  performed.is_called_off =
+      context.stop.stop_requested() && performed.answer.status == Answer::STATUS_INVALID;
+  return performed;
 }
 
 }  // namespace camway::service
