@@ -203,6 +203,15 @@ constexpr std::array kSceneObject{
     fixed("num_triangles", kInt64),    fixed("pose", 7 * kDouble),  fixed("bounds_m", 6 * kDouble),
 };
 
+constexpr std::array kSceneChange{
+    fixed("revision", kInt64),
+    fixed("utime", kInt64),
+    text("operation", kMaxOperationBytes),
+    text("object", kMaxObjectNameBytes),
+    text("client_id", kMaxClientIdLength),
+    fixed("restored_revision", kInt64),
+};
+
 constexpr std::array kSceneRequest{
     text("client_id", kMaxClientIdLength),
     fixed("request_id", kInt64),
@@ -222,6 +231,8 @@ constexpr std::array kSceneRequest{
     fixed("sensor", 5 * kDouble),
     fixed("pose", 7 * kDouble),
     fixed("first", kInt32),
+    fixed("revision", kInt64),
+    text("restore_as", kMaxSceneNameBytes),
 };
 
 constexpr std::array kSceneResponse{
@@ -241,6 +252,7 @@ constexpr std::array kSceneResponse{
     fixed("map", 2 * kInt64),
     list_of("scenes", kSceneInfo),
     list_of("objects", kSceneObject),
+    list_of("changes", kSceneChange),
 };
 
 constexpr std::array kUploadPage{

@@ -3,11 +3,23 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "daemon/scene/occupancy_mirror.h"
 
 namespace camway::scene {
+namespace {
+
+StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
+  const std::vector<KeptRevision> kept = history.revisions();
+  return {nullptr, StoreFault::kInvalid,
+          "revision: " + std::to_string(revision) + " of scene '" + std::string(scene) +
+              "' is not kept; " + std::to_string(kept.front().revision) + " to " +
+              std::to_string(kept.back().revision) + " are"};
+}
+
+}  // namespace
 
 SceneStore::Turn::Turn(SceneStore& store, std::string_view scene) : store_(store) {
   std::unique_lock lock(store_.mutex_);
@@ -62,8 +74,9 @@ void SceneStore::count(const Load& before, const Load& after) {
   total_.occupancy_bytes += after.occupancy_bytes - before.occupancy_bytes;
 }
 
-StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
+StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note) {
   assert(snapshot);
+  note.when = std::chrono::system_clock::now();
   std::optional<Entry> old;  // takes its time to go, when nobody waits any more
   const Turn turn(*this, snapshot->name);
   if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
@@ -71,7 +84,8 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
     numbered->revision = next;
     snapshot = std::move(numbered);
   }
-  Entry entry{snapshot, load_of(*snapshot), SceneHistory(*snapshot, limits_.history)};
+  Entry entry{snapshot, load_of(*snapshot),
+              SceneHistory(*snapshot, limits_.history, std::move(note))};
   {
     const std::lock_guard lock(mutex_);
     if (std::string error = over_limit(*snapshot, entry.load); !error.empty()) {
@@ -87,25 +101,56 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
   return {std::move(snapshot), StoreFault::kNone, ""};
 }
 
-StoreResult SceneStore::change(std::string_view scene, SceneChange change) {
+StoreResult SceneStore::unknown(std::string_view scene) const {
+  return {nullptr, StoreFault::kUnknownScene,
+          "scene: '" + std::string(scene) + "' is unknown; " + summary()};
+}
+
+StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note) {
   const Turn turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
-  if (!before) {
-    return {nullptr, StoreFault::kUnknownScene,
-            "scene: '" + std::string(scene) + "' is unknown; " + summary()};
-  }
-  SnapshotResult result = changed(*before, change, before->revision + 1);
+  if (!before) return unknown(scene);
+  return make_next(*before, {std::move(change)}, std::move(note));
+}
+
+StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note) {
+  const Turn turn(*this, scene);
+  const std::optional<SceneHistory> known = history(scene);
+  if (!known) return unknown(scene);
+  std::optional<SceneChanges> changes = known->changes_back_to(revision);
+  if (!changes) return not_kept(scene, revision, *known);
+  note.restored_revision = revision;
+  const std::shared_ptr<const Snapshot> before = find(scene);
+  return make_next(*before, *std::move(changes), std::move(note));
+}
+
+StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revision,
+                                   std::string other, ChangeNote note) {
+  const std::optional<SceneHistory> known = history(scene);
+  if (!known) return unknown(scene);
+  const std::shared_ptr<const Snapshot> then = known->rebuild(revision);
+  if (!then) return not_kept(scene, revision, *known);
+  note.restored_revision = revision;
+  auto renamed = std::make_shared<Snapshot>(*then);
+  renamed->name = std::move(other);
+  renamed->revision = 1;
+  return put(std::move(renamed), std::move(note));
+}
+
+StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note) {
+  SnapshotResult result = changed(before, changes, before.revision + 1);
   if (!result.snapshot) return {nullptr, StoreFault::kInvalid, std::move(result.error)};
   const Load load = load_of(*result.snapshot);
+  note.when = std::chrono::system_clock::now();
   {
     const std::lock_guard lock(mutex_);
     if (std::string error = over_limit(*result.snapshot, load); !error.empty()) {
       return {nullptr, StoreFault::kLimit, std::move(error)};
     }
-    Entry& entry = scenes_.find(scene)->second;
+    Entry& entry = scenes_.find(before.name)->second;
     entry.newest = result.snapshot;
     count(std::exchange(entry.load, load), load);
-    entry.history.add(std::move(change), result.snapshot->revision);
+    entry.history.add(std::move(changes), {result.snapshot->revision, std::move(note)});
     forget_history();
   }
   tell();
@@ -162,6 +207,13 @@ std::optional<SceneHistory> SceneStore::history(std::string_view name) const {
   const auto position = scenes_.find(name);
   if (position == scenes_.end()) return std::nullopt;
   return position->second.history;
+}
+
+SceneStore::Kept SceneStore::kept(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto position = scenes_.find(name);
+  if (position == scenes_.end()) return {};
+  return {position->second.newest, position->second.history.revisions()};
 }
 
 std::vector<std::shared_ptr<const Snapshot>> SceneStore::list() const {

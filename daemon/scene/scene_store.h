@@ -53,10 +53,18 @@ class SceneStore {
 
   /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is that
   /// of the snapshot, or the next that the name has had, whichever is higher.
-  StoreResult put(std::shared_ptr<const Snapshot> snapshot);
+  StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {});
 
   /// Changes one object of a scene. Precondition as that of `changed`.
-  StoreResult change(std::string_view scene, SceneChange change);
+  StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {});
+
+  /// Makes a new revision with the objects of one that is kept. If it is not, the error says which
+  /// are.
+  StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {});
+
+  /// Makes a scene `other` of them, or replaces the one of that name; as `put`.
+  StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
+                         ChangeNote note = {});
 
   /// Whether there was such a scene.
   bool remove(std::string_view scene);
@@ -71,6 +79,14 @@ class SceneStore {
 
   /// How the newest snapshot came to be, or nothing if there is no such scene.
   [[nodiscard]] std::optional<SceneHistory> history(std::string_view name) const;
+
+  /// The newest snapshot, and all revisions that can be restored, oldest first; the last is the
+  /// newest. Empty and null if there is no such scene.
+  struct Kept {
+    std::shared_ptr<const Snapshot> newest;
+    std::vector<KeptRevision> revisions;
+  };
+  [[nodiscard]] Kept kept(std::string_view name) const;
 
   /// All scenes in order of name.
   [[nodiscard]] std::vector<std::shared_ptr<const Snapshot>> list() const;
@@ -107,6 +123,9 @@ class SceneStore {
   };
 
   static Load load_of(const Snapshot& snapshot);
+  [[nodiscard]] StoreResult unknown(std::string_view scene) const;
+  /// Precondition: it is the scene's turn, and `before` is its newest.
+  StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note);
 
   /// The lowest revision that the next scene of that name may have. Stays true while its turn
   /// lasts.

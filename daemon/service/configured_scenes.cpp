@@ -70,7 +70,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   bool all = true;
   for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
     const std::string name = snapshot->name;
-    const scene::StoreResult put = store_.put(std::move(snapshot));
+    const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
     if (put.snapshot) continue;
     log_->error("scene cannot be held", {{"scene", name}, {"reason", put.error}});
     // Tried again the next time. An older one of that name goes when it is not wanted any more.
@@ -154,7 +154,8 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   const auto source = scene::make_source(kind, std::move(*read.mesh), std::move(read.report),
                                          before->options, std::move(read.map));
   const scene::StoreResult changed = store_.change(
-      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement});
+      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement},
+      {.operation = "put", .object = scene.name});
   if (!changed.snapshot) {
     log_->warn("scene cannot be changed, what was read before stays",
                {{"scene", scene.name}, {"reason", changed.error}});

@@ -36,31 +36,6 @@ Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
   }
 }
 
-const char* name_of(std::int8_t operation) {
-  switch (operation) {
-    case scene_request_t::LOAD:
-      return "load";
-    case scene_request_t::UNLOAD:
-      return "unload";
-    case scene_request_t::LIST:
-      return "list";
-    case scene_request_t::DESCRIBE:
-      return "describe";
-    case scene_request_t::PUT:
-      return "put";
-    case scene_request_t::MOVE:
-      return "move";
-    case scene_request_t::REMOVE:
-      return "remove";
-    case scene_request_t::SCAN:
-      return "scan";
-    case scene_request_t::EXPORT:
-      return "export";
-    default:
-      return "unknown";
-  }
-}
-
 /// Of a client run all but one of the workers at most.
 FairQueue::Limits with_room_for_others(FairQueue::Limits limits, int workers) {
   limits.running_of_a_client = static_cast<std::size_t>(std::max(workers - 1, 1));
@@ -92,6 +67,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   // No scene or object of ours has a name with control characters, so nothing is lost.
   decoded.message->scene = wire::printable(decoded.message->scene);
   decoded.message->object = wire::printable(decoded.message->object);
+  decoded.message->restore_as = wire::printable(decoded.message->restore_as);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
   if (only_looks(*request)) {
     finish(*request, answer_of(*request, nullptr, context()).answer);
@@ -124,7 +100,7 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
       uploads_.find({request->client_id, request->upload_bytes, request->upload_checksum});
   Job work;
   work.client = request->client_id;
-  work.strand = request->scene;
+  work.strand = target_of(*request);
   work.run = [this, request, upload] {
     auto done = std::make_shared<Performed>(answer_of(*request, upload, context()));
     Pages map;
@@ -149,15 +125,14 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
 }
 
 void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
-  core_.limited_log.scenes.write("answered scene request",
-                                 {{"client", request.client_id},
-                                  {"request", request.request_id},
-                                  {"operation", name_of(request.operation)},
-                                  {"scene", request.scene},
-                                  {"object", request.object},
-                                  {"status", answer.status},
-                                  {"revision", answer.scene.revision},
-                                  {"message", answer.message}});
+  core_.limited_log.scenes.write("answered scene request", {{"client", request.client_id},
+                                                            {"request", request.request_id},
+                                                            {"operation", operation_name(request)},
+                                                            {"scene", request.scene},
+                                                            {"object", request.object},
+                                                            {"status", answer.status},
+                                                            {"revision", answer.scene.revision},
+                                                            {"message", answer.message}});
   const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));

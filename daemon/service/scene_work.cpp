@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -264,12 +265,24 @@ std::int32_t put_list(const Elements& elements, std::int32_t first, const Conver
                       const Answer& answer, List& list) {
   auto size = static_cast<std::size_t>(answer.getEncodedSize());
   for (std::size_t i = static_cast<std::size_t>(std::max(first, 0)); i < elements.size(); ++i) {
-    auto element = convert(*elements[i]);
+    auto element = convert(elements[i]);
     size += static_cast<std::size_t>(element._getEncodedSizeNoHash());
     if (size > wire::kMaxMessageBytes) break;
     list.push_back(std::move(element));
   }
   return static_cast<std::int32_t>(list.size());
+}
+
+scene_change_t change_on_wire(const scene::KeptRevision& kept) {
+  using std::chrono::microseconds;
+  scene_change_t wire{};
+  wire.revision = static_cast<std::int64_t>(kept.revision);
+  wire.utime = std::chrono::duration_cast<microseconds>(kept.note.when.time_since_epoch()).count();
+  wire.operation = clipped(kept.note.operation, wire::kMaxOperationBytes);
+  wire.object = clipped(kept.note.object, wire::kMaxObjectNameBytes);
+  wire.client_id = kept.note.client;
+  wire.restored_revision = static_cast<std::int64_t>(kept.note.restored_revision);
+  return wire;
 }
 
 std::int32_t status_of(scene::StoreFault fault) {
@@ -325,6 +338,10 @@ class Work {
         return scan();
       case Request::EXPORT:
         return export_map();
+      case Request::HISTORY:
+        return history();
+      case Request::RESTORE:
+        return restore();
       default:
         return invalid(fmt::format("operation: {} is unknown", request_.operation));
     }
@@ -342,6 +359,11 @@ class Work {
     return plain_scene_answer(
         request_, Answer::STATUS_UNKNOWN_SCENE,
         fmt::format("scene: '{}' is unknown; {}", request_.scene, scenes_.summary()));
+  }
+
+  /// What the scene's history says of this.
+  [[nodiscard]] scene::ChangeNote note(std::string object) const {
+    return {operation_name(request_), std::move(object), request_.client_id, 0, {}};
   }
 
   /// What the store made of a change.
@@ -374,7 +396,7 @@ class Work {
           !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
         return invalid(std::string("occupancy_resolution_m: ") + kResolutionRule);
       }
-      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
+      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options), note("")), "");
     }
     Made<Content> made = read_mesh(request_, upload_, context_);
     if (!made.value) return invalid(made.error);
@@ -383,7 +405,8 @@ class Work {
         request_.scene, source_of(*std::move(made.value), options), {}, options);
     if (!placed.object) return invalid(placed.error);
     return answer_to(
-        scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options)),
+        scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options),
+                    note("")),
         warnings);
   }
 
@@ -397,7 +420,9 @@ class Work {
     const auto scenes = scenes_.list();
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(scenes.size());
-    answer.num_scenes = put_list(scenes, request_.first, scene_info_of, answer, answer.scenes);
+    answer.num_scenes = put_list(
+        scenes, request_.first, [](const auto& scene) { return scene_info_of(*scene); }, answer,
+        answer.scenes);
     return answer;
   }
 
@@ -408,9 +433,34 @@ class Work {
     answer.scene = scene_info_of(*snapshot);
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(snapshot->objects.size());
-    answer.num_objects =
-        put_list(snapshot->objects, request_.first, object_on_wire, answer, answer.objects);
+    answer.num_objects = put_list(
+        snapshot->objects, request_.first,
+        [](const auto& object) { return object_on_wire(*object); }, answer, answer.objects);
     return answer;
+  }
+
+  Answer history() {
+    const scene::SceneStore::Kept kept = scenes_.kept(request_.scene);
+    if (!kept.newest) return unknown();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*kept.newest);
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(kept.revisions.size());
+    answer.num_changes =
+        put_list(kept.revisions, request_.first, change_on_wire, answer, answer.changes);
+    return answer;
+  }
+
+  Answer restore() {
+    const auto revision = static_cast<std::uint64_t>(std::max<std::int64_t>(request_.revision, 0));
+    if (request_.restore_as.empty()) {
+      return answer_to(scenes_.restore(request_.scene, revision, note("")), "");
+    }
+    if (!is_scene_name(request_.restore_as)) {
+      return invalid("restore_as: must be of [A-Za-z0-9_.-]{1,128}");
+    }
+    return answer_to(scenes_.restore_as(request_.scene, revision, request_.restore_as, note("")),
+                     "");
   }
 
   Answer put() {
@@ -486,7 +536,8 @@ class Work {
   }
 
   Answer change(SceneChange change, std::string_view message) {
-    return answer_to(scenes_.change(request_.scene, std::move(change)), message);
+    const std::string object = change.object;
+    return answer_to(scenes_.change(request_.scene, std::move(change), note(object)), message);
   }
 
   const Request& request_;
@@ -525,7 +576,43 @@ scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t
 
 bool only_looks(const scene_request_t& request) {
   return request.operation == scene_request_t::LIST ||
-         request.operation == scene_request_t::DESCRIBE;
+         request.operation == scene_request_t::DESCRIBE ||
+         request.operation == scene_request_t::HISTORY;
+}
+
+const std::string& target_of(const scene_request_t& request) {
+  const bool makes_another =
+      request.operation == scene_request_t::RESTORE && !request.restore_as.empty();
+  return makes_another ? request.restore_as : request.scene;
+}
+
+const char* operation_name(const scene_request_t& request) {
+  switch (request.operation) {
+    case scene_request_t::LOAD:
+      return "load";
+    case scene_request_t::UNLOAD:
+      return "unload";
+    case scene_request_t::LIST:
+      return "list";
+    case scene_request_t::DESCRIBE:
+      return "describe";
+    case scene_request_t::PUT:
+      return "put";
+    case scene_request_t::MOVE:
+      return "move";
+    case scene_request_t::REMOVE:
+      return "remove";
+    case scene_request_t::SCAN:
+      return "scan";
+    case scene_request_t::EXPORT:
+      return "export";
+    case scene_request_t::HISTORY:
+      return "history";
+    case scene_request_t::RESTORE:
+      return "restore";
+    default:
+      return "unknown";
+  }
 }
 
 Performed perform(const scene_request_t& request, const UploadedBytes& upload,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <mutex>
 #include <stop_token>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,12 @@ scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t
 
 /// Whether the operation only looks: then it may be done again at any time.
 bool only_looks(const scene_request_t& request);
+
+/// The scene that the operation changes, or looks at.
+const std::string& target_of(const scene_request_t& request);
+
+/// One word.
+const char* operation_name(const scene_request_t& request);
 
 /// What a request is carried out on. All outlive the call.
 struct SceneContext {

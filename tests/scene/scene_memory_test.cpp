@@ -94,7 +94,7 @@ TEST(SceneHistory, KeepsWhatItsBytesSay) {
       SceneChange change = random_change(random, *scene);
       scene = changed(*scene, change, scene->revision + 1).snapshot;
       ASSERT_TRUE(scene);
-      history->add(std::move(change), scene->revision);
+      history->add({std::move(change)}, {scene->revision, {}});
     }
     const auto said = static_cast<std::int64_t>(history->bytes());
     std::int64_t of_scene = 0;

@@ -78,6 +78,57 @@ TEST(SceneStore, ChangesASceneRevisionByRevision) {
   EXPECT_FALSE(store.history("attic"));
 }
 
+TEST(SceneStore, RestoresARevisionAndSaysWhichAreKept) {
+  SceneStore store({.history = {.changes = 3}});
+  store.put(revision_of("room", 1), {.operation = "load"});
+  std::vector<std::string> digests{"", store.find("room")->digest};
+  for (const char* const object : {"a", "b", "c", "d"}) {
+    const StoreResult next =
+        store.change("room", put_box(object), {"put", object, "tester", 0, {}});
+    digests.push_back(next.snapshot->digest);
+  }
+  const auto before = std::chrono::system_clock::now();
+  const StoreResult restored = store.restore("room", 3, {.operation = "restore"});
+  ASSERT_TRUE(restored.snapshot) << restored.error;
+  EXPECT_EQ(restored.snapshot->revision, 6U);
+  EXPECT_EQ(restored.snapshot->digest, digests[3]);
+  EXPECT_EQ(restored.snapshot->find("a"), store.find("room")->find("a")) << "shared";
+  EXPECT_EQ(store.restore("room", 5).snapshot->digest, digests[5]) << "nothing is lost by it";
+
+  const SceneStore::Kept kept = store.kept("room");
+  ASSERT_EQ(kept.revisions.size(), 4U);
+  EXPECT_EQ(kept.newest->revision, 7U);
+  EXPECT_EQ(kept.revisions[0].revision, 4U);
+  EXPECT_EQ(kept.revisions[0].note.object, "c");
+  EXPECT_EQ(kept.revisions[1].note.client, "tester");
+  EXPECT_EQ(kept.revisions[2].note.restored_revision, 3U);
+  EXPECT_GE(kept.revisions[2].note.when, before);
+  EXPECT_LE(kept.revisions[2].note.when, std::chrono::system_clock::now());
+
+  const StoreResult gone = store.restore("room", 3);
+  EXPECT_EQ(gone.fault, StoreFault::kInvalid);
+  EXPECT_THAT(gone.error, HasSubstr("3 of scene 'room' is not kept; 4 to 7 are"));
+  EXPECT_EQ(store.restore("attic", 3).fault, StoreFault::kUnknownScene);
+  EXPECT_EQ(store.kept("attic").newest, nullptr);
+}
+
+TEST(SceneStore, RestoresARevisionAsAnotherScene) {
+  SceneStore store;
+  store.put(revision_of("room", 1));
+  store.put(revision_of("copy", 8));
+  const std::string digest = store.change("room", put_box("a")).snapshot->digest;
+  ASSERT_TRUE(store.change("room", put_box("b")).snapshot);
+  const StoreResult copy = store.restore_as("room", 2, "copy");
+  ASSERT_TRUE(copy.snapshot) << copy.error;
+  EXPECT_EQ(copy.snapshot->name, "copy");
+  EXPECT_EQ(copy.snapshot->revision, 9U) << "it has the place of another";
+  EXPECT_EQ(copy.snapshot->digest, digest);
+  EXPECT_EQ(store.find("room")->revision, 3U);
+  EXPECT_THAT(store.restore_as("room", 4, "copy").error, HasSubstr("1 to 3 are"));
+  EXPECT_EQ(store.restore_as("attic", 4, "copy").fault, StoreFault::kUnknownScene);
+  EXPECT_TRUE(store.change("copy", put_box("c")).snapshot);
+}
+
 TEST(SceneStore, NeverTakesARevisionTwice) {
   SceneStore store;
   store.put(revision_of("room", 1));
