@@ -219,10 +219,10 @@ std::string read_map(const Record& record, const ImportOptions& options,
       VoxelMap::build(options.scale * record.header.map_resolution, *std::move(occupied),
                       *std::move(free), options.unknown, options.map_limits);
   if (!built.map) return built.error;
-  result.mesh = built.map->skin();
-  if (!result.mesh) {
+  if (!built.map->skin()) {
     return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
   }
+  result.mesh = joined(built.map->skin()->parts());
   result.map = std::move(built.map);
   return {};
 }

@@ -34,7 +34,7 @@ std::string apply(const SceneChange& change, const Snapshot& before, SceneObject
   }
   ObjectResult placed =
       place_object(change.object, change.source ? change.source : (*place)->source,
-                   change.placement, before.options);
+                   change.placement, before.options, is_there ? place->get() : nullptr);
   if (!placed.object) return placed.error;
   if (is_there) {
     *place = std::move(placed.object);
