@@ -30,7 +30,8 @@ struct WatchLimits {
   std::chrono::milliseconds longest_lease{300'000};  ///< without a word from the client
 };
 
-/// How the service behaves. Every default works.
+/// How the service behaves. Every default works; other values keep the limits, which whoever sets
+/// them sees to.
 struct ServiceConfig {
   std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
   int workers = 1;                ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
@@ -62,9 +63,6 @@ struct ServiceConfig {
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};
   LimitedLog::Limits log_limits;  ///< of what clients can provoke; `log.lines_per_s` and others
-
-  /// What is wrong with the values, or an empty text.
-  [[nodiscard]] std::string fault() const;
 };
 
 }  // namespace camway::service

@@ -179,7 +179,9 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
   scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
   if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
-    log_->error("scene cannot be read", {{"scene", scene.name}, {"reason", result.error}});
+    log_->error("scene cannot be read", {{"scene", scene.name},
+                                         {"said_at", scene.said_at},
+                                         {"reason", result.error}});
   } else {
     log_scene(*result.snapshot, scene, *log_);
   }

@@ -117,7 +117,8 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   std::string auth_error;
   const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
   if (!auth_error.empty()) {
-    log->error("keys cannot be used", {{"setting", "auth.key_file"}, {"reason", auth_error}});
+    log->error("keys cannot be used",
+               {{"setting", options.where("auth.key_file")}, {"reason", auth_error}});
     return kExitBadInput;
   }
   std::optional<AuthTransport> signing;
