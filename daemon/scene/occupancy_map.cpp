@@ -227,7 +227,7 @@ OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolutio
     std::ostringstream text;
     text << "an occupancy map of resolution " << resolution_m << " m would need more than "
          << max_voxels << " voxels for the scene extent " << describe(bounds);
-    return {nullptr, text.str()};
+    return {nullptr, text.str(), Limit::kMirrorVoxels};
   }
   return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(*std::move(tree), grid)), {}};
 }

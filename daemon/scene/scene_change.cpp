@@ -26,7 +26,7 @@ SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::u
   if (change.kind != SceneChange::Kind::kRemove) {
     ObjectResult placed = place_object(change.object, change.source ? change.source : old->source,
                                        change.placement, before.options);
-    if (!placed.object) return {nullptr, placed.error};
+    if (!placed.object) return {nullptr, placed.error, placed.limit};
     const auto position = std::ranges::lower_bound(
         objects, change.object, {},
         [](const auto& object) -> const std::string& { return object->name; });

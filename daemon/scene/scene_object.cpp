@@ -120,7 +120,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   if (options.occupancy_resolution_m) {
     OccupancyMap::BuildResult mirror = OccupancyMap::build(*mesh_W, *options.occupancy_resolution_m,
                                                            object->solid(), options.mirror_voxels);
-    if (!mirror.map) return {nullptr, name + ": " + mirror.error};
+    if (!mirror.map) return {nullptr, name + ": " + mirror.error, mirror.limit};
     object->occupancy = std::move(mirror.map);
   }
   object->name = std::move(name);

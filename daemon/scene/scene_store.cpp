@@ -9,9 +9,12 @@
 
 namespace camway::scene {
 
-std::string SceneStore::over_limit(const Snapshot& next) const {
+StoreResult SceneStore::over_limit(const Snapshot& next) const {
+  const auto over = [&](Limit limit, const std::string& what) {
+    return StoreResult{nullptr, StoreFault::kLimit, "scene '" + next.name + "': " + what, limit};
+  };
   if (next.objects.size() > limits_.objects) {
-    return "scene '" + next.name + "': more than " + std::to_string(limits_.objects) + " objects";
+    return over(Limit::kObjects, "more than " + std::to_string(limits_.objects) + " objects");
   }
   const std::lock_guard lock(mutex_);
   const auto occupancy_bytes = [](const Snapshot& snapshot) {
@@ -27,17 +30,18 @@ std::string SceneStore::over_limit(const Snapshot& next) const {
     bytes += occupancy_bytes(*entry.newest);
   }
   if (others >= limits_.scenes) {
-    return "scene '" + next.name + "': there are " + std::to_string(limits_.scenes) +
-           " scenes already";
+    return over(Limit::kScenes,
+                "there are " + std::to_string(limits_.scenes) + " scenes already");
   }
   if (triangles > limits_.triangles) {
-    return "scene '" + next.name + "': with it there would be more than " +
-           std::to_string(limits_.triangles) + " triangles in all scenes";
+    return over(Limit::kTriangles, "with it there would be more than " +
+                                       std::to_string(limits_.triangles) +
+                                       " triangles in all scenes");
   }
   if (bytes > limits_.occupancy_bytes) {
-    return "scene '" + next.name +
-           "': with it the occupancy maps of all scenes would take more than " +
-           std::to_string(limits_.occupancy_bytes) + " bytes";
+    return over(Limit::kOccupancyBytes,
+                "with it the occupancy maps of all scenes would take more than " +
+                    std::to_string(limits_.occupancy_bytes) + " bytes");
   }
   return {};
 }
@@ -45,9 +49,7 @@ std::string SceneStore::over_limit(const Snapshot& next) const {
 StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot) {
   assert(snapshot);
   const std::lock_guard changing(changing_);
-  if (std::string error = over_limit(*snapshot); !error.empty()) {
-    return {nullptr, StoreFault::kLimit, std::move(error)};
-  }
+  if (StoreResult over = over_limit(*snapshot); over.fault != StoreFault::kNone) return over;
   std::optional<Entry> old;  // takes its time to go, when nobody waits any more
   {
     const std::lock_guard lock(mutex_);
@@ -75,10 +77,12 @@ StoreResult SceneStore::change(std::string_view scene, SceneChange change) {
             "scene: '" + std::string(scene) + "' is unknown; " + summary()};
   }
   SnapshotResult result = changed(*before, change, before->revision + 1);
-  if (!result.snapshot) return {nullptr, StoreFault::kInvalid, std::move(result.error)};
-  if (std::string error = over_limit(*result.snapshot); !error.empty()) {
-    return {nullptr, StoreFault::kLimit, std::move(error)};
+  if (!result.snapshot) {
+    const bool is_limit = result.limit != Limit::kNone;
+    return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
+            result.limit};
   }
+  if (StoreResult over = over_limit(*result.snapshot); over.fault != StoreFault::kNone) return over;
   {
     const std::lock_guard lock(mutex_);
     Entry& entry = scenes_.find(scene)->second;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/scene/limit.h"
 #include "daemon/scene/scene_change.h"
 #include "daemon/scene/snapshot.h"
 
@@ -33,7 +34,8 @@ enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit };
 struct StoreResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< the newest now; null on error
   StoreFault fault = StoreFault::kNone;
-  std::string error;  ///< empty exactly when `snapshot` is set
+  std::string error;           ///< empty exactly when `snapshot` is set
+  Limit limit = Limit::kNone;  ///< of `StoreFault::kLimit`
 };
 
 /// The scenes that a daemon holds, by name: the newest snapshot of each, and how it came to be. A
@@ -78,8 +80,8 @@ class SceneStore {
     SceneHistory history;
   };
 
-  /// What speaks against `next` in the place of the scene of its name; empty if nothing does.
-  [[nodiscard]] std::string over_limit(const Snapshot& next) const;
+  /// What speaks against `next` in the place of the scene of its name; of no fault if nothing does.
+  [[nodiscard]] StoreResult over_limit(const Snapshot& next) const;
 
   /// Shortens the longest histories until all keep to the limit. Precondition: mutex_ is held.
   void forget_history();

@@ -16,7 +16,7 @@ SnapshotResult build(std::string name, Mesh mesh, ImportReport report, const Obj
   ObjectResult result = place_object(
       name, make_source(kind, std::move(mesh), std::move(report), options, std::move(map)), {},
       options);
-  if (!result.object) return {nullptr, result.error};
+  if (!result.object) return {nullptr, result.error, result.limit};
   return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
 }
 
@@ -127,7 +127,7 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
                              const SnapshotOptions& options, const std::stop_token& stop) {
   ImportResult import = import_mesh(file, options.import, stop);
-  if (!import.mesh) return {nullptr, import.error};
+  if (!import.mesh) return {nullptr, import.error, import.limit};
   SnapshotResult result = build(std::move(name), std::move(*import.mesh), std::move(import.report),
                                 options, std::move(import.map));
   if (!result.snapshot) result.error = file.string() + ": " + result.error;

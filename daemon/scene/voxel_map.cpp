@@ -90,7 +90,7 @@ VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet 
     return {nullptr, "has a resolution that is not between 1e-9 and 1e9 m"};
   }
   if (occupied.size() > limits.voxels || free.size() > limits.voxels) {
-    return {nullptr, too_many(limits, "occupied or free voxels")};
+    return {nullptr, too_many(limits, "occupied or free voxels"), Limit::kMapVoxels};
   }
   std::shared_ptr<VoxelMap> map(
       new VoxelMap(resolution_m, std::move(occupied), std::move(free), unknown));
@@ -101,7 +101,8 @@ VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet 
   if (unknown == UnknownSpace::kOccupied && knows_something) {
     const VoxelSet::Range range = with_a_layer_about(joined(map->occupied_, map->free_));
     if (volume(range) > static_cast<double>(limits.voxels)) {
-      return {nullptr, too_many(limits, "voxels in its box, which the unknown fills")};
+      return {nullptr, too_many(limits, "voxels in its box, which the unknown fills"),
+              Limit::kMapVoxels};
     }
     map->solid_ = map->free_.complement_in(range);
     map->occupied_.for_each([&](const Voxel& voxel) { map->solid_.insert(voxel); });

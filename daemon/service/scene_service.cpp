@@ -169,7 +169,8 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
   ++core_.counters.overloaded;
   const std::string_view message = why == Refusal::kStopping
                                        ? "the daemon is stopping"
-                                       : "too many changes of scenes wait; send it again later";
+                                       : "too many changes of scenes wait (scenes.waiting_changes and "
+                                         "scenes.waiting_changes_of_a_client); send it again later";
   core_.limited_log.refused.write(
       "refused scene request",
       {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});

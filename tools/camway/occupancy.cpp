@@ -60,7 +60,7 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
-    return ExitCode::kOurFault;
+    return ExitCode::kInvalidInput;
   }
   batch.scene = flags.daemon_scene;
   const OccupancyAnswer answer = client.occupancy(batch);
@@ -141,7 +141,7 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
                    "Write the map as OctoMap's .bt, which octovis opens; with --scene")
       ->type_name("FILE")
       ->excludes(daemon);
-  command->footer(exit_code_help("", /*asks_daemon=*/true) +
+  command->footer(exit_code_help("the daemon's deadline came first", /*asks_daemon=*/true) +
                   "\nCoordinates are metres in the scene's frame; write --point=-1,2,3 if the "
                   "first is negative."
                   "\nExample: camway occupancy --scene office.obj --resolution 0.1 --point 3,1.5,4 "
