@@ -46,7 +46,8 @@ struct ServiceConfig {
   /// Answers to messages that cannot be read, to whomever, and at once: they must not keep those
   /// that others wait for. [Limit: 1 <= value]
   double malformed_answers_per_s = 100.0;
-  DeadlineLimits deadline;
+  DeadlineLimits deadline;            ///< of plan requests
+  DeadlineLimits occupancy_deadline;  ///< of batches of occupancy queries
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;
   PageAssembly<plan_request_t>::Limits assembly;

@@ -35,6 +35,7 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
 std::vector<std::string> contradictions(const DaemonOptions& options) {
   std::vector<std::string> faults;
   check_deadlines(options, "planning", options.service.deadline, faults);
+  check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
   return faults;
 }
 

@@ -148,6 +148,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
       add_distrusted(signing->distrusted(), status);
       signing->tell_left_out();
     }
+    status.signed_only = signing && options.auth.required ? 1 : 0;
     if (metrics.page) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();

@@ -131,6 +131,8 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
       {"planning.keyframes", &service.keyframes, 2, static_cast<double>(planning::kMaxKeyframes)},
       {"planning.drain_s", &service.drain_limit, 0, kDayS},
+      {"occupancy.deadline_s", &service.occupancy_deadline.default_s, 1e-3, kDayS},
+      {"occupancy.max_deadline_s", &service.occupancy_deadline.max_s, 1e-3, kDayS},
       {"queue.requests", &service.queue.jobs, 1, kQueue},
       {"queue.requests_of_a_client", &service.queue.jobs_of_a_client, 1, kQueue},
       {"queue.remembered_clients", &service.queue.remembered_clients, 2, 1e6},

@@ -22,6 +22,7 @@ struct OccupancyFlags {
   std::string prefix = "CAMWAY";
   std::string key_file;
   double timeout_s = ClientOptions{}.deadline_s;
+  double deadline_s = 0.0;  ///< 0: the daemon's
   std::optional<double> resolution_m;
   OccupancyTexts queries;
   std::string map_file;
@@ -63,6 +64,7 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
     return ExitCode::kInvalidInput;
   }
   batch.scene = flags.daemon_scene;
+  batch.deadline_s = flags.deadline_s;
   const OccupancyAnswer answer = client.occupancy(batch);
   if (!answer.ok()) return report_failure(answer.status, answer.error, flags.key_file);
   fmt::print(stderr, "camway: scene {}, revision {}, voxels of {} m\n", flags.daemon_scene,
@@ -135,6 +137,12 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   add_key_file(*command, flags->key_file)->needs(daemon);
   add_timeout(*command, flags->timeout_s)->needs(daemon);
+  command
+      ->add_option("--deadline-s", flags->deadline_s,
+                   "How long the daemon may take for each message of queries, seconds; 0: its own")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(daemon)
+      ->capture_default_str();
   add_queries(*command, flags->queries);
   command
       ->add_option("--write", flags->map_file,
