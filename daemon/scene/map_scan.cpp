@@ -70,8 +70,8 @@ VoxelMapResult fault_of(const VoxelMap& map, const Scan& scan, double most_voxel
     const double share = length_m > longest_m ? longest_m / length_m : 1.0;
     const double passed = share * ray.lpNorm<1>() / map.resolution_m() + 3.0;
     if (passed > kMostRayVoxels) {
-      return {nullptr, "points_m[" + std::to_string(i) +
-                           "]: its ray is too long; use a lower max_range_m"};
+      return {nullptr,
+              "points_m[" + std::to_string(i) + "]: its ray is too long; use a lower max_range_m"};
     }
     voxels += passed;
   }

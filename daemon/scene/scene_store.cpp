@@ -30,8 +30,7 @@ StoreResult SceneStore::over_limit(const Snapshot& next) const {
     bytes += occupancy_bytes(*entry.newest);
   }
   if (others >= limits_.scenes) {
-    return over(Limit::kScenes,
-                "there are " + std::to_string(limits_.scenes) + " scenes already");
+    return over(Limit::kScenes, "there are " + std::to_string(limits_.scenes) + " scenes already");
   }
   if (triangles > limits_.triangles) {
     return over(Limit::kTriangles, "with it there would be more than " +

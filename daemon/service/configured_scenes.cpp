@@ -73,7 +73,8 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     const std::string name = snapshot->name;
     const scene::StoreResult put = store_.put(std::move(snapshot));
     if (put.snapshot) continue;
-    log_->error("scene cannot be held", {{"scene", name}, {"reason", with_setting(put.error, put.limit)}});
+    log_->error("scene cannot be held",
+                {{"scene", name}, {"reason", with_setting(put.error, put.limit)}});
     // Tried again the next time. An older one of that name goes when it is not wanted any more.
     for (Held& held : held_) {
       if (held.scene.name == name) held.stamp = {};

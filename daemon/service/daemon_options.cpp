@@ -149,8 +149,9 @@ std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
   if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return {fault};
   if (options.scenes.empty() && options.scene_roots.empty()) {
-    return {"no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
-            "--scene-roots where clients may load scenes from"};
+    return {
+        "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
+        "--scene-roots where clients may load scenes from"};
   }
   for (SceneArgument& scene : options.scenes) {
     scene.options.import.map_limits = options.service.scene_rules.maps;

@@ -58,9 +58,10 @@ std::string apply_group(std::string_view text, LcmNetwork& network) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   network.group = text.substr(0, colon);
   if (!is_multicast_group(network.group)) {
-    return fmt::format("'{}' is no multicast group: an IPv4 address from 224.0.0.0 to "
-                       "239.255.255.255",
-                       network.group);
+    return fmt::format(
+        "'{}' is no multicast group: an IPv4 address from 224.0.0.0 to "
+        "239.255.255.255",
+        network.group);
   }
   if (colon == text.size()) return {};
   return read_number("port", text.substr(colon + 1), 1, std::numeric_limits<std::uint16_t>::max(),
@@ -76,9 +77,10 @@ LcmNetwork parse_lcm_url(const std::string& url) {
   const std::size_t scheme = url.find(kColon);
   const std::string_view provider = std::string_view(url).substr(0, scheme);
   if (scheme == std::string::npos || std::ranges::find(kProviders, provider) == kProviders.end()) {
-    network.fault = fmt::format("must begin with a provider of LCM that sends and receives, as in "
-                                "udpm:// ({})",
-                                fmt::join(kProviders, ", "));
+    network.fault = fmt::format(
+        "must begin with a provider of LCM that sends and receives, as in "
+        "udpm:// ({})",
+        fmt::join(kProviders, ", "));
     return network;
   }
   network.multicast = provider == kMulticast;

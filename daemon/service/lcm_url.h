@@ -19,8 +19,8 @@ struct LcmNetwork {
 };
 
 /// Reads `url`, e.g. "udpm://239.255.76.67:7667?ttl=0". A provider must be one that can send and
-/// receive; of others than udpm nothing else is looked at. Stricter than LCM, which takes a ttl that
-/// is no number for 0 and an option that it does not know for none. [Source: lcm_udpm.c of LCM
+/// receive; of others than udpm nothing else is looked at. Stricter than LCM, which takes a ttl
+/// that is no number for 0 and an option that it does not know for none. [Source: lcm_udpm.c of LCM
 /// 1.3.1]
 LcmNetwork parse_lcm_url(const std::string& url);
 

@@ -140,8 +140,7 @@ void OccupancyService::begin(const Request& request,
                                          std::chrono::duration<double>(deadline.remaining_s()));
   work.run = [this, request, deadline, snapshot = std::move(snapshot)] {
     auto answer = std::make_shared<const Response>(answer_of(*snapshot, *request, deadline));
-    core_.mailbox.post(
-        [this, request, answer = std::move(answer)] { finish(request, *answer); });
+    core_.mailbox.post([this, request, answer = std::move(answer)] { finish(request, *answer); });
   };
   work.abandon = [this, request](Refusal why) { abandon(request, why); };
   core_.submit(std::move(work));
@@ -172,14 +171,12 @@ void OccupancyService::finish(const Request& request, Response answer) {
 void OccupancyService::send(occupancy_response_t answer) {
   answer.utime = utime_now();
   core_.counters.occupancy_answers.add(answer.status);
-  core_.limited_log.occupancy.write(
-      "answered occupancy request",
-      {{"client", answer.client_id},
-       {"request", answer.request_id},
-       {"scene", answer.scene},
-       {"status", answer.status},
-       {"queries", queries_of(answer)},
-       {"message", answer.message}});
+  core_.limited_log.occupancy.write("answered occupancy request", {{"client", answer.client_id},
+                                                                   {"request", answer.request_id},
+                                                                   {"scene", answer.scene},
+                                                                   {"status", answer.status},
+                                                                   {"queries", queries_of(answer)},
+                                                                   {"message", answer.message}});
   const bool was_asked_of_a_map = answer.status == occupancy_response_t::STATUS_OK;
   if (core_.outbox.add(core_.channels.occupancy_response(answer.client_id),
                        std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)), {},

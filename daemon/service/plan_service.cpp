@@ -314,8 +314,7 @@ void PlanService::plan_broken(Clock::time_point now) {
   const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
   if (replanning_ >= most) return;
   for (Watches::Broken& broken : watches_.take_broken(most - replanning_, now)) {
-    const double deadline_s =
-        deadline_of(broken.request->deadline_s, core_.config.deadline);
+    const double deadline_s = deadline_of(broken.request->deadline_s, core_.config.deadline);
     const Replan replan{std::move(broken.key), std::move(broken.request),
                         collision::Deadline::after_s(deadline_s)};
     ++replanning_;

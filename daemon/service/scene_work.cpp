@@ -223,7 +223,8 @@ Made<scene::SensorModel> sensor_of(const Request& request) {
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
   std::optional<scene::Mesh> mesh = map->skin();
   if (!mesh) {
-    return {std::nullopt, fmt::format("the map has more than {} triangles", map->limits().triangles),
+    return {std::nullopt,
+            fmt::format("the map has more than {} triangles", map->limits().triangles),
             scene::Limit::kMapTriangles};
   }
   scene::ImportReport report = scene::report_of(*mesh, "OctoMap");

@@ -106,8 +106,8 @@ class FakeDaemon {
 
   static void take_cancel_occupancy(const lcm::ReceiveBuffer* buffer, const std::string&,
                                     FakeDaemon* self) {
-    const auto decoded = wire::decode<cancel_t>(
-        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    const auto decoded =
+        wire::decode<cancel_t>({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
     if (!decoded.message || !self->on_cancel_occupancy) return;
     for (const Bytes& bytes : self->on_cancel_occupancy(*decoded.message)) {
       self->publish(self->channels_.occupancy_response(decoded.message->client_id), bytes);

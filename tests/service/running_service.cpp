@@ -67,8 +67,7 @@ planning::PlanResult echo_result(const planning::PlanRequest& request) {
 }
 
 RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result,
-                               service::ServiceHooks hooks,
-                               const scene::SceneStoreLimits& limits)
+                               service::ServiceHooks hooks, const scene::SceneStoreLimits& limits)
     : scenes(limits), planner(std::move(result)), channels{config.prefix} {
   scenes.put(empty_scene("room"));
   scenes.put(empty_scene("hall"));

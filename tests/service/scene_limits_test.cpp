@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/scene/occupancy_mirror.h"
+#include "daemon/scene/shape_mesh.h"
 #include "lcmtypes/checksum.h"
 #include "tests/service/running_service.h"
 
@@ -26,21 +27,29 @@ ServiceConfig tight_rules() {
   return config;
 }
 
+constexpr double kCell_m = 0.5;
+
+/// Of the mirror of a box in the middle.
+std::uint64_t mirror_bytes(double side_m) {
+  const scene::ShapeMesh box = scene::box_mesh(geometry::Vec3::Constant(side_m));
+  return scene::OccupancyMap::build(*box.mesh, kCell_m).map->statistics().memory_bytes;
+}
+
 scene::SceneStoreLimits tight_store() {
   scene::SceneStoreLimits limits;
   limits.scenes = 3;  // with the two that are always there
   limits.objects = 3;
   limits.triangles = 200;
-  limits.occupancy_bytes = 2000;
+  limits.occupancy_bytes = 3 * mirror_bytes(1.0);
   return limits;
 }
 
-/// A scene "s" with a mirror of voxels of 0.5 m, in a daemon that allows little.
+/// A scene "s" with a mirror of voxels of `kCell_m`, in a daemon that allows little.
 class SceneLimits : public ::testing::Test {
  protected:
   SceneLimits() {
     scene_request_t load = request_for(scene_request_t::LOAD, "s");
-    load.occupancy_resolution_m = 0.5;
+    load.occupancy_resolution_m = kCell_m;
     expect_ok(load);
   }
 
@@ -121,7 +130,8 @@ TEST_F(SceneLimits, OfTheStoreNameTheirSettings) {
   expect_limit(request_for(scene_request_t::LOAD, "t"), "scenes.scenes");
   for (const char* name : {"a", "b", "c"}) expect_ok(put_box(name, 1.0));
   expect_limit(put_box("d", 1.0), "scenes.objects");
-  expect_limit(put_box("a", 6.0), "scenes.occupancy_bytes");
+  ASSERT_GT(mirror_bytes(4.0), mirror_bytes(1.0));
+  expect_limit(put_box("a", 4.0), "scenes.occupancy_bytes");
   scene_request_t ball = request_for(scene_request_t::PUT, "s", "a");
   ball.kind = scene_request_t::SPHERE;
   ball.radius_m = 0.5;
@@ -136,7 +146,7 @@ TEST_F(SceneLimits, OfMirrorsNameTheirSetting) {
   // The same where a scene with a mirror is loaded at once.
   const std::string text = "v 0 0 0\nv 90 0 0\nv 0 90 0\nf 1 2 3\n";
   scene_request_t load = request_for(scene_request_t::LOAD, "s");
-  load.occupancy_resolution_m = 0.5;
+  load.occupancy_resolution_m = kCell_m;
   load.upload_format = "obj";
   upload(Bytes(text.begin(), text.end()), load);
   expect_limit(load, "scenes.mirror_voxels");

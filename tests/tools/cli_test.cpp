@@ -19,8 +19,8 @@ using ::testing::StartsWith;
 
 /// With the exit codes beside 0, 1 and 2 that the table in README.md names for them.
 const std::vector<std::pair<std::string, std::string>> kCommands{
-    {"plan", "3"},   {"check", "3"}, {"info", ""},    {"occupancy", "34"},
-    {"load", "34"},  {"draw", ""},   {"replay", "3"}, {"scene", "4"},
+    {"plan", "3"},   {"check", "3"},  {"info", ""},    {"occupancy", "34"},
+    {"load", "34"},  {"draw", ""},    {"replay", "3"}, {"scene", "4"},
     {"status", "4"}, {"watch", "34"}, {"doctor", "3"}};
 
 TEST(Cli, HelpsWithUnitsExitCodesAndAnExample) {

@@ -143,9 +143,9 @@ ExitCode load_occupancy(const LoadFlags& flags) {
       load_timed(parsed.scene->name, parsed.scene->file.string(), parsed.scene->options);
   if (!scene.result.snapshot) return invalid_input(scene.result.error);
   const scene::Snapshot& snapshot = *scene.result.snapshot;
-  const OccupancyLoad load = run_occupancy_load(*snapshot.occupancy, snapshot.index.bounds(),
-                                                {snapshot.name, snapshot.digest},
-                                                flags.occupancy_queries, flags.run);
+  const OccupancyLoad load =
+      run_occupancy_load(*snapshot.occupancy, snapshot.index.bounds(),
+                         {snapshot.name, snapshot.digest}, flags.occupancy_queries, flags.run);
   if (load.batches == 0) return report_failure(load.status, load.error, flags.key_file);
   const Percentiles latency = percentiles(load.latency_ms);
   fmt::print(

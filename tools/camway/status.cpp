@@ -158,9 +158,8 @@ void print_traffic(const DaemonStatus& status) {
       "distrusted   {} unsigned{}, {} broken, {} of unknown keys, {} altered, {} stale, {} "
       "replayed, {} of too many senders\n",
       status.unsigned_messages, status.signed_only ? " (all are dropped)" : "",
-      status.broken_envelopes, status.unknown_key_messages,
-      status.altered_messages, status.stale_messages, status.replayed_messages,
-      status.crowded_messages);
+      status.broken_envelopes, status.unknown_key_messages, status.altered_messages,
+      status.stale_messages, status.replayed_messages, status.crowded_messages);
 }
 
 void print_text(const DaemonStatus& status) {
