@@ -221,11 +221,11 @@ std::string read_map(const Record& record, const ImportOptions& options,
                       *std::move(free), options.unknown, options.map_limits);
   result.limit = built.limit;
   if (!built.map) return built.error;
-  result.mesh = built.map->skin();
-  if (!result.mesh) {
+  if (!built.map->skin()) {
     result.limit = Limit::kMapTriangles;
     return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
   }
+  result.mesh = joined(built.map->skin()->parts());
   result.map = std::move(built.map);
   return {};
 }

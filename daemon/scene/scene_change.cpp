@@ -25,7 +25,7 @@ SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::u
                        [&](const auto& object) { return object->name != change.object; });
   if (change.kind != SceneChange::Kind::kRemove) {
     ObjectResult placed = place_object(change.object, change.source ? change.source : old->source,
-                                       change.placement, before.options);
+                                       change.placement, before.options, old);
     if (!placed.object) return {nullptr, placed.error, placed.limit};
     const auto position = std::ranges::lower_bound(
         objects, change.object, {},

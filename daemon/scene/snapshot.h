@@ -55,7 +55,8 @@ struct SnapshotResult {
   Limit limit = Limit::kNone;                ///< that the error is about
 };
 
-/// Puts objects together to a scene. Costs what there are objects, whatever is in them.
+/// Puts objects together to a scene. Costs what there are objects and parts of them, whatever is in
+/// these.
 /// Preconditions: in order of name, each once; built with `options`.
 std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
                                          SceneObjects objects, const ObjectOptions& options);

@@ -150,11 +150,13 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   // Two maps may have the same faces, and one be solid where the other is not.
   const bool is_same =
       !read.map && !object->source->map_O &&
-      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->mesh_O);
+      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->parts_O.front().mesh);
   if (is_same) return true;
-  const auto kind = read.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
-  const auto source = scene::make_source(kind, std::move(*read.mesh), std::move(read.report),
-                                         before->options, std::move(read.map));
+  const std::shared_ptr<const scene::ObjectSource> source =
+      read.map
+          ? scene::make_map_source(std::move(read.map), std::move(read.report), before->options)
+          : scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh),
+                               std::move(read.report), before->options);
   const scene::StoreResult changed = store_.change(
       scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement});
   if (!changed.snapshot) {

@@ -77,15 +77,18 @@ struct Made {
 /// What an object will be made of.
 struct Content {
   scene::ObjectKind kind;
-  scene::Mesh mesh;
+  scene::Mesh mesh;  ///< of a map: none
   scene::ImportReport report;
   std::shared_ptr<const scene::VoxelMap> map = nullptr;
 };
 
 std::shared_ptr<const scene::ObjectSource> source_of(Content content,
                                                      const scene::ObjectOptions& options) {
+  if (content.map) {
+    return scene::make_map_source(std::move(content.map), std::move(content.report), options);
+  }
   return scene::make_source(content.kind, std::move(content.mesh), std::move(content.report),
-                            options, std::move(content.map));
+                            options);
 }
 
 Vec3 vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
@@ -219,17 +222,15 @@ Made<scene::SensorModel> sensor_of(const Request& request) {
   return {sensor, {}};
 }
 
-/// The object that is a map; its faces are made here.
+/// The object that is a map.
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
-  std::optional<scene::Mesh> mesh = map->skin();
-  if (!mesh) {
+  if (!map->skin()) {
     return {std::nullopt,
             fmt::format("the map has more than {} triangles", map->limits().triangles),
             scene::Limit::kMapTriangles};
   }
-  scene::ImportReport report = scene::report_of(*mesh, "OctoMap");
-  return {Content{scene::ObjectKind::kMap, *std::move(mesh), std::move(report), std::move(map)},
-          {}};
+  scene::ImportReport report = scene::report_of(*map, "OctoMap");
+  return {Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map)}, {}};
 }
 
 Made<Content> empty_map(const Request& request, const SceneRules& rules) {
@@ -285,10 +286,10 @@ scene_object_t object_on_wire(const scene::SceneObject& object) {
   wire.name = clipped(object.name, wire::kMaxObjectNameBytes);
   wire.kind = scene::to_string(object.source->kind);
   wire.digest = object.digest;
-  wire.num_triangles = static_cast<std::int64_t>(object.placed->mesh->triangles.size());
+  wire.num_triangles = static_cast<std::int64_t>(object.triangles);
   std::copy_n(object.placement.position_W().data(), 3, wire.position_m);
   std::copy_n(geometry::wxyz(object.placement.orientation_WO()).data(), 4, wire.orientation_wxyz);
-  if (const geometry::Box& bounds = object.placed->tree.bounds(); !bounds.isEmpty()) {
+  if (const geometry::Box& bounds = object.bounds_W; !bounds.isEmpty()) {
     std::copy_n(bounds.min().data(), 3, wire.bounds_min_m);
     std::copy_n(bounds.max().data(), 3, wire.bounds_max_m);
   }

@@ -62,9 +62,7 @@ std::shared_ptr<const ObjectSource> random_source(std::mt19937_64& random) {
     voxels.insert(Voxel{at(), at(), at()});
   }
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  Mesh mesh = *map->skin();
-  const ImportReport report = report_of(mesh, "OctoMap");
-  return make_source(ObjectKind::kMap, std::move(mesh), report, options, map);
+  return make_map_source(map, report_of(*map, "OctoMap"), options);
 }
 
 SceneChange random_change(std::mt19937_64& random, const Snapshot& scene) {
