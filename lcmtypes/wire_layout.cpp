@@ -167,6 +167,7 @@ constexpr std::array kOccupancyRequest{
     fixed("request_id", kInt64),
     fixed("utime", kInt64),
     text("scene", kMaxSceneNameBytes),
+    fixed("deadline_s", kDouble),
     list("points_m", 3 * kDouble),
     list("boxes_m", 6 * kDouble),
     list("spheres_m", 4 * kDouble),
@@ -313,6 +314,7 @@ constexpr std::array kStatus{
     list("planning.buckets", kInt64),
     fixed("watched_paths", kInt32),
     fixed("broken_paths", kInt64),
+    fixed("signed_only", kByte),
     fixed("total_scenes", kInt32),
     list_of("scenes", kSceneInfo),
 };

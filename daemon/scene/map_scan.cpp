@@ -125,31 +125,36 @@ class Updater {
   float occupied_;
 };
 
-/// Why the scan cannot be taken, or nothing.
-std::string fault_of(const VoxelMap& map, const Scan& scan, double most_voxels) {
+/// Why the scan cannot be taken; without an error if it can.
+VoxelMapResult fault_of(const VoxelMap& map, const Scan& scan, double most_voxels) {
   const VoxelGrid grid(map.resolution_m());
   // A voxel less than there are: single precision rounds on its own.
   const double reach_m = (VoxelGrid::kMaxVoxel - 1) * map.resolution_m();
   const auto fits = [&](const Vec3& at) { return (at.array().abs() < reach_m).all(); };
   const std::string beyond =
       "is not finite or beyond the map's keys, " + std::to_string(reach_m) + " m";
-  if (!fits(scan.origin_O)) return "origin: " + beyond;
+  if (!fits(scan.origin_O)) return {nullptr, "origin: " + beyond};
   double voxels = 0.0;
   for (std::size_t i = 0; i < scan.points_O.size(); ++i) {
-    if (!fits(scan.points_O[i])) return "points_m[" + std::to_string(i) + "]: " + beyond;
+    if (!fits(scan.points_O[i])) {
+      return {nullptr, "points_m[" + std::to_string(i) + "]: " + beyond};
+    }
     const Vec3 ray = scan.points_O[i] - scan.origin_O;
     const double length_m = ray.norm();
     const double longest_m = map.sensor().max_range_m;
     const double share = length_m > longest_m ? longest_m / length_m : 1.0;
     const double passed = share * ray.lpNorm<1>() / map.resolution_m() + 3.0;
     if (passed > kMostRayVoxels) {
-      return "points_m[" + std::to_string(i) + "]: its ray is too long; use a lower max_range_m";
+      return {nullptr,
+              "points_m[" + std::to_string(i) + "]: its ray is too long; use a lower max_range_m"};
     }
     voxels += passed;
   }
   if (voxels > most_voxels) {
-    return "points_m: their rays pass more than " + std::to_string(std::llround(most_voxels)) +
-           " voxels; send fewer points, or use a lower max_range_m";
+    return {nullptr,
+            "points_m: their rays pass more than " + std::to_string(std::llround(most_voxels)) +
+                " voxels; send fewer points, or use a lower max_range_m",
+            Limit::kScanVoxels};
   }
   return {};
 }
@@ -157,8 +162,9 @@ std::string fault_of(const VoxelMap& map, const Scan& scan, double most_voxels) 
 }  // namespace
 
 VoxelMapResult scanned(const VoxelMap& before, const Scan& scan, double most_voxels) {
-  if (std::string fault = fault_of(before, scan, most_voxels); !fault.empty())
-    return {nullptr, fault};
+  if (VoxelMapResult fault = fault_of(before, scan, most_voxels); !fault.error.empty()) {
+    return fault;
+  }
   const std::unique_ptr<const OcTree> model = model_of(before);
   const Seen seen = seen_in(scan, before.sensor().max_range_m, *model);
   const Updater updater(*model);

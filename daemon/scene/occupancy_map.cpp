@@ -243,7 +243,7 @@ OccupancyMap::BuildResult OccupancyMap::build(Meshes meshes, double resolution_m
     for (const Mesh* mesh : meshes) {
       for (const Vec3& vertex : mesh->vertices) bounds.extend(vertex);
     }
-    return {nullptr, too_many(bounds, resolution_m, max_voxels)};
+    return {nullptr, too_many(bounds, resolution_m, max_voxels), Limit::kMirrorVoxels};
   }
   return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(*std::move(tree), grid)), {}};
 }
@@ -255,7 +255,7 @@ OccupancyMap::BuildResult OccupancyMap::of_map(const VoxelMap& map, const Box& b
   const double resolution_m = map.resolution_m();
   if (std::string error = refusal(bounds, resolution_m); !error.empty()) return {nullptr, error};
   if (map.solid().size() > max_voxels) {
-    return {nullptr, too_many(bounds, resolution_m, max_voxels)};
+    return {nullptr, too_many(bounds, resolution_m, max_voxels), Limit::kMirrorVoxels};
   }
   VoxelTree tree = mirror_before != nullptr
                        ? mirror_before->tree_.updated(map_before->solid(), map.solid())

@@ -10,6 +10,7 @@
 
 #include "daemon/geometry/types.h"
 #include "daemon/scene/box_costs.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_grid.h"
 #include "daemon/scene/voxel_map.h"
@@ -45,6 +46,7 @@ class OccupancyMap {
   struct BuildResult {
     std::shared_ptr<const OccupancyMap> map;  ///< null on error
     std::string error;                        ///< empty exactly when `map` is set
+    Limit limit = Limit::kNone;               ///< that the error is about
   };
 
   /// Exact triangle-box overlap for every voxel, not point samples. Refuses, with an error that

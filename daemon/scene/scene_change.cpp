@@ -21,12 +21,12 @@ SceneObjects::iterator place_of(const std::string& name, SceneObjects& objects) 
       objects, name, {}, [](const auto& object) -> const std::string& { return object->name; });
 }
 
-/// What is wrong with the change; empty if it was made.
-std::string apply(const SceneChange& change, const Snapshot& before, SceneObjects& objects) {
+/// What is wrong with the change; without an error if it was made.
+SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObjects& objects) {
   const auto place = place_of(change.object, objects);
   const bool is_there = place != objects.end() && (*place)->name == change.object;
   if (!is_there && change.kind != SceneChange::Kind::kPut) {
-    return "object: '" + change.object + "' is not in scene '" + before.name + "'";
+    return {nullptr, "object: '" + change.object + "' is not in scene '" + before.name + "'"};
   }
   if (change.kind == SceneChange::Kind::kRemove) {
     objects.erase(place);
@@ -35,7 +35,7 @@ std::string apply(const SceneChange& change, const Snapshot& before, SceneObject
   ObjectResult placed =
       place_object(change.object, change.source ? change.source : (*place)->source,
                    change.placement, before.options, is_there ? place->get() : nullptr);
-  if (!placed.object) return placed.error;
+  if (!placed.object) return {nullptr, placed.error, placed.limit};
   if (is_there) {
     *place = std::move(placed.object);
   } else {
@@ -44,20 +44,13 @@ std::string apply(const SceneChange& change, const Snapshot& before, SceneObject
   return {};
 }
 
-bool same_place(const Placement& a, const Placement& b) {
-  return a.position_W() == b.position_W() &&
-         a.orientation_WO().coeffs() == b.orientation_WO().coeffs();
-}
-
 }  // namespace
 
 SnapshotResult changed(const Snapshot& before, const SceneChanges& changes,
                        std::uint64_t revision) {
   SceneObjects objects = before.objects;
   for (const SceneChange& change : changes) {
-    if (std::string error = apply(change, before, objects); !error.empty()) {
-      return {nullptr, std::move(error)};
-    }
+    if (SnapshotResult fault = apply(change, before, objects); !fault.error.empty()) return fault;
   }
   return {assemble(before.name, revision, std::move(objects), before.options), ""};
 }
@@ -155,7 +148,7 @@ std::optional<SceneChanges> SceneHistory::changes_back_to(std::uint64_t revision
     const auto now = newest_.objects.find(name);
     if (now == newest_.objects.end() || now->second.source != placed.source) {
       changes.push_back({SceneChange::Kind::kPut, name, placed.source, placed.placement});
-    } else if (!same_place(now->second.placement, placed.placement)) {
+    } else if (!(now->second.placement == placed.placement)) {
       changes.push_back({SceneChange::Kind::kMove, name, nullptr, placed.placement});
     }
   }

@@ -230,7 +230,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   object->digest = digest_of(*object);
   if (options.occupancy_resolution_m) {
     OccupancyMap::BuildResult mirror = mirror_of(*object, options, before);
-    if (!mirror.map) return {nullptr, name + ": " + mirror.error};
+    if (!mirror.map) return {nullptr, name + ": " + mirror.error, mirror.limit};
     object->occupancy = std::move(mirror.map);
   }
   object->name = std::move(name);

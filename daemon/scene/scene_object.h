@@ -11,6 +11,7 @@
 #include "daemon/scene/distance_field.h"
 #include "daemon/scene/import.h"
 #include "daemon/scene/index_tree.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/occupancy_map.h"
 #include "daemon/scene/placement.h"
@@ -91,6 +92,7 @@ struct SceneObject {
 struct ObjectResult {
   std::shared_ptr<const SceneObject> object;  ///< null on error
   std::string error;                          ///< names the object
+  Limit limit = Limit::kNone;                 ///< that the error is about
 };
 
 /// Puts an object in its place. Costs what there are triangles in it, but for parts that `before`,

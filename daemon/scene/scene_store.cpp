@@ -46,25 +46,29 @@ std::uint64_t SceneStore::next_revision(std::string_view scene) const {
   return 1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
 }
 
-std::string SceneStore::over_limit(const Snapshot& next, const Load& load) const {
+StoreResult SceneStore::over_limit(const Snapshot& next, const Load& load) const {
   const auto found = scenes_.find(next.name);
   const bool is_new = found == scenes_.end();
   const Load before = is_new ? Load{} : found->second.load;
-  const std::string scene = "scene '" + next.name + "': ";
+  const auto over = [&](Limit limit, const std::string& what) {
+    return StoreResult{nullptr, StoreFault::kLimit, "scene '" + next.name + "': " + what, limit};
+  };
   if (next.objects.size() > limits_.objects) {
-    return scene + "more than " + std::to_string(limits_.objects) + " objects";
+    return over(Limit::kObjects, "more than " + std::to_string(limits_.objects) + " objects");
   }
   if (is_new && scenes_.size() >= limits_.scenes) {
-    return scene + "there are " + std::to_string(limits_.scenes) + " scenes already";
+    return over(Limit::kScenes, "there are " + std::to_string(limits_.scenes) + " scenes already");
   }
   if (total_.triangles - before.triangles + load.triangles > limits_.triangles) {
-    return scene + "with it there would be more than " + std::to_string(limits_.triangles) +
-           " triangles in all scenes";
+    return over(Limit::kTriangles, "with it there would be more than " +
+                                       std::to_string(limits_.triangles) +
+                                       " triangles in all scenes");
   }
   if (total_.occupancy_bytes - before.occupancy_bytes + load.occupancy_bytes >
       limits_.occupancy_bytes) {
-    return scene + "with it the occupancy maps of all scenes would take more than " +
-           std::to_string(limits_.occupancy_bytes) + " bytes";
+    return over(Limit::kOccupancyBytes,
+                "with it the occupancy maps of all scenes would take more than " +
+                    std::to_string(limits_.occupancy_bytes) + " bytes");
   }
   return {};
 }
@@ -88,9 +92,7 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
               SceneHistory(*snapshot, limits_.history, std::move(note))};
   {
     const std::lock_guard lock(mutex_);
-    if (std::string error = over_limit(*snapshot, entry.load); !error.empty()) {
-      return {nullptr, StoreFault::kLimit, std::move(error)};
-    }
+    if (StoreResult over = over_limit(*snapshot, entry.load); !over.error.empty()) return over;
     if (const auto found = scenes_.find(snapshot->name); found != scenes_.end()) {
       old = std::move(found->second);
     }
@@ -139,14 +141,16 @@ StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revisio
 
 StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note) {
   SnapshotResult result = changed(before, changes, before.revision + 1);
-  if (!result.snapshot) return {nullptr, StoreFault::kInvalid, std::move(result.error)};
+  if (!result.snapshot) {
+    const bool is_limit = result.limit != Limit::kNone;
+    return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
+            result.limit};
+  }
   const Load load = load_of(*result.snapshot);
   note.when = std::chrono::system_clock::now();
   {
     const std::lock_guard lock(mutex_);
-    if (std::string error = over_limit(*result.snapshot, load); !error.empty()) {
-      return {nullptr, StoreFault::kLimit, std::move(error)};
-    }
+    if (StoreResult over = over_limit(*result.snapshot, load); !over.error.empty()) return over;
     Entry& entry = scenes_.find(before.name)->second;
     entry.newest = result.snapshot;
     count(std::exchange(entry.load, load), load);

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/scene/limit.h"
 #include "daemon/scene/scene_change.h"
 #include "daemon/scene/snapshot.h"
 
@@ -35,7 +36,8 @@ enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit };
 struct StoreResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< the newest now; null on error
   StoreFault fault = StoreFault::kNone;
-  std::string error;  ///< empty exactly when `snapshot` is set
+  std::string error;           ///< empty exactly when `snapshot` is set
+  Limit limit = Limit::kNone;  ///< of `StoreFault::kLimit`
 };
 
 /// The scenes that a daemon holds, by name: the newest snapshot of each, and how it came to be. A
@@ -131,9 +133,9 @@ class SceneStore {
   /// lasts.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
-  /// What speaks against `next` in the place of the scene of its name; empty if nothing does.
-  /// Precondition of this and the next two: mutex_ is held.
-  [[nodiscard]] std::string over_limit(const Snapshot& next, const Load& load) const;
+  /// What speaks against `next` in the place of the scene of its name; of no fault if nothing
+  /// does. Precondition of this and the next two: mutex_ is held.
+  [[nodiscard]] StoreResult over_limit(const Snapshot& next, const Load& load) const;
   /// Counts a scene of that load, or of none, in the place of the one that is there, or of none.
   void count(const Load& before, const Load& after);
   /// Shortens the longest histories until all keep to the limit.

@@ -13,7 +13,7 @@ namespace {
 SnapshotResult build(std::string name, std::shared_ptr<const ObjectSource> source,
                      const ObjectOptions& options) {
   ObjectResult result = place_object(name, std::move(source), {}, options);
-  if (!result.object) return {nullptr, result.error};
+  if (!result.object) return {nullptr, result.error, result.limit};
   return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
 }
 
@@ -129,7 +129,7 @@ SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions&
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
                              const SnapshotOptions& options, const std::stop_token& stop) {
   ImportResult import = import_mesh(file, options.import, stop);
-  if (!import.mesh) return {nullptr, import.error};
+  if (!import.mesh) return {nullptr, import.error, import.limit};
   const std::shared_ptr<const ObjectSource> source =
       import.map ? make_map_source(std::move(import.map), std::move(import.report), options)
                  : make_source(ObjectKind::kMesh, std::move(*import.mesh), std::move(import.report),

@@ -91,7 +91,9 @@ VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet 
     extend(map->known_, map->occupied_.bounds());
     extend(map->known_, map->free_.bounds());
   }
-  if (std::string fault = map->fault(); !fault.empty()) return {nullptr, std::move(fault)};
+  if (std::string fault = map->fault(); !fault.empty()) {
+    return {nullptr, std::move(fault), Limit::kMapVoxels};
+  }
   map->fill_beyond(VoxelSet::kNoVoxels);
   map->skin_ = VoxelSkin::of(map->solid(), resolution_m, limits.triangles);
   return {std::move(map), ""};
@@ -107,7 +109,9 @@ VoxelMapResult VoxelMap::with(std::span<const ScannedBlock> blocks) const {
     VoxelSet::extend(next->known_, block.key, block.occupied);
     VoxelSet::extend(next->known_, block.key, block.free);
   }
-  if (std::string fault = next->fault(); !fault.empty()) return {nullptr, std::move(fault)};
+  if (std::string fault = next->fault(); !fault.empty()) {
+    return {nullptr, std::move(fault), Limit::kMapVoxels};
+  }
   if (unknown_ == UnknownSpace::kOccupied) {
     for (const ScannedBlock& block : blocks) next->fill(block.key);
     next->fill_beyond(box());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/scene/block_map.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/placement.h"
 #include "daemon/scene/voxel_set.h"
@@ -130,7 +131,8 @@ class VoxelMap {
 /// A map, or why there is none.
 struct VoxelMapResult {
   std::shared_ptr<const VoxelMap> map;
-  std::string error;  ///< empty exactly when `map` is set
+  std::string error;           ///< empty exactly when `map` is set
+  Limit limit = Limit::kNone;  ///< that the error is about
 };
 
 /// A map in its place.

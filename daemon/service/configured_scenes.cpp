@@ -11,6 +11,7 @@
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/stoppable_load.h"
+#include "daemon/service/scene_rules.h"
 
 namespace camway::service {
 namespace {
@@ -72,7 +73,8 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     const std::string name = snapshot->name;
     const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
     if (put.snapshot) continue;
-    log_->error("scene cannot be held", {{"scene", name}, {"reason", put.error}});
+    log_->error("scene cannot be held",
+                {{"scene", name}, {"reason", with_setting(put.error, put.limit)}});
     // Tried again the next time. An older one of that name goes when it is not wanted any more.
     for (Held& held : held_) {
       if (held.scene.name == name) held.stamp = {};
@@ -142,7 +144,7 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   if (stop.stop_requested()) return false;
   if (!read.mesh) {
     log_->warn("scene file cannot be read again, what was read before stays",
-               {{"scene", scene.name}, {"reason", read.error}});
+               {{"scene", scene.name}, {"reason", with_setting(read.error, read.limit)}});
     return false;
   }
   // Two maps may have the same faces, and one be solid where the other is not.
@@ -160,7 +162,7 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
       {.operation = "put", .object = scene.name});
   if (!changed.snapshot) {
     log_->warn("scene cannot be changed, what was read before stays",
-               {{"scene", scene.name}, {"reason", changed.error}});
+               {{"scene", scene.name}, {"reason", with_setting(changed.error, changed.limit)}});
     return false;
   }
   log_->info("scene file changed", {{"scene", scene.name},
@@ -182,7 +184,9 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
   scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
   if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
-    log_->error("scene cannot be read", {{"scene", scene.name}, {"reason", result.error}});
+    log_->error("scene cannot be read", {{"scene", scene.name},
+                                         {"said_at", scene.said_at},
+                                         {"reason", with_setting(result.error, result.limit)}});
   } else {
     log_scene(*result.snapshot, scene, *log_);
   }

@@ -118,7 +118,8 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   std::string auth_error;
   const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
   if (!auth_error.empty()) {
-    log->error("keys cannot be used", {{"setting", "auth.key_file"}, {"reason", auth_error}});
+    log->error("keys cannot be used",
+               {{"setting", options.where("auth.key_file")}, {"reason", auth_error}});
     return kExitBadInput;
   }
   std::optional<AuthTransport> signing;
@@ -148,6 +149,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
       add_distrusted(signing->distrusted(), status);
       signing->tell_left_out();
     }
+    status.signed_only = signing && options.auth.required ? 1 : 0;
     if (metrics.page) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();

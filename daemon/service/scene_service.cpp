@@ -158,9 +158,10 @@ Pages SceneService::send(scene_response_t answer) {
 void SceneService::refuse(const scene_request_t& request, Refusal why) {
   cache_.forget({request.client_id, request.request_id});
   ++core_.counters.overloaded;
-  const std::string_view message = why == Refusal::kStopping
-                                       ? "the daemon is stopping"
-                                       : "too many changes of scenes wait; send it again later";
+  const std::string_view message =
+      why == Refusal::kStopping ? "the daemon is stopping"
+                                : "too many changes of scenes wait (scenes.waiting_changes and "
+                                  "scenes.waiting_changes_of_a_client); send it again later";
   core_.limited_log.refused.write(
       "refused scene request",
       {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});

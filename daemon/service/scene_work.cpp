@@ -37,6 +37,7 @@ template <class Value>
 struct Made {
   std::optional<Value> value;
   std::string error;
+  scene::Limit limit = scene::Limit::kNone;  ///< that the error is about
 };
 
 /// What an object will be made of.
@@ -111,7 +112,7 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
   if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
     error.replace(at, file.string().size(), shown);
   }
-  return {std::nullopt, std::move(error)};
+  return {std::nullopt, std::move(error), result.limit};
 }
 
 Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
@@ -190,8 +191,9 @@ Made<scene::SensorModel> sensor_of(const Request& request) {
 /// The object that is a map.
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
   if (!map->skin()) {
-    return {std::nullopt, fmt::format("the map has more than {} triangles (scenes.map_triangles)",
-                                      map->limits().triangles)};
+    return {std::nullopt,
+            fmt::format("the map has more than {} triangles", map->limits().triangles),
+            scene::Limit::kMapTriangles};
   }
   scene::ImportReport report = scene::report_of(*map, "OctoMap");
   return {Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map)}, {}};
@@ -204,7 +206,7 @@ Made<Content> empty_map(const Request& request, const SceneRules& rules) {
   if (!sensor.value) return {std::nullopt, sensor.error};
   scene::VoxelMapResult built =
       scene::VoxelMap::build(request.cell_m, {}, {}, *unknown.value, rules.maps, *sensor.value);
-  if (!built.map) return {std::nullopt, "cell_m: the map " + built.error};
+  if (!built.map) return {std::nullopt, "cell_m: the map " + built.error, built.limit};
   return of_map(std::move(built.map));
 }
 
@@ -356,6 +358,12 @@ class Work {
     return plain_scene_answer(request_, Answer::STATUS_INVALID, reason);
   }
 
+  /// What could not be made, for whatever reason.
+  [[nodiscard]] Answer refused(std::string_view reason, scene::Limit limit) const {
+    if (limit == scene::Limit::kNone) return invalid(reason);
+    return plain_scene_answer(request_, Answer::STATUS_LIMIT, with_setting(reason, limit));
+  }
+
   [[nodiscard]] Answer unknown() const {
     return plain_scene_answer(
         request_, Answer::STATUS_UNKNOWN_SCENE,
@@ -369,10 +377,7 @@ class Work {
 
   /// What the store made of a change.
   [[nodiscard]] Answer answer_to(const scene::StoreResult& result, std::string_view message) const {
-    if (result.fault == scene::StoreFault::kLimit) {
-      return plain_scene_answer(request_, Answer::STATUS_LIMIT,
-                                result.error + " (limits of the daemon's [scenes])");
-    }
+    if (result.limit != scene::Limit::kNone) return refused(result.error, result.limit);
     Answer answer = plain_scene_answer(request_, status_of(result.fault),
                                        result.snapshot ? message : result.error);
     if (!result.snapshot) return answer;
@@ -400,11 +405,11 @@ class Work {
       return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options), note("")), "");
     }
     Made<Content> made = read_mesh(request_, upload_, context_);
-    if (!made.value) return invalid(made.error);
+    if (!made.value) return refused(made.error, made.limit);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed = scene::place_object(
         request_.scene, source_of(*std::move(made.value), options), {}, options);
-    if (!placed.object) return invalid(placed.error);
+    if (!placed.object) return refused(placed.error, placed.limit);
     return answer_to(
         scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options),
                     note("")),
@@ -475,7 +480,7 @@ class Work {
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
     Made<Content> made = make_mesh(request_, *kind, upload_, context_);
-    if (!made.value) return invalid(made.error);
+    if (!made.value) return refused(made.error, made.limit);
     const std::string warnings = warnings_of(made.value->report);
     const auto source = source_of(*std::move(made.value), snapshot->options);
     return change({SceneChange::Kind::kPut, request_.object, source, *placement.value}, warnings);
@@ -501,9 +506,9 @@ class Work {
     for (Vec3& point : *points.value) point = placement.to_object(point);
     const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points.value};
     scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
-    if (!next.map) return invalid(next.error);
+    if (!next.map) return refused(next.error, next.limit);
     Made<Content> made = of_map(std::move(next.map));
-    if (!made.value) return invalid(made.error);
+    if (!made.value) return refused(made.error, made.limit);
     return change({SceneChange::Kind::kPut, request_.object,
                    source_of(*std::move(made.value), snapshot->options), placement},
                   "");

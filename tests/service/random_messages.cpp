@@ -365,6 +365,7 @@ occupancy_request_t random_message<occupancy_request_t>(Random& random) {
   message.request_id = integer(random);
   message.utime = integer(random);
   message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.deadline_s = number(random);
   message.num_points = fill_rows(message.points_m, 3, random);
   message.num_boxes = fill_rows(message.boxes_m, 6, random);
   message.num_spheres = fill_rows(message.spheres_m, 4, random);
@@ -572,6 +573,7 @@ status_t random_message<status_t>(Random& random) {
     latency->num_buckets =
         fill_list(latency->buckets, length(random, 96), [&] { return integer(random); });
   }
+  message.signed_only = static_cast<std::int8_t>(below(random, 2));
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });

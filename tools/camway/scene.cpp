@@ -179,7 +179,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
-    return ExitCode::kOurFault;
+    return ExitCode::kInvalidInput;
   }
   return print_answer(call(client), flags.key_file);
 }
