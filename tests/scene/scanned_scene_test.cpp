@@ -230,7 +230,7 @@ TEST(ScannedScene, CanBeBuiltAgain) {
     map = scanned(*map, {Vec3::Constant(0.5), sight(random, Vec3::Constant(0.5))}).map;
     const SceneChange change = put(map, at);
     scene = after(scene, change);
-    history.add(change, scene->revision);
+    history.add({change}, {scene->revision, {}});
     revisions.push_back(scene);
   }
   for (const auto& revision : revisions) {
