@@ -9,7 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include <camway/cancel_t.hpp>
+
 #include "client/occupancy_wire.h"
+#include "client/text.h"
 #include "lcmtypes/wire_check.h"
 
 namespace camway {
@@ -50,8 +53,15 @@ class PartCall final : public Call {
       collector_.clear();
     }
   }
-  bool answered() const override { return !wanted_ || collector_.response().has_value(); }
-  void cancel() override { wanted_ = false; }
+  bool answered() const override { return collector_.response().has_value(); }
+  void cancel() override {
+    cancel_t question{};
+    question.client_id = context_.options().client_id;
+    question.request_id = request_id();
+    question.utime = microseconds_since_1970();
+    replace_question({{context_.channels().cancel_occupancy(), wire::encode(question)}});
+    retry().restart();
+  }
   void finish(Outcome outcome) override {
     PartAnswer answer{collector_.response(), {Status::kOk, {}}};
     if (outcome != Outcome::kAnswered) {
@@ -67,7 +77,6 @@ class PartCall final : public Call {
   Context& context_;
   OccupancyCollector collector_;
   std::optional<Failure> refusal_;
-  bool wanted_ = true;
   std::promise<PartAnswer> promise_;
 };
 
@@ -77,7 +86,7 @@ class PartsInTurn {
   PartsInTurn(Context& context, Engine& engine, std::vector<occupancy_request_t>& parts,
               Clock::time_point deadline)
       : context_(context), engine_(engine), parts_(parts), deadline_(deadline) {}
-  /// Nobody waits for those that are still on their way.
+  /// Nobody waits for those that are still on their way: the daemon need not answer them.
   ~PartsInTurn() {
     for (std::size_t i = taken_; i < begun_; ++i) {
       engine_.cancel(Call::Kind::kOccupancy, parts_[i].request_id);

@@ -168,6 +168,9 @@ SceneAnswer answer_of(const Asked<scene_response_t>& asked) {
   for (const scene_object_t& object : response.objects) {
     answer.objects.push_back(from_wire(object));
   }
+  for (const scene_change_t& change : response.changes) {
+    answer.revisions.push_back(from_wire(change));
+  }
   return answer;
 }
 
@@ -176,6 +179,7 @@ std::optional<std::string> fault_in_form(const scene_request_t& request) {
   for (const auto& fault :
        {fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes),
         fault_in_text("object", request.object, wire::kMaxObjectNameBytes),
+        fault_in_text("restore_as", request.restore_as, wire::kMaxSceneNameBytes),
         fault_in_text("file", request.file, wire::kMaxFileNameBytes),
         fault_in_text("format", request.upload_format, wire::kMaxFormatBytes)}) {
     if (fault) return fault;
@@ -332,8 +336,11 @@ SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t req
   const Asker asker{context, engine, after(context.options().deadline_s)};
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
     SceneAnswer all;
+    const auto size = [](const SceneAnswer& answer) {
+      return answer.scenes.size() + answer.objects.size() + answer.revisions.size();
+    };
     for (;;) {
-      request.first = static_cast<std::int32_t>(all.scenes.size() + all.objects.size());
+      request.first = static_cast<std::int32_t>(size(all));
       const Asked<scene_response_t> asked = ask_once(asker, request);
       SceneAnswer part = answer_of(asked);
       if (!part.ok()) return part;
@@ -342,13 +349,13 @@ SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t req
       all.scene = part.scene;
       all.scenes.insert(all.scenes.end(), part.scenes.begin(), part.scenes.end());
       all.objects.insert(all.objects.end(), part.objects.begin(), part.objects.end());
-      const bool is_last = part.scenes.empty() && part.objects.empty();
-      const std::size_t here = all.scenes.size() + all.objects.size();
-      if (is_last || here >= static_cast<std::size_t>(asked.response->total)) return all;
+      all.revisions.insert(all.revisions.end(), part.revisions.begin(), part.revisions.end());
+      const bool is_last = size(part) == 0;
+      if (is_last || size(all) >= static_cast<std::size_t>(asked.response->total)) return all;
     }
   }
   return failed<SceneAnswer>(
-      {Status::kNoAnswer, "the scene changed each time before all of its objects were listed"});
+      {Status::kNoAnswer, "the scene changed each time before all of it was listed"});
 }
 
 }  // namespace camway

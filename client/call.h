@@ -17,6 +17,7 @@ enum class Outcome {
   kSilence,   ///< as many tries in a row as allowed without a sign of a daemon
   kDeadline,  ///< the deadline came first
   kBroken,    ///< the network cannot send or receive
+  kUnsigned,  ///< the daemon drops what is not signed, and we have no keys
   kClosed,    ///< the client went away
 };
 

@@ -205,6 +205,18 @@ SceneAnswer Client::remove_object(const std::string& scene, const std::string& o
   return impl_->ask(request_for(scene_request_t::REMOVE, scene, object));
 }
 
+SceneAnswer Client::scene_history(const std::string& scene) {
+  return impl_->ask_list(request_for(scene_request_t::HISTORY, scene));
+}
+
+SceneAnswer Client::restore_scene(const std::string& scene, std::int64_t revision,
+                                  const std::string& restore_as) {
+  scene_request_t request = request_for(scene_request_t::RESTORE, scene);
+  request.revision = revision;
+  request.restore_as = restore_as;
+  return impl_->ask(std::move(request));
+}
+
 SceneAnswer Client::insert_scan(const std::string& scene, const std::string& object,
                                 const std::vector<std::array<double, 3>>& points_m,
                                 const std::array<double, 3>& origin_m) {

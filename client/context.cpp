@@ -89,6 +89,12 @@ Failure Context::explain(Outcome outcome, bool ever_heard, std::string_view part
   if (outcome == Outcome::kBroken) {
     return {Status::kNetworkUnusable, "the network failed in the middle of a call" + where()};
   }
+  if (outcome == Outcome::kUnsigned) {
+    return {Status::kNoAnswer,
+            "the daemon has keys (auth.key_file) and drops what is not signed "
+            "with them, and this client has none" +
+                where()};
+  }
   if (outcome == Outcome::kClosed) {
     return {Status::kNoAnswer,
             "the client was destroyed, or the same request id asked again, "

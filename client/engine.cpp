@@ -171,6 +171,8 @@ void Engine::run() {
     send_some(now);
     if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
     if (broken_) end_all(Outcome::kBroken);
+    // By the next heartbeat it may be another daemon that says so.
+    if (std::exchange(is_unheard_, false)) end_calls(Outcome::kUnsigned);
   }
   run_tasks();
   end_all(Outcome::kClosed);
@@ -267,6 +269,12 @@ void Engine::end_leavers(Clock::time_point now) {
 }
 
 void Engine::end_all(Outcome outcome) {
+  end_calls(outcome);
+  end_waiters(Clock::time_point::max());
+  end_leavers(Clock::time_point::max());
+}
+
+void Engine::end_calls(Outcome outcome) {
   for (const auto& [key, call] : calls_) ending_.push_back(call);
   calls_.clear();
   while (!ending_.empty()) {
@@ -275,8 +283,6 @@ void Engine::end_all(Outcome outcome) {
     ending_.pop_front();
     call->finish(outcome);
   }
-  end_waiters(Clock::time_point::max());
-  end_leavers(Clock::time_point::max());
 }
 
 Call* Engine::find(Call::Kind kind, std::int64_t request_id) {
@@ -305,6 +311,7 @@ void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
   if (!status) return;
   const Clock::time_point now = Clock::now();
   for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
+  is_unheard_ = status->signed_only && !link_.signs();
   watches_.take_heartbeat(status->uptime_s, now);
   std::vector<Waiter> waiters;
   waiters.swap(waiters_);

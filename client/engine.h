@@ -84,6 +84,7 @@ class Engine {
   void end_waiters(Clock::time_point now);
   void end_leavers(Clock::time_point now);
   void end_all(Outcome outcome);
+  void end_calls(Outcome outcome);
   Call* find(Call::Kind kind, std::int64_t request_id);
   void take_missing_pages(std::span<const std::uint8_t> bytes);
   void take_heartbeat(std::span<const std::uint8_t> bytes);
@@ -103,6 +104,7 @@ class Engine {
   std::deque<Outgoing> outgoing_;
   Clock::time_point send_at_{};  ///< no message leaves before
   bool broken_ = false;
+  bool is_unheard_ = false;  ///< the last heartbeat says that the daemon drops what we send
   std::deque<std::shared_ptr<Call>> ending_;  ///< calls that `end_all` has not come to
   std::vector<std::shared_ptr<Call>> kept_;  ///< one of them may be calling the handler that closes
   std::function<void()> release_;

@@ -44,7 +44,9 @@ class Link {
   /// Why other hosts can be heard though they should not; empty if all is well.
   const std::string& warning() const { return warning_; }
 
-  /// From now on messages are signed and checked. Before `listen`.
+  /// Whether messages are signed and checked.
+  bool signs() const { return authentication_ != nullptr; }
+  /// From now on they are. Before `listen`.
   void authenticate(std::unique_ptr<Authentication::Session> session);
 
   /// Calls `handler` in `wait` for every message on `channel`, of which up to `capacity` wait for

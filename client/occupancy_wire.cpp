@@ -44,6 +44,7 @@ class Splitter {
     empty_.client_id = client_id;
     empty_.utime = microseconds_since_1970();
     empty_.scene = batch.scene;
+    empty_.deadline_s = batch.deadline_s;
     begin_next();
   }
 

@@ -275,7 +275,7 @@ PlanResponse PlanCollector::response() const {
   PlanResponse response = head_of(pages_.begin()->second);
   const std::int32_t status = pages_.begin()->second.status;
   if ((status < 0 || status > plan_response_t::STATUS_MALFORMED) &&
-      status != plan_response_t::STATUS_CANCELLED) {
+      status != plan_response_t::STATUS_CANCELLED && status != plan_response_t::STATUS_LIMIT) {
     return bad_answer(response, "status " + std::to_string(status) + " is unknown");
   }
   std::vector<Segment> segments;

@@ -115,6 +115,11 @@ SceneObject from_wire(const scene_object_t& wire) {
   return object;
 }
 
+SceneRevision from_wire(const scene_change_t& wire) {
+  return {wire.revision, wire.utime,     wire.operation,
+          wire.object,   wire.client_id, wire.restored_revision};
+}
+
 Bytes put_mesh(const SceneMesh& mesh, scene_request_t& request) {
   request.scale = mesh.scale;
   request.up = static_cast<std::int8_t>(mesh.up);

@@ -19,6 +19,7 @@ namespace camway {
 
 SceneInfo from_wire(const scene_info_t& wire);
 SceneObject from_wire(const scene_object_t& wire);
+SceneRevision from_wire(const scene_change_t& wire);
 
 /// Writes what describes `shape` into `request`, but for what has to be uploaded: that is returned.
 std::vector<std::uint8_t> put_shape(const SceneShape& shape, scene_request_t& request);

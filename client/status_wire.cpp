@@ -64,6 +64,7 @@ DaemonStatus from_wire(const status_t& wire) {
   status.planning = from_wire(wire.planning);
   status.watched_paths = wire.watched_paths;
   status.broken_paths = wire.broken_paths;
+  status.signed_only = wire.signed_only != 0;
   status.total_scenes = wire.total_scenes;
   for (const scene_info_t& scene : wire.scenes) status.scenes.push_back(from_wire(scene));
   return status;

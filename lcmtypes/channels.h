@@ -56,6 +56,7 @@ struct Channels {
     return (prefix + "_PLAN_PROGRESS_").append(client_id);
   }
   [[nodiscard]] std::string cancel() const { return prefix + "_CANCEL"; }
+  [[nodiscard]] std::string cancel_occupancy() const { return prefix + "_CANCEL_OCCUPANCY"; }
   [[nodiscard]] std::string missing_pages() const { return prefix + "_MISSING_PAGES"; }
   [[nodiscard]] std::string missing_pages(std::string_view client_id) const {
     return (prefix + "_MISSING_PAGES_").append(client_id);

@@ -167,6 +167,7 @@ constexpr std::array kOccupancyRequest{
     fixed("request_id", kInt64),
     fixed("utime", kInt64),
     text("scene", kMaxSceneNameBytes),
+    fixed("deadline_s", kDouble),
     list("points_m", 3 * kDouble),
     list("boxes_m", 6 * kDouble),
     list("spheres_m", 4 * kDouble),
@@ -203,6 +204,15 @@ constexpr std::array kSceneObject{
     fixed("num_triangles", kInt64),    fixed("pose", 7 * kDouble),  fixed("bounds_m", 6 * kDouble),
 };
 
+constexpr std::array kSceneChange{
+    fixed("revision", kInt64),
+    fixed("utime", kInt64),
+    text("operation", kMaxOperationBytes),
+    text("object", kMaxObjectNameBytes),
+    text("client_id", kMaxClientIdLength),
+    fixed("restored_revision", kInt64),
+};
+
 constexpr std::array kSceneRequest{
     text("client_id", kMaxClientIdLength),
     fixed("request_id", kInt64),
@@ -222,6 +232,8 @@ constexpr std::array kSceneRequest{
     fixed("sensor", 5 * kDouble),
     fixed("pose", 7 * kDouble),
     fixed("first", kInt32),
+    fixed("revision", kInt64),
+    text("restore_as", kMaxSceneNameBytes),
 };
 
 constexpr std::array kSceneResponse{
@@ -241,6 +253,7 @@ constexpr std::array kSceneResponse{
     fixed("map", 2 * kInt64),
     list_of("scenes", kSceneInfo),
     list_of("objects", kSceneObject),
+    list_of("changes", kSceneChange),
 };
 
 constexpr std::array kUploadPage{
@@ -301,6 +314,7 @@ constexpr std::array kStatus{
     list("planning.buckets", kInt64),
     fixed("watched_paths", kInt32),
     fixed("broken_paths", kInt64),
+    fixed("signed_only", kByte),
     fixed("total_scenes", kInt32),
     list_of("scenes", kSceneInfo),
 };

@@ -48,6 +48,7 @@ inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< of an object that is p
 inline constexpr std::size_t kMaxFileNameBytes = 512;
 inline constexpr std::size_t kMaxFormatBytes = 8;
 inline constexpr std::size_t kMaxKindBytes = 32;
+inline constexpr std::size_t kMaxOperationBytes = 32;
 /// Every page of an upload has so many bytes but the last.
 inline constexpr std::size_t kUploadPageBytes = 48'000;
 inline constexpr std::size_t kMaxMissingPages = 4096;

@@ -139,6 +139,13 @@ class Client {
   SceneAnswer move_object(const std::string& scene, const std::string& object, const Pose& pose);
   SceneAnswer remove_object(const std::string& scene, const std::string& object);
 
+  /// All revisions of a scene that can be had again, the newest included, and what led to each.
+  SceneAnswer scene_history(const std::string& scene);
+  /// Makes the newest revision of a scene have the objects of an earlier one; or makes a scene
+  /// `restore_as` of them, if that is not empty, or replaces the one of that name.
+  SceneAnswer restore_scene(const std::string& scene, std::int64_t revision,
+                            const std::string& restore_as = "");
+
   /// Tells an object that is an OctoMap what a sensor at `origin_m` saw, all in the world's frame.
   /// Each scan makes a new revision.
   SceneAnswer insert_scan(const std::string& scene, const std::string& object,

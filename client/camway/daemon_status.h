@@ -73,6 +73,8 @@ struct DaemonStatus {
   std::int64_t broken_paths = 0;   ///< times that a change broke a watched path
   std::int32_t watched_paths = 0;  ///< now
 
+  bool signed_only = false;  ///< whether the daemon drops what is not signed with its keys
+
   std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
   std::vector<SceneInfo> scenes;  ///< in order of name
 };

@@ -44,6 +44,8 @@ struct OccupancySpherePath {
 /// is sent as several.
 struct OccupancyBatch {
   std::string scene;
+  /// How long the daemon may take for each of these messages, from its receipt; 0: its own default.
+  double deadline_s = 0.0;
   std::vector<std::array<double, 3>> points_m;    ///< is the voxel that holds the point occupied?
   std::vector<OccupancyBox> boxes;                ///< does an occupied voxel touch the box?
   std::vector<OccupancySphere> spheres;           ///< does an occupied voxel touch the ball?

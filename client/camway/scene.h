@@ -34,6 +34,16 @@ struct SceneObject {
   std::array<double, 3> bounds_max_m{};
 };
 
+/// A revision of a scene that can be had again, and the change that led to it.
+struct SceneRevision {
+  std::int64_t revision = 0;
+  std::int64_t utime = 0;  ///< when it was made, microseconds since 1970
+  std::string operation;   ///< "load", "put", "move", "remove", "scan" or "restore"
+  std::string object;      ///< that was changed; empty: all of the scene
+  std::string client_id;   ///< who asked for it; empty: nobody, the daemon read its files
+  std::int64_t restored_revision = 0;  ///< of "restore": whose objects it has again; else 0
+};
+
 /// A mesh, or an OctoMap, that is a file in any format that Camway reads: one that the daemon finds
 /// below its scene roots, or bytes that are uploaded.
 struct SceneMesh {
@@ -96,6 +106,7 @@ struct SceneAnswer {
   SceneInfo scene;                   ///< as it is now, after the change; not of `list_scenes`
   std::vector<SceneInfo> scenes;     ///< of `list_scenes`, in order of name
   std::vector<SceneObject> objects;  ///< of `describe_scene`, in order; else the one that changed
+  std::vector<SceneRevision> revisions;  ///< of `scene_history`, oldest first
 };
 
 /// An occupancy map that the daemon sent.

@@ -18,7 +18,7 @@ enum class Status {
   kMalformed = 8,      ///< the daemon could not read the request: client and daemon do not match
   kNoMap = 9,          ///< the scene was loaded without an occupancy map
   kCancelled = 10,     ///< as the caller asked
-  kLimit = 11,         ///< (scenes) it would break a limit that the daemon keeps
+  kLimit = 11,         ///< it would break a limit of the daemon's, which the text names
 
   kNoDaemon = 100,         ///< nobody answered, and no daemon was heard
   kNoAnswer = 101,         ///< a daemon was heard, but its answer did not come, or not all of it

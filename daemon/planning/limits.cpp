@@ -81,9 +81,11 @@ std::vector<Sample> samples_of(const Path& path, const RateLimits& limits) {
 }
 
 /// How far any point of the body is, at samples between the knots of `law`, from where it was.
-bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw& law) {
+bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw& law,
+                 const collision::Deadline& deadline) {
   const std::span<const double> knots_s = law.knots_s();
   for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) {
+    if (deadline.passed()) return false;
     for (const double share : {0.25, 0.5, 0.75}) {
       const double given_s = knots_s[i] + share * (knots_s[i + 1] - knots_s[i]);
       const motion::Pose was = problem.path.pose(given_s);
@@ -101,11 +103,13 @@ bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw&
 std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path, double step_s,
                                         const collision::Deadline& deadline) {
   TimeLaw law = TimeLaw::within(path, stretched(problem.limits, 1.0 / kSlowerThanAllowed), step_s);
-  if (law.knots_s().size() > kMostPieces) return std::nullopt;
+  if (law.knots_s().size() > kMostPieces || deadline.passed()) return std::nullopt;
   CubicPath slowed = motion::retimed(problem.path, law);
   const Path slowed_path = slowed.path();
-  if (!motion::meets(slowed_path, problem.limits) || !stays_close(problem, slowed, law))
+  if (deadline.passed() || !motion::meets(slowed_path, problem.limits) ||
+      !stays_close(problem, slowed, law, deadline)) {
     return std::nullopt;
+  }
   CubicPath interpolated = motion::retimed(problem.interpolated, law);
   if (correction::first_breach(problem.orientation, slowed, interpolated, slowed.begin_s(),
                                slowed.end_s())) {

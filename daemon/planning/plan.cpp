@@ -186,9 +186,10 @@ class Planner {
     options.objective = request_.options.objective;
     options.orientation = request_.options.orientation;
     options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
-    correction::LadderResult corrected = correction::correct_by_ladder(
-        snapshot_.mesh, obstacles_, *body_, result_.keyframes,
-        motion::interpolate_cubic(result_.keyframes), found, options, deadline_);
+    correction::LadderResult corrected =
+        correction::correct_by_ladder(snapshot_.mesh, obstacles_, *body_, result_.keyframes,
+                                      motion::interpolate_cubic(result_.keyframes), found, options,
+                                      deadline_.share_of_rest(kShareOfCorrection));
     timed_out_ = corrected.timed_out;
     needed_keyframes_ = corrected.needed_keyframes;
     result_.corrections = std::move(corrected.corrections);
@@ -220,9 +221,9 @@ class Planner {
     correction::KeyframeInsertionOptions options;
     options.sweep = {request_.options.chord_error_m, detect_};
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
-    correction::KeyframeInsertionResult corrected =
-        correction::insert_keyframes(obstacles_.index, result_.keyframes,
-                                     motion::near_corners_C(request_.camera), options, deadline_);
+    correction::KeyframeInsertionResult corrected = correction::insert_keyframes(
+        obstacles_.index, result_.keyframes, motion::near_corners_C(request_.camera), options,
+        deadline_.share_of_rest(kShareOfCorrection));
     is_as_interpolated_ = false;
     result_.keyframes = std::move(corrected.keyframes);
     result_.path = std::move(corrected.path);
@@ -312,7 +313,9 @@ class Planner {
         corrected_ ? request_.options.orientation : correction::OrientationPolicy{};
     const TooFast too_fast{path, interpolated, limits, policy, obstacles_, *body_, detect_};
     std::optional<Retimed> slowed;
-    if (result_.certificate.certified) slowed = slowed_where_needed(too_fast, deadline_);
+    if (result_.certificate.certified) {
+      slowed = slowed_where_needed(too_fast, deadline_.share_of_rest(kShareOfSlowing));
+    }
     slowed_everywhere_ = !slowed;
     take(slowed ? std::move(*slowed) : slowed_alike(too_fast));
     result_.timing.certify_ms += lap_ms();
@@ -497,6 +500,10 @@ class Planner {
 
   // Cameras are seldom rolled by so much: 30 degrees.
   static constexpr double kNotableTilt_rad = 0.5236;
+
+  // What comes after these takes as long as the path is, and would begin when time is up.
+  static constexpr double kShareOfCorrection = 0.9;
+  static constexpr double kShareOfSlowing = 0.5;
 
   // For the final check, however little of the deadline is left.
   static constexpr double kFinalCheckBudget_s = 1.0;

@@ -84,6 +84,7 @@ std::string import_into(ImportResult& result, const fs::path& file, const Import
   ImportReport& report = result.report;
   ImportRecordResult record = read_import_record(process.output, options, report);
   if (record.broken) return "its reader answered with a broken record";
+  result.limit = record.limit;
   if (!record.mesh) return refusal(file, record.refusal);
   const Mesh& mesh = *record.mesh;
   report.vertices = mesh.vertices.size();

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_map.h"
 
@@ -68,7 +69,8 @@ struct ImportResult {
   std::optional<Mesh> mesh;
   std::shared_ptr<const VoxelMap> map;  ///< of which the mesh is the faces; null for a mesh
   ImportReport report;
-  std::string error;  ///< names the file; empty exactly when `mesh` holds a value
+  std::string error;           ///< names the file; empty exactly when `mesh` holds a value
+  Limit limit = Limit::kNone;  ///< that the error is about
 };
 
 /// Reads OBJ, OFF, PLY and STL itself (`mesh_readers/mesh_reader.h`), occupancy maps (.bt and .ot)

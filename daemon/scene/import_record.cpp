@@ -212,17 +212,20 @@ std::string read_map(const Record& record, const ImportOptions& options,
       voxels_of(record.occupied, options.up, options.map_limits.voxels);
   std::optional<VoxelSet> free = voxels_of(record.free, options.up, options.map_limits.voxels);
   if (!occupied || !free) {
+    result.limit = Limit::kMapVoxels;
     return "has voxels that OctoMap cannot have, or more than " +
            std::to_string(options.map_limits.voxels) + " that are occupied or free";
   }
   VoxelMapResult built =
       VoxelMap::build(options.scale * record.header.map_resolution, *std::move(occupied),
                       *std::move(free), options.unknown, options.map_limits);
+  result.limit = built.limit;
   if (!built.map) return built.error;
-  result.mesh = built.map->skin();
-  if (!result.mesh) {
+  if (!built.map->skin()) {
+    result.limit = Limit::kMapTriangles;
     return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
   }
+  result.mesh = joined(built.map->skin()->parts());
   result.map = std::move(built.map);
   return {};
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "daemon/scene/import.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/voxel_map.h"
 
 namespace camway::scene {
@@ -17,6 +18,7 @@ struct ImportRecordResult {
   std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
   std::shared_ptr<const VoxelMap> map;  ///< of which the mesh is the faces; null if it is none
   std::string refusal;                  ///< why the reader refused the file, printable; else empty
+  Limit limit = Limit::kNone;           ///< that the refusal is about
   bool broken = false;                  ///< the bytes are no record; nothing else is set
   double relative_rounding = 0.0;       ///< as in the record's header; never negative or NaN
   double absolute_rounding = 0.0;

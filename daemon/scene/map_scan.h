@@ -21,7 +21,8 @@ inline constexpr double kMostScanVoxels = 5e7;
 /// what lies between the sensor and a point is a miss, the voxel of the point a hit, one of both a
 /// hit; of a ray that is longer than the sensor's range only the range is a miss. It computes in
 /// single precision. Voxels that were never scanned begin with the certainty of their state:
-/// clamped, if they are known. Costs what all of the map's voxels do, since no map is ever changed.
+/// clamped, if they are known. The two maps share what the scan does not change; it costs what the
+/// rays pass through, and what the faces take where they change (`VoxelSkin`).
 ///
 /// Refused are points and origins that OctoMap's keys cannot hold, and what would take too long.
 VoxelMapResult scanned(const VoxelMap& before, const Scan& scan,

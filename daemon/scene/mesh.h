@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,21 @@ struct Mesh {
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
   }
   [[nodiscard]] geometry::Box bounds() const;
+  /// Of vertices and triangles.
+  [[nodiscard]] std::uint64_t memory_bytes() const;
 };
+
+/// One of the meshes that together make up a thing, shared by all that have it. Parts of a thing
+/// stand in order of their keys, each key once.
+struct MeshPart {
+  static MeshPart of(std::uint64_t key, Mesh mesh);
+
+  std::uint64_t key = 0;
+  std::shared_ptr<const Mesh> mesh;  ///< never null
+  geometry::Box bounds;              ///< of it
+};
+
+/// The parts as one mesh, in their order, as one object without a name. Vertices are not joined.
+Mesh joined(std::span<const MeshPart> parts);
 
 }  // namespace camway::scene

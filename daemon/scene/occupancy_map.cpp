@@ -20,6 +20,8 @@ using geometry::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+using Meshes = std::span<const Mesh* const>;
+
 /// The least value that `cost` takes on the boxes of occupied cubes, or nothing if none is finite
 /// and <= `limit`. Branch and bound, cheapest octant first; see `box_costs.h` for what a cost has
 /// to keep.
@@ -55,7 +57,7 @@ class CheapestCube {
     return cost <= limit_ && cost < kInfinity && !(best_ && (cost >= *best_ || *best_ <= enough_));
   }
 
-  void visit(const VoxelTree::Node& node, const VoxelCube& cube, const Faces& faces) {
+  void visit(const VoxelTree::Place& place, const VoxelCube& cube, const Faces& faces) {
     const std::int32_t half = cube.size / 2;
     std::array<std::array<Pair, 2>, 3> halves;  // by axis, lower and upper half of the cube
     std::array<std::array<typename Cost::Part, 2>, 3> parts;
@@ -68,15 +70,15 @@ class CheapestCube {
                                         halves[axis][side][1]);
       }
     }
-    take_full(node.full, parts);
+    take_full(place.node->full, parts);
     std::array<Way, 8> ways;
-    const std::size_t count = sorted_ways(node.nodes, parts, ways);
+    const std::size_t count = sorted_ways(place.node->nodes, parts, ways);
     for (std::size_t i = 0; i < count; ++i) {
       if (!is_of_use(ways[i].cost)) return;
       const unsigned octant = ways[i].octant;
       Faces within;
       for (std::size_t axis = 0; axis < 3; ++axis) within[axis] = halves[axis][octant >> axis & 1U];
-      visit(tree_.child(node, octant), cube.child(octant), within);
+      visit(tree_.child(place, octant), cube.child(octant), within);
     }
   }
 
@@ -119,8 +121,10 @@ std::string describe(const Box& box) {
   return text.str();
 }
 
-/// Why a mesh cannot be mirrored, or nothing.
-std::string refusal(const Mesh& mesh, double resolution_m) {
+using Meshes = std::span<const Mesh* const>;
+
+/// Why what has these bounds cannot be mirrored, or nothing.
+std::string refusal(const Box& bounds, double resolution_m) {
   std::ostringstream text;
   if (!VoxelGrid::valid_resolution(resolution_m)) {
     text << "occupancy resolution " << resolution_m << " m is not between "
@@ -128,13 +132,6 @@ std::string refusal(const Mesh& mesh, double resolution_m) {
     return text.str();
   }
   const VoxelGrid grid(resolution_m);
-  Box bounds;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (const Vec3& vertex : mesh.triangle(i)) {
-      if (!vertex.allFinite()) return "triangle " + std::to_string(i) + " is not finite";
-      bounds.extend(vertex);
-    }
-  }
   if (bounds.isEmpty()) return {};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (voxels_touching(grid, bounds.min()[axis], bounds.max()[axis])) continue;
@@ -146,8 +143,29 @@ std::string refusal(const Mesh& mesh, double resolution_m) {
   return {};
 }
 
+std::string refusal(Meshes meshes, double resolution_m) {
+  Box bounds;
+  std::size_t number = 0;
+  for (const Mesh* mesh : meshes) {
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i, ++number) {
+      for (const Vec3& vertex : mesh->triangle(i)) {
+        if (!vertex.allFinite()) return "triangle " + std::to_string(number) + " is not finite";
+        bounds.extend(vertex);
+      }
+    }
+  }
+  return refusal(bounds, resolution_m);
+}
+
+std::string too_many(const Box& bounds, double resolution_m, std::uint64_t max_voxels) {
+  std::ostringstream text;
+  text << "an occupancy map of resolution " << resolution_m << " m would need more than "
+       << max_voxels << " voxels for the scene extent " << describe(bounds);
+  return text.str();
+}
+
 /// The voxels of all triangles; nothing if there are more than `max_voxels`.
-std::optional<VoxelSet> touched_voxels(const Mesh& mesh, const VoxelGrid& grid,
+std::optional<VoxelSet> touched_voxels(Meshes meshes, const VoxelGrid& grid,
                                        std::uint64_t max_voxels) {
   VoxelSet voxels;
   VoxelMarker marker(voxels);
@@ -156,8 +174,10 @@ std::optional<VoxelSet> touched_voxels(const Mesh& mesh, const VoxelGrid& grid,
     marker.insert(voxel);
     return voxels.size() <= max_voxels;
   };
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!for_each_voxel_touched(grid, mesh.triangle(i), is_new, mark)) return std::nullopt;
+  for (const Mesh* mesh : meshes) {
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+      if (!for_each_voxel_touched(grid, mesh->triangle(i), is_new, mark)) return std::nullopt;
+    }
   }
   return voxels;
 }
@@ -187,49 +207,62 @@ bool fill(const PlacedVoxelMap& solid, const VoxelGrid& grid, std::uint64_t max_
 }
 
 /// What is occupied, or nothing if it is too much.
-std::optional<VoxelTree> occupied_tree(const Mesh& mesh, const VoxelGrid& grid,
+std::optional<VoxelTree> occupied_tree(Meshes meshes, const VoxelGrid& grid,
                                        const std::optional<PlacedVoxelMap>& solid,
                                        std::uint64_t max_voxels) {
-  if (solid && solid->placement.is_identity() &&
-      solid->map->resolution_m() == grid.resolution_m()) {
-    const VoxelSet& voxels = solid->map->solid();
-    return voxels.size() <= max_voxels ? std::optional<VoxelTree>(voxels) : std::nullopt;
-  }
-  std::optional<VoxelSet> voxels = touched_voxels(mesh, grid, max_voxels);
+  std::optional<VoxelSet> voxels = touched_voxels(meshes, grid, max_voxels);
   if (voxels && solid && !fill(*solid, grid, max_voxels, *voxels)) return std::nullopt;
   return voxels ? std::optional<VoxelTree>(*voxels) : std::nullopt;
 }
 
 /// That a mirror surely has: those of the largest triangle, as no plane meets more of a cube than
 /// the rectangle through two opposite edges. So that what is hopeless is not begun.
-double least_voxels(const Mesh& mesh, double resolution_m) {
+double least_voxels(Meshes meshes, double resolution_m) {
   double largest_m2 = 0.0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const geometry::Triangle t = mesh.triangle(i);
-    largest_m2 = std::max(largest_m2, 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm());
+  for (const Mesh* mesh : meshes) {
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+      const geometry::Triangle t = mesh->triangle(i);
+      largest_m2 = std::max(largest_m2, 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm());
+    }
   }
   return largest_m2 / (std::numbers::sqrt2 * resolution_m * resolution_m);
 }
 
 }  // namespace
 
-OccupancyMap::BuildResult OccupancyMap::build(const Mesh& mesh, double resolution_m,
+OccupancyMap::BuildResult OccupancyMap::build(Meshes meshes, double resolution_m,
                                               const std::optional<PlacedVoxelMap>& solid,
                                               std::uint64_t max_voxels) {
-  if (std::string error = refusal(mesh, resolution_m); !error.empty()) return {nullptr, error};
+  if (std::string error = refusal(meshes, resolution_m); !error.empty()) return {nullptr, error};
   const VoxelGrid grid(resolution_m);
   std::optional<VoxelTree> tree;
-  if (least_voxels(mesh, resolution_m) <= static_cast<double>(max_voxels))
-    tree = occupied_tree(mesh, grid, solid, max_voxels);
+  if (least_voxels(meshes, resolution_m) <= static_cast<double>(max_voxels))
+    tree = occupied_tree(meshes, grid, solid, max_voxels);
   if (!tree) {
     Box bounds;
-    for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
-    std::ostringstream text;
-    text << "an occupancy map of resolution " << resolution_m << " m would need more than "
-         << max_voxels << " voxels for the scene extent " << describe(bounds);
-    return {nullptr, text.str()};
+    for (const Mesh* mesh : meshes) {
+      for (const Vec3& vertex : mesh->vertices) bounds.extend(vertex);
+    }
+    return {nullptr, too_many(bounds, resolution_m, max_voxels), Limit::kMirrorVoxels};
   }
   return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(*std::move(tree), grid)), {}};
+}
+
+OccupancyMap::BuildResult OccupancyMap::of_map(const VoxelMap& map, const Box& bounds,
+                                               std::uint64_t max_voxels,
+                                               const OccupancyMap* mirror_before,
+                                               const VoxelMap* map_before) {
+  const double resolution_m = map.resolution_m();
+  if (std::string error = refusal(bounds, resolution_m); !error.empty()) return {nullptr, error};
+  if (map.solid().size() > max_voxels) {
+    return {nullptr, too_many(bounds, resolution_m, max_voxels), Limit::kMirrorVoxels};
+  }
+  VoxelTree tree = mirror_before != nullptr
+                       ? mirror_before->tree_.updated(map_before->solid(), map.solid())
+                       : VoxelTree(map.solid());
+  return {std::shared_ptr<const OccupancyMap>(
+              new OccupancyMap(std::move(tree), VoxelGrid(resolution_m))),
+          {}};
 }
 
 OccupancyMap::OccupancyMap(VoxelTree tree, const VoxelGrid& grid)
@@ -237,11 +270,13 @@ OccupancyMap::OccupancyMap(VoxelTree tree, const VoxelGrid& grid)
   statistics_.resolution_m = grid.resolution_m();
   statistics_.nodes = tree_.node_count();
   statistics_.memory_bytes = tree_.memory_bytes();
-  tree_.for_each_cube([this](const VoxelCube& cube) {
-    const auto edge = static_cast<std::uint64_t>(cube.size);
-    statistics_.occupied_voxels += edge * edge * edge;
-    bounds_.extend(grid_.box(cube));
-  });
+  statistics_.occupied_voxels = tree_.voxels();
+  if (tree_.voxels() == 0) return;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const VoxelRange& along = tree_.bounds()[static_cast<std::size_t>(axis)];
+    bounds_.min()[axis] = grid_.low_face_m(along.first);
+    bounds_.max()[axis] = grid_.high_face_m(along.last + 1);
+  }
 }
 
 /// Whether there is one at all is all that is asked where any that costs `enough` will do.

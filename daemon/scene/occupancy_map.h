@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "daemon/geometry/types.h"
 #include "daemon/scene/box_costs.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_grid.h"
 #include "daemon/scene/voxel_map.h"
@@ -43,17 +46,29 @@ class OccupancyMap {
   struct BuildResult {
     std::shared_ptr<const OccupancyMap> map;  ///< null on error
     std::string error;                        ///< empty exactly when `map` is set
+    Limit limit = Limit::kNone;               ///< that the error is about
   };
 
   /// Exact triangle-box overlap for every voxel, not point samples. Refuses, with an error that
   /// names extent and resolution, a resolution outside `VoxelGrid`'s limits, a mesh that OctoMap's
   /// keys cannot hold, and one whose mirror would pass `max_voxels` (found while building, so that
   /// memory stays below about 50 bytes for each voxel allowed).
-  /// Of a solid, of which `mesh` is the faces, what is inside is occupied, too; one of the same
-  /// resolution that is not moved gives its own voxels, and no others.
-  static BuildResult build(const Mesh& mesh, double resolution_m,
+  /// Of a solid, of which the meshes are the faces, what is inside is occupied, too.
+  static BuildResult build(std::span<const Mesh* const> meshes, double resolution_m,
                            const std::optional<PlacedVoxelMap>& solid = std::nullopt,
                            std::uint64_t max_voxels = kUsualMostVoxels);
+  static BuildResult build(const Mesh& mesh, double resolution_m,
+                           const std::optional<PlacedVoxelMap>& solid = std::nullopt,
+                           std::uint64_t max_voxels = kUsualMostVoxels) {
+    return build(std::array{&mesh}, resolution_m, solid, max_voxels);
+  }
+
+  /// Of a map that stands where its file has it, at its own resolution: its voxels, and no others.
+  /// Where `mirror_before`, which may be null, is this of `map_before`, the two share what does not
+  /// differ, and it costs what does. `bounds` are those of its faces. Refuses as `build` does.
+  static BuildResult of_map(const VoxelMap& map, const geometry::Box& bounds,
+                            std::uint64_t max_voxels, const OccupancyMap* mirror_before,
+                            const VoxelMap* map_before);
 
   [[nodiscard]] double resolution_m() const { return grid_.resolution_m(); }
   [[nodiscard]] const OccupancyStatistics& statistics() const { return statistics_; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -20,16 +22,24 @@ inline unsigned chunk_threads(unsigned asked) {
 
 /// Calls `work(worker, chunk)` once for every chunk in [0, chunks) and returns when all are done.
 /// Chunks are handed out in order to `workers` threads, the caller's included; who gets which is
-/// chance, so `work` must give the same for any. Preconditions: workers >= 1; `work` does not
-/// throw.
+/// chance, so `work` must give the same for any. If `work` throws, no more chunks are begun and one
+/// of the exceptions comes out here. Precondition: workers >= 1.
 template <class Work>
 void for_each_chunk(unsigned workers, std::size_t chunks, const Work& work) {
   std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;  // guarded by mutex
   const auto take_chunks = [&](unsigned worker) {
-    for (;;) {
-      const std::size_t chunk = next.fetch_add(1, std::memory_order_relaxed);
-      if (chunk >= chunks) return;
-      work(worker, chunk);
+    try {
+      for (;;) {
+        const std::size_t chunk = next.fetch_add(1, std::memory_order_relaxed);
+        if (chunk >= chunks) return;
+        work(worker, chunk);
+      }
+    } catch (...) {  // out of memory; no exception may leave a thread
+      next.store(chunks, std::memory_order_relaxed);
+      const std::lock_guard lock(mutex);
+      failure = std::current_exception();
     }
   };
   std::vector<std::jthread> helpers;
@@ -42,6 +52,8 @@ void for_each_chunk(unsigned workers, std::size_t chunks, const Work& work) {
     }
   }
   take_chunks(0);
+  helpers.clear();  // waits for them
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace camway::scene

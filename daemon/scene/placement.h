@@ -27,6 +27,12 @@ class Placement {
   [[nodiscard]] const geometry::Vec3& position_W() const { return position_W_; }
   /// Of unit length, but for rounding.
   [[nodiscard]] const geometry::Quat& orientation_WO() const { return orientation_WO_; }
+  /// Whether both take every point to the same bits.
+  bool operator==(const Placement& other) const {
+    return position_W_ == other.position_W_ && R_WO_ == other.R_WO_ &&
+           orientation_WO_.coeffs() == other.orientation_WO_.coeffs() &&
+           is_identity_ == other.is_identity_;
+  }
   /// Exactly: then objects keep their coordinates bit for bit.
   [[nodiscard]] bool is_identity() const { return is_identity_; }
 

@@ -8,35 +8,62 @@
 namespace camway::scene {
 namespace {
 
-std::uint64_t bytes_of(const SceneChange& change) {
-  return change.source ? change.source->memory_bytes() : 0;
+std::uint64_t bytes_of(const SceneChanges& changes) {
+  std::uint64_t bytes = 0;
+  for (const SceneChange& change : changes) {
+    bytes += change.source ? change.source->memory_bytes() : 0;
+  }
+  return bytes;
+}
+
+SceneObjects::iterator place_of(const std::string& name, SceneObjects& objects) {
+  return std::ranges::lower_bound(
+      objects, name, {}, [](const auto& object) -> const std::string& { return object->name; });
+}
+
+/// What is wrong with the change; without an error if it was made.
+SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObjects& objects) {
+  const auto place = place_of(change.object, objects);
+  const bool is_there = place != objects.end() && (*place)->name == change.object;
+  if (!is_there && change.kind != SceneChange::Kind::kPut) {
+    return {nullptr, "object: '" + change.object + "' is not in scene '" + before.name + "'"};
+  }
+  if (change.kind == SceneChange::Kind::kRemove) {
+    objects.erase(place);
+    return {};
+  }
+  ObjectResult placed =
+      place_object(change.object, change.source ? change.source : (*place)->source,
+                   change.placement, before.options, is_there ? place->get() : nullptr);
+  if (!placed.object) return {nullptr, placed.error, placed.limit};
+  if (is_there) {
+    *place = std::move(placed.object);
+  } else {
+    objects.insert(place, std::move(placed.object));
+  }
+  return {};
 }
 
 }  // namespace
 
-SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision) {
-  const SceneObject* old = before.find(change.object);
-  if (old == nullptr && change.kind != SceneChange::Kind::kPut) {
-    return {nullptr, "object: '" + change.object + "' is not in scene '" + before.name + "'"};
-  }
-  SceneObjects objects;
-  objects.reserve(before.objects.size() + 1);
-  std::ranges::copy_if(before.objects, std::back_inserter(objects),
-                       [&](const auto& object) { return object->name != change.object; });
-  if (change.kind != SceneChange::Kind::kRemove) {
-    ObjectResult placed = place_object(change.object, change.source ? change.source : old->source,
-                                       change.placement, before.options);
-    if (!placed.object) return {nullptr, placed.error};
-    const auto position = std::ranges::lower_bound(
-        objects, change.object, {},
-        [](const auto& object) -> const std::string& { return object->name; });
-    objects.insert(position, std::move(placed.object));
+SnapshotResult changed(const Snapshot& before, const SceneChanges& changes,
+                       std::uint64_t revision) {
+  SceneObjects objects = before.objects;
+  for (const SceneChange& change : changes) {
+    if (SnapshotResult fault = apply(change, before, objects); !fault.error.empty()) return fault;
   }
   return {assemble(before.name, revision, std::move(objects), before.options), ""};
 }
 
-SceneHistory::SceneHistory(const Snapshot& first, const Limits& limits)
-    : name_(first.name), options_(first.options), limits_(limits), oldest_(first.revision) {
+SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision) {
+  return changed(before, SceneChanges{change}, revision);
+}
+
+SceneHistory::SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note)
+    : name_(first.name),
+      options_(first.options),
+      limits_(limits),
+      oldest_{first.revision, std::move(note)} {
   for (const auto& object : first.objects) {
     before_.put(object->name, {object->source, object->placement});
   }
@@ -56,17 +83,19 @@ void SceneHistory::State::remove(std::string_view name) {
   objects.erase(found);
 }
 
-void SceneHistory::State::apply(const SceneChange& change) {
-  switch (change.kind) {
-    case SceneChange::Kind::kPut:
-      put(change.object, {change.source, change.placement});
-      break;
-    case SceneChange::Kind::kMove:
-      objects.find(change.object)->second.placement = change.placement;
-      break;
-    case SceneChange::Kind::kRemove:
-      remove(change.object);
-      break;
+void SceneHistory::State::apply(const SceneChanges& changes) {
+  for (const SceneChange& change : changes) {
+    switch (change.kind) {
+      case SceneChange::Kind::kPut:
+        put(change.object, {change.source, change.placement});
+        break;
+      case SceneChange::Kind::kMove:
+        objects.find(change.object)->second.placement = change.placement;
+        break;
+      case SceneChange::Kind::kRemove:
+        remove(change.object);
+        break;
+    }
   }
 }
 
@@ -74,32 +103,63 @@ std::uint64_t SceneHistory::bytes() const {
   return entry_bytes_ + before_.bytes - std::min(before_.bytes, newest_.bytes);
 }
 
-void SceneHistory::add(SceneChange change, std::uint64_t revision) {
-  entry_bytes_ += bytes_of(change);
-  newest_.apply(change);
-  entries_.push_back({revision, std::move(change)});
+void SceneHistory::add(SceneChanges changes, KeptRevision made) {
+  entry_bytes_ += bytes_of(changes);
+  newest_.apply(changes);
+  entries_.push_back({std::move(made), std::move(changes)});
   while (entries_.size() > limits_.changes || bytes() > limits_.bytes) forget_oldest();
 }
 
 void SceneHistory::forget_oldest() {
-  const Entry& entry = entries_.front();
-  before_.apply(entry.change);
-  oldest_ = entry.revision;
-  entry_bytes_ -= bytes_of(entry.change);
+  Entry& entry = entries_.front();
+  before_.apply(entry.changes);
+  oldest_ = std::move(entry.made);
+  entry_bytes_ -= bytes_of(entry.changes);
   entries_.pop_front();
 }
 
-std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision) const {
+std::vector<KeptRevision> SceneHistory::revisions() const {
+  std::vector<KeptRevision> all{oldest_};
+  for (const Entry& entry : entries_) all.push_back(entry.made);
+  return all;
+}
+
+std::optional<SceneHistory::State> SceneHistory::state_at(std::uint64_t revision) const {
   State state = before_;
-  std::uint64_t reached = oldest_;
+  std::uint64_t reached = oldest_.revision;
   for (const Entry& entry : entries_) {
-    if (entry.revision > revision) break;
-    state.apply(entry.change);
-    reached = entry.revision;
+    if (entry.made.revision > revision) break;
+    state.apply(entry.changes);
+    reached = entry.made.revision;
   }
-  if (reached != revision) return nullptr;
+  return reached == revision ? std::optional(std::move(state)) : std::nullopt;
+}
+
+std::optional<SceneChanges> SceneHistory::changes_back_to(std::uint64_t revision) const {
+  const std::optional<State> then = state_at(revision);
+  if (!then) return std::nullopt;
+  SceneChanges changes;
+  for (const auto& [name, now] : newest_.objects) {
+    if (!then->objects.contains(name)) {
+      changes.push_back({SceneChange::Kind::kRemove, name, nullptr, {}});
+    }
+  }
+  for (const auto& [name, placed] : then->objects) {
+    const auto now = newest_.objects.find(name);
+    if (now == newest_.objects.end() || now->second.source != placed.source) {
+      changes.push_back({SceneChange::Kind::kPut, name, placed.source, placed.placement});
+    } else if (!(now->second.placement == placed.placement)) {
+      changes.push_back({SceneChange::Kind::kMove, name, nullptr, placed.placement});
+    }
+  }
+  return changes;
+}
+
+std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision) const {
+  const std::optional<State> state = state_at(revision);
+  if (!state) return nullptr;
   SceneObjects objects;
-  for (const auto& [name, placed] : state.objects) {
+  for (const auto& [name, placed] : state->objects) {
     ObjectResult result = place_object(name, placed.source, placed.placement, options_);
     assert(result.object && "it could be placed before");
     objects.push_back(std::move(result.object));

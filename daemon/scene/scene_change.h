@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "daemon/scene/scene_object.h"
 #include "daemon/scene/snapshot.h"
@@ -27,10 +30,29 @@ struct SceneChange {
   Placement placement;                         ///< of kPut and kMove
 };
 
-/// The scene after `change`; nothing of what did not change is built again. Fails, with an error
+/// Changes that are made at once, in this order.
+using SceneChanges = std::vector<SceneChange>;
+
+/// The scene after `changes`; nothing of what did not change is built again. Fails, with an error
 /// that names the object, if it is not there or cannot be where it shall be. The two snapshots are
 /// independent; safe from any thread. Precondition: a source is there where one is needed.
+SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision);
 SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision);
+
+/// What is remembered of a change beside what it did, for people who look for a revision.
+struct ChangeNote {
+  std::string operation = {};           ///< a word of who made it: "load", "move" and so on
+  std::string object = {};              ///< that was changed; empty: all
+  std::string client = {};              ///< who asked for it; empty: nobody
+  std::uint64_t restored_revision = 0;  ///< whose objects it has again; 0: of none
+  std::chrono::system_clock::time_point when = {};  ///< the store sets it
+};
+
+/// A revision that can be built again, and the change that led to it.
+struct KeptRevision {
+  std::uint64_t revision = 0;
+  ChangeNote note = {};
+};
 
 /// The changes that led to the newest revision of a scene, as many as the limits allow, and what it
 /// was before them: so each of these revisions can be built again. A value type.
@@ -42,30 +64,37 @@ class SceneHistory {
     std::uint64_t bytes = std::uint64_t{256} << 20;
   };
   struct Entry {
-    std::uint64_t revision = 0;  ///< that the change led to
-    SceneChange change;
+    KeptRevision made;  ///< that the changes led to, together
+    SceneChanges changes;
   };
 
   /// Begins with `first`.
-  SceneHistory(const Snapshot& first, const Limits& limits);
+  SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note = {});
 
-  /// Precondition: `changed` made `revision` of the newest one.
-  void add(SceneChange change, std::uint64_t revision);
+  /// Precondition: `changed` made `made.revision` of the newest one.
+  void add(SceneChanges changes, KeptRevision made);
 
   /// What the changes put into the scene, in its own frame, still there or not, and by how much the
   /// scene before them was larger than it is now. So all that is kept takes no more than this and
-  /// the scene. Above 0 only if there is a change.
+  /// the scene; less, where a change put again what another had put before. Above 0 only if there
+  /// is a change.
   [[nodiscard]] std::uint64_t bytes() const;
   /// Precondition: there is a change.
   void forget_oldest();
 
   /// The revision before the first change that is still known.
-  [[nodiscard]] std::uint64_t oldest_revision() const { return oldest_; }
+  [[nodiscard]] std::uint64_t oldest_revision() const { return oldest_.revision; }
   [[nodiscard]] const std::deque<Entry>& entries() const { return entries_; }
+  /// All that can be built again, oldest first.
+  [[nodiscard]] std::vector<KeptRevision> revisions() const;
 
   /// Builds a revision again, from what the objects are and where they were then: equal to what it
   /// was in everything. Nothing if `revision` is none of those that are known.
   [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision) const;
+
+  /// What makes the newest revision have the objects of that one, each where it was. Nothing if
+  /// that is none of those that are known.
+  [[nodiscard]] std::optional<SceneChanges> changes_back_to(std::uint64_t revision) const;
 
  private:
   struct Placed {
@@ -78,13 +107,15 @@ class SceneHistory {
 
     void put(std::string_view name, const Placed& placed);
     void remove(std::string_view name);
-    void apply(const SceneChange& change);
+    void apply(const SceneChanges& changes);
   };
+
+  [[nodiscard]] std::optional<State> state_at(std::uint64_t revision) const;
 
   std::string name_;
   ObjectOptions options_;
   Limits limits_;
-  std::uint64_t oldest_;
+  KeptRevision oldest_;
   State before_;  ///< at `oldest_`
   State newest_;
   std::deque<Entry> entries_;

@@ -7,8 +7,14 @@
 #include <cstdio>
 #include <utility>
 
+#include "daemon/scene/parallel_chunks.h"
+
 namespace camway::scene {
 namespace {
+
+/// Of the mesh itself, its object and the control block, and of the list.
+constexpr std::uint64_t kBytesBesideAPart =
+    sizeof(MeshPart) + sizeof(Mesh) + sizeof(MeshObject) + 6 * sizeof(void*);
 
 class Digest {
  public:
@@ -31,9 +37,85 @@ class Digest {
   std::unique_ptr<XXH3_state_t, Free> state_{XXH3_createState()};
 };
 
-std::shared_ptr<const Mesh> mesh_in_world(const ObjectSource& source, const Placement& placement) {
-  if (placement.is_identity()) return source.mesh_O;
-  return std::make_shared<const Mesh>(placed_mesh(*source.mesh_O, placement));
+std::shared_ptr<const Mesh> mesh_in_world(const MeshPart& part, const Placement& placement) {
+  if (placement.is_identity()) return part.mesh;
+  return std::make_shared<const Mesh>(placed_mesh(*part.mesh, placement));
+}
+
+std::shared_ptr<const PlacedPart> placed(const MeshPart& part, const Placement& placement,
+                                         const IndexOptions& options) {
+  auto result = std::make_shared<PlacedPart>();
+  result->indexed = IndexedMesh::build(mesh_in_world(part, placement), options);
+  result->digest = mesh_digest(*result->indexed->mesh);
+  return result;
+}
+
+/// For each part of `source` what `before` has of it in that place, or null.
+std::vector<std::shared_ptr<const PlacedPart>> parts_there(const ObjectSource& source,
+                                                           const Placement& placement,
+                                                           const SceneObject* before) {
+  std::vector<std::shared_ptr<const PlacedPart>> parts(source.parts_O.size());
+  if (before == nullptr || !(before->placement == placement)) return parts;
+  const std::vector<MeshPart>& olds = before->source->parts_O;
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const MeshPart& part = source.parts_O[i];
+    while (old < olds.size() && olds[old].key < part.key) ++old;
+    if (old < olds.size() && olds[old].mesh == part.mesh) parts[i] = before->parts[old];
+  }
+  return parts;
+}
+
+std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& source,
+                                                            const Placement& placement,
+                                                            const IndexOptions& options,
+                                                            const SceneObject* before) {
+  std::vector<std::shared_ptr<const PlacedPart>> parts = parts_there(source, placement, before);
+  if (parts.size() == 1) {
+    if (!parts[0]) parts[0] = placed(source.parts_O[0], placement, options);
+    return parts;
+  }
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!parts[i]) missing.push_back(i);
+  }
+  IndexOptions of_one = options;
+  of_one.threads = 1;
+  for_each_chunk(chunk_threads(options.threads), missing.size(), [&](unsigned, std::size_t i) {
+    parts[missing[i]] = placed(source.parts_O[missing[i]], placement, of_one);
+  });
+  return parts;
+}
+
+std::string digest_of(const SceneObject& object) {
+  if (!object.source->map_O) return object.parts.front()->digest;
+  std::vector<std::string> digests;
+  digests.reserve(object.parts.size() + 1);
+  for (const auto& part : object.parts) digests.push_back(part->digest);
+  digests.emplace_back("solid");  // another thing than its surface alone
+  return text_digest(digests);
+}
+
+/// Whether the mirror has the very voxels of the object.
+bool has_own_voxels(const SceneObject& object, const ObjectOptions& options) {
+  return object.source->map_O && object.placement.is_identity() &&
+         object.source->map_O->resolution_m() == *options.occupancy_resolution_m;
+}
+
+OccupancyMap::BuildResult mirror_of(const SceneObject& object, const ObjectOptions& options,
+                                    const SceneObject* before) {
+  if (has_own_voxels(object, options)) {
+    const bool is_like_before = before != nullptr && has_own_voxels(*before, options);
+    return OccupancyMap::of_map(*object.source->map_O, object.source->bounds_O,
+                                options.mirror_voxels,
+                                is_like_before ? before->occupancy.get() : nullptr,
+                                is_like_before ? before->source->map_O.get() : nullptr);
+  }
+  std::vector<const Mesh*> meshes;
+  meshes.reserve(object.parts.size());
+  for (const auto& part : object.parts) meshes.push_back(part->indexed->mesh.get());
+  return OccupancyMap::build(meshes, *options.occupancy_resolution_m, object.solid(),
+                             options.mirror_voxels);
 }
 
 bool is_too_far(const geometry::Box& bounds) {
@@ -63,9 +145,10 @@ const char* to_string(ObjectKind kind) {
 }
 
 std::uint64_t ObjectSource::memory_bytes() const {
-  return mesh_O->vertices.capacity() * sizeof(geometry::Vec3) +
-         mesh_O->triangles.capacity() * sizeof(mesh_O->triangles[0]) +
-         (field_O ? field_O->statistics().memory_bytes : 0) + (map_O ? map_O->memory_bytes() : 0);
+  std::uint64_t bytes =
+      (field_O ? field_O->statistics().memory_bytes : 0) + (map_O ? map_O->memory_bytes() : 0);
+  for (const MeshPart& part : parts_O) bytes += part.mesh->memory_bytes() + kBytesBesideAPart;
+  return bytes;
 }
 
 ImportReport report_of(const Mesh& mesh, std::string format) {
@@ -78,15 +161,24 @@ ImportReport report_of(const Mesh& mesh, std::string format) {
   return report;
 }
 
+ImportReport report_of(const VoxelMap& map, std::string format) {
+  ImportReport report;
+  report.format = std::move(format);
+  report.objects = 1;
+  for (const MeshPart& part : map.skin()->parts()) {
+    report.vertices += part.mesh->vertices.size();
+    report.triangles += part.mesh->triangles.size();
+    report.bounds_m.extend(part.bounds);
+  }
+  return report;
+}
+
 std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, ImportReport report,
-                                                const ObjectOptions& options,
-                                                std::shared_ptr<const VoxelMap> map_O) {
-  assert((kind == ObjectKind::kMap) == (map_O != nullptr));
+                                                const ObjectOptions& options) {
+  assert(kind != ObjectKind::kMap);
   auto source = std::make_shared<ObjectSource>();
   source->kind = kind;
-  source->bounds_O = mesh_O.bounds();
   source->report = std::move(report);
-  source->map_O = std::move(map_O);
   if (options.field) {
     DistanceFieldResult result = DistanceField::build(mesh_O, *options.field);
     source->field_O = std::move(result.field);
@@ -94,33 +186,51 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
   } else {
     source->why_no_field = "it was not asked for";
   }
-  source->mesh_O = std::make_shared<const Mesh>(std::move(mesh_O));
+  source->parts_O.push_back(MeshPart::of(0, std::move(mesh_O)));
+  source->bounds_O = source->parts_O.front().bounds;
+  return source;
+}
+
+std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
+                                                    ImportReport report,
+                                                    const ObjectOptions& options) {
+  assert(map_O && map_O->skin());
+  auto source = std::make_shared<ObjectSource>();
+  source->kind = ObjectKind::kMap;
+  source->report = std::move(report);
+  source->parts_O = map_O->skin()->parts();
+  for (const MeshPart& part : source->parts_O) source->bounds_O.extend(part.bounds);
+  source->why_no_field =
+      options.field ? "occupancy maps have none, so that scans are quick" : "it was not asked for";
+  source->map_O = std::move(map_O);
   return source;
 }
 
 std::optional<PlacedVoxelMap> SceneObject::solid() const {
   if (!source->map_O) return std::nullopt;
-  return PlacedVoxelMap{source->map_O, placement, placed->tree.bounds()};
+  return PlacedVoxelMap{source->map_O, placement, bounds_W};
 }
 
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
-                          const Placement& placement, const ObjectOptions& options) {
+                          const Placement& placement, const ObjectOptions& options,
+                          const SceneObject* before) {
   assert(source);
   auto object = std::make_shared<SceneObject>();
-  const std::shared_ptr<const Mesh> mesh_W = mesh_in_world(*source, placement);
+  object->parts = placed_parts(*source, placement, options.index, before);
+  for (const auto& part : object->parts) {
+    object->bounds_W.extend(part->indexed->tree.bounds());
+    object->triangles += part->indexed->mesh->triangles.size();
+  }
   // What was imported where it is keeps its own, wider limit.
-  if (!placement.is_identity() && is_too_far(mesh_W->bounds())) {
+  if (!placement.is_identity() && is_too_far(object->bounds_W)) {
     return {nullptr, name + ": would lie more than 1e9 m from the origin"};
   }
-  object->digest = mesh_digest(*mesh_W);
-  if (source->map_O) object->digest = text_digest({object->digest, "solid"});
-  object->placed = IndexedMesh::build(mesh_W, options.index);
   object->source = std::move(source);
   object->placement = placement;
+  object->digest = digest_of(*object);
   if (options.occupancy_resolution_m) {
-    OccupancyMap::BuildResult mirror = OccupancyMap::build(*mesh_W, *options.occupancy_resolution_m,
-                                                           object->solid(), options.mirror_voxels);
-    if (!mirror.map) return {nullptr, name + ": " + mirror.error};
+    OccupancyMap::BuildResult mirror = mirror_of(*object, options, before);
+    if (!mirror.map) return {nullptr, name + ": " + mirror.error, mirror.limit};
     object->occupancy = std::move(mirror.map);
   }
   object->name = std::move(name);

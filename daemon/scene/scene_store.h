@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,10 +9,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "daemon/scene/limit.h"
 #include "daemon/scene/scene_change.h"
 #include "daemon/scene/snapshot.h"
 
@@ -33,29 +36,44 @@ enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit };
 struct StoreResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< the newest now; null on error
   StoreFault fault = StoreFault::kNone;
-  std::string error;  ///< empty exactly when `snapshot` is set
+  std::string error;           ///< empty exactly when `snapshot` is set
+  Limit limit = Limit::kNone;  ///< of `StoreFault::kLimit`
 };
 
 /// The scenes that a daemon holds, by name: the newest snapshot of each, and how it came to be. A
 /// snapshot that someone took stays as it is when its scene changes. The revisions of a name only
-/// ever increase, even when its scene is removed and another comes. Safe from any thread; changes
-/// are made one after the other, and nobody who only looks waits for them.
+/// ever increase, even when its scene is removed and another comes.
+///
+/// Safe from any thread. Changes of one scene are made one after the other, those of different ones
+/// side by side: each holds the turn of its scene from its beginning to its end, and what all wait
+/// for, who only looks included, no longer than it takes to put the finished snapshot in its place.
+/// What all scenes together come to is looked at there, too, so no limit is ever broken; what is
+/// being made is not counted yet.
 class SceneStore {
  public:
   explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
 
   /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is that
   /// of the snapshot, or the next that the name has had, whichever is higher.
-  StoreResult put(std::shared_ptr<const Snapshot> snapshot);
+  StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {});
 
   /// Changes one object of a scene. Precondition as that of `changed`.
-  StoreResult change(std::string_view scene, SceneChange change);
+  StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {});
+
+  /// Makes a new revision with the objects of one that is kept. If it is not, the error says which
+  /// are.
+  StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {});
+
+  /// Makes a scene `other` of them, or replaces the one of that name; as `put`.
+  StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
+                         ChangeNote note = {});
 
   /// Whether there was such a scene.
   bool remove(std::string_view scene);
 
-  /// Calls `listener` from now on after each change, on the thread of whoever made it; no function
-  /// ends that. It must not change scenes. Once this returns the one before is not called any more.
+  /// Calls `listener` from now on after each change, on the thread of whoever made it, but never on
+  /// two at a time; no function ends that. It must not change scenes. Once this returns the one
+  /// before is not called any more.
   void on_change(std::function<void()> listener);
 
   /// The newest snapshot, or null.
@@ -63,6 +81,14 @@ class SceneStore {
 
   /// How the newest snapshot came to be, or nothing if there is no such scene.
   [[nodiscard]] std::optional<SceneHistory> history(std::string_view name) const;
+
+  /// The newest snapshot, and all revisions that can be restored, oldest first; the last is the
+  /// newest. Empty and null if there is no such scene.
+  struct Kept {
+    std::shared_ptr<const Snapshot> newest;
+    std::vector<KeptRevision> revisions;
+  };
+  [[nodiscard]] Kept kept(std::string_view name) const;
 
   /// All scenes in order of name.
   [[nodiscard]] std::vector<std::shared_ptr<const Snapshot>> list() const;
@@ -73,26 +99,58 @@ class SceneStore {
   [[nodiscard]] const SceneStoreLimits& limits() const { return limits_; }
 
  private:
+  /// What counts of a scene, or of all together.
+  struct Load {
+    std::uint64_t triangles = 0;
+    std::uint64_t occupancy_bytes = 0;
+  };
   struct Entry {
     std::shared_ptr<const Snapshot> newest;
+    Load load;
     SceneHistory history;
   };
+  using Scenes = std::map<std::string, Entry, std::less<>>;
 
-  /// What speaks against `next` in the place of the scene of its name; empty if nothing does.
-  [[nodiscard]] std::string over_limit(const Snapshot& next) const;
+  /// Nobody else changes the scene of that name, which may not be there, while this lives.
+  class Turn {
+   public:
+    Turn(SceneStore& store, std::string_view scene);
+    ~Turn();
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
 
-  /// Shortens the longest histories until all keep to the limit. Precondition: mutex_ is held.
+   private:
+    SceneStore& store_;
+    std::set<std::string, std::less<>>::iterator scene_;
+  };
+
+  static Load load_of(const Snapshot& snapshot);
+  [[nodiscard]] StoreResult unknown(std::string_view scene) const;
+  /// Precondition: it is the scene's turn, and `before` is its newest.
+  StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note);
+
+  /// The lowest revision that the next scene of that name may have. Stays true while its turn
+  /// lasts.
+  [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
+
+  /// What speaks against `next` in the place of the scene of its name; of no fault if nothing
+  /// does. Precondition of this and the next two: mutex_ is held.
+  [[nodiscard]] StoreResult over_limit(const Snapshot& next, const Load& load) const;
+  /// Counts a scene of that load, or of none, in the place of the one that is there, or of none.
+  void count(const Load& before, const Load& after);
+  /// Shortens the longest histories until all keep to the limit.
   void forget_history();
 
-  void tell() const {
-    if (listener_) listener_();
-  }
+  void tell();
 
   const SceneStoreLimits limits_;
-  std::mutex changing_;             ///< held by who makes a change, from its beginning to its end
-  std::function<void()> listener_;  ///< guarded by changing_
-  mutable std::mutex mutex_;        ///< guards all below
-  std::map<std::string, Entry, std::less<>> scenes_;
+  std::mutex telling_;              ///< held while the listener is called; before mutex_
+  std::function<void()> listener_;  ///< guarded by telling_
+  mutable std::mutex mutex_;        ///< guards all below; held for moments only
+  std::condition_variable turn_ended_;
+  std::set<std::string, std::less<>> changing_;  ///< scenes of which it is somebody's turn
+  Scenes scenes_;
+  Load total_;                         ///< of `scenes_`
   std::uint64_t highest_removed_ = 0;  ///< revision of the scenes that are gone
 };
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "daemon/geometry/rounding.h"
-#include "daemon/scene/voxel_set.h"
+#include "daemon/scene/voxel_skin.h"
 
 namespace camway::scene {
 namespace {

@@ -10,13 +10,10 @@
 namespace camway::scene {
 namespace {
 
-SnapshotResult build(std::string name, Mesh mesh, ImportReport report, const ObjectOptions& options,
-                     std::shared_ptr<const VoxelMap> map = nullptr) {
-  const ObjectKind kind = map ? ObjectKind::kMap : ObjectKind::kMesh;
-  ObjectResult result = place_object(
-      name, make_source(kind, std::move(mesh), std::move(report), options, std::move(map)), {},
-      options);
-  if (!result.object) return {nullptr, result.error};
+SnapshotResult build(std::string name, std::shared_ptr<const ObjectSource> source,
+                     const ObjectOptions& options) {
+  ObjectResult result = place_object(name, std::move(source), {}, options);
+  if (!result.object) return {nullptr, result.error, result.limit};
   return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
 }
 
@@ -34,7 +31,7 @@ void add(const SceneObject& object, ImportReport& sum) {
   sum.vertices += report.vertices;
   sum.triangles += report.triangles;
   sum.objects += report.objects;
-  sum.bounds_m.extend(object.placed->tree.bounds());
+  sum.bounds_m.extend(object.bounds_W);
   sum.degenerate_triangles += report.degenerate_triangles;
   sum.dropped_nonfinite += report.dropped_nonfinite;
   sum.dropped_bad_index += report.dropped_bad_index;
@@ -48,7 +45,7 @@ void add(const SceneObject& object, ImportReport& sum) {
 ImportReport report_of(const SceneObjects& objects) {
   if (objects.size() == 1) {
     ImportReport report = objects.front()->source->report;
-    report.bounds_m = objects.front()->placed->tree.bounds();
+    report.bounds_m = objects.front()->bounds_W;
     return report;
   }
   ImportReport sum;
@@ -62,9 +59,8 @@ void make_field(Snapshot& snapshot) {
   const ObjectSource* without = nullptr;  ///< an object that has triangles but no field
   for (const auto& object : snapshot.objects) {
     const ObjectSource& source = *object->source;
-    if (source.mesh_O->triangles.empty()) continue;
-    fields.push_back(
-        {source.field_O, object->placement, source.bounds_O, object->placed->tree.bounds()});
+    if (object->triangles == 0) continue;
+    fields.push_back({source.field_O, object->placement, source.bounds_O, object->bounds_W});
     if (!source.field_O) without = &source;
   }
   if (fields.empty()) {
@@ -102,8 +98,12 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
   std::vector<PlacedVoxelMap> solids;
   for (const auto& object : objects) {
     assert(object->occupancy || !options.occupancy_resolution_m);
-    meshes.push_back({object->name, object->placed->mesh});
-    indexed.push_back(object->placed);
+    WholeMesh::Part part{object->name, {}};
+    for (const auto& placed : object->parts) {
+      part.meshes.push_back(placed->indexed->mesh);
+      indexed.push_back(placed->indexed);
+    }
+    meshes.push_back(std::move(part));
     if (object->occupancy) maps.push_back(object->occupancy);
     if (auto solid = object->solid()) solids.push_back(*std::move(solid));
   }
@@ -121,15 +121,20 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
 
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options) {
   ImportReport report = scene::report_of(mesh, "memory");
-  return build(std::move(name), std::move(mesh), std::move(report), options);
+  return build(std::move(name),
+               make_source(ObjectKind::kMesh, std::move(mesh), std::move(report), options),
+               options);
 }
 
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
                              const SnapshotOptions& options, const std::stop_token& stop) {
   ImportResult import = import_mesh(file, options.import, stop);
-  if (!import.mesh) return {nullptr, import.error};
-  SnapshotResult result = build(std::move(name), std::move(*import.mesh), std::move(import.report),
-                                options, std::move(import.map));
+  if (!import.mesh) return {nullptr, import.error, import.limit};
+  const std::shared_ptr<const ObjectSource> source =
+      import.map ? make_map_source(std::move(import.map), std::move(import.report), options)
+                 : make_source(ObjectKind::kMesh, std::move(*import.mesh), std::move(import.report),
+                               options);
+  SnapshotResult result = build(std::move(name), source, options);
   if (!result.snapshot) result.error = file.string() + ": " + result.error;
   return result;
 }

@@ -11,6 +11,7 @@
 
 #include "daemon/scene/clearance_field.h"
 #include "daemon/scene/import.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/scene_index.h"
 #include "daemon/scene/scene_object.h"
@@ -51,9 +52,11 @@ struct Snapshot {
 struct SnapshotResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< null on error
   std::string error;                         ///< names the file
+  Limit limit = Limit::kNone;                ///< that the error is about
 };
 
-/// Puts objects together to a scene. Costs what there are objects, whatever is in them.
+/// Puts objects together to a scene. Costs what there are objects and parts of them, whatever is in
+/// these.
 /// Preconditions: in order of name, each once; built with `options`.
 std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
                                          SceneObjects objects, const ObjectOptions& options);

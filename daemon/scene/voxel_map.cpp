@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/voxel_map.h"
 
-#include <octomap/OcTree.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,16 +28,11 @@ VoxelRange voxels_near(double coordinate_m, double error_m, double resolution_m)
   return {voxel(coordinate_m - off_m), voxel(coordinate_m + off_m)};
 }
 
-VoxelSet::Range joined(const VoxelSet& a, const VoxelSet& b) {
-  if (a.empty()) return b.bounds();
-  if (b.empty()) return a.bounds();
-  VoxelSet::Range range = a.bounds();
-  const VoxelSet::Range other = b.bounds();
+void extend(VoxelSet::Range& range, const VoxelSet::Range& other) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     range[axis].first = std::min(range[axis].first, other[axis].first);
     range[axis].last = std::max(range[axis].last, other[axis].last);
   }
-  return range;
 }
 
 VoxelSet::Range with_a_layer_about(VoxelSet::Range range) {
@@ -49,6 +42,8 @@ VoxelSet::Range with_a_layer_about(VoxelSet::Range range) {
   }
   return range;
 }
+
+bool is_empty(const VoxelSet::Range& range) { return range[0].first > range[0].last; }
 
 double volume(const VoxelSet::Range& range) {
   double voxels = 1.0;
@@ -84,34 +79,94 @@ VoxelMap::VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, Unknow
 
 VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet free,
                                UnknownSpace unknown, const VoxelMapLimits& limits,
-                               const SensorModel& sensor,
-                               std::shared_ptr<const octomap::OcTree> beliefs) {
+                               const SensorModel& sensor) {
   if (!VoxelGrid::valid_resolution(resolution_m)) {
     return {nullptr, "has a resolution that is not between 1e-9 and 1e9 m"};
-  }
-  if (occupied.size() > limits.voxels || free.size() > limits.voxels) {
-    return {nullptr, too_many(limits, "occupied or free voxels")};
   }
   std::shared_ptr<VoxelMap> map(
       new VoxelMap(resolution_m, std::move(occupied), std::move(free), unknown));
   map->limits_ = limits;
   map->sensor_ = sensor;
-  map->beliefs_ = std::move(beliefs);
-  const bool knows_something = !map->occupied_.empty() || !map->free_.empty();
-  if (unknown == UnknownSpace::kOccupied && knows_something) {
-    const VoxelSet::Range range = with_a_layer_about(joined(map->occupied_, map->free_));
-    if (volume(range) > static_cast<double>(limits.voxels)) {
-      return {nullptr, too_many(limits, "voxels in its box, which the unknown fills")};
-    }
-    map->solid_ = map->free_.complement_in(range);
-    map->occupied_.for_each([&](const Voxel& voxel) { map->solid_.insert(voxel); });
+  if (unknown == UnknownSpace::kOccupied) {
+    extend(map->known_, map->occupied_.bounds());
+    extend(map->known_, map->free_.bounds());
   }
+  if (std::string fault = map->fault(); !fault.empty()) {
+    return {nullptr, std::move(fault), Limit::kMapVoxels};
+  }
+  map->fill_beyond(VoxelSet::kNoVoxels);
+  map->skin_ = VoxelSkin::of(map->solid(), resolution_m, limits.triangles);
   return {std::move(map), ""};
+}
+
+VoxelMapResult VoxelMap::with(std::span<const ScannedBlock> blocks) const {
+  std::shared_ptr<VoxelMap> next(new VoxelMap(*this));
+  for (const ScannedBlock& block : blocks) {
+    next->occupied_.set_block(block.key, block.occupied);
+    next->free_.set_block(block.key, block.free);
+    next->beliefs_.at(block.key) = block.beliefs;
+    if (unknown_ == UnknownSpace::kFree) continue;
+    VoxelSet::extend(next->known_, block.key, block.occupied);
+    VoxelSet::extend(next->known_, block.key, block.free);
+  }
+  if (std::string fault = next->fault(); !fault.empty()) {
+    return {nullptr, std::move(fault), Limit::kMapVoxels};
+  }
+  if (unknown_ == UnknownSpace::kOccupied) {
+    for (const ScannedBlock& block : blocks) next->fill(block.key);
+    next->fill_beyond(box());
+  }
+  next->skin_ = skin_ ? skin_->updated(solid(), next->solid(), resolution_m_, limits_.triangles)
+                      : VoxelSkin::of(next->solid(), resolution_m_, limits_.triangles);
+  return {std::move(next), ""};
+}
+
+/// Why there cannot be such a map, or nothing.
+std::string VoxelMap::fault() const {
+  if (occupied_.size() > limits_.voxels || free_.size() > limits_.voxels) {
+    return too_many(limits_, "occupied or free voxels");
+  }
+  if (!is_empty(known_) && volume(box()) > static_cast<double>(limits_.voxels)) {
+    return too_many(limits_, "voxels in its box, which the unknown fills");
+  }
+  return {};
+}
+
+/// What the unknown fills; no voxels if nothing is known.
+VoxelSet::Range VoxelMap::box() const {
+  return is_empty(known_) ? known_ : with_a_layer_about(known_);
+}
+
+void VoxelMap::fill(std::uint64_t key) {
+  VoxelSet::Bits bits = VoxelSet::bits_in(box(), key);
+  const VoxelSet::Bits free = free_.block(key);
+  const VoxelSet::Bits occupied = occupied_.block(key);
+  for (std::size_t z = 0; z < bits.size(); ++z) bits[z] = (bits[z] & ~free[z]) | occupied[z];
+  solid_.set_block(key, bits);
+}
+
+/// All blocks of the box that do not lie in the one that was `before`.
+void VoxelMap::fill_beyond(const VoxelSet::Range& before) {
+  constexpr std::int32_t kStep = BlockKey::kBlockSize;
+  const VoxelSet::Range now = box();
+  if (is_empty(now)) return;
+  const auto lies_in = [&](std::size_t axis, std::int32_t low) {
+    return before[axis].first <= low && low + kStep - 1 <= before[axis].last;
+  };
+  const auto first = [&](std::size_t axis) { return now[axis].first & ~(kStep - 1); };
+  for (std::int32_t z = first(2); z <= now[2].last; z += kStep) {
+    for (std::int32_t y = first(1); y <= now[1].last; y += kStep) {
+      const bool is_row_inside = lies_in(2, z) && lies_in(1, y);
+      for (std::int32_t x = first(0); x <= now[0].last; x += kStep) {
+        if (!is_row_inside || !lies_in(0, x)) fill(BlockKey::of({x, y, z}));
+      }
+    }
+  }
 }
 
 std::uint64_t VoxelMap::memory_bytes() const {
   return occupied_.memory_bytes() + free_.memory_bytes() + solid_.memory_bytes() +
-         (beliefs_ ? beliefs_->memoryUsage() : 0);
+         beliefs_.memory_bytes() + beliefs_.size() * sizeof(Beliefs);
 }
 
 bool VoxelMap::is_solid_near(const Vec3& point_O, double error_m) const {

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "daemon/scene/block_map.h"
+#include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"
 #include "daemon/scene/placement.h"
 #include "daemon/scene/voxel_set.h"
-
-namespace octomap {
-class OcTree;
-}
+#include "daemon/scene/voxel_skin.h"
 
 namespace camway::scene {
 
@@ -49,38 +51,56 @@ struct VoxelMapLimits {
 
 struct VoxelMapResult;
 
+/// What a map believes of the voxels of a block: the logarithm of the odds that it is occupied, as
+/// OctoMap computes it; x runs fastest, then y. 0 where nothing is known.
+using Beliefs = std::array<float, 512>;
+
+/// What a scan makes of a block.
+struct ScannedBlock {
+  std::uint64_t key = 0;  ///< as `BlockKey` has it
+  VoxelSet::Bits occupied{};
+  VoxelSet::Bits free{};
+  std::shared_ptr<const Beliefs> beliefs;
+};
+
 /// An occupancy map as a thing in a scene: a solid that consists of voxels, and what is known of
 /// the space about them. Its faces are an ordinary mesh, but only those between solid voxels and
 /// others; so what is inside must be asked for apart, or a body that is there would meet nothing.
 /// Immutable; safe from any thread.
 class VoxelMap {
  public:
-  /// A voxel in both sets is occupied. `beliefs`: of a map that was scanned, what the sets follow
-  /// from. One of too many voxels is refused; of its faces, `skin` knows the limit. Preconditions:
-  /// within the limits of `VoxelGrid`; the sensor has no `fault_in`.
+  /// A voxel in both sets is occupied. One of too many voxels is refused; of its faces, `skin`
+  /// knows the limit. Preconditions: within the limits of `VoxelGrid`; the sensor has no
+  /// `fault_in`.
   static VoxelMapResult build(double resolution_m, VoxelSet occupied, VoxelSet free,
                               UnknownSpace unknown, const VoxelMapLimits& limits = {},
-                              const SensorModel& sensor = {},
-                              std::shared_ptr<const octomap::OcTree> beliefs = nullptr);
+                              const SensorModel& sensor = {});
+
+  /// The map with these blocks in the place of its own: equal in everything to one that was built
+  /// of the same voxels, but it shares what did not change, and costs what did. What is known stays
+  /// known: precondition.
+  [[nodiscard]] VoxelMapResult with(std::span<const ScannedBlock> blocks) const;
 
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   [[nodiscard]] UnknownSpace unknown() const { return unknown_; }
   [[nodiscard]] const VoxelMapLimits& limits() const { return limits_; }
   [[nodiscard]] const SensorModel& sensor() const { return sensor_; }
-  /// Null for a map that was never scanned. For those in daemon/scene who know OctoMap.
-  [[nodiscard]] const std::shared_ptr<const octomap::OcTree>& beliefs() const { return beliefs_; }
+  /// Of a block; null if it was never scanned.
+  [[nodiscard]] const Beliefs* beliefs(std::uint64_t key) const {
+    const std::shared_ptr<const Beliefs>* const found = beliefs_.find(key);
+    return found != nullptr ? found->get() : nullptr;
+  }
   [[nodiscard]] const VoxelSet& occupied() const { return occupied_; }
   [[nodiscard]] const VoxelSet& free() const { return free_; }
   /// The voxels that nothing may be in.
   [[nodiscard]] const VoxelSet& solid() const {
     return unknown_ == UnknownSpace::kFree ? occupied_ : solid_;
   }
+  /// Without its faces.
   [[nodiscard]] std::uint64_t memory_bytes() const;
 
   /// The faces of the solid, in the frame of the map; nothing if there are too many.
-  [[nodiscard]] std::optional<Mesh> skin() const {
-    return skin_of(solid(), resolution_m_, limits_.triangles);
-  }
+  [[nodiscard]] const std::optional<VoxelSkin>& skin() const { return skin_; }
 
   /// Whether a point of the solid is within `error_m` of `point_O` on every axis, or may be. True
   /// for what is not finite.
@@ -89,20 +109,30 @@ class VoxelMap {
  private:
   VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, UnknownSpace unknown);
 
+  [[nodiscard]] std::string fault() const;
+  // Where the unknown is occupied:
+  [[nodiscard]] VoxelSet::Range box() const;
+  void fill(std::uint64_t key);
+  void fill_beyond(const VoxelSet::Range& before);
+
   double resolution_m_;
   UnknownSpace unknown_;
   VoxelSet occupied_;
   VoxelSet free_;
-  VoxelSet solid_;  ///< where the unknown is occupied
+  // Both where the unknown is occupied.
+  VoxelSet solid_;
+  VoxelSet::Range known_ = VoxelSet::kNoVoxels;  ///< holds what is occupied or free
   VoxelMapLimits limits_;
   SensorModel sensor_;
-  std::shared_ptr<const octomap::OcTree> beliefs_;
+  BlockMap<std::shared_ptr<const Beliefs>> beliefs_;
+  std::optional<VoxelSkin> skin_;
 };
 
 /// A map, or why there is none.
 struct VoxelMapResult {
   std::shared_ptr<const VoxelMap> map;
-  std::string error;  ///< empty exactly when `map` is set
+  std::string error;           ///< empty exactly when `map` is set
+  Limit limit = Limit::kNone;  ///< that the error is about
 };
 
 /// A map in its place.

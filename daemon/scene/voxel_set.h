@@ -5,18 +5,16 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/block_map.h"
 #include "daemon/scene/voxel_grid.h"
 
 namespace camway::scene {
 
 /// A set of voxels of a grid, as bits in blocks of 8 x 8 x 8: a look-up costs one of a hash table,
-/// and neighbours share what they cost. A value type; const calls are safe from any thread.
+/// and neighbours share what they cost. A value type whose copies share what neither of them
+/// changes (`BlockMap`); const calls are safe from any thread.
 class VoxelSet {
  public:
   /// Voxels from -kMostVoxels to kMostVoxels - 1 on each axis.
@@ -27,6 +25,10 @@ class VoxelSet {
 
   /// The first and the last voxel on each axis.
   using Range = std::array<VoxelRange, 3>;
+  /// Of no voxels: what `extend` begins with.
+  static constexpr Range kNoVoxels{VoxelRange{kMostVoxels, -kMostVoxels},
+                                   VoxelRange{kMostVoxels, -kMostVoxels},
+                                   VoxelRange{kMostVoxels, -kMostVoxels}};
 
   /// Whether it was not in the set. Precondition: within kMostVoxels.
   bool insert(const Voxel& voxel);
@@ -37,11 +39,17 @@ class VoxelSet {
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::uint64_t memory_bytes() const;
-  /// Of its voxels. Precondition: not empty.
+  /// Of its voxels; kNoVoxels if it is empty.
   [[nodiscard]] Range bounds() const;
 
-  /// The voxels of `range` that are not in this set. Precondition: within kMostVoxels.
-  [[nodiscard]] VoxelSet complement_in(const Range& range) const;
+  /// The voxels of a block, which `BlockKey` has the numbers of.
+  [[nodiscard]] Bits block(std::uint64_t key) const;
+  /// Makes these the voxels of a block.
+  void set_block(std::uint64_t key, const Bits& bits);
+  /// Those of a block that lie in `range`.
+  static Bits bits_in(const Range& range, std::uint64_t key);
+  /// Makes `range` hold these voxels of a block, too.
+  static void extend(Range& range, std::uint64_t key, const Bits& bits);
 
   /// Calls `visit` for every voxel, in an order that depends on the set only.
   template <class Visit>
@@ -60,25 +68,36 @@ class VoxelSet {
   /// block may have no voxels.
   template <class Visit>
   void for_each_block(const Visit& visit) const {
-    for (const std::uint64_t key : sorted_keys()) visit(low_of(key), blocks_.find(key)->second);
+    blocks_.for_each(
+        [&](std::uint64_t key, const Bits& bits) { visit(BlockKey::low_of(key), bits); });
+  }
+
+  /// Of all blocks, increasing.
+  [[nodiscard]] std::vector<std::uint64_t> sorted_keys() const;
+
+  /// Calls `visit(key, old_bits, bits)` for every block that is another one than in `before`. Costs
+  /// what was changed since one of the two was a copy of the other.
+  template <class Visit>
+  void for_each_difference(const VoxelSet& before, const Visit& visit) const {
+    blocks_.for_each_unshared(before.blocks_,
+                              [&](std::uint64_t key, const Bits* old_bits, const Bits* bits) {
+                                const Bits old = old_bits != nullptr ? *old_bits : Bits{};
+                                const Bits now = bits != nullptr ? *bits : Bits{};
+                                if (old != now) visit(key, old, now);
+                              });
   }
 
  private:
   friend class VoxelMarker;
-  friend class VoxelSkin;
 
-  static std::uint64_t key_of(const Voxel& voxel);
-  static Voxel low_of(std::uint64_t key);
-  [[nodiscard]] std::vector<std::uint64_t> sorted_keys() const;
-  [[nodiscard]] const Bits* find(std::uint64_t key) const;
   void add(std::uint64_t key, const Bits& bits);
 
-  std::unordered_map<std::uint64_t, Bits> blocks_;
+  BlockMap<Bits> blocks_;
   std::uint64_t size_ = 0;
 };
 
 /// Puts voxels into a set, quickly where one is near the one before. For one thread; the set must
-/// outlive it, and nothing else change it meanwhile.
+/// outlive it, and nothing else change or copy it meanwhile.
 class VoxelMarker {
  public:
   explicit VoxelMarker(VoxelSet& set) : set_(set) {}
@@ -97,10 +116,5 @@ class VoxelMarker {
   std::uint64_t key_ = 0;
   VoxelSet::Bits* bits_ = nullptr;  ///< of that block
 };
-
-/// The faces between the voxels of `set`, of edge `voxel_m`, and all others: of each two triangles,
-/// turned outwards, that share vertices with their neighbours. A closed surface up to the rounding
-/// of i * voxel_m. Nothing if there would be more than `max_triangles`.
-std::optional<Mesh> skin_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles);
 
 }  // namespace camway::scene

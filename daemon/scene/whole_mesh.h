@@ -16,9 +16,10 @@ namespace camway::scene {
 /// mesh. Safe from any thread.
 class WholeMesh {
  public:
+  /// An object of the scene; of several meshes if it is an occupancy map.
   struct Part {
     std::string name;
-    std::shared_ptr<const Mesh> mesh;  ///< never null
+    std::vector<std::shared_ptr<const Mesh>> meshes;  ///< none is null
   };
 
   /// Of no triangles.

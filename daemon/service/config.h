@@ -30,7 +30,8 @@ struct WatchLimits {
   std::chrono::milliseconds longest_lease{300'000};  ///< without a word from the client
 };
 
-/// How the service behaves. Every default works.
+/// How the service behaves. Every default works; other values keep the limits, which whoever sets
+/// them sees to.
 struct ServiceConfig {
   std::string prefix = "CAMWAY";  ///< of all channels; `--prefix` [Limit: wire::is_prefix(value)]
   int workers = 1;                ///< `--workers` [Limit: 1 <= value <= kMaxWorkers]
@@ -45,7 +46,8 @@ struct ServiceConfig {
   /// Answers to messages that cannot be read, to whomever, and at once: they must not keep those
   /// that others wait for. [Limit: 1 <= value]
   double malformed_answers_per_s = 100.0;
-  DeadlineLimits deadline;
+  DeadlineLimits deadline;            ///< of plan requests
+  DeadlineLimits occupancy_deadline;  ///< of batches of occupancy queries
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;
   PageAssembly<plan_request_t>::Limits assembly;
@@ -56,15 +58,15 @@ struct ServiceConfig {
   SceneRules scene_rules;
   Uploads::Limits uploads;     ///< `scenes.uploads` and others
   MapExports::Limits exports;  ///< `scenes.exports` and others
-  FairQueue::Limits changes;   ///< of scenes that wait for the ones before them
-  WatchLimits watches;         ///< `watch.paths` and others
+  /// Changes of different scenes that are made at the same time; `scenes.workers`
+  /// [Limit: 1 <= value <= kMaxWorkers]
+  int scene_workers = 4;
+  FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
+  WatchLimits watches;        ///< `watch.paths` and others
   std::chrono::milliseconds heartbeat_period{1000};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};
   LimitedLog::Limits log_limits;  ///< of what clients can provoke; `log.lines_per_s` and others
-
-  /// What is wrong with the values, or an empty text.
-  [[nodiscard]] std::string fault() const;
 };
 
 }  // namespace camway::service

@@ -32,7 +32,11 @@ class Faults {
   explicit Faults(std::string file) : file_(std::move(file)) {}
 
   void add(const toml::source_region& where, std::string_view what) {
-    faults_.emplace(where.begin.line, fmt::format("{}:{}: {}", file_, where.begin.line, what));
+    faults_.emplace(where.begin.line, fmt::format("{}: {}", place(where), what));
+  }
+  /// "camwayd.toml:12".
+  [[nodiscard]] std::string place(const toml::source_region& where) const {
+    return fmt::format("{}:{}", file_, where.begin.line);
   }
   /// In the order of the lines: the parser hands out keys in that of the alphabet.
   [[nodiscard]] std::vector<std::string> lines() const {
@@ -85,7 +89,7 @@ std::string keys_beside(const std::vector<Setting>& settings, std::string_view t
 }
 
 void read_table(const toml::table& table, std::string_view name,
-                const std::vector<Setting>& settings, Faults& faults) {
+                const std::vector<Setting>& settings, DaemonOptions& options, Faults& faults) {
   for (const auto& [key, node] : table) {
     const std::string path = fmt::format("{}.{}", name, key.str());
     const auto found = std::find_if(settings.begin(), settings.end(),
@@ -95,6 +99,8 @@ void read_table(const toml::table& table, std::string_view name,
                  fmt::format("'{}' is no setting; {}", path, keys_beside(settings, name)));
     } else if (const std::string fault = apply(*found, node); !fault.empty()) {
       faults.add(node.source(), fmt::format("{}: {}", path, fault));
+    } else {
+      options.said_at[path] = fmt::format("{}: {}", faults.place(node.source()), path);
     }
   }
 }
@@ -157,6 +163,8 @@ std::optional<SceneArgument> read_scene(const toml::table& table, Faults& faults
                                       fmt::join(kSceneKeys, ", ")));
     } else if (const std::string why = apply_to_scene(key.str(), node, scene); !why.empty()) {
       fault(node.source(), fmt::format("scene.{}: {}", key.str(), why));
+    } else if (key == "file") {
+      scene.said_at = faults.place(node.source());
     }
   }
   for (const char* const needed : {"name", "file"}) {
@@ -203,7 +211,7 @@ void read_root(const toml::table& root, const std::filesystem::path& folder, Dae
       faults.add(key.source(),
                  fmt::format("'{}' is no setting; {}", key.str(), keys_beside(settings, "")));
     } else if (const toml::table* const table = node.as_table()) {
-      read_table(*table, key.str(), settings, faults);
+      read_table(*table, key.str(), settings, options, faults);
     } else {
       faults.add(node.source(), fmt::format("'{}' must be a table: [{}]", key.str(), key.str()));
     }

@@ -11,6 +11,7 @@
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/stoppable_load.h"
+#include "daemon/service/scene_rules.h"
 
 namespace camway::service {
 namespace {
@@ -70,9 +71,10 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   bool all = true;
   for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
     const std::string name = snapshot->name;
-    const scene::StoreResult put = store_.put(std::move(snapshot));
+    const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
     if (put.snapshot) continue;
-    log_->error("scene cannot be held", {{"scene", name}, {"reason", put.error}});
+    log_->error("scene cannot be held",
+                {{"scene", name}, {"reason", with_setting(put.error, put.limit)}});
     // Tried again the next time. An older one of that name goes when it is not wanted any more.
     for (Held& held : held_) {
       if (held.scene.name == name) held.stamp = {};
@@ -142,22 +144,25 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   if (stop.stop_requested()) return false;
   if (!read.mesh) {
     log_->warn("scene file cannot be read again, what was read before stays",
-               {{"scene", scene.name}, {"reason", read.error}});
+               {{"scene", scene.name}, {"reason", with_setting(read.error, read.limit)}});
     return false;
   }
   // Two maps may have the same faces, and one be solid where the other is not.
   const bool is_same =
       !read.map && !object->source->map_O &&
-      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->mesh_O);
+      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->parts_O.front().mesh);
   if (is_same) return true;
-  const auto kind = read.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
-  const auto source = scene::make_source(kind, std::move(*read.mesh), std::move(read.report),
-                                         before->options, std::move(read.map));
+  const std::shared_ptr<const scene::ObjectSource> source =
+      read.map
+          ? scene::make_map_source(std::move(read.map), std::move(read.report), before->options)
+          : scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh),
+                               std::move(read.report), before->options);
   const scene::StoreResult changed = store_.change(
-      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement});
+      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement},
+      {.operation = "put", .object = scene.name});
   if (!changed.snapshot) {
     log_->warn("scene cannot be changed, what was read before stays",
-               {{"scene", scene.name}, {"reason", changed.error}});
+               {{"scene", scene.name}, {"reason", with_setting(changed.error, changed.limit)}});
     return false;
   }
   log_->info("scene file changed", {{"scene", scene.name},
@@ -179,7 +184,9 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
   scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
   if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
-    log_->error("scene cannot be read", {{"scene", scene.name}, {"reason", result.error}});
+    log_->error("scene cannot be read", {{"scene", scene.name},
+                                         {"said_at", scene.said_at},
+                                         {"reason", with_setting(result.error, result.limit)}});
   } else {
     log_scene(*result.snapshot, scene, *log_);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -13,8 +12,9 @@
 
 #include "daemon/service/build_info.h"
 #include "daemon/service/config_file.h"
+#include "daemon/service/daemon_faults.h"
 #include "daemon/service/daemon_settings.h"
-#include "lcmtypes/message_keys.h"
+#include "daemon/service/lcm_url.h"
 
 namespace camway::service {
 namespace {
@@ -31,11 +31,6 @@ constexpr char kFooter[] =
 
 constexpr int kExitBadInput = 2;
 
-bool is_readable_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return !std::filesystem::is_directory(file, ignored) && std::ifstream(file).is_open();
-}
-
 int workers_for_this_machine() {
   return static_cast<int>(
       std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMaxWorkers}));
@@ -48,21 +43,22 @@ struct Raw {
   std::vector<std::string> scenes;
 };
 
-/// A flag for a setting of the configuration file that is one of a few words.
-void declare_word(CLI::App& app, const std::string& flag, std::string_view key,
-                  const std::string& meaning, DaemonOptions& options) {
+/// A flag for a setting of the configuration file; `usual` is what help says of its default.
+void declare_setting(CLI::App& app, const std::string& flag, std::string_view key,
+                     const std::string& meaning, DaemonOptions& options,
+                     const std::optional<std::string>& usual = std::nullopt) {
   const auto setting = [&options, key] {
     const std::vector<Setting> settings = settings_of(options);
     return *std::ranges::find(settings, key, &Setting::key);
   };
-  app.add_option_function<std::string>(
-         flag,
-         [setting, flag](const std::string& word) {
-           const std::string fault = setting().set(word);
-           if (!fault.empty()) throw CLI::ValidationError(flag, fault);
-         },
-         meaning + " [" + setting().text() + "]")
-      ->type_name("WORD");
+  const auto apply = [setting, flag, key, &options](const std::string& word) {
+    const std::string fault = setting().set_word(word);
+    if (!fault.empty()) throw CLI::ValidationError(flag, fault);
+    options.said_at[std::string(key)] = flag;
+  };
+  app.add_option_function<std::string>(flag, apply,
+                                       meaning + " [" + usual.value_or(setting().text()) + "]")
+      ->type_name(setting().is_text() ? "WORD" : "NUMBER");
 }
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
@@ -81,37 +77,27 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "without it")
       ->type_name(kSceneArgumentForm)
       ->take_all();
-  app.add_option("--scene-roots", options.scene_roots,
-                 "Folders, with ':' between them, below which clients may have scene files read; "
-                 "without them they can upload only")
-      ->type_name("FOLDERS");
-  app.add_option("--prefix", options.service.prefix, "Channels begin with this")
-      ->capture_default_str();
-  app.add_option("--url", options.lcm_url,
-                 "LCM provider; ttl=0 keeps the traffic on this host [lcm.url of the configuration "
-                 "file, else LCM_DEFAULT_URL, else " +
-                     std::string(kDefaultLcmUrl) + "]");
-  app.add_option("--workers", options.service.workers,
-                 "Requests planned at the same time; 0: one for each core")
-      ->check(CLI::Range(0, kMaxWorkers))
-      ->capture_default_str();
-  // CLI11 would read -1 as the largest number there is.
-  app.add_option("--queue", options.service.queue.jobs, "Requests that may wait for a worker")
-      ->check(CLI::Range(std::size_t{1}, kMaxQueueCapacity))
-      ->capture_default_str();
-  app.add_option("--client-queue", options.service.queue.jobs_of_a_client,
-                 "Requests of one client that may wait for a worker")
-      ->check(CLI::Range(std::size_t{1}, kMaxQueueCapacity))
-      ->capture_default_str();
-  app.add_option("--deadline-s", options.service.deadline.default_s,
-                 "Deadline of requests that name none, seconds from their receipt")
-      ->capture_default_str();
-  app.add_option("--max-deadline-s", options.service.deadline.max_s,
-                 "Longest deadline that a request may ask for, seconds")
-      ->capture_default_str();
-  declare_word(app, "--log-level", "log.level", "What is logged on standard error", options);
-  declare_word(app, "--log-format", "log.format",
-               "How: text for people, or an object of JSON on each line", options);
+  declare_setting(app, "--scene-roots", "scenes.roots",
+                  "Folders, with ':' between them, below which clients may have scene files read; "
+                  "without them they can upload only",
+                  options, "none");
+  declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
+  declare_setting(app, "--url", "lcm.url", "LCM provider; ttl=0 keeps the traffic on this host",
+                  options,
+                  "lcm.url of the configuration file, else LCM_DEFAULT_URL, else " +
+                      std::string(kDefaultLcmUrl));
+  declare_setting(app, "--workers", "planning.workers",
+                  "Requests planned at the same time; 0: one for each core", options);
+  declare_setting(app, "--queue", "queue.requests", "Requests that may wait for a worker", options);
+  declare_setting(app, "--client-queue", "queue.requests_of_a_client",
+                  "Requests of one client that may wait for a worker", options);
+  declare_setting(app, "--deadline-s", "planning.deadline_s",
+                  "Deadline of requests that name none, seconds from their receipt", options);
+  declare_setting(app, "--max-deadline-s", "planning.max_deadline_s",
+                  "Longest deadline that a request may ask for, seconds", options);
+  declare_setting(app, "--log-level", "log.level", "What is logged on standard error", options);
+  declare_setting(app, "--log-format", "log.format",
+                  "How: text for people, or an object of JSON on each line", options);
 }
 
 /// Reads the command line over `options`; what to end with if it is no good or asks for help.
@@ -138,6 +124,7 @@ std::string add_scenes(const std::vector<std::string>& texts, std::vector<SceneA
     if (!parsed.scene) return "--scene: " + parsed.error;
     const std::string& name = parsed.scene->name;
     if (!names.insert(name).second) return "--scene: the name '" + name + "' is given twice";
+    parsed.scene->said_at = "--scene";
     std::erase_if(scenes, [&](const SceneArgument& scene) { return scene.name == name; });
     scenes.push_back(std::move(*parsed.scene));
   }
@@ -157,23 +144,29 @@ std::string open_roots(const std::string& folders, SceneRoots& roots) {
 }
 
 /// Turns the texts into options; returns what is wrong with them.
-std::string resolve(const Raw& raw, DaemonOptions& options) {
+std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   options.config_file = raw.config_file;
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
-  if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return fault;
+  if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return {fault};
   if (options.scenes.empty() && options.scene_roots.empty()) {
-    return "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
-           "--scene-roots where clients may load scenes from";
+    return {
+        "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
+        "--scene-roots where clients may load scenes from"};
   }
   for (SceneArgument& scene : options.scenes) {
     scene.options.import.map_limits = options.service.scene_rules.maps;
     scene.options.mirror_voxels = options.service.scene_rules.mirror_voxels;
   }
-  if (std::string fault = open_roots(options.scene_roots, options.service.scene_rules.roots);
-      !fault.empty()) {
-    return fault;
+  std::vector<std::string> faults = contradictions(options);
+  // Of file and flags it was looked at when it was read; the environment's counts only here.
+  if (const std::string fault = parse_lcm_url(options.lcm_url).fault; !fault.empty()) {
+    faults.push_back(options.where("lcm.url") + ": " + fault);
   }
-  return options.service.fault();
+  if (const std::string fault = open_roots(options.scene_roots, options.service.scene_rules.roots);
+      !fault.empty()) {
+    faults.push_back(options.where("scenes.roots") + ": " + fault);
+  }
+  return faults;
 }
 
 ParsedOptions failed(const std::vector<std::string>& faults) {
@@ -182,26 +175,22 @@ ParsedOptions failed(const std::vector<std::string>& faults) {
   return parsed;
 }
 
-/// What `--check-config` finds in options that are right in themselves.
+/// What `--check-config` says of options that are right in themselves.
 ParsedOptions check(const DaemonOptions& options) {
-  std::vector<std::string> faults;
+  if (const std::vector<std::string> faults = missing_things(options); !faults.empty()) {
+    return failed(faults);
+  }
   std::ostringstream found;
   found << "camwayd: the configuration is right\n";
   for (const SceneArgument& scene : options.scenes) {
-    const std::string line = "scene '" + scene.name + "': " + scene.file.string();
-    if (!is_readable_file(scene.file)) faults.push_back(line + " cannot be read");
-    found << line << '\n';
-  }
-  if (!options.auth.key_file.empty()) {
-    const wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.auth.key_file);
-    if (!read.keys) faults.push_back("auth.key_file: " + read.error);
+    found << "scene '" << scene.name << "': " << scene.file.string() << '\n';
   }
   DaemonOptions defaults = default_options();
   defaults.service.workers = workers_for_this_machine();
   for (const SettingChange& change : changes_between(std::move(defaults), options)) {
     found << change.key << " = " << change.after << " (default " << change.before << ")\n";
   }
-  return faults.empty() ? ParsedOptions{std::nullopt, 0, found.str()} : failed(faults);
+  return {std::nullopt, 0, found.str()};
 }
 
 }  // namespace
@@ -211,10 +200,19 @@ std::string url_of_environment() {
   return url == nullptr ? "" : url;
 }
 
+std::string DaemonOptions::where(std::string_view key) const {
+  const auto said = said_at.find(key);
+  return said == said_at.end() ? std::string(key) : said->second;
+}
+
 DaemonOptions default_options() {
   DaemonOptions options;
   options.lcm_url = url_of_environment();
-  if (options.lcm_url.empty()) options.lcm_url = kDefaultLcmUrl;
+  if (options.lcm_url.empty()) {
+    options.lcm_url = kDefaultLcmUrl;
+  } else {
+    options.said_at["lcm.url"] = "LCM_DEFAULT_URL";
+  }
   options.service.workers = 0;
   return options;
 }
@@ -231,7 +229,9 @@ ParsedOptions parse_daemon_options(int argc, const char* const* argv) {
     raw = {};
     if (std::optional<ParsedOptions> end = read_flags(argc, argv, raw, options)) return *end;
   }
-  if (const std::string fault = resolve(raw, options); !fault.empty()) return failed({fault});
+  if (const std::vector<std::string> faults = resolve(raw, options); !faults.empty()) {
+    return failed(faults);
+  }
   if (raw.check_config) return check(options);
   return {std::move(options), 0, {}};
 }

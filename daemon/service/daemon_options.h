@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,6 +45,12 @@ struct DaemonOptions {
   AuthOptions auth;
   scene::SceneStoreLimits store;
   ServiceConfig service;
+  /// By the key of the setting, where it was said: "camwayd.toml:12: queue.requests", "--queue",
+  /// "LCM_DEFAULT_URL". Settings that have their defaults are not here.
+  std::map<std::string, std::string, std::less<>> said_at = {};
+
+  /// Where the setting of that key was said, for messages; else the key.
+  [[nodiscard]] std::string where(std::string_view key) const;
 };
 
 /// What holds where neither file nor command line says anything: 0 workers, which stands for one

@@ -14,6 +14,7 @@
 #include "daemon/service/process_signals.h"
 #include "daemon/service/service.h"
 #include "daemon/service/service_manager.h"
+#include "daemon/service/upload_file.h"
 
 namespace camway::service {
 namespace {
@@ -117,7 +118,8 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   std::string auth_error;
   const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
   if (!auth_error.empty()) {
-    log->error("keys cannot be used", {{"setting", "auth.key_file"}, {"reason", auth_error}});
+    log->error("keys cannot be used",
+               {{"setting", options.where("auth.key_file")}, {"reason", auth_error}});
     return kExitBadInput;
   }
   std::optional<AuthTransport> signing;
@@ -147,6 +149,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
       add_distrusted(signing->distrusted(), status);
       signing->tell_left_out();
     }
+    status.signed_only = signing && options.auth.required ? 1 : 0;
     if (metrics.page) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();
@@ -154,10 +157,14 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
                              const collision::Deadline& deadline) {
     return planning::plan(snapshot, request, deadline);
   };
+  if (const std::size_t files = remove_left_upload_files(); files > 0) {
+    log->info("removed uploads that a daemon left behind", {{"files", files}});
+  }
   Service service(transport, scenes, options.service, planner, log, std::move(hooks));
   log->info("serving", {{"url", options.lcm_url},
                         {"prefix", options.service.prefix},
                         {"workers", options.service.workers},
+                        {"scene_workers", options.service.scene_workers},
                         {"queue", options.service.queue.jobs},
                         {"client_queue", options.service.queue.jobs_of_a_client}});
   Reloader reloader(options, std::move(read_again), configured, manager, log, auth);

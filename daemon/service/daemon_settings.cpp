@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 #include "daemon/service/http_page.h"
+#include "daemon/service/lcm_url.h"
+#include "lcmtypes/channels.h"
 
 namespace camway::service {
 namespace {
@@ -35,6 +38,14 @@ std::string choose(Choice& place, std::string_view word) {
   if (found == words.end()) return fmt::format("must be one of {}", fmt::join(words, ", "));
   place = static_cast<Choice>(found - words.begin());
   return {};
+}
+
+std::string fault_of_url(const std::string& text) { return parse_lcm_url(text).fault; }
+
+std::string fault_of_prefix(const std::string& text) {
+  if (wire::is_prefix(text)) return {};
+  return fmt::format("'{}' is not of 1 to {} letters, digits, '_' and '-'", wire::printable(text),
+                     wire::kMaxPrefixLength);
 }
 
 std::string fault_of_address(const std::string& text) {
@@ -86,6 +97,15 @@ std::string Setting::set(double value) const {
   return {};
 }
 
+std::string Setting::set_word(std::string_view word) const {
+  if (is_text()) return set(word);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool is_number = error == std::errc{} && end == word.data() + word.size();
+  if (is_number && !(is_whole_number() && number != std::trunc(number))) return set(number);
+  return is_whole_number() ? "must be a whole number" : "must be a number";
+}
+
 void Setting::turn(bool on) const { *std::get<bool*>(target) = on; }
 
 bool Setting::is_switch() const { return std::holds_alternative<bool*>(target); }
@@ -103,14 +123,16 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
   ServiceConfig& service = options.service;
   constexpr double kQueue = kMaxQueueCapacity;
   return {
-      {"lcm.url", &options.lcm_url},
-      {"lcm.prefix", &service.prefix},
+      {"lcm.url", &options.lcm_url, 0, 0, false, &fault_of_url},
+      {"lcm.prefix", &service.prefix, 0, 0, false, &fault_of_prefix},
       {"lcm.waiting_messages", &service.subscription_capacity, 1, 1e6},
       {"planning.workers", &service.workers, 0, kMaxWorkers},
       {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},
       {"planning.max_deadline_s", &service.deadline.max_s, 1e-3, kDayS},
       {"planning.keyframes", &service.keyframes, 2, static_cast<double>(planning::kMaxKeyframes)},
       {"planning.drain_s", &service.drain_limit, 0, kDayS},
+      {"occupancy.deadline_s", &service.occupancy_deadline.default_s, 1e-3, kDayS},
+      {"occupancy.max_deadline_s", &service.occupancy_deadline.max_s, 1e-3, kDayS},
       {"queue.requests", &service.queue.jobs, 1, kQueue},
       {"queue.requests_of_a_client", &service.queue.jobs_of_a_client, 1, kQueue},
       {"queue.remembered_clients", &service.queue.remembered_clients, 2, 1e6},
@@ -128,6 +150,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
       {"scenes.roots", &options.scene_roots},
       {"scenes.write_maps", &service.scene_rules.write_maps},
+      {"scenes.workers", &service.scene_workers, 1, kMaxWorkers},
       {"scenes.scenes", &options.store.scenes, 1, 1e6},
       {"scenes.objects", &options.store.objects, 1, 1e6},
       {"scenes.triangles", &options.store.triangles, 1, 4e9},

@@ -32,6 +32,8 @@ struct Setting {
   /// Takes `value`; returns what is wrong with it, e.g. "must be within 1 to 256", or nothing.
   [[nodiscard]] std::string set(std::string_view value) const;
   [[nodiscard]] std::string set(double value) const;
+  /// Takes `word` as a command line has it: a number or a text without quotes. Not of a switch.
+  [[nodiscard]] std::string set_word(std::string_view word) const;
   /// Of a switch. Not `set`, which would take it for a text in quotes without a word.
   void turn(bool on) const;
   /// The kind of value that `set` takes.

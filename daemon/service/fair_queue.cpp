@@ -51,12 +51,14 @@ std::optional<FairQueue::Refused> FairQueue::push(Job job) {
 }
 
 FairQueue::Begun FairQueue::pop() {
-  const Clients::iterator position = clients_.find(std::get<std::string>(next_turn()));
+  const Next next = *this->next();
+  const Clients::iterator position = clients_.find(next.client);
   unlink(position);
   Client& client = position->second;
   now_s_ = std::max(now_s_, client.used_s);
   newcomers_s_ = std::max(newcomers_s_, now_s_);
-  Begun begun{take(position, client.waiting.begin()), 0.0, client.is_newcomer};
+  Begun begun{take(position, client.waiting.find(next.place)), 0.0, client.is_newcomer};
+  if (!begun.job.strand.empty()) busy_strands_.insert(begun.job.strand);
   begun.charged_s = std::max(client.last_s, kLeastCharge_s) * weight_of(begun.job.priority);
   charge(client, begun.charged_s, begun.of_newcomer);
   client.turn = ++next_number_;
@@ -74,6 +76,7 @@ void FairQueue::finish(const Begun& begun, Clock::duration took) {
   charge(client, client.last_s * weight_of(begun.job.priority) - begun.charged_s,
          begun.of_newcomer);
   known_.note_served(begun.job.client);
+  busy_strands_.erase(begun.job.strand);
   client.is_newcomer = false;
   --client.running;
   --running_;
@@ -146,12 +149,31 @@ FairQueue::Clients::iterator FairQueue::find_or_begin(const std::string& name) {
   return position;
 }
 
-const FairQueue::Turn& FairQueue::next_turn() const {
-  if (newcomers_.empty()) return *ready_.begin();
-  if (ready_.empty()) return *newcomers_.begin();
-  const Turn& other = *ready_.begin();
-  const bool have_their_part = newcomers_s_ > std::get<double>(other);
-  return have_their_part ? other : std::min(other, *newcomers_.begin());
+std::optional<FairQueue::Place> FairQueue::next_of(const Client& client) const {
+  if (client.running >= limits_.running_of_a_client) return std::nullopt;
+  const auto found = std::ranges::find_if(client.waiting, [this](const auto& place) {
+    return !busy_strands_.contains(place.second.job.strand);
+  });
+  return found == client.waiting.end() ? std::nullopt : std::optional(found->first);
+}
+
+std::optional<FairQueue::Next> FairQueue::next() const {
+  auto other = ready_.begin();
+  auto newcomer = newcomers_.begin();
+  while (other != ready_.end() || newcomer != newcomers_.end()) {
+    const auto is_newcomers_turn = [&] {
+      if (other == ready_.end()) return true;
+      if (newcomer == newcomers_.end()) return false;
+      const bool have_their_part = newcomers_s_ > std::get<double>(*other);
+      return !have_their_part && *newcomer < *other;
+    };
+    const Turn& turn = is_newcomers_turn() ? *newcomer++ : *other++;
+    const std::string& client = std::get<std::string>(turn);
+    if (const std::optional<Place> place = next_of(clients_.find(client)->second)) {
+      return Next{client, *place};
+    }
+  }
+  return std::nullopt;
 }
 
 void FairQueue::charge(Client& client, double charge_s, bool of_newcomer) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -38,13 +39,17 @@ struct Job {
   std::optional<std::int64_t> id = {};   ///< among the jobs of the client, to find it again
   Priority priority = Priority::kNormal;
   Clock::time_point expires = Clock::time_point::max();  ///< not worth running from then on
+  /// Jobs of one strand are begun one after the other, each when the one before is done; those of a
+  /// client in the order in which they came. Empty: of none.
+  std::string strand = {};
 };
 
 /// Jobs that wait, dealt so that every client gets the same time of the workers, whatever the
 /// others ask for: start-time fair queueing (Goyal, Vin and Cheng, 1997), where a job is charged
 /// with what its client's last one took until its own time is known. A client's own jobs go by
 /// priority, then first come first served; one of high priority is charged a quarter of its time,
-/// one of low priority four times.
+/// one of low priority four times. Who may not begin now, for his strand or his part of the
+/// workers, lets others go before, and is next as soon as he may.
 ///
 /// An id costs nothing, so who invents many would have as many turns. Therefore newcomers, of whom
 /// no job was finished as far as is remembered, take turns like all others, but together they get
@@ -61,6 +66,8 @@ class FairQueue {
     std::size_t remembered_clients = 1024;
     /// So many clients all newcomers together count as. [Limit: 1 <= value]
     std::size_t newcomers_count_as = 8;
+    /// Jobs of a client that run at a time. [Limit: 1 <= value]
+    std::size_t running_of_a_client = std::numeric_limits<std::size_t>::max();
   };
 
   explicit FairQueue(const Limits& limits) : limits_(limits), known_(limits.remembered_clients) {}
@@ -78,7 +85,10 @@ class FairQueue {
     double charged_s = 0.0;
     bool of_newcomer = false;
   };
-  /// The job that is next. Precondition: not empty.
+  /// Whether there is a job that may begin now. Looks at the jobs of clients in turn, until it
+  /// finds one: at once, where none has a strand.
+  [[nodiscard]] bool can_begin() const { return next().has_value(); }
+  /// The job that is next. Precondition: `can_begin`.
   Begun pop();
   /// To be told once for each popped job: how long it took.
   void finish(const Begun& begun, Clock::duration took);
@@ -120,8 +130,14 @@ class FairQueue {
   using Turn = std::tuple<double, std::uint64_t, std::string>;
 
   Clients::iterator find_or_begin(const std::string& name);
-  /// Who has the next turn. Precondition: not empty.
-  const Turn& next_turn() const;
+  /// Which of the client's jobs may begin now, if any.
+  [[nodiscard]] std::optional<Place> next_of(const Client& client) const;
+  /// Who has the next turn, and with which job.
+  struct Next {
+    std::string client;
+    Place place;
+  };
+  [[nodiscard]] std::optional<Next> next() const;
   void charge(Client& client, double charge_s, bool of_newcomer);
   /// Who has to make way for a job of `client`: a job that waits, or nobody, then there is no room.
   struct Victim {
@@ -143,6 +159,7 @@ class FairQueue {
   std::set<Turn> newcomers_;  ///< newcomers with jobs that wait
   std::set<Turn> idle_;       ///< clients without any job that used more than others
   Expiries expiries_;         ///< of all jobs that wait
+  std::set<std::string> busy_strands_;
   std::size_t running_ = 0;
   std::uint64_t next_number_ = 0;
   double now_s_ = 0.0;        ///< the time used by the client that was served last

@@ -160,6 +160,14 @@ bool is_ip_address(const std::string& text) {
   return parse({text, 0}, address);
 }
 
+bool is_address_of_this_machine(const std::string& text) {
+  Address address;
+  if (!parse({text, 0}, address)) return false;
+  const Socket socket(::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  return socket.get() >= 0 &&
+         bind(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.size) == 0;
+}
+
 OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
                               const HttpLimits& limits) {
   Address parsed;

@@ -25,6 +25,8 @@ struct HttpAddress {
 
 /// Whether `text` is an IPv4 or IPv6 address.
 bool is_ip_address(const std::string& text);
+/// Whether it is one that this machine has now, so that it could listen there. Looks at no port.
+bool is_address_of_this_machine(const std::string& text);
 
 struct HttpLimits {
   int connections = 16;  ///< at a time [Limit: 1 <= value <= 1000]

@@ -41,10 +41,11 @@ map_page_t no_such_map(const RequestKey& key) {
   return page;
 }
 
-void MapExports::keep(const RequestKey& key, Pages pages, Clock::time_point now) {
+bool MapExports::keep(const RequestKey& key, Pages pages, Clock::time_point now) {
   if (const auto found = exports_.find(key); found != exports_.end()) forget(found);
   std::size_t bytes = 0;
   for (const Bytes& page : *pages) bytes += page.size();
+  if (bytes > limits_.bytes) return false;
   for (auto each = exports_.begin(); each != exports_.end();) {
     const auto next = std::next(each);
     if (now - each->second.touched > limits_.idle) forget(each);
@@ -57,6 +58,7 @@ void MapExports::keep(const RequestKey& key, Pages pages, Clock::time_point now)
   }
   bytes_ += bytes;
   exports_.insert_or_assign(key, Export{std::move(pages), bytes, now});
+  return true;
 }
 
 Pages MapExports::find(const RequestKey& key, Clock::time_point now) {

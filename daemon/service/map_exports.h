@@ -35,7 +35,8 @@ class MapExports {
   MapExports() : MapExports(Limits{}) {}
   explicit MapExports(const Limits& limits) : limits_(limits) {}
 
-  void keep(const RequestKey& key, Pages pages, Clock::time_point now);
+  /// Whether there is room for it, once all others made way.
+  [[nodiscard]] bool keep(const RequestKey& key, Pages pages, Clock::time_point now);
 
   /// Null if it is not there, or not any more.
   [[nodiscard]] Pages find(const RequestKey& key, Clock::time_point now);

@@ -70,11 +70,15 @@ std::string list_fault(std::string_view name, const std::vector<Numbers>& list, 
   return {};
 }
 
+/// Asks the queries of a list in turn, until the deadline strikes; how many were answered.
 template <class Answer, class Ask>
 std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer>& answers,
-                         const Ask& ask) {
+                         const collision::Deadline& deadline, const Ask& ask) {
   answers.reserve(queries.size());
-  for (const Numbers& query : queries) answers.push_back(static_cast<Answer>(ask(query)));
+  for (const Numbers& query : queries) {
+    if (deadline.passed()) break;
+    answers.push_back(static_cast<Answer>(ask(query)));
+  }
   return static_cast<std::int32_t>(answers.size());
 }
 
@@ -82,23 +86,26 @@ std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer
 double wire_distance(const std::optional<double>& distance_m) { return distance_m.value_or(-1.0); }
 
 void answer_on(const scene::OccupancyMirror& map, const occupancy_request_t& request,
-               occupancy_response_t& answer) {
-  answer.num_points = answer_list(request.points_m, answer.points_occupied,
-                                  [&](const Numbers& q) { return map.occupied_at(vec3(q, 0)); });
-  answer.num_boxes = answer_list(request.boxes_m, answer.boxes_occupied, [&](const Numbers& q) {
+               const collision::Deadline& deadline, occupancy_response_t& answer) {
+  const auto at = [&](const auto& queries, auto& answers, const auto& ask) {
+    return answer_list(queries, answers, deadline, ask);
+  };
+  answer.num_points = at(request.points_m, answer.points_occupied,
+                         [&](const Numbers& q) { return map.occupied_at(vec3(q, 0)); });
+  answer.num_boxes = at(request.boxes_m, answer.boxes_occupied, [&](const Numbers& q) {
     return map.occupied_in_box(geometry::Box(vec3(q, 0), vec3(q, 3)));
   });
-  answer.num_spheres =
-      answer_list(request.spheres_m, answer.spheres_occupied,
-                  [&](const Numbers& q) { return map.occupied_in_sphere(vec3(q, 0), q[3]); });
-  answer.num_rays = answer_list(request.rays_m, answer.rays_hit_m, [&](const Numbers& q) {
+  answer.num_spheres = at(request.spheres_m, answer.spheres_occupied, [&](const Numbers& q) {
+    return map.occupied_in_sphere(vec3(q, 0), q[3]);
+  });
+  answer.num_rays = at(request.rays_m, answer.rays_hit_m, [&](const Numbers& q) {
     return wire_distance(map.ray_hit_m(vec3(q, 0), vec3(q, 3), q[6]));
   });
-  answer.num_distances = answer_list(
-      request.distances_m, answer.distances_m,
-      [&](const Numbers& q) { return wire_distance(map.distance_m(vec3(q, 0), q[3])); });
+  answer.num_distances = at(request.distances_m, answer.distances_m, [&](const Numbers& q) {
+    return wire_distance(map.distance_m(vec3(q, 0), q[3]));
+  });
   answer.num_sphere_paths =
-      answer_list(request.sphere_paths_m, answer.sphere_paths_hit_m, [&](const Numbers& q) {
+      at(request.sphere_paths_m, answer.sphere_paths_hit_m, [&](const Numbers& q) {
         return wire_distance(map.sphere_path_hit_m(vec3(q, 0), vec3(q, 3), q[6]));
       });
 }
@@ -119,23 +126,28 @@ std::string batch_fault(const occupancy_request_t& request) {
 }
 
 occupancy_response_t answer_batch(const scene::Snapshot& snapshot,
-                                  const occupancy_request_t& request) {
-  occupancy_response_t answer =
-      plain_occupancy_answer(request, occupancy_response_t::STATUS_OK, "");
-  answer.scene_revision = static_cast<std::int64_t>(snapshot.revision);
+                                  const occupancy_request_t& request,
+                                  const collision::Deadline& deadline) {
+  const auto refused = [&](std::int32_t status, std::string_view message) {
+    occupancy_response_t answer = plain_occupancy_answer(request, status, message);
+    answer.scene_revision = static_cast<std::int64_t>(snapshot.revision);
+    if (snapshot.occupancy) answer.resolution_m = snapshot.occupancy->resolution_m();
+    return answer;
+  };
   if (!snapshot.occupancy) {
-    answer.status = occupancy_response_t::STATUS_NO_MAP;
-    answer.message = "the scene was loaded without an occupancy resolution";
-    return answer;
+    return refused(occupancy_response_t::STATUS_NO_MAP,
+                   "the scene was loaded without an occupancy resolution");
   }
-  answer.resolution_m = snapshot.occupancy->resolution_m();
   if (const std::string fault = batch_fault(request); !fault.empty()) {
-    answer.status = occupancy_response_t::STATUS_INVALID;
-    answer.message = fault;
-    return answer;
+    return refused(occupancy_response_t::STATUS_INVALID, fault);
   }
-  answer_on(*snapshot.occupancy, request, answer);
-  return answer;
+  occupancy_response_t answer = refused(occupancy_response_t::STATUS_OK, "");
+  answer_on(*snapshot.occupancy, request, deadline, answer);
+  if (queries_of(answer) == queries_of(request)) return answer;
+  return refused(occupancy_response_t::STATUS_TIMEOUT,
+                 fmt::format("the deadline passed after {} of {} queries; ask less at once, or "
+                             "allow more time with deadline_s (up to occupancy.max_deadline_s)",
+                             queries_of(answer), queries_of(request)));
 }
 
 occupancy_response_t plain_occupancy_answer(const occupancy_request_t& request, std::int32_t status,

@@ -25,6 +25,13 @@ void append_warnings(const scene::ImportReport& report, const planning::PlanOpti
   }
 }
 
+/// On the wire the options have no group of their own.
+void name_fields_as_wire_does(planning::PlanResult& result) {
+  constexpr std::string_view kGroup = "options.";
+  if (result.status != planning::Status::kInvalid || !result.message.starts_with(kGroup)) return;
+  result.message.erase(0, kGroup.size());
+}
+
 }  // namespace
 
 AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
@@ -49,6 +56,7 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
                           header_of(wire, &snapshot));
     }
     planning::PlanResult result = planner(snapshot, *converted.request, deadline);
+    name_fields_as_wire_does(result);
     planning::name_witnesses(snapshot.mesh, *converted.request, result);
     append_warnings(snapshot.report, converted.request->options, result);
     return to_wire(result, header_of(wire, &snapshot));
@@ -80,7 +88,7 @@ Pages encode_answer(plan_response_t& answer, int most_pages) {
                               answer.scene,
                               answer.scene_revision,
                               answer.scene_digest};
-    answer = plain_answer(plan_response_t::STATUS_INTERNAL_ERROR,
+    answer = plain_answer(plan_response_t::STATUS_LIMIT,
                           fmt::format("the answer takes {} pages, more than the {} allowed "
                                       "(queue.answer_pages); ask for parts of the path",
                                       pages, most_pages),

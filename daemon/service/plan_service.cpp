@@ -18,15 +18,30 @@ namespace {
 
 constexpr double kMillisecondsPerSecond = 1e3;
 
-/// Numbers that are none are refused once the request's turn comes.
-double deadline_in_queue_s(double wire_s, const DeadlineLimits& limits) {
-  const double deadline_s = deadline_of(wire_s, limits);
-  return deadline_s > 0.0 ? deadline_s : limits.default_s;
+/// What is wrong with what a request says of its own handling, which planning does not see.
+std::string fault_of_handling(const plan_request_t& request) {
+  for (const auto& [name, value] : {std::pair{"deadline_s", request.deadline_s},
+                                    std::pair{"progress_period_s", request.progress_period_s},
+                                    std::pair{"watch_lease_s", request.watch_lease_s}}) {
+    if (!(value >= 0.0)) return fmt::format("{}: is {}; it must be at least 0", name, value);
+  }
+  if (request.priority < plan_request_t::LOW || request.priority > plan_request_t::HIGH) {
+    return fmt::format("priority: is {}; it must be -1 (low), 0 or 1 (high)",
+                       static_cast<int>(request.priority));
+  }
+  return {};
 }
 
+/// Precondition: it has no `fault_of_handling`.
 Priority priority_of(const plan_request_t& request) {
-  if (request.priority < 0) return Priority::kLow;
-  return request.priority > 0 ? Priority::kHigh : Priority::kNormal;
+  switch (request.priority) {
+    case plan_request_t::LOW:
+      return Priority::kLow;
+    case plan_request_t::HIGH:
+      return Priority::kHigh;
+    default:
+      return Priority::kNormal;
+  }
 }
 
 /// Of watched paths, so many are planned again or wait for that.
@@ -171,10 +186,14 @@ PlanService::Clock::time_point PlanService::next_tick() const {
 void PlanService::take(plan_request_t request) {
   const RequestKey key{request.client_id, request.request_id};
   if (request.keyframes.size() > core_.config.keyframes) {
-    answer_uncached(request, plan_response_t::STATUS_INVALID,
+    answer_uncached(request, plan_response_t::STATUS_LIMIT,
                     fmt::format("keyframes: holds {}; the daemon plans {} at most "
                                 "(planning.keyframes)",
                                 request.keyframes.size(), core_.config.keyframes));
+    return;
+  }
+  if (const std::string fault = fault_of_handling(request); !fault.empty()) {
+    answer_uncached(request, plan_response_t::STATUS_INVALID, fault);
     return;
   }
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
@@ -216,7 +235,7 @@ void PlanService::begin(std::shared_ptr<const plan_request_t> request, const Req
     return;
   }
   bytes_ += bytes;
-  const double deadline_s = deadline_in_queue_s(request->deadline_s, core_.config.deadline);
+  const double deadline_s = deadline_of(request->deadline_s, core_.config.deadline);
   const Pending pending{
       key,   request,    core_.scenes.find(request->scene),
       bytes, deadline_s, in_flight_.begin(key, deadline_s, request->progress_period_s)};
@@ -295,8 +314,7 @@ void PlanService::plan_broken(Clock::time_point now) {
   const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
   if (replanning_ >= most) return;
   for (Watches::Broken& broken : watches_.take_broken(most - replanning_, now)) {
-    const double deadline_s =
-        deadline_in_queue_s(broken.request->deadline_s, core_.config.deadline);
+    const double deadline_s = deadline_of(broken.request->deadline_s, core_.config.deadline);
     const Replan replan{std::move(broken.key), std::move(broken.request),
                         collision::Deadline::after_s(deadline_s)};
     ++replanning_;

@@ -20,7 +20,7 @@ namespace camway::service {
 /// cache or left alone while they are being planned, scene looked up, queued, planned, encoded,
 /// cached, sent. Deadlines run from when all pages are there. All answers to requests that were
 /// read are cached but `overloaded`, so that the same request can be sent again later, and
-/// conflicts, whose ids belong to another request.
+/// conflicts, whose ids belong to another request, and what is refused before it is looked up.
 class PlanService {
  public:
   using Clock = std::chrono::steady_clock;

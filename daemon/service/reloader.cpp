@@ -101,7 +101,7 @@ void Reloader::reload(const std::stop_token& stop) {
   if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
   if (!keys.error.empty()) {
     log_->error("reload failed, all stays as it was",
-                {{"setting", "auth.key_file"}, {"reason", keys.error}});
+                {{"setting", running_.where("auth.key_file")}, {"reason", keys.error}});
     return;
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {

@@ -17,7 +17,8 @@ struct SceneArgument {
   std::string name;
   std::filesystem::path file;
   scene::SnapshotOptions options;
-  bool watch = false;  ///< whether the daemon reads the file again when it changes
+  bool watch = false;   ///< whether the daemon reads the file again when it changes
+  std::string said_at;  ///< where its file was named, e.g. "--scene" or "camwayd.toml:7"
 };
 
 /// Whether `name` keeps `kSceneNameRule`.

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
+#include "daemon/scene/limit.h"
 #include "daemon/scene/map_scan.h"
 #include "daemon/scene/occupancy_map.h"
 #include "daemon/service/scene_roots.h"
@@ -19,5 +22,11 @@ struct SceneRules {
   /// Of the mirror of an object; `scenes.mirror_voxels`.
   std::uint64_t mirror_voxels = scene::OccupancyMap::kUsualMostVoxels;
 };
+
+/// The key of the setting that a limit is, e.g. "scenes.map_voxels"; empty of none.
+std::string_view setting_of(scene::Limit limit);
+
+/// `error` with the setting that would have to be higher behind it, if one would.
+std::string with_setting(std::string_view error, scene::Limit limit);
 
 }  // namespace camway::service

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <exception>
 #include <set>
 #include <utility>
@@ -25,9 +26,9 @@ RequestDigest digest_of(scene_request_t request) {
 
 /// The answer, whatever happens.
 Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
-                    const SceneRules& rules, scene::SceneStore& scenes) {
+                    const SceneContext& context) {
   try {
-    return perform(request, upload, rules, scenes);
+    return perform(request, upload, context);
   } catch (const std::exception& exception) {
     return {plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
                                std::string("internal error: ") + exception.what()),
@@ -35,29 +36,10 @@ Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
   }
 }
 
-const char* name_of(std::int8_t operation) {
-  switch (operation) {
-    case scene_request_t::LOAD:
-      return "load";
-    case scene_request_t::UNLOAD:
-      return "unload";
-    case scene_request_t::LIST:
-      return "list";
-    case scene_request_t::DESCRIBE:
-      return "describe";
-    case scene_request_t::PUT:
-      return "put";
-    case scene_request_t::MOVE:
-      return "move";
-    case scene_request_t::REMOVE:
-      return "remove";
-    case scene_request_t::SCAN:
-      return "scan";
-    case scene_request_t::EXPORT:
-      return "export";
-    default:
-      return "unknown";
-  }
+/// Of a client run all but one of the workers at most.
+FairQueue::Limits with_room_for_others(FairQueue::Limits limits, int workers) {
+  limits.running_of_a_client = static_cast<std::size_t>(std::max(workers - 1, 1));
+  return limits;
 }
 
 }  // namespace
@@ -69,7 +51,8 @@ SceneService::SceneService(Core& core, scene::SceneStore& scenes)
       uploads_(core.config.uploads),
       exports_(core.config.exports),
       cache_(core.config.cache),
-      thread_(1, core.config.changes) {}
+      workers_(core.config.scene_workers,
+               with_room_for_others(core.config.changes, core.config.scene_workers)) {}
 
 void SceneService::on_request(std::span<const std::uint8_t> message) {
   wire::Decoded<scene_request_t> decoded = wire::decode<scene_request_t>(message);
@@ -84,9 +67,10 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   // No scene or object of ours has a name with control characters, so nothing is lost.
   decoded.message->scene = wire::printable(decoded.message->scene);
   decoded.message->object = wire::printable(decoded.message->object);
+  decoded.message->restore_as = wire::printable(decoded.message->restore_as);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
   if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, rules_, scenes_).answer);
+    finish(*request, answer_of(*request, nullptr, context()).answer);
     return;
   }
   const RequestKey key{request->client_id, request->request_id};
@@ -116,32 +100,39 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
       uploads_.find({request->client_id, request->upload_bytes, request->upload_checksum});
   Job work;
   work.client = request->client_id;
+  work.strand = target_of(*request);
   work.run = [this, request, upload] {
-    auto done = std::make_shared<Performed>(answer_of(*request, upload, rules_, scenes_));
+    auto done = std::make_shared<Performed>(answer_of(*request, upload, context()));
     Pages map;
     if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
     core_.mailbox.post([this, request, done, map] {
-      if (map)
-        exports_.keep({request->client_id, request->request_id}, map, MapExports::Clock::now());
+      if (done->is_called_off) return refuse(*request, Refusal::kStopping);
+      const RequestKey key{request->client_id, request->request_id};
+      if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
+        done->answer = plain_scene_answer(
+            *request, scene_response_t::STATUS_LIMIT,
+            fmt::format("the map is larger than all exports may be together, {} bytes "
+                        "(scenes.all_exports_bytes)",
+                        core_.config.exports.bytes));
+      }
       finish(*request, std::move(done->answer));
     });
   };
   work.abandon = [this, request](Refusal why) { refuse(*request, why); };
-  if (std::optional<FairQueue::Refused> refused = thread_.submit(std::move(work))) {
+  if (std::optional<FairQueue::Refused> refused = workers_.submit(std::move(work))) {
     refused->job.abandon(refused->why);
   }
 }
 
 void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
-  core_.limited_log.scenes.write("answered scene request",
-                                 {{"client", request.client_id},
-                                  {"request", request.request_id},
-                                  {"operation", name_of(request.operation)},
-                                  {"scene", request.scene},
-                                  {"object", request.object},
-                                  {"status", answer.status},
-                                  {"revision", answer.scene.revision},
-                                  {"message", answer.message}});
+  core_.limited_log.scenes.write("answered scene request", {{"client", request.client_id},
+                                                            {"request", request.request_id},
+                                                            {"operation", operation_name(request)},
+                                                            {"scene", request.scene},
+                                                            {"object", request.object},
+                                                            {"status", answer.status},
+                                                            {"revision", answer.scene.revision},
+                                                            {"message", answer.message}});
   const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
@@ -167,9 +158,10 @@ Pages SceneService::send(scene_response_t answer) {
 void SceneService::refuse(const scene_request_t& request, Refusal why) {
   cache_.forget({request.client_id, request.request_id});
   ++core_.counters.overloaded;
-  const std::string_view message = why == Refusal::kStopping
-                                       ? "the daemon is stopping"
-                                       : "too many changes of scenes wait; send it again later";
+  const std::string_view message =
+      why == Refusal::kStopping ? "the daemon is stopping"
+                                : "too many changes of scenes wait (scenes.waiting_changes and "
+                                  "scenes.waiting_changes_of_a_client); send it again later";
   core_.limited_log.refused.write(
       "refused scene request",
       {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
@@ -244,8 +236,16 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
   if (!which.empty()) core_.outbox.add(channel, pages, {which.begin(), which.end()});
 }
 
+SceneContext SceneService::context() { return {rules_, scenes_, writing_, stop_.get_token()}; }
+
 void SceneService::close() {
-  for (const Job& job : thread_.close()) job.abandon(Refusal::kStopping);
+  stop_.request_stop();
+  for (const Job& job : workers_.close()) job.abandon(Refusal::kStopping);
+}
+
+void SceneService::stop() {
+  stop_.request_stop();
+  workers_.stop();
 }
 
 }  // namespace camway::service

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <span>
+#include <stop_token>
 #include <string_view>
 
 #include "daemon/service/core.h"
@@ -11,9 +13,12 @@
 
 namespace camway::service {
 
-/// Lets clients look at scenes and change them. One thread of its own does the changes, in the
-/// order in which they came, so that neither planning waits for the import of a large file nor two
-/// moves of one client overtake each other. The loop thread calls everything here.
+/// Lets clients look at scenes and change them. Threads of its own do the changes, so that planning
+/// waits for no import of a large file: those of different scenes side by side, those of one scene
+/// one after the other, so that two moves of one client do not overtake each other. Clients take
+/// turns as for planning (`FairQueue`), and no client has all threads at a time, so that the
+/// imports of one leave room for the moves of others. Who only looks is answered at once. The loop
+/// thread calls everything here.
 ///
 /// A change that is asked for again, by its ids and content, is not made again: it gets the same
 /// answer.
@@ -31,12 +36,13 @@ class SceneService {
   /// A message on the channel for missing pages of maps. Throws only for want of memory.
   void on_missing_map_pages(std::span<const std::uint8_t> message);
 
-  /// Takes no more changes, and refuses those that nobody has begun.
+  /// Takes no more changes, and refuses those that nobody has begun, and those that read a file,
+  /// which is called off.
   void close();
   /// Whether nothing is being done.
-  [[nodiscard]] bool idle() const { return thread_.running() == 0; }
-  /// Waits for what is being done. Before `Core` goes.
-  void stop() { thread_.stop(); }
+  [[nodiscard]] bool idle() const { return workers_.running() == 0; }
+  /// Calls off the reading of files and waits for what is being done. Before `Core` goes.
+  void stop();
 
  private:
   void begin(const std::shared_ptr<const scene_request_t>& request);
@@ -44,6 +50,7 @@ class SceneService {
   void refuse(const scene_request_t& request, Refusal why);
   void refuse_malformed(std::span<const std::uint8_t> message, std::string_view reason);
   Pages send(scene_response_t answer);
+  [[nodiscard]] SceneContext context();
 
   Core& core_;
   scene::SceneStore& scenes_;
@@ -51,7 +58,9 @@ class SceneService {
   Uploads uploads_;
   MapExports exports_;
   AnswerCache cache_;
-  WorkerPool thread_;
+  std::mutex writing_;  ///< see `SceneContext`
+  std::stop_source stop_;
+  WorkerPool workers_;
 };
 
 }  // namespace camway::service

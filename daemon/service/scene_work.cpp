@@ -2,13 +2,12 @@
 #include "daemon/service/scene_work.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -17,7 +16,9 @@
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/map_scan.h"
 #include "daemon/scene/shape_mesh.h"
+#include "daemon/scene/stoppable_load.h"
 #include "daemon/service/scene_argument.h"
+#include "daemon/service/upload_file.h"
 #include "daemon/service/wire_convert.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/checksum.h"
@@ -31,60 +32,29 @@ using scene::SceneChange;
 using Request = scene_request_t;
 using Answer = scene_response_t;
 
-/// A file of our own that goes when this does.
-class TemporaryFile {
- public:
-  /// The name ends with `.extension`, which tells the importer the format.
-  TemporaryFile(const UploadRoom& bytes, const std::string& extension) {
-    std::error_code failed;
-    std::string name =
-        (std::filesystem::temp_directory_path(failed) / ("camway_upload_XXXXXX." + extension))
-            .string();
-    const int file = mkstemps(name.data(), static_cast<int>(extension.size()) + 1);
-    if (file < 0) return;
-    path_ = name;
-    std::ofstream out(path_, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    close(file);
-    is_good_ = static_cast<bool>(out);
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  /// Whether all bytes are in it.
-  [[nodiscard]] bool is_good() const { return is_good_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-  bool is_good_ = false;
-};
-
 /// What came of reading or making something, or what is wrong.
 template <class Value>
 struct Made {
   std::optional<Value> value;
   std::string error;
+  scene::Limit limit = scene::Limit::kNone;  ///< that the error is about
 };
 
 /// What an object will be made of.
 struct Content {
   scene::ObjectKind kind;
-  scene::Mesh mesh;
+  scene::Mesh mesh;  ///< of a map: none
   scene::ImportReport report;
   std::shared_ptr<const scene::VoxelMap> map = nullptr;
 };
 
 std::shared_ptr<const scene::ObjectSource> source_of(Content content,
                                                      const scene::ObjectOptions& options) {
+  if (content.map) {
+    return scene::make_map_source(std::move(content.map), std::move(content.report), options);
+  }
   return scene::make_source(content.kind, std::move(content.mesh), std::move(content.report),
-                            options, std::move(content.map));
+                            options);
 }
 
 Vec3 vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
@@ -131,8 +101,8 @@ Made<scene::ImportOptions> import_options(const Request& request, const SceneRul
 }
 
 Made<Content> imported(const std::filesystem::path& file, const std::string& shown,
-                       const scene::ImportOptions& options) {
-  scene::ImportResult result = scene::import_mesh(file, options);
+                       const scene::ImportOptions& options, const std::stop_token& stop) {
+  scene::ImportResult result = scene::import_mesh(file, options, stop);
   if (result.mesh) {
     const scene::ObjectKind kind = result.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
     return {Content{kind, std::move(*result.mesh), std::move(result.report), result.map}, {}};
@@ -142,25 +112,25 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
   if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
     error.replace(at, file.string().size(), shown);
   }
-  return {std::nullopt, std::move(error)};
+  return {std::nullopt, std::move(error), result.limit};
 }
 
 Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
-                        const SceneRules& rules) {
-  const Made<scene::ImportOptions> options = import_options(request, rules);
+                        const SceneContext& context) {
+  const Made<scene::ImportOptions> options = import_options(request, context.rules);
   if (!options.value) return {std::nullopt, options.error};
   if (request.upload_bytes == 0) {
-    const RootedFile rooted = rules.roots.resolve(request.file);
+    const RootedFile rooted = context.rules.roots.resolve(request.file);
     if (!rooted.error.empty()) return {std::nullopt, rooted.error};
-    return imported(rooted.file, wire::printable(request.file), *options.value);
+    return imported(rooted.file, wire::printable(request.file), *options.value, context.stop);
   }
   if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
   if (!is_extension(request.upload_format)) {
     return {std::nullopt, "upload_format: must be a file name extension of [a-z0-9]{1,8}"};
   }
-  const TemporaryFile file(*upload, request.upload_format);
+  const UploadFile file(*upload, request.upload_format);
   if (!file.is_good()) return {std::nullopt, "upload: the daemon has no room for the file"};
-  return imported(file.path(), "upload." + request.upload_format, *options.value);
+  return imported(file.path(), "upload." + request.upload_format, *options.value, context.stop);
 }
 
 /// Doubles of an upload of points; empty, with an error, if its size is not that of any.
@@ -218,16 +188,15 @@ Made<scene::SensorModel> sensor_of(const Request& request) {
   return {sensor, {}};
 }
 
-/// The object that is a map; its faces are made here.
+/// The object that is a map.
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
-  std::optional<scene::Mesh> mesh = map->skin();
-  if (!mesh) {
-    return {std::nullopt, fmt::format("the map has more than {} triangles (scenes.map_triangles)",
-                                      map->limits().triangles)};
+  if (!map->skin()) {
+    return {std::nullopt,
+            fmt::format("the map has more than {} triangles", map->limits().triangles),
+            scene::Limit::kMapTriangles};
   }
-  scene::ImportReport report = scene::report_of(*mesh, "OctoMap");
-  return {Content{scene::ObjectKind::kMap, *std::move(mesh), std::move(report), std::move(map)},
-          {}};
+  scene::ImportReport report = scene::report_of(*map, "OctoMap");
+  return {Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map)}, {}};
 }
 
 Made<Content> empty_map(const Request& request, const SceneRules& rules) {
@@ -237,18 +206,18 @@ Made<Content> empty_map(const Request& request, const SceneRules& rules) {
   if (!sensor.value) return {std::nullopt, sensor.error};
   scene::VoxelMapResult built =
       scene::VoxelMap::build(request.cell_m, {}, {}, *unknown.value, rules.maps, *sensor.value);
-  if (!built.map) return {std::nullopt, "cell_m: the map " + built.error};
+  if (!built.map) return {std::nullopt, "cell_m: the map " + built.error, built.limit};
   return of_map(std::move(built.map));
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
-                        const SceneRules& rules) {
+                        const SceneContext& context) {
   constexpr double kDefaultChordShare = 0.01;
   const double chord_error_m =
       request.chord_error_m != 0.0 ? request.chord_error_m : kDefaultChordShare * request.radius_m;
   switch (kind) {
     case scene::ObjectKind::kMesh:
-      return read_mesh(request, upload, rules);
+      return read_mesh(request, upload, context);
     case scene::ObjectKind::kBox:
       return of_shape(scene::box_mesh(vec3(request.size_m)), kind);
     case scene::ObjectKind::kSphere:
@@ -257,7 +226,7 @@ Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const Up
       return of_shape(scene::cylinder_mesh(request.radius_m, request.height_m, chord_error_m),
                       kind);
     case scene::ObjectKind::kMap:
-      return empty_map(request, rules);
+      return empty_map(request, context.rules);
     case scene::ObjectKind::kPointCloud: {
       const Made<std::vector<Vec3>> points = read_points(upload);
       if (!points.value) return {std::nullopt, points.error};
@@ -283,10 +252,10 @@ scene_object_t object_on_wire(const scene::SceneObject& object) {
   wire.name = clipped(object.name, wire::kMaxObjectNameBytes);
   wire.kind = scene::to_string(object.source->kind);
   wire.digest = object.digest;
-  wire.num_triangles = static_cast<std::int64_t>(object.placed->mesh->triangles.size());
+  wire.num_triangles = static_cast<std::int64_t>(object.triangles);
   std::copy_n(object.placement.position_W().data(), 3, wire.position_m);
   std::copy_n(geometry::wxyz(object.placement.orientation_WO()).data(), 4, wire.orientation_wxyz);
-  if (const geometry::Box& bounds = object.placed->tree.bounds(); !bounds.isEmpty()) {
+  if (const geometry::Box& bounds = object.bounds_W; !bounds.isEmpty()) {
     std::copy_n(bounds.min().data(), 3, wire.bounds_min_m);
     std::copy_n(bounds.max().data(), 3, wire.bounds_max_m);
   }
@@ -299,12 +268,24 @@ std::int32_t put_list(const Elements& elements, std::int32_t first, const Conver
                       const Answer& answer, List& list) {
   auto size = static_cast<std::size_t>(answer.getEncodedSize());
   for (std::size_t i = static_cast<std::size_t>(std::max(first, 0)); i < elements.size(); ++i) {
-    auto element = convert(*elements[i]);
+    auto element = convert(elements[i]);
     size += static_cast<std::size_t>(element._getEncodedSizeNoHash());
     if (size > wire::kMaxMessageBytes) break;
     list.push_back(std::move(element));
   }
   return static_cast<std::int32_t>(list.size());
+}
+
+scene_change_t change_on_wire(const scene::KeptRevision& kept) {
+  using std::chrono::microseconds;
+  scene_change_t wire{};
+  wire.revision = static_cast<std::int64_t>(kept.revision);
+  wire.utime = std::chrono::duration_cast<microseconds>(kept.note.when.time_since_epoch()).count();
+  wire.operation = clipped(kept.note.operation, wire::kMaxOperationBytes);
+  wire.object = clipped(kept.note.object, wire::kMaxObjectNameBytes);
+  wire.client_id = kept.note.client;
+  wire.restored_revision = static_cast<std::int64_t>(kept.note.restored_revision);
+  return wire;
 }
 
 std::int32_t status_of(scene::StoreFault fault) {
@@ -333,9 +314,12 @@ std::string warnings_of(const scene::ImportReport& report) {
 /// One request on its way.
 class Work {
  public:
-  Work(const Request& request, const UploadedBytes& upload, const SceneRules& rules,
-       scene::SceneStore& scenes)
-      : request_(request), upload_(upload), rules_(rules), scenes_(scenes) {}
+  Work(const Request& request, const UploadedBytes& upload, const SceneContext& context)
+      : request_(request),
+        upload_(upload),
+        context_(context),
+        rules_(context.rules),
+        scenes_(context.scenes) {}
 
   Answer run() {
     switch (request_.operation) {
@@ -357,6 +341,10 @@ class Work {
         return scan();
       case Request::EXPORT:
         return export_map();
+      case Request::HISTORY:
+        return history();
+      case Request::RESTORE:
+        return restore();
       default:
         return invalid(fmt::format("operation: {} is unknown", request_.operation));
     }
@@ -370,18 +358,26 @@ class Work {
     return plain_scene_answer(request_, Answer::STATUS_INVALID, reason);
   }
 
+  /// What could not be made, for whatever reason.
+  [[nodiscard]] Answer refused(std::string_view reason, scene::Limit limit) const {
+    if (limit == scene::Limit::kNone) return invalid(reason);
+    return plain_scene_answer(request_, Answer::STATUS_LIMIT, with_setting(reason, limit));
+  }
+
   [[nodiscard]] Answer unknown() const {
     return plain_scene_answer(
         request_, Answer::STATUS_UNKNOWN_SCENE,
         fmt::format("scene: '{}' is unknown; {}", request_.scene, scenes_.summary()));
   }
 
+  /// What the scene's history says of this.
+  [[nodiscard]] scene::ChangeNote note(std::string object) const {
+    return {operation_name(request_), std::move(object), request_.client_id, 0, {}};
+  }
+
   /// What the store made of a change.
   [[nodiscard]] Answer answer_to(const scene::StoreResult& result, std::string_view message) const {
-    if (result.fault == scene::StoreFault::kLimit) {
-      return plain_scene_answer(request_, Answer::STATUS_LIMIT,
-                                result.error + " (limits of the daemon's [scenes])");
-    }
+    if (result.limit != scene::Limit::kNone) return refused(result.error, result.limit);
     Answer answer = plain_scene_answer(request_, status_of(result.fault),
                                        result.snapshot ? message : result.error);
     if (!result.snapshot) return answer;
@@ -406,16 +402,17 @@ class Work {
           !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
         return invalid(std::string("occupancy_resolution_m: ") + kResolutionRule);
       }
-      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options)), "");
+      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options), note("")), "");
     }
-    Made<Content> made = read_mesh(request_, upload_, rules_);
-    if (!made.value) return invalid(made.error);
+    Made<Content> made = read_mesh(request_, upload_, context_);
+    if (!made.value) return refused(made.error, made.limit);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed = scene::place_object(
         request_.scene, source_of(*std::move(made.value), options), {}, options);
-    if (!placed.object) return invalid(placed.error);
+    if (!placed.object) return refused(placed.error, placed.limit);
     return answer_to(
-        scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options)),
+        scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options),
+                    note("")),
         warnings);
   }
 
@@ -429,7 +426,9 @@ class Work {
     const auto scenes = scenes_.list();
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(scenes.size());
-    answer.num_scenes = put_list(scenes, request_.first, scene_info_of, answer, answer.scenes);
+    answer.num_scenes = put_list(
+        scenes, request_.first, [](const auto& scene) { return scene_info_of(*scene); }, answer,
+        answer.scenes);
     return answer;
   }
 
@@ -440,9 +439,34 @@ class Work {
     answer.scene = scene_info_of(*snapshot);
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(snapshot->objects.size());
-    answer.num_objects =
-        put_list(snapshot->objects, request_.first, object_on_wire, answer, answer.objects);
+    answer.num_objects = put_list(
+        snapshot->objects, request_.first,
+        [](const auto& object) { return object_on_wire(*object); }, answer, answer.objects);
     return answer;
+  }
+
+  Answer history() {
+    const scene::SceneStore::Kept kept = scenes_.kept(request_.scene);
+    if (!kept.newest) return unknown();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*kept.newest);
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(kept.revisions.size());
+    answer.num_changes =
+        put_list(kept.revisions, request_.first, change_on_wire, answer, answer.changes);
+    return answer;
+  }
+
+  Answer restore() {
+    const auto revision = static_cast<std::uint64_t>(std::max<std::int64_t>(request_.revision, 0));
+    if (request_.restore_as.empty()) {
+      return answer_to(scenes_.restore(request_.scene, revision, note("")), "");
+    }
+    if (!is_scene_name(request_.restore_as)) {
+      return invalid("restore_as: must be of [A-Za-z0-9_.-]{1,128}");
+    }
+    return answer_to(scenes_.restore_as(request_.scene, revision, request_.restore_as, note("")),
+                     "");
   }
 
   Answer put() {
@@ -455,8 +479,8 @@ class Work {
     if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
     const Made<scene::Placement> placement = placement_of(request_);
     if (!placement.value) return invalid(placement.error);
-    Made<Content> made = make_mesh(request_, *kind, upload_, rules_);
-    if (!made.value) return invalid(made.error);
+    Made<Content> made = make_mesh(request_, *kind, upload_, context_);
+    if (!made.value) return refused(made.error, made.limit);
     const std::string warnings = warnings_of(made.value->report);
     const auto source = source_of(*std::move(made.value), snapshot->options);
     return change({SceneChange::Kind::kPut, request_.object, source, *placement.value}, warnings);
@@ -482,9 +506,9 @@ class Work {
     for (Vec3& point : *points.value) point = placement.to_object(point);
     const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points.value};
     scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
-    if (!next.map) return invalid(next.error);
+    if (!next.map) return refused(next.error, next.limit);
     Made<Content> made = of_map(std::move(next.map));
-    if (!made.value) return invalid(made.error);
+    if (!made.value) return refused(made.error, made.limit);
     return change({SceneChange::Kind::kPut, request_.object,
                    source_of(*std::move(made.value), snapshot->options), placement},
                   "");
@@ -512,16 +536,19 @@ class Work {
       map_.assign(bytes.begin(), bytes.end());
       return answer;
     }
+    const std::lock_guard writing(context_.writing);
     const std::string fault = rules_.roots.write(request_.file, ".bt", bytes);
     return fault.empty() ? answer : invalid(fault);
   }
 
   Answer change(SceneChange change, std::string_view message) {
-    return answer_to(scenes_.change(request_.scene, std::move(change)), message);
+    const std::string object = change.object;
+    return answer_to(scenes_.change(request_.scene, std::move(change), note(object)), message);
   }
 
   const Request& request_;
   const UploadedBytes& upload_;
+  const SceneContext& context_;
   const SceneRules& rules_;
   scene::SceneStore& scenes_;
   std::vector<std::uint8_t> map_;
@@ -555,14 +582,52 @@ scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t
 
 bool only_looks(const scene_request_t& request) {
   return request.operation == scene_request_t::LIST ||
-         request.operation == scene_request_t::DESCRIBE;
+         request.operation == scene_request_t::DESCRIBE ||
+         request.operation == scene_request_t::HISTORY;
+}
+
+const std::string& target_of(const scene_request_t& request) {
+  const bool makes_another =
+      request.operation == scene_request_t::RESTORE && !request.restore_as.empty();
+  return makes_another ? request.restore_as : request.scene;
+}
+
+const char* operation_name(const scene_request_t& request) {
+  switch (request.operation) {
+    case scene_request_t::LOAD:
+      return "load";
+    case scene_request_t::UNLOAD:
+      return "unload";
+    case scene_request_t::LIST:
+      return "list";
+    case scene_request_t::DESCRIBE:
+      return "describe";
+    case scene_request_t::PUT:
+      return "put";
+    case scene_request_t::MOVE:
+      return "move";
+    case scene_request_t::REMOVE:
+      return "remove";
+    case scene_request_t::SCAN:
+      return "scan";
+    case scene_request_t::EXPORT:
+      return "export";
+    case scene_request_t::HISTORY:
+      return "history";
+    case scene_request_t::RESTORE:
+      return "restore";
+    default:
+      return "unknown";
+  }
 }
 
 Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneRules& rules, scene::SceneStore& scenes) {
-  Work work(request, upload, rules, scenes);
-  Answer answer = work.run();
-  return {std::move(answer), work.take_map()};
+                  const SceneContext& context) {
+  Work work(request, upload, context);
+  Performed performed{work.run(), work.take_map()};
+  performed.is_called_off =
+      context.stop.stop_requested() && performed.answer.status == Answer::STATUS_INVALID;
+  return performed;
 }
 
 }  // namespace camway::service

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
+#include <stop_token>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,14 +28,34 @@ scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t
 /// Whether the operation only looks: then it may be done again at any time.
 bool only_looks(const scene_request_t& request);
 
-/// Does what a request asks for and says how it went; a file or an upload is read by the import
-/// process. `upload` is the one that the request names, null if it is not there. `utime` is left 0.
-/// For a thread that has time: a file may take as long as its import may.
+/// The scene that the operation changes, or looks at.
+const std::string& target_of(const scene_request_t& request);
+
+/// One word.
+const char* operation_name(const scene_request_t& request);
+
+/// What a request is carried out on. All outlive the call.
+struct SceneContext {
+  const SceneRules& rules;
+  scene::SceneStore& scenes;
+  std::mutex& writing;   ///< held by who writes a file below the roots: two might mean the same
+  std::stop_token stop;  ///< ends the reading of files
+};
+
+/// What came of a request.
 struct Performed {
   scene_response_t answer;
   std::vector<std::uint8_t> map;  ///< of an export that goes to the client
+  /// It failed after a stop was asked for, so perhaps for that alone: it is to be sent again.
+  bool is_called_off = false;
 };
+
+/// Does what a request asks for and says how it went; a file or an upload is read by the import
+/// process. `upload` is the one that the request names, null if it is not there. `utime` is left 0.
+/// For a thread that has time: a file may take as long as its import may. Safe from any thread; the
+/// changes of one scene are to be asked for one after the other, or one that was made meanwhile may
+/// be lost.
 Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneRules& rules, scene::SceneStore& scenes);
+                  const SceneContext& context);
 
 }  // namespace camway::service

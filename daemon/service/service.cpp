@@ -69,6 +69,7 @@ bool Service::subscribe() {
          to(core_.channels.missing_pages(), plans_, &PlanService::on_missing_pages) &&
          to(core_.channels.watch(), watches_, &Watches::on_message) &&
          to(core_.channels.occupancy_request(), occupancy_, &OccupancyService::on_message) &&
+         to(core_.channels.cancel_occupancy(), occupancy_, &OccupancyService::on_cancel) &&
          to(core_.channels.scene_request(), scenes_, &SceneService::on_request) &&
          to(core_.channels.upload(), scenes_, &SceneService::on_upload) &&
          to(core_.channels.missing_map_pages(), scenes_, &SceneService::on_missing_map_pages);

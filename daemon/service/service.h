@@ -45,7 +45,7 @@ struct ServiceHooks {
 /// queues requests and publishes answers; a fixed number of workers plan on immutable snapshots.
 class Service {
  public:
-  /// `transport` and `scenes` must outlive the service. Precondition: `config.fault()` is empty.
+  /// `transport` and `scenes` must outlive the service. Precondition: `config` keeps its limits.
   Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config, Planner planner,
           std::shared_ptr<Log> log, ServiceHooks hooks = {});
   /// Waits for what is still being planned, which it does not answer any more.

@@ -346,6 +346,7 @@ std::string_view status_name(std::int32_t wire_status) {
   if (wire_status == plan_response_t::STATUS_OVERLOADED) return "overloaded";
   if (wire_status == plan_response_t::STATUS_MALFORMED) return "malformed";
   if (wire_status == plan_response_t::STATUS_CANCELLED) return "cancelled";
+  if (wire_status == plan_response_t::STATUS_LIMIT) return "limit";
   return "unknown status";
 }
 

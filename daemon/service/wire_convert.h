@@ -47,7 +47,7 @@ struct RequestIds {
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
 
 /// A result, or why there is none: a status that no planning has (overloaded, malformed,
-/// cancelled), or segments that are no path, or a report that says what no correction does.
+/// cancelled, limit), or segments that are no path, or a report that says what no correction does.
 struct ConvertedResult {
   std::optional<planning::PlanResult> result;
   std::string error;
@@ -73,7 +73,7 @@ plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& 
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header);
 
-/// The name of a status of `plan_response_t`, for logs: "ok", "partial", ..., "cancelled".
+/// The name of a status of `plan_response_t`, for logs: "ok", "partial", ..., "limit".
 std::string_view status_name(std::int32_t wire_status);
 
 /// `text` as a message may carry it: without NUL, at most `max_bytes`, cut between characters of

@@ -78,9 +78,11 @@ Job::Clock::duration WorkerPool::longest_run(Job::Clock::time_point now) const {
 void WorkerPool::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return closed_ || !queue_.empty(); });
+    changed_.wait(lock, [this] { return closed_ || queue_.can_begin(); });
     if (queue_.empty()) return;
     FairQueue::Begun begun = queue_.pop();
+    // The end of a job may let two begin: the next of its strand, and another of its client.
+    if (queue_.can_begin()) changed_.notify_one();
     const Job::Clock::time_point start = Job::Clock::now();
     const auto mark = begun_.insert(start);
     lock.unlock();

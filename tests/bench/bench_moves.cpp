@@ -69,12 +69,8 @@ Moves measure(scene::SceneStore& store, const std::string& title, const std::str
     if (round >= 0) taken_s.push_back(once_s);
   }
   const auto now = store.find("bench");
-  return {title,
-          now->objects.size(),
-          now->index.size(),
-          now->find(object)->placed->mesh->triangles.size(),
-          median(taken_s),
-          quantile(taken_s, 0.99)};
+  return {title,           now->objects.size(),    now->index.size(), now->find(object)->triangles,
+          median(taken_s), quantile(taken_s, 0.99)};
 }
 
 /// One large mesh, and a ball that moves about in it.

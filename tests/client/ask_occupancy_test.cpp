@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 #include "tests/client/client_fixture.h"
@@ -100,6 +102,40 @@ TEST_F(AskOccupancyTest, NeverMixesTwoRevisionsOfAScene) {
   };
   restless.start();
   EXPECT_THAT(client.occupancy(large_batch()).error, HasSubstr("the scene changed each time"));
+}
+
+TEST_F(AskOccupancyTest, CallsOffWhatNobodyWaitsForAfterADeadline) {
+  std::atomic<std::int64_t> first = 0;
+  std::atomic<std::int64_t> called_off = 0;
+  FakeDaemon daemon;
+  daemon.on_occupancy = [&](const occupancy_request_t& request) {
+    EXPECT_EQ(request.deadline_s, 0.5);
+    if (first == 0) first = request.request_id;
+    if (request.request_id != first) return std::vector<Bytes>{};
+    occupancy_response_t response{};
+    response.client_id = request.client_id;
+    response.request_id = request.request_id;
+    response.status = occupancy_response_t::STATUS_TIMEOUT;
+    response.message = "too slow";
+    return std::vector<Bytes>{wire::encode(response)};
+  };
+  daemon.on_cancel_occupancy = [&](const cancel_t& cancel) {
+    called_off = cancel.request_id;
+    return std::vector<Bytes>{};
+  };
+  daemon.start();
+  Client client(quick());
+  OccupancyBatch batch = large_batch();
+  batch.deadline_s = 0.5;
+  const OccupancyAnswer answer = client.occupancy(batch);
+  EXPECT_EQ(answer.status, Status::kTimeout);
+  EXPECT_THAT(answer.error, HasSubstr("too slow"));
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (called_off == 0 && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_NE(called_off, 0);
+  EXPECT_NE(called_off, first);
 }
 
 TEST_F(AskOccupancyTest, PassesOnWhyThereIsNoOccupancy) {

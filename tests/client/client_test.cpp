@@ -98,6 +98,23 @@ TEST_F(ClientTest, WaitsForADaemonThatLivesButEndsAtTheDeadline) {
   EXPECT_GT(response.tries, 1 + options.retries);
 }
 
+TEST_F(ClientTest, WaitsForNoDaemonThatDropsWhatIsNotSigned) {
+  status_t status{};
+  status.uptime_s = 10.0;
+  status.signed_only = 1;
+  FakeDaemon daemon;
+  daemon.raw_heartbeat = wire::encode(status);
+  daemon.heartbeat_every = milliseconds(30);
+  daemon.start();
+  Client client(quick());
+  const PlanResponse response = client.plan(small_request());
+  EXPECT_EQ(response.status, Status::kNoAnswer);
+  EXPECT_THAT(response.error, HasSubstr("drops what is not signed"));
+  EXPECT_LT(response.elapsed_s, quick().deadline_s);
+  EXPECT_THAT(client.list_scenes().error, HasSubstr("drops what is not signed"));
+  EXPECT_TRUE(client.status().signed_only) << "a heartbeat is read all the same";
+}
+
 TEST_F(ClientTest, RepeatsTheSameRequestUntilItIsAnswered) {
   int calls = 0;
   FakeDaemon daemon;

@@ -40,6 +40,7 @@ class FakeDaemon {
   CancelScript on_cancel;    ///< answers on the channel for plan responses
   MissingScript on_missing;  ///< likewise
   OccupancyScript on_occupancy;
+  CancelScript on_cancel_occupancy;
   /// 0: silent.
   std::chrono::milliseconds heartbeat_every{0};
   double uptime_s = 1000.0;
@@ -54,6 +55,7 @@ class FakeDaemon {
     lcm_.subscribeFunction(channels_.cancel(), &FakeDaemon::take_cancel, this);
     lcm_.subscribeFunction(channels_.missing_pages(), &FakeDaemon::take_missing, this);
     lcm_.subscribeFunction(channels_.occupancy_request(), &FakeDaemon::take_occupancy, this);
+    lcm_.subscribeFunction(channels_.cancel_occupancy(), &FakeDaemon::take_cancel_occupancy, this);
     running_ = true;
     thread_ = std::thread([this] { run(); });
   }
@@ -100,6 +102,16 @@ class FakeDaemon {
 
   static void take_missing(const lcm::ReceiveBuffer* buffer, const std::string&, FakeDaemon* self) {
     self->answer<missing_pages_t>(buffer, self->on_missing);
+  }
+
+  static void take_cancel_occupancy(const lcm::ReceiveBuffer* buffer, const std::string&,
+                                    FakeDaemon* self) {
+    const auto decoded =
+        wire::decode<cancel_t>({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!decoded.message || !self->on_cancel_occupancy) return;
+    for (const Bytes& bytes : self->on_cancel_occupancy(*decoded.message)) {
+      self->publish(self->channels_.occupancy_response(decoded.message->client_id), bytes);
+    }
   }
 
   static void take_occupancy(const lcm::ReceiveBuffer* buffer, const std::string&,

@@ -25,10 +25,7 @@ constexpr double kEdgeM = 0.5;
 std::shared_ptr<const scene::Snapshot> scene_of(const VoxelSet& occupied,
                                                 const scene::Placement& placement = {}) {
   const auto map = scene::VoxelMap::build(kEdgeM, occupied, {}, scene::UnknownSpace::kFree).map;
-  scene::Mesh mesh = *map->skin();
-  scene::ImportReport report = scene::report_of(mesh, "test");
-  const auto source =
-      scene::make_source(scene::ObjectKind::kMap, std::move(mesh), std::move(report), {}, map);
+  const auto source = scene::make_map_source(map, scene::report_of(*map, "test"), {});
   return scene::assemble("map", 1, {scene::place_object("map", source, placement, {}).object}, {});
 }
 

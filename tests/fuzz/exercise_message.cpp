@@ -2,6 +2,7 @@
 #include "tests/fuzz/exercise_message.h"
 
 #include <algorithm>
+#include <mutex>
 #include <vector>
 
 #include <camway/cancel_t.hpp>
@@ -74,7 +75,10 @@ void exercise(const scene_request_t& message) {
   options.field.reset();
   scenes.put(
       scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh, options).snapshot);
-  const scene_response_t answer = service::perform(message, nullptr, {}, scenes).answer;
+  const service::SceneRules rules;
+  std::mutex writing;
+  const scene_response_t answer =
+      service::perform(message, nullptr, {rules, scenes, writing, {}}).answer;
   promise(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
           "a refusal has a reason");
 }

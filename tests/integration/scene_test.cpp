@@ -217,6 +217,70 @@ TEST_F(SceneTest, TakesALargeUploadAndGoesOnAfterAnInterruption) {
   EXPECT_EQ(answer.scene.num_triangles, 40'000);
 }
 
+TEST_F(SceneTest, GoesBackToAnEarlierRevision) {
+  Client client(patient());
+  SceneMesh mesh;
+  mesh.file = "cube.obj";
+  const SceneAnswer loaded = client.load_scene("world", mesh, 0.25);
+  ASSERT_TRUE(loaded.ok()) << loaded.error;
+  const SceneAnswer put = client.put_object("world", "wall", SceneBox{{1, 8, 8}}, at(5, 2, 10));
+  ASSERT_TRUE(put.ok()) << put.error;
+  EXPECT_FALSE(client.plan(flight("world")).collisions.empty());
+  const SceneAnswer restored = client.restore_scene("world", loaded.scene.revision);
+  ASSERT_TRUE(restored.ok()) << restored.error;
+  EXPECT_EQ(restored.scene.revision, put.scene.revision + 1);
+  EXPECT_EQ(restored.scene.digest, loaded.scene.digest);
+  EXPECT_EQ(client.export_map("world").scene.revision, restored.scene.revision);
+  EXPECT_TRUE(client.plan(flight("world")).collisions.empty());
+
+  EXPECT_EQ(client.scene_history("world").revisions.back().restored_revision,
+            loaded.scene.revision);
+}
+
+TEST_F(SceneTest, AHistoryMayBeLongerThanAMessage) {
+  Client client(patient());
+  ASSERT_TRUE(client.load_scene("long", {}).ok());
+  const std::string crate(64, 'c');
+  ASSERT_TRUE(client.put_object("long", crate, SceneBox{{1, 1, 1}}).ok());
+  for (int i = 0; i < 600; ++i) {
+    ASSERT_TRUE(client.move_object("long", crate, at(0.001 * i, 0, 0)).ok());
+  }
+  const SceneAnswer history = client.scene_history("long");
+  ASSERT_TRUE(history.ok()) << history.error;
+  ASSERT_EQ(history.revisions.size(), 602U);
+  for (std::size_t i = 0; i < history.revisions.size(); ++i) {
+    EXPECT_EQ(history.revisions[i].revision, static_cast<std::int64_t>(i) + 1);
+  }
+  EXPECT_EQ(history.scene.revision, history.revisions.back().revision);
+}
+
+TEST_F(SceneTest, TheCommandListsAndRestoresRevisions) {
+  const auto camway = [&](std::vector<std::string> arguments, int code) {
+    arguments.insert(arguments.begin(), {CAMWAY_BINARY, "scene"});
+    Process process(arguments, file("camway.log"));
+    EXPECT_EQ(process.wait(), code) << process.output();
+    return process.output();
+  };
+  EXPECT_EQ(camway({"list"}, 0), "the daemon holds no scenes\n");
+  camway({"load", "yard"}, 0);
+  camway({"add", "yard", "crate", "--box", "1,1,1"}, 0);
+  camway({"remove", "yard", "crate"}, 0);
+  const std::string listed = camway({"history", "yard"}, 0);
+  EXPECT_THAT(listed, HasSubstr("  1: 20"));
+  EXPECT_THAT(listed, HasSubstr("Z, put crate, by "));
+  const auto digest = [](const std::string& text) { return text.substr(text.find("digest")); };
+  const std::string restored = camway({"restore", "yard", "--revision", "2"}, 0);
+  EXPECT_THAT(restored, HasSubstr("yard revision 4: 12 triangles"));
+  const std::string copy = camway({"restore", "yard", "--revision", "4", "--as", "copy"}, 0);
+  EXPECT_THAT(copy, HasSubstr("copy revision 1: 12 triangles"));
+  EXPECT_EQ(digest(copy), digest(restored));
+  EXPECT_THAT(camway({"history", "yard"}, 0), HasSubstr("restore of 2, by "));
+  EXPECT_THAT(camway({"restore", "yard", "--revision", "9"}, 2),
+              HasSubstr("9 of scene 'yard' is not kept; 1 to 4 are"));
+  EXPECT_EQ(camway({"unload", "copy"}, 0), "copy is unloaded\n");
+  EXPECT_THAT(camway({"load", "folder", "--upload", file("root")}, 2), HasSubstr("cannot read"));
+}
+
 TEST_F(SceneTest, TheCommandMovesWhatItIsToldAndRefusesWhatIsAmbiguous) {
   Client client(patient());
   ASSERT_TRUE(client.load_scene("yard", {}).ok());

@@ -181,11 +181,10 @@ TEST_F(TroubleTest, BadKeyframesAreNamed) {
   expect_invalid([](auto& r) { r.keyframes.clear(); }, "keyframes");
   expect_invalid([](auto& r) { r.camera.near_m = -1; }, "near");
   expect_invalid([](auto& r) { r.method = "wishing"; }, "wishing");
-  expect_invalid([](auto& r) { r.orientation.cone_rad = 4.0; }, "options.orientation.cone");
-  expect_invalid([&](auto& r) { r.orientation.max_turn_rad = nan; },
-                 "options.orientation.max_turn");
-  expect_invalid([](auto& r) { r.limits.speed_m_per_s = -1.0; }, "options.limits.speed");
-  expect_invalid([](auto& r) { r.max_shrink = 1.0; }, "options.max_shrink");
+  expect_invalid([](auto& r) { r.orientation.cone_rad = 4.0; }, "orientation.cone");
+  expect_invalid([&](auto& r) { r.orientation.max_turn_rad = nan; }, "orientation.max_turn");
+  expect_invalid([](auto& r) { r.limits.speed_m_per_s = -1.0; }, "limits.speed");
+  expect_invalid([](auto& r) { r.max_shrink = 1.0; }, "max_shrink");
   expect_daemon_works();
 }
 

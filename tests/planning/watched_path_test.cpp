@@ -147,9 +147,7 @@ TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const auto map =
       scene::VoxelMap::build(1.0, std::move(voxels), {}, scene::UnknownSpace::kFree).map;
   ASSERT_TRUE(map);
-  scene::Mesh skin = *map->skin();
-  const scene::ImportReport report = scene::report_of(skin, "map");
-  const auto source = scene::make_source(scene::ObjectKind::kMap, std::move(skin), report, {}, map);
+  const auto source = scene::make_map_source(map, scene::report_of(*map, "map"), {});
   const auto placed = scene::place_object("map", source, at({0, 0, 0}), {});
   ASSERT_TRUE(placed.object) << placed.error;
   const auto after = scene::assemble("room", 2, {placed.object}, {});

@@ -82,6 +82,11 @@ TEST(Scanned, IsWhatOctoMapMakesOfTheSameScans) {
         (is_occupied ? occupied : free) += 1;
         ASSERT_EQ(map->occupied().contains(voxel), is_occupied);
         ASSERT_EQ(map->free().contains(voxel), !is_occupied);
+        const Beliefs* const beliefs = map->beliefs(BlockKey::of(voxel));
+        ASSERT_TRUE(beliefs);
+        const auto place =
+            static_cast<std::size_t>((voxel[0] & 7) + (voxel[1] & 7) * 8 + (voxel[2] & 7) * 64);
+        ASSERT_EQ((*beliefs)[place], leaf->getLogOdds()) << "bit for bit";
       }
       ASSERT_EQ(map->occupied().size(), occupied);
       ASSERT_EQ(map->free().size(), free);
@@ -108,6 +113,49 @@ TEST(Scanned, BeginsWithTheCertaintyOfAMapThatWasRead) {
   EXPECT_TRUE(map->free().contains({0, 5, 0}));
   EXPECT_TRUE(map->occupied().contains({10, 0, 0}));
   EXPECT_TRUE(before->occupied().contains({5, 0, 0})) << "a map never changes";
+}
+
+/// As above, but the map and the tree begin with what was read, certain of it.
+TEST(Scanned, GoesOnFromWhatWasReadAsOctoMapDoes) {
+  std::cout << "seed " << kSeed + 1 << '\n';
+  std::mt19937_64 random(kSeed + 1);
+  octomap::OcTree tree(kResolutionM);
+  VoxelSet occupied;
+  VoxelSet free;
+  for (int i = 0; i < 4000; ++i) {
+    Voxel voxel{};
+    for (std::int32_t& at : voxel) at = static_cast<std::int32_t>(random() % 44) - 22;
+    if (occupied.contains(voxel) || free.contains(voxel)) continue;
+    const bool is_occupied = random() % 4 == 0;
+    (is_occupied ? occupied : free).insert(voxel);
+    const auto key = [](std::int32_t v) { return static_cast<octomap::key_type>(v + 32768); };
+    tree.setNodeValue(octomap::OcTreeKey(key(voxel[0]), key(voxel[1]), key(voxel[2])),
+                      is_occupied ? tree.getClampingThresMaxLog() : tree.getClampingThresMinLog(),
+                      true);
+  }
+  tree.updateInnerOccupancy();
+  std::shared_ptr<const VoxelMap> map =
+      VoxelMap::build(kResolutionM, occupied, free, UnknownSpace::kFree).map;
+  for (int scan = 0; scan < 10; ++scan) {
+    const Vec3 origin(0.4, -0.3, 0.2);
+    const std::vector<Vec3> points = sight(random, origin);
+    octomap::Pointcloud cloud;
+    for (const Vec3& p : points) {
+      cloud.push_back(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                      static_cast<float>(p.z()));
+    }
+    tree.insertPointCloud(cloud, octomap::point3d(0.4F, -0.3F, 0.2F));
+    map = scanned(*map, {origin, points}).map;
+    tree.expand();
+    std::uint64_t leaves = 0;
+    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf, ++leaves) {
+      const octomap::OcTreeKey key = leaf.getKey();
+      const Voxel voxel{key[0] - 32768, key[1] - 32768, key[2] - 32768};
+      ASSERT_EQ(map->occupied().contains(voxel), tree.isNodeOccupied(*leaf));
+      ASSERT_EQ(map->free().contains(voxel), !tree.isNodeOccupied(*leaf));
+    }
+    ASSERT_EQ(map->occupied().size() + map->free().size(), leaves);
+  }
 }
 
 TEST(Scanned, RefusesWhatOctoMapCannotHoldOrTakesTooLong) {

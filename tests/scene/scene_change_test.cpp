@@ -153,7 +153,7 @@ TEST(SceneHistory, BuildsEveryRevisionAgain) {
   for (int i = 0; i < 50; ++i) {
     SceneChange change = random_change(random, *revisions.back());
     revisions.push_back(after(*revisions.back(), change));
-    history.add(std::move(change), revisions.back()->revision);
+    history.add({std::move(change)}, {revisions.back()->revision, {}});
   }
   EXPECT_EQ(history.entries().size(), 30U);
   EXPECT_EQ(history.oldest_revision(), revisions.back()->revision - 30);
@@ -166,6 +166,36 @@ TEST(SceneHistory, BuildsEveryRevisionAgain) {
   EXPECT_EQ(history.rebuild(revisions.back()->revision + 1), nullptr);
 }
 
+TEST(SceneHistory, GoesBackToEveryRevisionThatItKeeps) {
+  RandomTriangles random(1503);
+  std::vector<std::shared_ptr<const Snapshot>> revisions{empty_scene()};
+  SceneHistory history(*revisions.front(), {.changes = 20});
+  for (int i = 0; i < 60; ++i) {
+    SceneChanges changes;
+    if (i % 3 == 2) {
+      const std::uint64_t first = history.oldest_revision();
+      const std::uint64_t back =
+          first + static_cast<std::uint64_t>(i * 7) % (revisions.back()->revision - first + 1);
+      changes = history.changes_back_to(back).value();
+      const auto now = changed(*revisions.back(), changes, revisions.back()->revision + 1).snapshot;
+      ASSERT_TRUE(now);
+      const Snapshot& then = **std::ranges::find(revisions, back, &Snapshot::revision);
+      EXPECT_EQ(now->digest, then.digest);
+      expect_same(*history.rebuild(back), then);
+      revisions.push_back(now);
+    } else {
+      changes = {random_change(random, *revisions.back())};
+      revisions.push_back(after(*revisions.back(), changes.front()));
+    }
+    history.add(std::move(changes), {revisions.back()->revision, {}});
+    expect_same(*history.rebuild(revisions.back()->revision), *revisions.back());
+    if (HasFailure()) return;
+  }
+  EXPECT_TRUE(history.changes_back_to(revisions.back()->revision)->empty());
+  EXPECT_FALSE(history.changes_back_to(history.oldest_revision() - 1));
+  EXPECT_FALSE(history.changes_back_to(revisions.back()->revision + 1));
+}
+
 TEST(SceneHistory, KeepsWithinItsBytes) {
   const auto source = box(Vec3(1, 1, 1));
   std::shared_ptr<const Snapshot> scene = empty_scene();
@@ -173,7 +203,7 @@ TEST(SceneHistory, KeepsWithinItsBytes) {
   for (int i = 0; i < 10; ++i) {
     const SceneChange change{Kind::kPut, "a", source, at(Vec3(i, 0, 0))};
     scene = after(*scene, change);
-    history.add(change, scene->revision);
+    history.add({change}, {scene->revision, {}});
   }
   EXPECT_EQ(history.entries().size(), 3U);
   expect_same(*history.rebuild(scene->revision), *scene);

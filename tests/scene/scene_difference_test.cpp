@@ -35,7 +35,7 @@ using Places = std::map<std::string, Vec3>;
 Places places_of(const Snapshot& snapshot) {
   Places places;
   for (const auto& object : snapshot.objects) {
-    places[object->name] = object->placed->tree.bounds().min();
+    places[object->name] = object->bounds_W.min();
   }
   return places;
 }

@@ -62,9 +62,7 @@ std::shared_ptr<const ObjectSource> random_source(std::mt19937_64& random) {
     voxels.insert(Voxel{at(), at(), at()});
   }
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  Mesh mesh = *map->skin();
-  const ImportReport report = report_of(mesh, "OctoMap");
-  return make_source(ObjectKind::kMap, std::move(mesh), report, options, map);
+  return make_map_source(map, report_of(*map, "OctoMap"), options);
 }
 
 SceneChange random_change(std::mt19937_64& random, const Snapshot& scene) {
@@ -94,7 +92,7 @@ TEST(SceneHistory, KeepsWhatItsBytesSay) {
       SceneChange change = random_change(random, *scene);
       scene = changed(*scene, change, scene->revision + 1).snapshot;
       ASSERT_TRUE(scene);
-      history->add(std::move(change), scene->revision);
+      history->add({std::move(change)}, {scene->revision, {}});
     }
     const auto said = static_cast<std::int64_t>(history->bytes());
     std::int64_t of_scene = 0;

@@ -4,7 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <latch>
+#include <mutex>
+#include <set>
 #include <thread>
+#include <vector>
 
 #include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/shape_mesh.h"
@@ -69,6 +76,57 @@ TEST(SceneStore, ChangesASceneRevisionByRevision) {
   EXPECT_EQ(history->rebuild(2)->digest, store.find("room")->digest);
   EXPECT_TRUE(history->rebuild(1)->objects.empty());
   EXPECT_FALSE(store.history("attic"));
+}
+
+TEST(SceneStore, RestoresARevisionAndSaysWhichAreKept) {
+  SceneStore store({.history = {.changes = 3}});
+  store.put(revision_of("room", 1), {.operation = "load"});
+  std::vector<std::string> digests{"", store.find("room")->digest};
+  for (const char* const object : {"a", "b", "c", "d"}) {
+    const StoreResult next =
+        store.change("room", put_box(object), {"put", object, "tester", 0, {}});
+    digests.push_back(next.snapshot->digest);
+  }
+  const auto before = std::chrono::system_clock::now();
+  const StoreResult restored = store.restore("room", 3, {.operation = "restore"});
+  ASSERT_TRUE(restored.snapshot) << restored.error;
+  EXPECT_EQ(restored.snapshot->revision, 6U);
+  EXPECT_EQ(restored.snapshot->digest, digests[3]);
+  EXPECT_EQ(restored.snapshot->find("a"), store.find("room")->find("a")) << "shared";
+  EXPECT_EQ(store.restore("room", 5).snapshot->digest, digests[5]) << "nothing is lost by it";
+
+  const SceneStore::Kept kept = store.kept("room");
+  ASSERT_EQ(kept.revisions.size(), 4U);
+  EXPECT_EQ(kept.newest->revision, 7U);
+  EXPECT_EQ(kept.revisions[0].revision, 4U);
+  EXPECT_EQ(kept.revisions[0].note.object, "c");
+  EXPECT_EQ(kept.revisions[1].note.client, "tester");
+  EXPECT_EQ(kept.revisions[2].note.restored_revision, 3U);
+  EXPECT_GE(kept.revisions[2].note.when, before);
+  EXPECT_LE(kept.revisions[2].note.when, std::chrono::system_clock::now());
+
+  const StoreResult gone = store.restore("room", 3);
+  EXPECT_EQ(gone.fault, StoreFault::kInvalid);
+  EXPECT_THAT(gone.error, HasSubstr("3 of scene 'room' is not kept; 4 to 7 are"));
+  EXPECT_EQ(store.restore("attic", 3).fault, StoreFault::kUnknownScene);
+  EXPECT_EQ(store.kept("attic").newest, nullptr);
+}
+
+TEST(SceneStore, RestoresARevisionAsAnotherScene) {
+  SceneStore store;
+  store.put(revision_of("room", 1));
+  store.put(revision_of("copy", 8));
+  const std::string digest = store.change("room", put_box("a")).snapshot->digest;
+  ASSERT_TRUE(store.change("room", put_box("b")).snapshot);
+  const StoreResult copy = store.restore_as("room", 2, "copy");
+  ASSERT_TRUE(copy.snapshot) << copy.error;
+  EXPECT_EQ(copy.snapshot->name, "copy");
+  EXPECT_EQ(copy.snapshot->revision, 9U) << "it has the place of another";
+  EXPECT_EQ(copy.snapshot->digest, digest);
+  EXPECT_EQ(store.find("room")->revision, 3U);
+  EXPECT_THAT(store.restore_as("room", 4, "copy").error, HasSubstr("1 to 3 are"));
+  EXPECT_EQ(store.restore_as("attic", 4, "copy").fault, StoreFault::kUnknownScene);
+  EXPECT_TRUE(store.change("copy", put_box("c")).snapshot);
 }
 
 TEST(SceneStore, NeverTakesARevisionTwice) {
@@ -140,6 +198,100 @@ TEST(SceneStore, HoldsNoMoreBytesOfOccupancyThanItsLimit) {
   const StoreResult third = store.put(with_map("attic"));
   EXPECT_EQ(third.fault, StoreFault::kLimit);
   EXPECT_THAT(third.error, HasSubstr("occupancy maps"));
+}
+
+/// Does `work(i)` on as many threads at a time.
+void side_by_side(int threads, const std::function<void(int)>& work) {
+  std::latch begin(threads);
+  std::vector<std::jthread> running;
+  for (int i = 0; i < threads; ++i) {
+    running.emplace_back([&, i] {
+      begin.arrive_and_wait();
+      work(i);
+    });
+  }
+}
+
+TEST(SceneStore, ChangesSideBySideReachEveryLimitAndBreakNone) {
+  constexpr int kThreads = 8;
+  constexpr std::uint64_t kBoxes = 50;
+  for (int round = 0; round < 20; ++round) {
+    SceneStore store({.scenes = 30, .objects = 30, .triangles = 12 * kBoxes, .history = {}});
+    store.put(revision_of("hall", 1));
+    std::atomic<std::uint64_t> taken = 0;
+    side_by_side(kThreads, [&](int i) {
+      const std::string name = "room" + std::to_string(i);
+      store.put(revision_of(name, 1));
+      // In scenes of their own, and all in one.
+      for (int k = 0; k < 10; ++k) {
+        for (const std::string& scene : {name, std::string("hall")}) {
+          const std::string box = std::to_string(i) + "-" + std::to_string(k);
+          const StoreResult result = store.change(scene, put_box(box));
+          if (result.snapshot) ++taken;
+          EXPECT_TRUE(result.snapshot || !result.error.empty());
+        }
+      }
+      for (int k = 0; k < 10; ++k) store.put(revision_of(name + "-" + std::to_string(k), 1));
+    });
+    std::uint64_t triangles = 0;
+    for (const auto& snapshot : store.list()) {
+      triangles += snapshot->index.size();
+      EXPECT_LE(snapshot->objects.size(), 30U);
+    }
+    EXPECT_EQ(store.list().size(), 30U);
+    EXPECT_EQ(triangles, 12 * kBoxes);
+    EXPECT_EQ(taken, kBoxes);
+  }
+}
+
+TEST(SceneStore, OfOneSceneNoChangeIsLostAndNoRevisionTakenTwice) {
+  SceneStore store;
+  store.put(revision_of("room", 1));
+  std::mutex mutex;
+  std::set<std::uint64_t> revisions;
+  side_by_side(8, [&](int i) {
+    for (int k = 0; k < 25; ++k) {
+      const StoreResult result =
+          store.change("room", put_box(std::to_string(i) + "-" + std::to_string(k)));
+      ASSERT_TRUE(result.snapshot) << result.error;
+      const std::lock_guard lock(mutex);
+      EXPECT_TRUE(revisions.insert(result.snapshot->revision).second);
+    }
+  });
+  EXPECT_EQ(*revisions.rbegin(), 201U);
+  EXPECT_EQ(store.find("room")->objects.size(), 200U);
+  EXPECT_EQ(store.history("room")->rebuild(201)->digest, store.find("room")->digest);
+}
+
+TEST(SceneStore, AChangeOfOneSceneWaitsForNoneOfAnother) {
+  SceneStore store;
+  for (const char* name : {"room", "hall"}) store.put(revision_of(name, 1));
+  std::latch is_changing(1);
+  std::latch go_on(1);
+  std::atomic<int> listening = 0;
+  std::atomic<int> told = 0;
+  store.on_change([&] {
+    EXPECT_EQ(++listening, 1) << "never on two threads at a time";
+    if (++told == 1) {
+      is_changing.count_down();
+      go_on.wait();
+    }
+    --listening;
+  });
+  std::jthread slow([&] { store.change("room", put_box("a")); });
+  is_changing.wait();  // it is the turn of "room" until the listener comes back
+  std::jthread quick([&] { store.change("hall", put_box("a")); });
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (store.find("hall")->revision == 1 && std::chrono::steady_clock::now() < patience) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(store.find("hall")->revision, 2U);
+  EXPECT_EQ(store.list().size(), 2U);
+  EXPECT_EQ(told, 1);
+  go_on.count_down();
+  slow.join();
+  quick.join();
+  EXPECT_EQ(told, 2);
 }
 
 TEST(SceneStore, MayBeReadWhileItChanges) {

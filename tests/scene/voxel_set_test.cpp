@@ -3,55 +3,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
-#include <map>
+#include <iterator>
 #include <random>
-#include <set>
+#include <vector>
+
+#include "tests/scene/voxel_sample.h"
 
 namespace camway::scene {
 namespace {
 
 constexpr std::uint64_t kSeed = 77101;
 
-using Reference = std::set<Voxel>;
-
-/// Voxels near a corner where blocks of all signs meet, or anywhere, some as cubes.
-struct Sample {
-  VoxelSet set;
-  Reference reference;
-
-  explicit Sample(std::mt19937_64& random) {
-    const std::int32_t far = static_cast<std::int32_t>(random() % 3) * (VoxelSet::kMostVoxels - 40);
-    const auto near = [&](int reach) {
-      return static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * reach)) - reach;
-    };
-    for (int i = static_cast<int>(random() % 200); i-- > 0;) {
-      const Voxel voxel{far / 2 + near(12), near(12), -far / 2 + near(12)};
-      EXPECT_EQ(set.insert(voxel), reference.insert(voxel).second);
-    }
-    for (int i = static_cast<int>(random() % 4); i-- > 0;) {
-      const std::int32_t size = 1 << random() % 5;
-      const VoxelCube cube{{near(4) * size, near(4) * size, near(4) * size}, size};
-      set.insert(cube);
-      for (std::int32_t k = 0; k < size * size * size; ++k) {
-        reference.insert(
-            {cube.min[0] + k % size, cube.min[1] + k / size % size, cube.min[2] + k / size / size});
-      }
-    }
-  }
-};
-
-Reference voxels_of(const VoxelSet& set) {
-  Reference voxels;
-  set.for_each([&](const Voxel& voxel) { EXPECT_TRUE(voxels.insert(voxel).second); });
-  return voxels;
-}
-
 TEST(VoxelSet, HoldsWhatWasPutIn) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
-    const Sample sample(random);
+    const VoxelSample sample(random);
     ASSERT_EQ(voxels_of(sample.set), sample.reference);
     ASSERT_EQ(sample.set.size(), sample.reference.size());
     ASSERT_EQ(sample.set.empty(), sample.reference.empty());
@@ -66,16 +35,32 @@ TEST(VoxelSet, HoldsWhatWasPutIn) {
   EXPECT_FALSE(VoxelSet().contains({0, -VoxelSet::kMostVoxels - 1, 0}));
 }
 
+/// The voxels of `range` that are not in `set`, block by block.
+VoxelSet complement_in(const VoxelSet::Range& range, const VoxelSet& set) {
+  VoxelSet result;
+  for (std::int32_t x = range[0].first & ~7; x <= range[0].last; x += 8) {
+    for (std::int32_t y = range[1].first & ~7; y <= range[1].last; y += 8) {
+      for (std::int32_t z = range[2].first & ~7; z <= range[2].last; z += 8) {
+        const std::uint64_t key = BlockKey::of({x, y, z});
+        VoxelSet::Bits bits = VoxelSet::bits_in(range, key);
+        for (std::size_t k = 0; k < bits.size(); ++k) bits[k] &= ~set.block(key)[k];
+        result.set_block(key, bits);
+      }
+    }
+  }
+  return result;
+}
+
 TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
   std::mt19937_64 random(kSeed + 1);
   for (int trial = 0; trial < 100; ++trial) {
-    const Sample sample(random);
+    const VoxelSample sample(random);
     VoxelSet::Range range;
     for (VoxelRange& along : range) {
       along.first = static_cast<std::int32_t>(random() % 40) - 20;
       along.last = along.first + static_cast<std::int32_t>(random() % 20);
     }
-    Reference expected;
+    VoxelReference expected;
     Voxel voxel{};
     for (voxel[0] = range[0].first; voxel[0] <= range[0].last; ++voxel[0]) {
       for (voxel[1] = range[1].first; voxel[1] <= range[1].last; ++voxel[1]) {
@@ -84,7 +69,7 @@ TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
         }
       }
     }
-    const VoxelSet complement = sample.set.complement_in(range);
+    const VoxelSet complement = complement_in(range, sample.set);
     ASSERT_EQ(voxels_of(complement), expected);
     ASSERT_EQ(complement.size(), expected.size());
     if (expected.empty()) continue;
@@ -97,64 +82,48 @@ TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
   }
 }
 
-/// Six times the volume inside, in units of a voxel.
-long double volume_sixfold(const Mesh& mesh) {
-  long double sum = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const geometry::Triangle t = mesh.triangle(i);
-    sum += static_cast<long double>(t[0].dot(t[1].cross(t[2])));
-  }
-  return sum;
-}
-
-TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed + 2);
-  for (int trial = 0; trial < 100; ++trial) {
-    const Sample sample(random);
-    std::size_t faces = 0;
-    for (const Voxel& voxel : sample.reference) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const int side : {-1, 1}) {
-          Voxel beside = voxel;
-          beside[axis] += side;
-          faces += sample.reference.contains(beside) ? 0U : 1U;
+/// Copies, each changed on its own, are held against sets that share nothing.
+TEST(VoxelSet, CopiesGoTheirOwnWays) {
+  std::cout << "seed " << kSeed + 4 << '\n';
+  std::mt19937_64 random(kSeed + 4);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<VoxelSample> samples{VoxelSample(random)};
+    for (int step = 0; step < 8; ++step) {
+      VoxelSample sample = samples[random() % samples.size()];
+      for (int i = 0; i < 20; ++i) {
+        const auto near = [&] { return static_cast<std::int32_t>(random() % 200) - 100; };
+        const Voxel voxel{near(), near(), near()};
+        if (random() % 2 == 0) {
+          ASSERT_EQ(sample.set.insert(voxel), sample.reference.insert(voxel).second);
+          continue;
         }
+        const std::uint64_t key = BlockKey::of(voxel);
+        sample.set.set_block(key, {});
+        std::erase_if(sample.reference, [&](const Voxel& v) { return BlockKey::of(v) == key; });
       }
+      samples.push_back(std::move(sample));
     }
-    const std::optional<Mesh> skin = skin_of(sample.set, 1.0, 2 * faces);
-    ASSERT_TRUE(skin);
-    ASSERT_EQ(skin->triangles.size(), 2 * faces);
-    std::map<std::array<std::uint32_t, 2>, int> edges;
-    for (const auto& t : skin->triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        ++edges[{t[k], t[(k + 1) % 3]}];
-        --edges[{t[(k + 1) % 3], t[k]}];
-      }
+    for (const VoxelSample& a : samples) {
+      ASSERT_EQ(voxels_of(a.set), a.reference);
+      ASSERT_EQ(a.set.size(), a.reference.size());
+      const VoxelSample& b = samples[random() % samples.size()];
+      VoxelReference differing;
+      a.set.for_each_difference(b.set, [&](std::uint64_t key, const auto& old, const auto& now) {
+        ASSERT_NE(old, now);
+        ASSERT_EQ(old, b.set.block(key));
+        ASSERT_EQ(now, a.set.block(key));
+        for (std::int32_t i = 0; i < 512; ++i) {
+          const auto at = static_cast<std::size_t>(i / 64);
+          if (((old[at] ^ now[at]) >> i % 64 & 1U) == 0) continue;
+          const Voxel low = BlockKey::low_of(key);
+          differing.insert({low[0] + i % 8, low[1] + i / 8 % 8, low[2] + i / 64});
+        }
+      });
+      VoxelReference expected;
+      std::ranges::set_symmetric_difference(a.reference, b.reference,
+                                            std::inserter(expected, expected.end()));
+      ASSERT_EQ(differing, expected);
     }
-    for (const auto& [edge, surplus] : edges) ASSERT_EQ(surplus, 0);
-    // Coordinates are whole numbers below 2^20, so doubles hold the products of a test nearby.
-    if (std::abs(skin->bounds().sizes().maxCoeff()) < 1000.0) {
-      EXPECT_EQ(volume_sixfold(*skin), 6.0L * static_cast<long double>(sample.reference.size()));
-    }
-    if (faces > 0) {
-      EXPECT_FALSE(skin_of(sample.set, 1.0, 2 * faces - 1));
-    }
-  }
-}
-
-TEST(SkinOf, DependsOnTheSetOnly) {
-  std::mt19937_64 random(kSeed + 3);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Sample sample(random);
-    VoxelSet other;
-    for (auto voxel = sample.reference.rbegin(); voxel != sample.reference.rend(); ++voxel) {
-      other.insert(*voxel);
-    }
-    const std::optional<Mesh> a = skin_of(sample.set, 0.1, 1'000'000);
-    const std::optional<Mesh> b = skin_of(other, 0.1, 1'000'000);
-    EXPECT_EQ(a->vertices, b->vertices);
-    EXPECT_EQ(a->triangles, b->triangles);
   }
 }
 

@@ -107,6 +107,41 @@ TEST(VoxelTree, ContainsItsVoxelsAndNoOthers) {
   }
 }
 
+/// Full cubes among what comes and goes, so that branches fill up, vanish and come into being.
+TEST(VoxelTree, UpdatedIsTheTreeThatIsMadeAnew) {
+  std::mt19937_64 random(kSeed + 2);
+  for (int trial = 0; trial < 60; ++trial) {
+    VoxelSet set = random_voxels(random);
+    VoxelTree tree(set);
+    for (int step = 0; step < 6; ++step) {
+      VoxelSet next = set;
+      random_voxels(random).for_each([&](const Voxel& voxel) { next.insert(voxel); });
+      const auto low = [&] { return (static_cast<std::int32_t>(random() % 5) - 2) * 64; };
+      const VoxelCube cube{{low(), low(), low()}, 64};
+      if (random() % 2 == 0) {
+        next.insert(cube);
+      } else {
+        for (unsigned place = 0; place < 512; ++place) {
+          next.set_block(BlockKey::in_cube(BlockKey::of(cube.min), place), {});
+        }
+      }
+      const VoxelTree updated = tree.updated(set, next);
+      const VoxelTree anew(next);
+      ASSERT_EQ(cubes_of(updated), cubes_of(anew));
+      ASSERT_EQ(updated.node_count(), anew.node_count());
+      ASSERT_EQ(updated.memory_bytes(), anew.memory_bytes());
+      ASSERT_EQ(updated.voxels(), next.size());
+      const VoxelSet::Range bounds = next.bounds();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        ASSERT_EQ(updated.bounds()[axis].first, bounds[axis].first);
+        ASSERT_EQ(updated.bounds()[axis].last, bounds[axis].last);
+      }
+      set = next;
+      tree = updated;
+    }
+  }
+}
+
 TEST(VoxelTree, OfNothingHoldsNothing) {
   VoxelSet looked_at;
   EXPECT_FALSE(VoxelMarker(looked_at).contains({1, 2, 3})) << "leaves a block without voxels";

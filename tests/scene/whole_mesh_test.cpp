@@ -24,9 +24,9 @@ std::shared_ptr<const Mesh> mesh_with(const std::vector<Triangle>& triangles,
 
 WholeMesh of_three() {
   return WholeMesh(
-      {{"house", mesh_with({at(0), at(1), at(2)}, {{"sofa", 0, 1}, {"none", 1, 0}, {"", 1, 2}})},
-       {"nothing", mesh_with({}, {})},
-       {"table", mesh_with({at(3)}, {{"top", 0, 1}})}});
+      {{"house", {mesh_with({at(0), at(1), at(2)}, {{"sofa", 0, 1}, {"none", 1, 0}, {"", 1, 2}})}},
+       {"nothing", {mesh_with({}, {})}},
+       {"table", {mesh_with({at(3)}, {{"top", 0, 1}})}}});
 }
 
 TEST(WholeMesh, IsItsOnlyMeshItself) {

@@ -106,6 +106,11 @@ TEST_F(ConfigFile, EverySettingIsNamedWhereItsValueIsWrong) {
 TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
   const std::vector<std::pair<std::string, std::string>> table{
       {"[queue\n", ":1: "},
+      {"[lcm]\nprefix = \"no blanks\"\n", ":2: lcm.prefix: 'no blanks' is not of 1 to 11 letters"},
+      {"[lcm]\nurl = \"bogus://\"\n", ":2: lcm.url: must begin with a provider"},
+      {"[lcm]\nurl = \"udpm://239.255.76.67:99999\"\n", ":2: lcm.url: port '99999'"},
+      {"[lcm]\nurl = \"udpm://239.255.76.67:7667?ttl=abc\"\n", ":2: lcm.url: ttl 'abc'"},
+      {"[lcm]\nurl = \"udpm://10.0.0.1:7667\"\n", ":2: lcm.url: '10.0.0.1' is no multicast"},
       {"[metrics]\naddress = \"localhost\"\n", ":2: metrics.address: must be an IPv4 or IPv6"},
       {"[[scene]]\nname = \"a\"\nfile = \"f\"\noccupancy_resolution_m = 1e-10\n",
        ":4: scene.occupancy_resolution_m: must be from 1e-9"},
@@ -144,6 +149,14 @@ TEST_F(ConfigFile, FaultsNameFileLineAndKey) {
     EXPECT_EQ(faults[0].find((folder_ / "c.toml").string() + ":"), 0U) << faults[0];
     EXPECT_NE(faults[0].find(fault), std::string::npos) << faults[0];
   }
+}
+
+TEST_F(ConfigFile, SaysWhereEachValueWasSaid) {
+  ASSERT_TRUE(read("[queue]\nrequests = 7\n\n[[scene]]\nname = \"a\"\nfile = \"f\"\n").empty());
+  const std::string file = (folder_ / "c.toml").string();
+  EXPECT_EQ(options_.where("queue.requests"), file + ":2: queue.requests");
+  EXPECT_EQ(options_.where("queue.answers"), "queue.answers") << "it is the default";
+  EXPECT_EQ(options_.scenes.at(0).said_at, file + ":6");
 }
 
 TEST_F(ConfigFile, SwitchesAreTrueOrFalse) {

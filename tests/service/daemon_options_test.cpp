@@ -31,6 +31,9 @@ TEST(DaemonOptions, TheEnvironmentNamesTheUrlUnlessTheCommandLineDoes) {
   setenv("LCM_DEFAULT_URL", "memq://", 1);
   EXPECT_EQ(parse({"--scene", "a=b"}).options->lcm_url, "memq://");
   EXPECT_EQ(parse({"--scene", "a=b", "--url", "udpm://"}).options->lcm_url, "udpm://");
+  setenv("LCM_DEFAULT_URL", "bogus://", 1);
+  EXPECT_EQ(parse({"--scene", "a=b"}).text.find("camwayd: LCM_DEFAULT_URL: must begin with"), 0U);
+  EXPECT_TRUE(parse({"--scene", "a=b", "--url", "udpm://"}).options);
   unsetenv("LCM_DEFAULT_URL");
 }
 
@@ -56,7 +59,7 @@ TEST(DaemonOptions, ReadsEveryFlag) {
 TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
   const std::vector<std::pair<std::vector<const char*>, std::string>> table{
       {{}, "--scene"},
-      {{"--scene-roots", "/:/nonexistent/folder"}, "/nonexistent/folder"},
+      {{"--scene-roots", "/:/nonexistent/folder"}, "--scene-roots: scene root '/nonexistent/fold"},
       {{"--scene", "office.obj"}, "must be NAME=FILE"},
       {{"--scene", "a=b,scale=x"}, "scale=x"},
       {{"--scene", "a=b", "--scene", "a=c"}, "'a' is given twice"},
@@ -64,8 +67,12 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
       {{"--scene", "a=b", "--workers", "many"}, "--workers"},
       {{"--scene", "a=b", "--queue", "-1"}, "--queue"},
       {{"--scene", "a=b", "--client-queue", "0"}, "--client-queue"},
-      {{"--scene", "a=b", "--prefix", "no blanks"}, "prefix 'no blanks'"},
-      {{"--scene", "a=b", "--deadline-s", "nan"}, "deadline"},
+      {{"--scene", "a=b", "--workers", "1.5"}, "--workers: must be a whole number"},
+      {{"--scene", "a=b", "--prefix", "no blanks"}, "--prefix: 'no blanks'"},
+      {{"--scene", "a=b", "--url", "bogus://"}, "--url: must begin with a provider"},
+      {{"--scene", "a=b", "--deadline-s", "nan"}, "--deadline-s: must be within"},
+      {{"--scene", "a=b", "--deadline-s", "61"}, "--deadline-s: planning.deadline_s is 61, but"},
+      {{"--scene", "a=b", "--max-deadline-s", "9"}, "--max-deadline-s: planning.deadline_s is 10"},
       {{"--scene", "a=b", "--log-level", "loud"}, "--log-level: must be one of trace, "},
       {{"--scene", "a=b", "--log-format", "xml"}, "--log-format: must be one of text, json"},
       {{"--scene", "a=b", "--colour"}, "--colour"},
@@ -142,7 +149,49 @@ TEST_F(DaemonOptionsFile, ChecksAConfigurationAndSaysWhatItComesTo) {
   const ParsedOptions no_scene =
       parse({"--check-config", "--config", file.c_str(), "--scene", "hall=/nowhere.obj"});
   EXPECT_EQ(no_scene.exit_code, 2);
-  EXPECT_EQ(no_scene.text, "camwayd: scene 'hall': /nowhere.obj cannot be read\n");
+  EXPECT_EQ(no_scene.text, "camwayd: --scene: scene 'hall': /nowhere.obj cannot be read\n");
+}
+
+TEST_F(DaemonOptionsFile, FaultsOfMoreThanOneValueNameFileAndLine) {
+  const std::string file = write("c.toml", R"([planning]
+max_deadline_s = 5
+[scenes]
+roots = "/nonexistent"
+)");
+  EXPECT_EQ(parse({"--config", file.c_str()}).text,
+            "camwayd: " + file +
+                ":2: planning.max_deadline_s: planning.deadline_s is 10, but must be at most "
+                "planning.max_deadline_s, which is 5\n"
+                "camwayd: " +
+                file + ":4: scenes.roots: scene root '/nonexistent' is not a folder that can be " +
+                "read\n");
+  EXPECT_EQ(parse({"--config", file.c_str(), "--deadline-s", "4", "--scene-roots", "/"}).text, "")
+      << "what was said before the file's faults";
+}
+
+TEST_F(DaemonOptionsFile, ChecksThatThisMachineHasWhatTheFileNames) {
+  const std::string file = write("c.toml", R"([metrics]
+address = "192.0.2.1"
+[auth]
+key_file = "/nonexistent/keys"
+[[scene]]
+name = "room"
+file = "gone.obj"
+)");
+  const ParsedOptions parsed = parse({"--check-config", "--config", file.c_str()});
+  EXPECT_EQ(parsed.exit_code, 2);
+  EXPECT_NE(parsed.text.find("camwayd: " + file + ":7: scene 'room': " +
+                             (folder_ / "gone.obj").string() + " cannot be read\n"),
+            std::string::npos)
+      << parsed.text;
+  EXPECT_NE(parsed.text.find("camwayd: " + file + ":4: auth.key_file: /nonexistent/keys"),
+            std::string::npos)
+      << parsed.text;
+  EXPECT_NE(parsed.text.find("camwayd: " + file +
+                             ":2: metrics.address: 192.0.2.1 is no address of this machine\n"),
+            std::string::npos)
+      << parsed.text;
+  EXPECT_TRUE(parse({"--config", file.c_str()}).options) << "a start says it when it comes to it";
 }
 
 TEST_F(DaemonOptionsFile, ABadFileEndsWithCode2AndEveryFaultInIt) {

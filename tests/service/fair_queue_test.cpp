@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <random>
@@ -258,7 +259,10 @@ Siege besieged(const FairQueue::Limits& limits, int jobs) {
   ask();
   queue.finish(queue.pop(), milliseconds(5));
   waits = false;
-  while (of_client < jobs) {
+  // Far more than the smallest share that anybody asks for, so that who is never served ends it,
+  // too.
+  const int most = 100 * jobs;
+  while (of_client < jobs && all < most) {
     for (int i = 0; i < 50; ++i) {
       (void)queue.push(job_of("invented" + std::to_string(invented++)));
     }
@@ -308,6 +312,88 @@ TEST(FairQueue, AFullQueueMakesRoomForWhoIsKnownUpToHalfOfIt) {
   const auto refused = queue.push(job_of("f"));
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->job.client, "f");
+}
+
+TEST(FairQueue, OfAStrandOneJobRunsAtATimeAndOthersGoBefore) {
+  FairQueue queue(wide());
+  const auto push = [&](const std::string& client, const std::string& strand, std::int64_t id) {
+    Job job = job_of(client);
+    job.strand = strand;
+    job.id = id;
+    ASSERT_FALSE(queue.push(std::move(job)));
+  };
+  push("a", "hall", 1);
+  push("a", "hall", 2);
+  push("a", "room", 3);
+  push("b", "hall", 4);
+  const FairQueue::Begun hall = queue.pop();
+  EXPECT_EQ(hall.job.id, 1);
+  const FairQueue::Begun room = queue.pop();
+  EXPECT_EQ(room.job.id, 3) << "2 and 4 wait for 1";
+  EXPECT_FALSE(queue.can_begin());
+  EXPECT_EQ(queue.size(), 2U);
+  queue.finish(room, milliseconds(1));
+  EXPECT_FALSE(queue.can_begin());
+  queue.finish(hall, milliseconds(1));
+  const FairQueue::Begun other = queue.pop();
+  EXPECT_EQ(other.job.id, 4) << "clients take turns within a strand, too";
+  EXPECT_FALSE(queue.can_begin());
+  queue.finish(other, milliseconds(1));
+  EXPECT_EQ(queue.pop().job.id, 2);
+}
+
+TEST(FairQueue, AClientHasNoMoreWorkersThanItsPart) {
+  FairQueue queue({.running_of_a_client = 2});
+  for (int i = 0; i < 10; ++i) ASSERT_FALSE(queue.push(job_of("flood")));
+  const FairQueue::Begun first = queue.pop();
+  (void)queue.pop();
+  EXPECT_FALSE(queue.can_begin());
+  ASSERT_FALSE(queue.push(job_of("modest")));
+  EXPECT_EQ(queue.pop().job.client, "modest");
+  queue.finish(first, milliseconds(1));
+  EXPECT_EQ(queue.pop().job.client, "flood");
+}
+
+/// Against a plain model: of each strand one at a time, each client's in order, of each client as
+/// many as may; and a worker is idle only if nothing may begin.
+TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937_64 random(kSeed);
+  FairQueue queue({.jobs = 60, .jobs_of_a_client = 60, .running_of_a_client = 2});
+  std::map<std::pair<std::string, std::string>, std::deque<std::int64_t>> waiting;
+  std::deque<FairQueue::Begun> running;
+  const auto runs = [&](const auto& matches) {
+    return std::ranges::count_if(running, [&](const auto& begun) { return matches(begun.job); });
+  };
+  const auto may_begin = [&](const std::string& client, const std::string& strand) {
+    return runs([&](const Job& job) { return job.client == client; }) < 2 &&
+           (strand.empty() || runs([&](const Job& job) { return job.strand == strand; }) == 0);
+  };
+  for (std::int64_t step = 0; step < 20'000; ++step) {
+    const auto action = random() % 4;
+    if (action < 2 && queue.size() < 60) {
+      Job job = job_of("client" + std::to_string(random() % 4));
+      if (const auto strand = random() % 5; strand > 0) job.strand = std::to_string(strand);
+      job.id = step;
+      waiting[{job.client, job.strand}].push_back(step);
+      ASSERT_FALSE(queue.push(std::move(job)));
+    } else if (action == 2 && queue.can_begin()) {
+      FairQueue::Begun begun = queue.pop();
+      ASSERT_TRUE(may_begin(begun.job.client, begun.job.strand));
+      auto& line = waiting[{begun.job.client, begun.job.strand}];
+      ASSERT_EQ(line.front(), begun.job.id);
+      line.pop_front();
+      running.push_back(std::move(begun));
+    } else if (action == 3 && !running.empty()) {
+      const auto which = static_cast<std::ptrdiff_t>(random() % running.size());
+      queue.finish(running[static_cast<std::size_t>(which)], milliseconds(random() % 50));
+      running.erase(running.begin() + which);
+    }
+    const bool any = std::ranges::any_of(waiting, [&](const auto& line) {
+      return !line.second.empty() && may_begin(line.first.first, line.first.second);
+    });
+    ASSERT_EQ(queue.can_begin(), any) << "step " << step;
+  }
 }
 
 // Against what must hold whatever happens: no job is lost or doubled.

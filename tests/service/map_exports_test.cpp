@@ -49,18 +49,20 @@ TEST(MapExports, ForgetWhatNobodyAskedForWhenOthersNeedTheRoom) {
   const Pages one = pages(1);
   for (const Bytes& page : *one) size += page.size();
   MapExports exports({.exports = 3, .bytes = 2 * size, .idle = std::chrono::seconds(50)});
-  exports.keep({"a", 1}, pages(1), at(0));
-  exports.keep({"a", 2}, pages(2), at(1));
+  EXPECT_TRUE(exports.keep({"a", 1}, pages(1), at(0)));
+  EXPECT_TRUE(exports.keep({"a", 2}, pages(2), at(1)));
   EXPECT_TRUE(exports.find({"a", 1}, at(2)));
   EXPECT_FALSE(exports.find({"b", 1}, at(2))) << "another client's";
-  exports.keep({"a", 3}, pages(3), at(3));
+  EXPECT_TRUE(exports.keep({"a", 3}, pages(3), at(3)));
   EXPECT_TRUE(exports.find({"a", 1}, at(4)));
   EXPECT_FALSE(exports.find({"a", 2}, at(4))) << "made room";
   EXPECT_EQ(exports.bytes(), 2 * size);
-  exports.keep({"a", 1}, pages(1), at(5));
+  EXPECT_TRUE(exports.keep({"a", 1}, pages(1), at(5)));
   EXPECT_EQ(exports.bytes(), 2 * size) << "again is not twice";
-  exports.keep({"a", 4}, pages(4), at(100));
+  EXPECT_TRUE(exports.keep({"a", 4}, pages(4), at(100)));
   EXPECT_EQ(exports.bytes(), size) << "what is old went";
+  EXPECT_FALSE(exports.keep({"a", 5}, map_pages({"a", 5}, some_bytes(3000)), at(101)));
+  EXPECT_TRUE(exports.find({"a", 4}, at(102))) << "nobody goes for what has no room at all";
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <camway/cancel_t.hpp>
+
 #include "daemon/scene/occupancy_map.h"
 #include "daemon/service/occupancy_answer.h"
 #include "tests/service/plan_samples.h"
@@ -17,6 +19,7 @@ namespace {
 using testing::RunningService;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const collision::Deadline kNever = collision::Deadline::never();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A wall in the plane x = 0.25 that spans 4 x 4 m about the x axis, mirrored at 0.5 m: its voxels
@@ -85,12 +88,23 @@ void expect_mixed_answers(const occupancy_response_t& answer) {
 }
 
 TEST(AnswerBatch, AnswersEveryListInOrder) {
-  expect_mixed_answers(answer_batch(*wall_scene(), mixed_batch("wall")));
+  expect_mixed_answers(answer_batch(*wall_scene(), mixed_batch("wall"), kNever));
+}
+
+TEST(AnswerBatch, BeginsNoQueryAfterItsDeadline) {
+  const occupancy_response_t answer =
+      answer_batch(*wall_scene(), mixed_batch("wall"), collision::Deadline::after_s(0.0));
+  EXPECT_EQ(answer.status, occupancy_response_t::STATUS_TIMEOUT);
+  EXPECT_EQ(queries_of(answer), 0);
+  EXPECT_TRUE(answer.points_occupied.empty());
+  EXPECT_EQ(answer.scene_revision, 3);
+  EXPECT_NE(answer.message.find("after 0 of 12 queries"), std::string::npos) << answer.message;
+  EXPECT_NE(answer.message.find("occupancy.max_deadline_s"), std::string::npos) << answer.message;
 }
 
 TEST(AnswerBatch, SaysThatThereIsNoMap) {
   const occupancy_response_t answer =
-      answer_batch(*testing::empty_scene("room"), mixed_batch("room"));
+      answer_batch(*testing::empty_scene("room"), mixed_batch("room"), kNever);
   EXPECT_EQ(answer.status, occupancy_response_t::STATUS_NO_MAP);
   EXPECT_EQ(answer.num_points, 0);
 }
@@ -126,7 +140,7 @@ TEST(AnswerBatch, NamesTheQueryThatMakesNoSense) {
             "sphere_paths_m[0]: has a radius that is not at least 0");
   occupancy_request_t bad = mixed_batch("wall");
   bad.rays_m[0][0] = kNaN;
-  const occupancy_response_t answer = answer_batch(*wall_scene(), bad);
+  const occupancy_response_t answer = answer_batch(*wall_scene(), bad, kNever);
   EXPECT_EQ(answer.status, occupancy_response_t::STATUS_INVALID);
   EXPECT_EQ(answer.num_points, 0) << "all or nothing";
 }
@@ -191,9 +205,110 @@ TEST(OccupancyService, SharesTheQueueWithPlanning) {
   daemon.send(testing::request_with(1));
   ASSERT_TRUE(daemon.planner.wait_for_calls(1));
   daemon.send_on(daemon.channels.occupancy_request(), wire::encode(mixed_batch("wall")));
-  EXPECT_EQ(ask(daemon, wire::encode(mixed_batch("wall"))).status,
-            occupancy_response_t::STATUS_OVERLOADED);
+  occupancy_request_t another = mixed_batch("wall");
+  another.request_id = 5;
+  EXPECT_EQ(ask(daemon, wire::encode(another)).status, occupancy_response_t::STATUS_OVERLOADED);
   daemon.planner.release();
+}
+
+/// A daemon whose only worker plans until it is released.
+class BusyOccupancyService : public ::testing::Test {
+ protected:
+  BusyOccupancyService() {
+    daemon_.scenes.put(wall_scene());
+    daemon_.planner.hold();
+    daemon_.send(testing::request_with(1));
+    EXPECT_TRUE(daemon_.planner.wait_for_calls(1));
+  }
+
+  static ServiceConfig config() {
+    ServiceConfig config = testing::with_workers(1, 10);
+    config.occupancy_deadline.max_s = 30.0;
+    return config;
+  }
+
+  static occupancy_request_t batch(std::int64_t id) {
+    occupancy_request_t batch = mixed_batch("wall");
+    batch.request_id = id;
+    return batch;
+  }
+
+  void send(const occupancy_request_t& batch) {
+    daemon_.send_on(daemon_.channels.occupancy_request(), wire::encode(batch));
+  }
+
+  occupancy_response_t cancel(std::int64_t id) {
+    cancel_t message{};
+    message.client_id = "tester";
+    message.request_id = id;
+    const std::string answers = daemon_.channels.occupancy_response("tester");
+    const std::size_t before = daemon_.transport.published_on(answers).size();
+    daemon_.send_on(daemon_.channels.cancel_occupancy(), wire::encode(message));
+    EXPECT_TRUE(daemon_.transport.wait_for_messages_on(answers, before + 1));
+    return *wire::decode<occupancy_response_t>(daemon_.transport.published_on(answers).back())
+                .message;
+  }
+
+  RunningService daemon_{config()};
+};
+
+TEST_F(BusyOccupancyService, DeadlinesRunFromTheReceipt) {
+  occupancy_request_t hasty = batch(7);
+  hasty.deadline_s = 0.02;
+  const occupancy_response_t answer = ask(daemon_, wire::encode(hasty));
+  EXPECT_EQ(answer.status, occupancy_response_t::STATUS_TIMEOUT);
+  EXPECT_NE(answer.message.find("waited for a worker"), std::string::npos) << answer.message;
+}
+
+TEST_F(BusyOccupancyService, RefusesDeadlinesThatAreNone) {
+  for (const double deadline_s : {-1.0, kNaN}) {
+    occupancy_request_t bad = batch(7);
+    bad.deadline_s = deadline_s;
+    const occupancy_response_t answer = ask(daemon_, wire::encode(bad));
+    EXPECT_EQ(answer.status, occupancy_response_t::STATUS_INVALID);
+    EXPECT_EQ(answer.message.find("deadline_s: is "), 0U) << answer.message;
+  }
+}
+
+TEST_F(BusyOccupancyService, WhatIsCalledOffIsAnsweredOnceAndAtOnce) {
+  send(batch(7));
+  EXPECT_EQ(cancel(7).message, "cancelled by its client");
+  EXPECT_EQ(cancel(7).message, "the daemon knows no such request");
+  EXPECT_EQ(cancel(7).status, occupancy_response_t::STATUS_CANCELLED);
+  daemon_.planner.release();
+  EXPECT_EQ(ask(daemon_, wire::encode(batch(8))).request_id, 8) << "7 is not answered again";
+  EXPECT_EQ(daemon_.transport.published_on(daemon_.channels.occupancy_response("tester")).size(),
+            4U);
+}
+
+TEST_F(BusyOccupancyService, TheSameRequestAgainIsAnsweredOnce) {
+  send(batch(7));
+  occupancy_request_t later = batch(7);
+  later.utime = 99;
+  send(later);
+  occupancy_request_t other = batch(7);
+  other.points_m[0][0] += 1.0;
+  const occupancy_response_t refused = ask(daemon_, wire::encode(other));
+  EXPECT_EQ(refused.status, occupancy_response_t::STATUS_INVALID);
+  EXPECT_EQ(refused.message.find("request_id: 7 is that of another request"), 0U);
+  daemon_.planner.release();
+  const std::string answers = daemon_.channels.occupancy_response("tester");
+  ASSERT_TRUE(daemon_.transport.wait_for_messages_on(answers, 2));
+  EXPECT_EQ(ask(daemon_, wire::encode(batch(8))).request_id, 8);
+  EXPECT_EQ(daemon_.transport.published_on(answers).size(), 3U);
+  EXPECT_EQ(ask(daemon_, wire::encode(other)).status, occupancy_response_t::STATUS_OK)
+      << "the ids are free again";
+}
+
+TEST(OccupancyService, DeadlinesAreCutToTheMaximum) {
+  ServiceConfig config = testing::with_workers(1, 10);
+  config.occupancy_deadline = {.default_s = 1e-9, .max_s = 1e-9};
+  RunningService daemon(config);
+  daemon.scenes.put(wall_scene());
+  occupancy_request_t batch = mixed_batch("wall");
+  EXPECT_EQ(ask(daemon, wire::encode(batch)).status, occupancy_response_t::STATUS_TIMEOUT);
+  batch.deadline_s = 1000.0;
+  EXPECT_EQ(ask(daemon, wire::encode(batch)).status, occupancy_response_t::STATUS_TIMEOUT);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(PlanService, RefusesMoreKeyframesThanConfigured) {
   daemon.send(request_with(1, 6));
   const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1, 6));
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_LIMIT);
   EXPECT_NE(answer->message.find("planning.keyframes"), std::string::npos) << answer->message;
   daemon.send(request_with(2, 5));
   EXPECT_EQ(daemon.answer_to(request_with(2, 5))->status, plan_response_t::STATUS_OK);
@@ -72,7 +72,7 @@ TEST(PlanService, RefusesAnswersOfMorePagesThanConfigured) {
   daemon.send(long_one);
   const std::optional<plan_response_t> answer = daemon.answer_to(long_one);
   ASSERT_TRUE(answer);
-  EXPECT_NE(answer->status, plan_response_t::STATUS_OK);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_LIMIT);
   EXPECT_NE(answer->message.find("queue.answer_pages"), std::string::npos) << answer->message;
   EXPECT_TRUE(answer->segments.empty());
   daemon.send(request_with(2, 50));

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -187,6 +189,37 @@ TEST(PlanService, PassesOnWhatPlanningFoundInvalid) {
   unknown_method.method = "magic";
   daemon.send(unknown_method);
   EXPECT_EQ(daemon.answer_to(unknown_method)->message, "method: 'magic' is unknown");
+
+  plan_request_t negative = request_with(3);
+  negative.clearance_m = -1.0;
+  daemon.send(negative);
+  EXPECT_EQ(daemon.answer_to(negative)->message.find("clearance: is -1"), 0U)
+      << "the wire has no group of options: " << daemon.answer_to(negative)->message;
+}
+
+TEST(PlanService, RefusesWhatMakesNoSenseOfItsHandling) {
+  RunningService daemon;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::pair<std::function<void(plan_request_t&)>, std::string>> table{
+      {[](auto& r) { r.priority = 100; }, "priority: is 100; it must be -1 (low), 0 or 1 (high)"},
+      {[](auto& r) { r.priority = -2; }, "priority: is -2"},
+      {[](auto& r) { r.deadline_s = -1.0; }, "deadline_s: is -1; it must be at least 0"},
+      {[](auto& r) { r.deadline_s = kNan; }, "deadline_s: is nan"},
+      {[](auto& r) { r.progress_period_s = -0.1; }, "progress_period_s: is -0.1"},
+      {[](auto& r) { r.progress_period_s = kNan; }, "progress_period_s: is nan"},
+      {[](auto& r) { r.watch_lease_s = kNan; }, "watch_lease_s: is nan"},
+  };
+  std::int64_t id = 0;
+  for (const auto& [change, fault] : table) {
+    plan_request_t request = request_with(++id);
+    change(request);
+    daemon.send(request);
+    const std::optional<plan_response_t> answer = daemon.answer_to(request);
+    ASSERT_TRUE(answer) << fault;
+    EXPECT_EQ(answer->status, plan_response_t::STATUS_INVALID) << fault;
+    EXPECT_EQ(answer->message.find(fault), 0U) << answer->message;
+  }
+  EXPECT_EQ(daemon.planner.calls(), 0);
 }
 
 TEST(PlanService, APlannerThatThrowsIsAnInternalError) {
@@ -215,7 +248,7 @@ TEST(PlanService, AnAnswerBeyondAllPagesIsAnErrorThatSaysSo) {
   daemon.send(request_with(1));
   const std::optional<plan_response_t> answer = daemon.answer_to(request_with(1));
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, plan_response_t::STATUS_INTERNAL_ERROR);
+  EXPECT_EQ(answer->status, plan_response_t::STATUS_LIMIT);
   EXPECT_NE(answer->message.find("more than the 1024 allowed"), std::string::npos);
 }
 

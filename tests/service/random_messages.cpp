@@ -203,6 +203,17 @@ scene_object_t scene_object(Random& random) {
   return object;
 }
 
+scene_change_t scene_change(Random& random) {
+  scene_change_t change{};
+  change.revision = integer(random);
+  change.utime = integer(random);
+  change.operation = text(random, wire::kMaxOperationBytes);
+  change.object = text(random, wire::kMaxObjectNameBytes);
+  change.client_id = client_id(random);
+  change.restored_revision = integer(random);
+  return change;
+}
+
 }  // namespace
 
 std::size_t below(Random& random, std::size_t below) { return random() % below; }
@@ -354,6 +365,7 @@ occupancy_request_t random_message<occupancy_request_t>(Random& random) {
   message.request_id = integer(random);
   message.utime = integer(random);
   message.scene = text(random, wire::kMaxSceneNameBytes);
+  message.deadline_s = number(random);
   message.num_points = fill_rows(message.points_m, 3, random);
   message.num_boxes = fill_rows(message.boxes_m, 6, random);
   message.num_spheres = fill_rows(message.spheres_m, 4, random);
@@ -391,7 +403,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.client_id = client_id(random);
   message.request_id = integer(random);
   message.utime = integer(random);
-  message.operation = static_cast<std::int8_t>(below(random, 11));
+  message.operation = static_cast<std::int8_t>(below(random, 13));
   message.scene = text(random, wire::kMaxSceneNameBytes);
   message.object = text(random, wire::kMaxObjectNameBytes);
   message.file = text(random, wire::kMaxFileNameBytes);
@@ -416,6 +428,8 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   fill(message.position_m, random);
   fill(message.orientation_wxyz, random);
   message.first = small(random);
+  message.revision = below(random, 2) == 0 ? small(random) : integer(random);
+  message.restore_as = text(random, wire::kMaxSceneNameBytes);
   return message;
 }
 
@@ -436,6 +450,8 @@ scene_response_t random_message<scene_response_t>(Random& random) {
       fill_list(message.scenes, length(random, 80), [&] { return scene_info(random); });
   message.num_objects =
       fill_list(message.objects, length(random, 80), [&] { return scene_object(random); });
+  message.num_changes =
+      fill_list(message.changes, length(random, 80), [&] { return scene_change(random); });
   return message;
 }
 
@@ -557,6 +573,7 @@ status_t random_message<status_t>(Random& random) {
     latency->num_buckets =
         fill_list(latency->buckets, length(random, 96), [&] { return integer(random); });
   }
+  message.signed_only = static_cast<std::int8_t>(below(random, 2));
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });

@@ -11,6 +11,7 @@
 
 #include "tests/support/captured_log.h"
 #include "tests/support/notify_socket.h"
+#include "tests/support/slow_mesh.h"
 #include "tests/support/temporary_folder.h"
 
 namespace camway::service {
@@ -92,10 +93,6 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
 }
 
 TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
-  // Of zeros, which take no room on the disk; reading it takes longer than an import may.
-  const auto make_endless = [](const std::filesystem::path& file) {
-    std::filesystem::resize_file(file, std::uintmax_t{100} << 30);
-  };
   const auto is_reading = [this](const std::string& scene) {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (log_.text().find("reading scene scene=" + scene) == std::string::npos &&
@@ -110,12 +107,12 @@ TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
   log_.clear();
   DaemonOptions next = running_;
   next.scenes = {scene_of("hall")};
-  make_endless(next.scenes.front().file);
+  testing::write_slow_mesh(next.scenes.front().file);
   read_ = [&] { return ParsedOptions{next, 0, {}}; };
   reloader_.emplace(
       running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
       std::chrono::milliseconds(5));
-  make_endless(running_.scenes.front().file);
+  testing::write_slow_mesh(running_.scenes.front().file);
   ASSERT_TRUE(is_reading("room")) << "because it changed";
   const auto begin = std::chrono::steady_clock::now();
   reloader_->request();

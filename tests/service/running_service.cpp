@@ -67,8 +67,8 @@ planning::PlanResult echo_result(const planning::PlanRequest& request) {
 }
 
 RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result,
-                               service::ServiceHooks hooks)
-    : planner(std::move(result)), channels{config.prefix} {
+                               service::ServiceHooks hooks, const scene::SceneStoreLimits& limits)
+    : scenes(limits), planner(std::move(result)), channels{config.prefix} {
   scenes.put(empty_scene("room"));
   scenes.put(empty_scene("hall"));
   service_.emplace(

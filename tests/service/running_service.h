@@ -60,7 +60,8 @@ class RunningService {
  public:
   explicit RunningService(service::ServiceConfig config = {},
                           FakePlanner::Result result = echo_result,
-                          service::ServiceHooks hooks = {});
+                          service::ServiceHooks hooks = {},
+                          const scene::SceneStoreLimits& limits = {});
   ~RunningService();
 
   /// Sends all pages of a request, in this order.

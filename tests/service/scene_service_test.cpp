@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <camway/map_page_t.hpp>
@@ -12,6 +15,8 @@
 
 #include "lcmtypes/checksum.h"
 #include "tests/service/running_service.h"
+#include "tests/support/slow_mesh.h"
+#include "tests/support/temporary_folder.h"
 
 namespace camway::service {
 namespace {
@@ -37,6 +42,43 @@ scene_request_t put_box(std::int64_t id, const std::string& scene, const std::st
   for (double& side : request.size_m) side = side_m;
   return request;
 }
+
+ServiceConfig with_root(const testing::TemporaryFolder& folder, int scene_workers) {
+  ServiceConfig config;
+  std::string error;
+  config.scene_rules.roots = SceneRoots::make({folder.path()}, error);
+  EXPECT_EQ(error, "");
+  config.scene_workers = scene_workers;
+  return config;
+}
+
+/// Changes of which nobody waits for the answer.
+class Sender {
+ public:
+  explicit Sender(RunningService& running) : running_(running) {}
+
+  void send(const scene_request_t& request) {
+    running_.send_on(running_.channels.scene_request(), wire::encode(request));
+  }
+  /// The answer to a request, however many others came before it. Nothing if none comes.
+  std::optional<scene_response_t> answer_to(const scene_request_t& request) {
+    const std::string channel = running_.channels.scene_response(request.client_id);
+    for (std::size_t seen = 0;; ++seen) {
+      const auto bytes = running_.transport.message_on(channel, seen);
+      if (!bytes) return std::nullopt;
+      const auto decoded = wire::decode<scene_response_t>(*bytes);
+      if (decoded.message && decoded.message->request_id == request.request_id) {
+        return decoded.message;
+      }
+    }
+  }
+  [[nodiscard]] std::size_t answers(const std::string& client) const {
+    return running_.transport.published_on(running_.channels.scene_response(client)).size();
+  }
+
+ private:
+  RunningService& running_;
+};
 
 class SceneServiceTest : public ::testing::Test {
  protected:
@@ -252,6 +294,55 @@ TEST_F(SceneServiceTest, SaysWhatIsWrongWithARequest) {
   EXPECT_EQ(running_.scenes.find("s")->revision, 1U);
 }
 
+TEST_F(SceneServiceTest, ListsAndRestoresRevisions) {
+  const std::string first = ask(request_for(1, scene_request_t::LOAD, "s")).scene.digest;
+  const std::string second = ask(put_box(2, "s", "crate")).scene.digest;
+  scene_request_t move = request_for(3, scene_request_t::MOVE, "s", "crate");
+  move.position_m[0] = 5.0;
+  ASSERT_EQ(ask(move).status, scene_response_t::STATUS_OK);
+  scene_request_t restore = request_for(4, scene_request_t::RESTORE, "s");
+  restore.revision = 2;
+  const scene_response_t restored = ask(restore);
+  ASSERT_EQ(restored.status, scene_response_t::STATUS_OK) << restored.message;
+  EXPECT_EQ(restored.scene.revision, 4);
+  EXPECT_EQ(restored.scene.digest, second);
+  EXPECT_EQ(wire::encode(ask(restore)), wire::encode(restored)) << "done once";
+
+  const scene_response_t history = ask(request_for(5, scene_request_t::HISTORY, "s"));
+  ASSERT_EQ(history.num_changes, 4) << history.message;
+  EXPECT_EQ(history.total, 4);
+  EXPECT_EQ(history.scene.revision, 4);
+  const std::vector<std::string> operations{"load", "put", "move", "restore"};
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    const scene_change_t& change = history.changes[i];
+    EXPECT_EQ(change.operation, operations[i]);
+    EXPECT_EQ(change.object, i == 1 || i == 2 ? "crate" : "");
+    EXPECT_EQ(change.client_id, "tester");
+    EXPECT_EQ(change.revision, static_cast<std::int64_t>(i) + 1);
+    EXPECT_EQ(change.restored_revision, i == 3 ? 2 : 0);
+    EXPECT_GT(change.utime, 0);
+  }
+  scene_request_t from_third = request_for(6, scene_request_t::HISTORY, "s");
+  from_third.first = 2;
+  EXPECT_EQ(ask(from_third).changes.front().operation, "move");
+
+  scene_request_t as_copy = request_for(7, scene_request_t::RESTORE, "s");
+  as_copy.revision = 1;
+  as_copy.restore_as = "copy";
+  const scene_response_t copy = ask(as_copy);
+  EXPECT_EQ(copy.scene.name, "copy");
+  EXPECT_EQ(copy.scene.digest, first);
+
+  restore.request_id = 8;
+  restore.revision = -1;
+  EXPECT_THAT(ask(restore).message, HasSubstr("1 to 4 are"));
+  as_copy.request_id = 9;
+  as_copy.restore_as = "a/b";
+  EXPECT_THAT(ask(as_copy).message, HasSubstr("restore_as:"));
+  EXPECT_EQ(ask(request_for(10, scene_request_t::HISTORY, "none")).status,
+            scene_response_t::STATUS_UNKNOWN_SCENE);
+}
+
 TEST_F(SceneServiceTest, AnswersWhatItCannotRead) {
   Bytes bytes = wire::encode(put_box(5, "s", "crate"));
   bytes.pop_back();
@@ -273,6 +364,109 @@ TEST_F(SceneServiceTest, PlanningKeepsTheSceneItBeganWith) {
   const auto answer = running_.answer_to(plan);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->scene_revision, 1);
+}
+
+TEST(SceneServiceSideBySide, ImportsOfOneClientHoldUpNeitherOtherScenesNorOtherClients) {
+  const testing::TemporaryFolder folder;
+  testing::write_slow_mesh((folder.path() / "slow.obj").string());
+  RunningService running(with_root(folder, 2));
+  Sender sender(running);
+  for (int i = 0; i < 10; ++i) {
+    scene_request_t load = request_for(i, scene_request_t::LOAD, "slow" + std::to_string(i));
+    load.client_id = "importer";
+    load.file = "slow.obj";
+    sender.send(load);
+  }
+  // Several, as a worker may take the first of these before it takes an import.
+  for (int i = 1; i <= 5; ++i) {
+    const scene_request_t put = put_box(i, "room", "crate");
+    sender.send(put);
+    const auto answer = sender.answer_to(put);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, scene_response_t::STATUS_OK) << answer->message;
+  }
+  scene_request_t list = request_for(20, scene_request_t::LIST, "");
+  list.client_id = "importer";
+  sender.send(list);
+  ASSERT_TRUE(sender.answer_to(list)) << "who only looks waits for no change";
+  EXPECT_EQ(sender.answers("importer"), 1U) << "the imports still run or wait";
+}
+
+TEST(SceneServiceSideBySide, AStopCallsOffImportsAndSaysSo) {
+  const testing::TemporaryFolder folder;
+  testing::write_slow_mesh((folder.path() / "slow.obj").string());
+  RunningService running(with_root(folder, 3));
+  Sender sender(running);
+  std::vector<scene_request_t> loads;
+  for (int i = 0; i < 3; ++i) {
+    loads.push_back(request_for(i, scene_request_t::LOAD, "slow" + std::to_string(i)));
+    loads.back().file = "slow.obj";
+    sender.send(loads.back());
+  }
+  scene_request_t put = put_box(9, "room", "crate");
+  put.client_id = "mover";
+  sender.send(put);
+  ASSERT_TRUE(sender.answer_to(put)) << "so two of the others have begun, and one waits";
+  EXPECT_EQ(running.stop(), RunOutcome::kDrained) << "within the drain limit";
+  for (const scene_request_t& load : loads) {
+    const auto answer = sender.answer_to(load);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, scene_response_t::STATUS_OVERLOADED);
+    EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
+    EXPECT_EQ(running.scenes.find(load.scene), nullptr);
+  }
+}
+
+TEST(SceneServiceSideBySide, OfAClientTheChangesOfASceneStayInOrder) {
+  constexpr int kClients = 8;
+  constexpr int kMoves = 30;
+  RunningService running;
+  const std::uint64_t hall = running.scenes.find("hall")->revision;
+  const std::uint64_t room = running.scenes.find("room")->revision;
+  Sender sender(running);
+  const auto change = [](int client, int i) {
+    const std::string scene = i % 3 == 0 ? "hall" : "room";
+    const std::string object = "crate" + std::to_string(client);
+    scene_request_t request = put_box(i, scene, object, 1.0 + i);
+    request.client_id = "client" + std::to_string(client);
+    return request;
+  };
+  for (int i = 0; i < kMoves; ++i) {
+    for (int client = 0; client < kClients; ++client) sender.send(change(client, i));
+  }
+  for (int client = 0; client < kClients; ++client) {
+    std::map<std::string, std::int64_t> last;
+    for (int i = 0; i < kMoves; ++i) {
+      const auto answer = sender.answer_to(change(client, i));
+      ASSERT_TRUE(answer);
+      ASSERT_EQ(answer->status, scene_response_t::STATUS_OK) << answer->message;
+      EXPECT_GT(answer->scene.revision,
+                std::exchange(last[answer->scene.name], answer->scene.revision));
+    }
+  }
+  EXPECT_EQ(running.scenes.find("hall")->revision, hall + kClients * kMoves / 3);
+  EXPECT_EQ(running.scenes.find("room")->revision, room + kClients * kMoves * 2 / 3);
+  for (const auto& object : running.scenes.find("room")->objects) {
+    EXPECT_EQ(object->placed->tree.bounds().sizes().x(), 1.0 + (kMoves - 1)) << object->name;
+  }
+}
+
+TEST(SceneServiceLimits, OneExportAloneMayBeTooLarge) {
+  ServiceConfig config;
+  config.exports.bytes = 1000;
+  RunningService running(config);
+  Sender sender(running);
+  scene_request_t load = request_for(1, scene_request_t::LOAD, "yard");
+  load.occupancy_resolution_m = 0.1;
+  scene_request_t exported = request_for(3, scene_request_t::EXPORT, "yard");
+  for (const scene_request_t& request : {load, put_box(2, "yard", "crate", 5.0), exported}) {
+    sender.send(request);
+  }
+  const auto answer = sender.answer_to(exported);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, scene_response_t::STATUS_LIMIT);
+  EXPECT_THAT(answer->message, HasSubstr("scenes.all_exports_bytes"));
+  EXPECT_EQ(answer->map_bytes, 0);
 }
 
 }  // namespace

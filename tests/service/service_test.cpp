@@ -393,24 +393,5 @@ TEST(Service, SaysWhenNothingCanBeSubscribed) {
   EXPECT_TRUE(transport.published().empty());
 }
 
-TEST(ServiceConfig, NamesWhatIsWrong) {
-  const auto fault_of = [](const std::function<void(ServiceConfig&)>& change) {
-    ServiceConfig config;
-    change(config);
-    return config.fault();
-  };
-  EXPECT_EQ(ServiceConfig{}.fault(), "");
-  EXPECT_NE(fault_of([](auto& c) { c.prefix = "A B"; }).find("prefix 'A B'"), std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.prefix = "TWELVE_CHARS"; }), "");
-  EXPECT_NE(fault_of([](auto& c) { c.workers = 0; }).find("workers"), std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.workers = 257; }).find("workers"), std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.queue.jobs = 0; }).find("queue"), std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.queue.jobs_of_a_client = 0; }).find("client queue"),
-            std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.deadline.default_s = 0; }).find("deadline"),
-            std::string::npos);
-  EXPECT_NE(fault_of([](auto& c) { c.deadline.max_s = 1; }).find("deadline"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace camway::service

@@ -138,7 +138,7 @@ occupancy_request_t small_batch() {
 // Offsets of small_batch().
 constexpr std::size_t kClientIdLength = 8;
 constexpr std::size_t kClientId = kClientIdLength + 4;
-constexpr std::size_t kPointCount = kClientId + 4 + 8 + 8 + 4 + 5;
+constexpr std::size_t kPointCount = kClientId + 4 + 8 + 8 + 4 + 5 + 8;
 
 struct HostileCase {
   const char* what;

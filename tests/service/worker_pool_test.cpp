@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <latch>
+#include <thread>
 #include <utility>
 
 namespace camway::service {
@@ -65,6 +67,36 @@ TEST(WorkerPool, RunsEveryJobItTook) {
   }
   all.wait();
   EXPECT_EQ(done, 100);
+}
+
+TEST(WorkerPool, NoWorkerSleepsWhenTheEndOfAJobLetsTwoBegin) {
+  // The first holds up another of its strand and another of its client.
+  for (int round = 0; round < 20; ++round) {
+    Gate first;
+    std::latch both(2);
+    std::latch all(2);
+    std::atomic<int> met = 0;
+    WorkerPool pool(2, {.running_of_a_client = 1});
+    const auto submit = [&](Job job, const std::string& client, const std::string& strand) {
+      job.client = client;
+      job.strand = strand;
+      ASSERT_FALSE(pool.submit(std::move(job)));
+    };
+    submit(first.job(), "a", "hall");
+    first.wait_until_entered();
+    const auto meet = [&] {
+      both.count_down();
+      const auto patience = Job::Clock::now() + std::chrono::seconds(30);
+      while (!both.try_wait() && Job::Clock::now() < patience) std::this_thread::yield();
+      met += both.try_wait() ? 1 : 0;
+      all.count_down();
+    };
+    submit(job_of(meet), "a", "room");
+    submit(job_of(meet), "b", "hall");
+    first.open();
+    all.wait();
+    ASSERT_EQ(met, 2) << "or they did not run at the same time";
+  }
 }
 
 TEST(WorkerPool, HandsBackWhatDoesNotFitTheQueue) {

@@ -18,7 +18,8 @@ ExitCode worse(ExitCode a, ExitCode b) {
 void print_error(std::string_view message) { fmt::print(stderr, "camway: {}\n", message); }
 
 std::string exit_code_help(std::string_view negative, bool asks_daemon) {
-  return fmt::format("Exit codes: 0 success; 1 our fault; 2 invalid input{}{}{}.",
+  return fmt::format("Exit codes: 0 success; 1 our fault{}; 2 invalid input{}{}{}.",
+                     asks_daemon ? ", or the daemon's queue stayed full" : "",
                      negative.empty() ? "" : "; 3 ", negative,
                      asks_daemon ? "; 4 no daemon answered" : "");
 }

@@ -13,8 +13,7 @@ enum class ExitCode : int {
   kSuccess = 0,
   kOurFault = 1,
   kInvalidInput = 2,
-  kNegative =
-      3,  ///< the work was done and the answer is no: no free path, or a replay that differs
+  kNegative = 3,  ///< the answer is no; what that means each command's help says
   kNoDaemon = 4,  ///< no daemon was heard, or it did not answer
 };
 

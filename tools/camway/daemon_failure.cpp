@@ -4,14 +4,18 @@
 namespace camway::tools {
 namespace {
 
-/// A wrong request is the caller's; that nobody answers is neither his fault nor an answer.
+/// A wrong request or network is the caller's; that nobody answers is neither his fault nor an
+/// answer.
 ExitCode exit_code_of(Status status) {
   switch (status) {
     case Status::kInvalid:
     case Status::kUnknownScene:
     case Status::kNoMap:
     case Status::kLimit:
+    case Status::kNetworkUnusable:
       return ExitCode::kInvalidInput;
+    case Status::kTimeout:
+      return ExitCode::kNegative;
     case Status::kNoDaemon:
     case Status::kNoAnswer:
       return ExitCode::kNoDaemon;

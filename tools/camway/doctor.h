@@ -10,21 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/service/lcm_url.h"
+
 /// What keeps Camway from working on a machine: facts, gathered in one place, and what they mean,
 /// judged in another, so that machines that nobody has at hand can be judged too.
 namespace camway::tools {
 
-/// The parts of an LCM url that matter to us.
-struct LcmNetwork {
-  std::string url;
-  bool multicast = false;  ///< provider "udpm"; what follows holds only then
-  std::string group = "239.255.76.67";
-  std::uint16_t port = 7667;
-  int ttl = 0;                                       ///< 0: this host only
-  std::optional<std::int64_t> receive_buffer_bytes;  ///< "recv_buf_size"
-  std::string fault;                                 ///< why it cannot be read; empty when it can
-};
-LcmNetwork parse_lcm_url(const std::string& url);
+using service::LcmNetwork;
 
 /// The device by which a machine would send to the group.
 struct MulticastRoute {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,32 +17,6 @@ constexpr std::int64_t kNeededBuffer = 212'992;
 constexpr std::int64_t kAmpleBuffer = std::int64_t{4} << 20;
 /// What people see in logs of two machines side by side.
 constexpr double kClockTolerance_s = 1.0;
-
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// Applies one `key=value` of a url; false if the value is no number.
-bool apply_option(std::string_view option, LcmNetwork& network) {
-  const std::size_t equals = option.find('=');
-  const std::string_view key = option.substr(0, equals);
-  const std::string_view value =
-      equals == std::string_view::npos ? std::string_view() : option.substr(equals + 1);
-  if (key == "ttl") {
-    const auto ttl = number_in<int>(value);
-    network.ttl = ttl.value_or(0);
-    return ttl && *ttl >= 0 && *ttl <= 255;
-  }
-  if (key == "recv_buf_size") {
-    network.receive_buffer_bytes = number_in<std::int64_t>(value);
-    return network.receive_buffer_bytes.has_value();
-  }
-  return true;
-}
 
 std::string url_with_ttl(const LcmNetwork& network, int ttl) {
   return fmt::format("udpm://{}:{}?ttl={}", network.group, network.port, ttl);
@@ -229,36 +202,6 @@ Finding judge_scene_file(const SceneFileFact& scene) {
 }
 
 }  // namespace
-
-LcmNetwork parse_lcm_url(const std::string& url) {
-  LcmNetwork network;
-  network.url = url;
-  const std::size_t scheme = url.find("://");
-  if (scheme == std::string::npos) {
-    network.fault = "must begin with a provider, as in udpm://";
-    return network;
-  }
-  network.multicast = url.compare(0, scheme, "udpm") == 0;
-  if (!network.multicast) return network;
-  std::string_view rest = std::string_view(url).substr(scheme + 3);
-  const std::size_t question = rest.find('?');
-  std::string_view options = question == std::string_view::npos ? "" : rest.substr(question + 1);
-  rest = rest.substr(0, question);
-  const std::size_t colon = rest.find(':');
-  if (colon != 0 && !rest.empty()) network.group = rest.substr(0, colon);
-  if (colon != std::string_view::npos) {
-    const auto port = number_in<std::uint16_t>(rest.substr(colon + 1));
-    if (!port) network.fault = "the port must be within 0 to 65535";
-    network.port = port.value_or(network.port);
-  }
-  while (!options.empty()) {
-    const std::size_t end = options.find('&');
-    const std::string_view option = options.substr(0, end);
-    if (!apply_option(option, network)) network.fault = fmt::format("{}: out of range", option);
-    options = end == std::string_view::npos ? "" : options.substr(end + 1);
-  }
-  return network;
-}
 
 std::string_view to_string(Severity severity) {
   switch (severity) {

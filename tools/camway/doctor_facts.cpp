@@ -209,7 +209,7 @@ void look_at_config(const std::string& file, HostFacts& facts) {
 
 HostFacts gather_facts(const DoctorQuestions& questions) {
   HostFacts facts;
-  facts.network = parse_lcm_url(questions.url);
+  facts.network = service::parse_lcm_url(questions.url);
   facts.other_hosts = questions.other_hosts;
   facts.own_version = service::kVersion;
   if (facts.network.multicast) facts.route = route_to(facts.network);

@@ -43,8 +43,14 @@ ExitCode invalid_input(std::string_view message) {
   return ExitCode::kInvalidInput;
 }
 
+/// What is asked, and of which scene.
+struct LoadPlan {
+  LoadScene scene;
+  std::vector<LoadQuestion> questions;
+};
+
 /// The questions of the command line with their answers; on an error says so, and there are none.
-std::vector<LoadQuestion> make_questions(const LoadFlags& flags) {
+LoadPlan make_questions(const LoadFlags& flags) {
   const auto parsed = service::parse_scene_argument(flags.scene);
   if (!parsed.scene) {
     print_error("--scene " + flags.scene + ": " + parsed.error);
@@ -58,17 +64,17 @@ std::vector<LoadQuestion> make_questions(const LoadFlags& flags) {
     print_error(scene.result.error);
     return {};
   }
-  std::vector<LoadQuestion> questions;
+  LoadPlan plan{{parsed.scene->name, scene.result.snapshot->digest}, {}};
   for (const std::string& file : flags.requests) {
     const Parsed<planning::PlanRequest> request = read_plan_request(file);
     if (!request.value) {
       print_error(request.error);
       return {};
     }
-    questions.push_back({file, to_client_request(*request.value, parsed.scene->name),
-                         planning::plan(*scene.result.snapshot, *request.value)});
+    plan.questions.push_back({file, to_client_request(*request.value, parsed.scene->name),
+                              planning::plan(*scene.result.snapshot, *request.value)});
   }
-  return questions;
+  return plan;
 }
 
 OrderedJson percentiles_json(const std::vector<float>& values) {
@@ -137,8 +143,9 @@ ExitCode load_occupancy(const LoadFlags& flags) {
       load_timed(parsed.scene->name, parsed.scene->file.string(), parsed.scene->options);
   if (!scene.result.snapshot) return invalid_input(scene.result.error);
   const scene::Snapshot& snapshot = *scene.result.snapshot;
-  const OccupancyLoad load = run_occupancy_load(*snapshot.occupancy, snapshot.index.bounds(),
-                                                snapshot.name, flags.occupancy_queries, flags.run);
+  const OccupancyLoad load =
+      run_occupancy_load(*snapshot.occupancy, snapshot.index.bounds(),
+                         {snapshot.name, snapshot.digest}, flags.occupancy_queries, flags.run);
   if (load.batches == 0) return report_failure(load.status, load.error, flags.key_file);
   const Percentiles latency = percentiles(load.latency_ms);
   fmt::print(
@@ -168,9 +175,9 @@ ExitCode run_command(LoadFlags flags) {
   if (flags.requests.empty()) {
     return invalid_input("either --request or --occupancy says what is asked");
   }
-  const std::vector<LoadQuestion> questions = make_questions(flags);
-  if (questions.empty()) return ExitCode::kInvalidInput;
-  const LoadResult result = run_load(questions, flags.run);
+  const LoadPlan plan = make_questions(flags);
+  if (plan.questions.empty()) return ExitCode::kInvalidInput;
+  const LoadResult result = run_load(plan.scene, plan.questions, flags.run);
   if (!result.error.empty()) return report_failure(result.status, result.error, flags.key_file);
   fmt::print("{}", summary(flags, result));
   if (!flags.json_file.empty()) {

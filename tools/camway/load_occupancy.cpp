@@ -134,12 +134,12 @@ void add(const OccupancyLoad& part, OccupancyLoad& sum) {
 }  // namespace
 
 OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geometry::Box& bounds_W,
-                                 const std::string& scene, std::size_t queries,
+                                 const LoadScene& scene, std::size_t queries,
                                  const LoadOptions& options) {
   OccupancyLoad load;
   std::vector<Asked> questions;
   for (std::uint64_t seed = 1; seed <= kBatches; ++seed) {
-    OccupancyBatch batch = Questions(bounds_W, seed).batch(scene, queries);
+    OccupancyBatch batch = Questions(bounds_W, seed).batch(scene.name, queries);
     OccupancyAnswer expected = answer_offline(map, batch);
     questions.push_back({std::move(batch), std::move(expected)});
   }
@@ -153,9 +153,9 @@ OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geomet
     load.error = clients.back()->error();
     if (!load.error.empty()) return load;
   }
-  if (const DaemonStatus status = clients.front()->status(); !status.ok()) {
-    load.error = status.error;
-    load.status = status.status;
+  if (LoadFault fault = fault_of_daemon(*clients.front(), scene); fault.status != Status::kOk) {
+    load.error = std::move(fault.error);
+    load.status = fault.status;
     return load;
   }
   std::vector<OccupancyLoad> parts(clients.size());

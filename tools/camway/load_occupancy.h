@@ -24,10 +24,10 @@ struct OccupancyLoad {
 };
 
 /// Lets clients ask the daemon's map of `scene`, batch after batch, for as long as the options say,
-/// and compares all answers with those of `map`. A batch has as many questions of each kind, of
-/// `queries` in all, about the box of the scene, the same in each run.
+/// and compares all answers with those of `map`, which is of that scene. A batch has as many
+/// questions of each kind, of `queries` in all, about the box of the scene, the same in each run.
 OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geometry::Box& bounds_W,
-                                 const std::string& scene, std::size_t queries,
+                                 const LoadScene& scene, std::size_t queries,
                                  const LoadOptions& options);
 
 }  // namespace camway::tools

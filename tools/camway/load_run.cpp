@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/load_run.h"
 
-#include <camway/client.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -50,7 +50,22 @@ double memory_period_s(double seconds) { return std::clamp(seconds / 200.0, 0.05
 
 }  // namespace
 
-LoadResult run_load(const std::vector<LoadQuestion>& questions, const LoadOptions& options) {
+LoadFault fault_of_daemon(Client& client, const LoadScene& scene) {
+  if (const DaemonStatus status = client.status(); !status.ok()) {
+    return {status.status, status.error};
+  }
+  const SceneAnswer held = client.describe_scene(scene.name);
+  if (!held.ok()) return {held.status, held.error};
+  if (held.scene.digest == scene.digest) return {};
+  return {Status::kInvalid,
+          fmt::format("the daemon's scene '{}' (digest {}, revision {}) is not the one of --scene "
+                      "(digest {}): its file or scale differ, or it was changed since; nothing was "
+                      "asked",
+                      scene.name, held.scene.digest, held.scene.revision, scene.digest)};
+}
+
+LoadResult run_load(const LoadScene& scene, const std::vector<LoadQuestion>& questions,
+                    const LoadOptions& options) {
   LoadResult result;
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < options.clients; ++i) {
@@ -64,9 +79,9 @@ LoadResult run_load(const std::vector<LoadQuestion>& questions, const LoadOption
       return result;
     }
   }
-  if (const DaemonStatus status = clients.front()->status(); !status.ok()) {
-    result.error = status.error;
-    result.status = status.status;
+  if (LoadFault fault = fault_of_daemon(*clients.front(), scene); fault.status != Status::kOk) {
+    result.error = std::move(fault.error);
+    result.status = fault.status;
     return result;
   }
   MemoryWatch memory(options.daemon_pid, memory_period_s(options.seconds));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <camway/authentication.h>
-#include <camway/status.h>
+#include <camway/client.h>
 
 #include <memory>
 #include <string>
@@ -11,6 +10,12 @@
 #include "tools/camway/load_tally.h"
 
 namespace camway::tools {
+
+/// The scene here that answers are compared with.
+struct LoadScene {
+  std::string name;
+  std::string digest;
+};
 
 struct LoadOptions {
   std::string url;  ///< LCM network; empty: as the client's default
@@ -22,6 +27,16 @@ struct LoadOptions {
   int daemon_pid = 0;         ///< of the process whose memory is watched; 0: none
 };
 
+/// Why there can be no run.
+struct LoadFault {
+  Status status = Status::kOk;
+  std::string error;  ///< empty exactly when `status` is kOk
+};
+
+/// Whether a daemon answers and holds that very scene: with another one every answer would be
+/// called wrong, and nobody would know why.
+LoadFault fault_of_daemon(Client& client, const LoadScene& scene);
+
 struct LoadResult {
   std::string error;                 ///< why there was no run; empty if there was one
   Status status = Status::kInvalid;  ///< of that error
@@ -32,6 +47,7 @@ struct LoadResult {
 
 /// Lets `clients` clients, each on a thread of its own, ask the questions in turn, each as soon as
 /// the one before is answered, until time or requests are used up.
-LoadResult run_load(const std::vector<LoadQuestion>& questions, const LoadOptions& options);
+LoadResult run_load(const LoadScene& scene, const std::vector<LoadQuestion>& questions,
+                    const LoadOptions& options);
 
 }  // namespace camway::tools

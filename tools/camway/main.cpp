@@ -19,8 +19,9 @@ int run(int argc, char** argv) {
   app.footer(
       "Lengths are metres, times seconds, quaternions w, x, y, z. `camway COMMAND --help` says "
       "more.\n" +
-      camway::tools::exit_code_help("a negative answer (no free path, a replay that differs)",
-                                    /*asks_daemon=*/true));
+      camway::tools::exit_code_help(
+          "the answer is no (plan, check, occupancy, load, replay, doctor and watch say of what)",
+          /*asks_daemon=*/true));
   camway::tools::add_plan_command(app, exit_code);
   camway::tools::add_check_command(app, exit_code);
   camway::tools::add_info_command(app, exit_code);

@@ -22,6 +22,7 @@ struct OccupancyFlags {
   std::string prefix = "CAMWAY";
   std::string key_file;
   double timeout_s = ClientOptions{}.deadline_s;
+  double deadline_s = 0.0;  ///< 0: the daemon's
   std::optional<double> resolution_m;
   OccupancyTexts queries;
   std::string map_file;
@@ -60,9 +61,10 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
-    return ExitCode::kOurFault;
+    return ExitCode::kInvalidInput;
   }
   batch.scene = flags.daemon_scene;
+  batch.deadline_s = flags.deadline_s;
   const OccupancyAnswer answer = client.occupancy(batch);
   if (!answer.ok()) return report_failure(answer.status, answer.error, flags.key_file);
   fmt::print(stderr, "camway: scene {}, revision {}, voxels of {} m\n", flags.daemon_scene,
@@ -135,13 +137,19 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   add_key_file(*command, flags->key_file)->needs(daemon);
   add_timeout(*command, flags->timeout_s)->needs(daemon);
+  command
+      ->add_option("--deadline-s", flags->deadline_s,
+                   "How long the daemon may take for each message of queries, seconds; 0: its own")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(daemon)
+      ->capture_default_str();
   add_queries(*command, flags->queries);
   command
       ->add_option("--write", flags->map_file,
                    "Write the map as OctoMap's .bt, which octovis opens; with --scene")
       ->type_name("FILE")
       ->excludes(daemon);
-  command->footer(exit_code_help("", /*asks_daemon=*/true) +
+  command->footer(exit_code_help("the daemon's deadline came first", /*asks_daemon=*/true) +
                   "\nCoordinates are metres in the scene's frame; write --point=-1,2,3 if the "
                   "first is negative."
                   "\nExample: camway occupancy --scene office.obj --resolution 0.1 --point 3,1.5,4 "

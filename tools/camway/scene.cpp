@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,6 +33,8 @@ struct SceneCommandFlags {
   std::string file;         ///< below a root of the daemon
   std::string upload_file;  ///< here
   std::string to_file;      ///< here, written
+  std::int64_t revision = 0;
+  std::string restore_as;
   double scale = 1.0;
   SceneMesh::Up up = SceneMesh::Up::kAsInFile;
   SceneMesh::Unknown unknown = SceneMesh::Unknown::kFree;
@@ -71,19 +75,34 @@ void print_object(const SceneObject& object) {
       pose.orientation_wxyz[2], pose.orientation_wxyz[3], object.digest);
 }
 
+void print_revision(const SceneRevision& revision) {
+  constexpr std::int64_t kMicrosecondsPerSecond = 1'000'000;
+  const std::time_t when = revision.utime / kMicrosecondsPerSecond;
+  std::string what = revision.operation;
+  if (!revision.object.empty()) what += " " + revision.object;
+  if (revision.restored_revision > 0) what += fmt::format(" of {}", revision.restored_revision);
+  fmt::print("  {}: {:%Y-%m-%dT%H:%M:%SZ}, {}, by {}\n", revision.revision, fmt::gmtime(when), what,
+             revision.client_id.empty() ? "the daemon" : revision.client_id);
+}
+
 ExitCode print_answer(const SceneAnswer& answer, const std::string& key_file) {
   if (!answer.ok()) return report_failure(answer.status, answer.error, key_file);
   if (!answer.message.empty()) print_error(answer.message);
   if (!answer.scene.name.empty()) print_scene(answer.scene);
   for (const SceneInfo& scene : answer.scenes) print_scene(scene);
   for (const SceneObject& object : answer.objects) print_object(object);
+  for (const SceneRevision& revision : answer.revisions) print_revision(revision);
   return ExitCode::kSuccess;
 }
 
 /// The bytes of a file and its extension.
 bool read_upload(const std::string& file, SceneMesh& mesh) {
   std::ifstream in(file, std::ios::binary);
-  mesh.bytes.assign(std::istreambuf_iterator<char>(in), {});
+  std::array<char, 65536> part;
+  while (in.read(part.data(), part.size()) || in.gcount() > 0) {
+    mesh.bytes.insert(mesh.bytes.end(), part.begin(), part.begin() + in.gcount());
+  }
+  // A folder can be opened, but not be read.
   if (!in.is_open() || in.bad()) {
     print_error("cannot read '" + file + "'");
     return false;
@@ -160,7 +179,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
-    return ExitCode::kOurFault;
+    return ExitCode::kInvalidInput;
   }
   return print_answer(call(client), flags.key_file);
 }
@@ -404,7 +423,13 @@ void add_changes(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
 void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* list = add_command(parent, flags, "list", "List the daemon's scenes");
   list->callback([flags, &exit_code] {
-    exit_code = with_client(*flags, [](Client& client) { return client.list_scenes(); });
+    bool is_empty = false;
+    exit_code = with_client(*flags, [&](Client& client) {
+      SceneAnswer answer = client.list_scenes();
+      is_empty = answer.ok() && answer.scenes.empty();
+      return answer;
+    });
+    if (is_empty) fmt::print("the daemon holds no scenes\n");
   });
 
   CLI::App* describe = add_command(parent, flags, "describe", "List the objects of a scene");
@@ -439,11 +464,39 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
       ->excludes(to);
   out->callback([flags, &exit_code] { exit_code = run_export(*flags); });
 
+  CLI::App* history = add_command(parent, flags, "history",
+                                  "List the revisions of a scene that the daemon can restore");
+  add_scene_name(*history, flags);
+  history->callback([flags, &exit_code] {
+    exit_code =
+        with_client(*flags, [&](Client& client) { return client.scene_history(flags->scene); });
+  });
+
   CLI::App* unload = add_command(parent, flags, "unload", "Let the daemon forget a scene");
   add_scene_name(*unload, flags);
   unload->callback([flags, &exit_code] {
     exit_code =
         with_client(*flags, [&](Client& client) { return client.unload_scene(flags->scene); });
+    if (exit_code == ExitCode::kSuccess) fmt::print("{} is unloaded\n", flags->scene);
+  });
+}
+
+void add_restore(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
+  CLI::App* command =
+      add_command(parent, flags, "restore",
+                  "Make a new revision with the objects of an earlier one, which `history` lists");
+  add_scene_name(*command, flags);
+  command->add_option("--revision", flags->revision, "The earlier one")
+      ->check(CLI::PositiveNumber)
+      ->required();
+  command
+      ->add_option("--as", flags->restore_as,
+                   "Name of another scene that is made of them, or replaced [SCENE itself]")
+      ->type_name("NAME");
+  command->callback([flags, &exit_code] {
+    exit_code = with_client(*flags, [&](Client& client) {
+      return client.restore_scene(flags->scene, flags->revision, flags->restore_as);
+    });
   });
 }
 
@@ -462,6 +515,7 @@ void add_scene_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<SceneCommandFlags>();
   add_load(*scene, flags, exit_code);
   add_changes(*scene, flags, exit_code);
+  add_restore(*scene, flags, exit_code);
   add_looks(*scene, flags, exit_code);
 }
 

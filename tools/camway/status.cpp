@@ -113,6 +113,7 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"planning", latency_json(status.planning)},
                    {"watched_paths", status.watched_paths},
                    {"broken_paths", status.broken_paths},
+                   {"signed_only", status.signed_only},
                    {"total_scenes", status.total_scenes}};
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_json(scene));
@@ -154,11 +155,11 @@ void print_traffic(const DaemonStatus& status) {
       status.request_pages_asked_again, status.answer_pages_asked_again, status.dropped_answers);
   fmt::print("malformed    {} messages\n", status.malformed_messages);
   fmt::print(
-      "distrusted   {} unsigned, {} broken, {} of unknown keys, {} altered, {} stale, {} "
+      "distrusted   {} unsigned{}, {} broken, {} of unknown keys, {} altered, {} stale, {} "
       "replayed, {} of too many senders\n",
-      status.unsigned_messages, status.broken_envelopes, status.unknown_key_messages,
-      status.altered_messages, status.stale_messages, status.replayed_messages,
-      status.crowded_messages);
+      status.unsigned_messages, status.signed_only ? " (all are dropped)" : "",
+      status.broken_envelopes, status.unknown_key_messages, status.altered_messages,
+      status.stale_messages, status.replayed_messages, status.crowded_messages);
 }
 
 void print_text(const DaemonStatus& status) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/daemon_faults.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "daemon/service/http_page.h"
+#include "lcmtypes/message_keys.h"
+
+namespace camway::service {
+namespace {
+
+bool is_readable_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return !std::filesystem::is_directory(file, ignored) && std::ifstream(file).is_open();
+}
+
+/// The fault is said of the default where that was said, else of the longest.
+void check_deadlines(const DaemonOptions& options, const std::string& table,
+                     const DeadlineLimits& limits, std::vector<std::string>& faults) {
+  if (limits.default_s <= limits.max_s) return;
+  const std::string usual = table + ".deadline_s";
+  const std::string longest = table + ".max_deadline_s";
+  const bool blames_usual = options.said_at.contains(usual) || !options.said_at.contains(longest);
+  faults.push_back(fmt::format("{}: {} is {:g}, but must be at most {}, which is {:g}",
+                               options.where(blames_usual ? usual : longest), usual,
+                               limits.default_s, longest, limits.max_s));
+}
+
+}  // namespace
+
+std::vector<std::string> contradictions(const DaemonOptions& options) {
+  std::vector<std::string> faults;
+  check_deadlines(options, "planning", options.service.deadline, faults);
+  check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
+  return faults;
+}
+
+std::vector<std::string> missing_things(const DaemonOptions& options) {
+  std::vector<std::string> faults;
+  for (const SceneArgument& scene : options.scenes) {
+    if (is_readable_file(scene.file)) continue;
+    faults.push_back(fmt::format("{}: scene '{}': {} cannot be read", scene.said_at, scene.name,
+                                 scene.file.string()));
+  }
+  if (!options.auth.key_file.empty()) {
+    const wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.auth.key_file);
+    if (!read.keys) faults.push_back(options.where("auth.key_file") + ": " + read.error);
+  }
+  const bool address_counts =
+      options.metrics.port != 0 || options.said_at.contains("metrics.address");
+  if (address_counts && !is_address_of_this_machine(options.metrics.ip)) {
+    faults.push_back(fmt::format("{}: {} is no address of this machine",
+                                 options.where("metrics.address"), options.metrics.ip));
+  }
+  return faults;
+}
+
+}  // namespace camway::service
