@@ -447,7 +447,7 @@ TEST(SceneServiceSideBySide, OfAClientTheChangesOfASceneStayInOrder) {
   EXPECT_EQ(running.scenes.find("hall")->revision, hall + kClients * kMoves / 3);
   EXPECT_EQ(running.scenes.find("room")->revision, room + kClients * kMoves * 2 / 3);
   for (const auto& object : running.scenes.find("room")->objects) {
-    EXPECT_EQ(object->placed->tree.bounds().sizes().x(), 1.0 + (kMoves - 1)) << object->name;
+    EXPECT_EQ(object->bounds_W.sizes().x(), 1.0 + (kMoves - 1)) << object->name;
   }
 }
 
