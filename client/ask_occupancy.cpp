@@ -66,7 +66,7 @@ class PartCall final : public Call {
     PartAnswer answer{collector_.response(), {Status::kOk, {}}};
     if (outcome != Outcome::kAnswered) {
       answer = {std::nullopt,
-                refusal_ && outcome == Outcome::kDeadline
+                refusal_ && (outcome == Outcome::kDeadline || outcome == Outcome::kSilence)
                     ? *refusal_
                     : context_.explain(outcome, retry().ever_heard(), {}, collector_.fault())};
     }

@@ -66,9 +66,10 @@ class OneAnswer final : public Call {
   void finish(Outcome outcome) override {
     Asked<Response> asked{std::move(response_), {Status::kOk, {}}};
     if (outcome != Outcome::kAnswered) {
-      asked = {std::nullopt, refusal_ && outcome == Outcome::kDeadline
-                                 ? Failure{Status::kOverloaded, *refusal_}
-                                 : context_.explain(outcome, retry().ever_heard(), {}, fault_)};
+      asked = {std::nullopt,
+               refusal_ && (outcome == Outcome::kDeadline || outcome == Outcome::kSilence)
+                   ? Failure{Status::kOverloaded, *refusal_}
+                   : context_.explain(outcome, retry().ever_heard(), {}, fault_)};
     }
     promise_.set_value(std::move(asked));
   }

@@ -190,12 +190,11 @@ VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
   return {cube.min, cube.size};
 }
 
-/// The voxels of the cubes, or nothing if they are not sound or too many.
+/// The voxels of the cubes, or nothing if they are too many. Precondition: all are sound.
 std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up,
                                   std::uint64_t most_voxels) {
   std::uint64_t voxels = 0;
   for (const format::Cube& cube : cubes) {
-    if (!is_sound(cube)) return std::nullopt;
     const auto edge = static_cast<std::uint64_t>(cube.size);
     voxels += edge * edge * edge;
     if (voxels > most_voxels) return std::nullopt;
@@ -208,13 +207,17 @@ std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis
 /// Makes map and mesh of a record with cubes, or says why not.
 std::string read_map(const Record& record, const ImportOptions& options,
                      ImportRecordResult& result) {
+  if (!std::ranges::all_of(record.occupied, is_sound) ||
+      !std::ranges::all_of(record.free, is_sound)) {
+    return "has voxels that OctoMap cannot have";
+  }
   std::optional<VoxelSet> occupied =
       voxels_of(record.occupied, options.up, options.map_limits.voxels);
   std::optional<VoxelSet> free = voxels_of(record.free, options.up, options.map_limits.voxels);
   if (!occupied || !free) {
     result.limit = Limit::kMapVoxels;
-    return "has voxels that OctoMap cannot have, or more than " +
-           std::to_string(options.map_limits.voxels) + " that are occupied or free";
+    return "has more than " + std::to_string(options.map_limits.voxels) +
+           " voxels that are occupied or free";
   }
   VoxelMapResult built =
       VoxelMap::build(options.scale * record.header.map_resolution, *std::move(occupied),

@@ -30,12 +30,36 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
                                limits.default_s, longest, limits.max_s));
 }
 
+/// A share that is larger than the whole, where somebody asked for that share: it could never
+/// count.
+void check_share(const DaemonOptions& options, const std::string& share, std::size_t value,
+                 const std::string& whole, std::size_t most, std::vector<std::string>& faults) {
+  if (value <= most || !options.said_at.contains(share)) return;
+  faults.push_back(fmt::format("{}: is {}, but must be at most {}, which is {}",
+                               options.where(share), value, whole, most));
+}
+
+void check_shares(const DaemonOptions& options, std::vector<std::string>& faults) {
+  const ServiceConfig& service = options.service;
+  check_share(options, "queue.requests_of_a_client", service.queue.jobs_of_a_client,
+              "queue.requests", service.queue.jobs, faults);
+  check_share(options, "queue.answers_of_a_client", service.answers.answers_of_a_channel,
+              "queue.answers", service.answers.answers, faults);
+  check_share(options, "scenes.waiting_changes_of_a_client", service.changes.jobs_of_a_client,
+              "scenes.waiting_changes", service.changes.jobs, faults);
+  check_share(options, "scenes.upload_bytes", service.uploads.bytes, "scenes.all_uploads_bytes",
+              service.uploads.total_bytes, faults);
+  check_share(options, "watch.paths_of_a_client", service.watches.paths_of_a_client, "watch.paths",
+              service.watches.paths, faults);
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions(const DaemonOptions& options) {
   std::vector<std::string> faults;
   check_deadlines(options, "planning", options.service.deadline, faults);
   check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
+  check_shares(options, faults);
   return faults;
 }
 

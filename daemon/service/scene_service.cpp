@@ -96,6 +96,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
 }
 
 void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) {
+  unanswered_.emplace(RequestKey{request->client_id, request->request_id}, request);
   const UploadedBytes upload =
       uploads_.find({request->client_id, request->upload_bytes, request->upload_checksum});
   Job work;
@@ -106,6 +107,7 @@ void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) 
     Pages map;
     if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
     core_.mailbox.post([this, request, done, map] {
+      if (!unanswered_.contains({request->client_id, request->request_id})) return;  // given up
       if (done->is_called_off) return refuse(*request, Refusal::kStopping);
       const RequestKey key{request->client_id, request->request_id};
       if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
@@ -137,6 +139,7 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
   if (!only_looks(request)) {
+    unanswered_.erase({request.client_id, request.request_id});
     cache_.finish({request.client_id, request.request_id}, std::move(pages));
   }
 }
@@ -156,6 +159,7 @@ Pages SceneService::send(scene_response_t answer) {
 }
 
 void SceneService::refuse(const scene_request_t& request, Refusal why) {
+  unanswered_.erase({request.client_id, request.request_id});
   cache_.forget({request.client_id, request.request_id});
   ++core_.counters.overloaded;
   const std::string_view message =
@@ -241,6 +245,14 @@ SceneContext SceneService::context() { return {rules_, scenes_, writing_, stop_.
 void SceneService::close() {
   stop_.request_stop();
   for (const Job& job : workers_.close()) job.abandon(Refusal::kStopping);
+}
+
+void SceneService::give_up() {
+  // Each refusal takes one out.
+  while (!unanswered_.empty()) {
+    const std::shared_ptr<const scene_request_t> request = unanswered_.begin()->second;
+    refuse(*request, Refusal::kStopping);
+  }
 }
 
 void SceneService::stop() {

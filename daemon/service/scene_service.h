@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -39,8 +41,10 @@ class SceneService {
   /// Takes no more changes, and refuses those that nobody has begun, and those that read a file,
   /// which is called off.
   void close();
-  /// Whether nothing is being done.
-  [[nodiscard]] bool idle() const { return workers_.running() == 0; }
+  /// Refuses what is still being done, which nobody will hear of any more.
+  void give_up();
+  /// How many changes wait, are being made, or were just made and are not answered yet.
+  [[nodiscard]] std::size_t unanswered() const { return unanswered_.size(); }
   /// Calls off the reading of files and waits for what is being done. Before `Core` goes.
   void stop();
 
@@ -58,6 +62,7 @@ class SceneService {
   Uploads uploads_;
   MapExports exports_;
   AnswerCache cache_;
+  std::map<RequestKey, std::shared_ptr<const scene_request_t>> unanswered_;
   std::mutex writing_;  ///< see `SceneContext`
   std::stop_source stop_;
   WorkerPool workers_;

@@ -459,7 +459,7 @@ class Work {
 
   Answer restore() {
     const auto revision = static_cast<std::uint64_t>(std::max<std::int64_t>(request_.revision, 0));
-    if (request_.restore_as.empty()) {
+    if (request_.restore_as.empty() || request_.restore_as == request_.scene) {
       return answer_to(scenes_.restore(request_.scene, revision, note("")), "");
     }
     if (!is_scene_name(request_.restore_as)) {

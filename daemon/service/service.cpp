@@ -14,6 +14,10 @@ namespace {
 /// Nothing wakes the loop when a worker falls idle after its answer, so a stop looks again.
 constexpr std::chrono::milliseconds kDrainLook{5};
 
+/// So long a stop waits for changes of scenes: they end with the daemon, and a large one may take
+/// minutes.
+constexpr std::chrono::milliseconds kDrainChanges{500};
+
 std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::ceil<std::chrono::milliseconds>(
       std::max(duration, std::chrono::steady_clock::duration::zero()));
@@ -98,24 +102,31 @@ RunOutcome Service::drain() {
   for (const Job& job : waiting) job.abandon(Refusal::kStopping);
   scenes_.close();
   const Clock::time_point limit = Clock::now() + core_.config.drain_limit;
+  const Clock::time_point changes_limit = Clock::now() + kDrainChanges;
+  std::size_t given_up = 0;
   while (!idle()) {
     const Clock::time_point now = Clock::now();
     if (now >= limit || broken_) {
       core_.log->warn("stopped while planning", {{"being_planned", core_.workers.running()}});
       return RunOutcome::kAbandoned;
     }
+    if (now >= changes_limit) {
+      given_up += scenes_.unanswered();
+      scenes_.give_up();
+    }
     turn(std::min<Clock::duration>(limit - now, kDrainLook));
   }
   core_.limited_log.tell_left_out(Clock::now());
   core_.log->info("stopped", {{"answers", core_.counters.answered},
                               {"repeated", core_.counters.repeated},
-                              {"malformed", core_.counters.malformed}});
-  return RunOutcome::kDrained;
+                              {"malformed", core_.counters.malformed},
+                              {"changes_given_up", given_up}});
+  return given_up > 0 ? RunOutcome::kAbandoned : RunOutcome::kDrained;
 }
 
 bool Service::idle() const {
   // In this order: a worker leaves its answer in the mailbox before it counts as idle.
-  return core_.workers.running() == 0 && scenes_.idle() && core_.mailbox.empty() &&
+  return core_.workers.running() == 0 && scenes_.unanswered() == 0 && core_.mailbox.empty() &&
          core_.outbox.empty();
 }
 

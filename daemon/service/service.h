@@ -21,7 +21,7 @@ namespace camway::service {
 /// How a run of the service ended.
 enum class RunOutcome {
   kDrained,         ///< stopped on request, everything that was being planned was answered
-  kAbandoned,       ///< stopped on request, but some planning took longer than the drain limit
+  kAbandoned,       ///< the same, but threads still plan, or change a scene, for nobody
   kNotSubscribed,   ///< the transport took no subscription; nothing was served
   kTransportBroken  ///< the transport failed while serving
 };

@@ -169,6 +169,26 @@ roots = "/nonexistent"
       << "what was said before the file's faults";
 }
 
+TEST_F(DaemonOptionsFile, SharesAreNoLargerThanTheWhole) {
+  const std::string file = write("c.toml", R"([queue]
+requests = 10
+[scenes]
+roots = "/"
+upload_bytes = 500000000
+[watch]
+paths = 10
+paths_of_a_client = 20
+)");
+  EXPECT_EQ(parse({"--config", file.c_str()}).text,
+            "camwayd: " + file +
+                ":5: scenes.upload_bytes: is 500000000, but must be at most "
+                "scenes.all_uploads_bytes, which is 268435456\ncamwayd: " +
+                file +
+                ":8: watch.paths_of_a_client: is 20, but must be at most watch.paths, which is "
+                "10\n")
+      << "who wants fewer requests than a client may usually have means them all";
+}
+
 TEST_F(DaemonOptionsFile, ChecksThatThisMachineHasWhatTheFileNames) {
   const std::string file = write("c.toml", R"([metrics]
 address = "192.0.2.1"

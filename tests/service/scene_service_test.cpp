@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <latch>
 #include <map>
 #include <optional>
 #include <utility>
@@ -333,9 +334,15 @@ TEST_F(SceneServiceTest, ListsAndRestoresRevisions) {
   EXPECT_EQ(copy.scene.name, "copy");
   EXPECT_EQ(copy.scene.digest, first);
 
+  scene_request_t as_itself = request_for(10, scene_request_t::RESTORE, "s");
+  as_itself.revision = 3;
+  as_itself.restore_as = "s";
+  EXPECT_EQ(ask(as_itself).scene.revision, 5);
+  EXPECT_EQ(ask(request_for(11, scene_request_t::HISTORY, "s")).total, 5) << "nothing is forgotten";
+
   restore.request_id = 8;
   restore.revision = -1;
-  EXPECT_THAT(ask(restore).message, HasSubstr("1 to 4 are"));
+  EXPECT_THAT(ask(restore).message, HasSubstr("1 to 5 are"));
   as_copy.request_id = 9;
   as_copy.restore_as = "a/b";
   EXPECT_THAT(ask(as_copy).message, HasSubstr("restore_as:"));
@@ -415,6 +422,26 @@ TEST(SceneServiceSideBySide, AStopCallsOffImportsAndSaysSo) {
     EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
     EXPECT_EQ(running.scenes.find(load.scene), nullptr);
   }
+}
+
+TEST(SceneServiceSideBySide, AStopWaitsForNoLongChange) {
+  RunningService running;
+  Sender sender(running);
+  std::latch entered(1);
+  std::latch done(1);
+  running.scenes.on_change([&] {
+    entered.count_down();
+    done.wait();
+  });
+  const scene_request_t put = put_box(1, "room", "crate");
+  sender.send(put);
+  entered.wait();
+  EXPECT_EQ(running.stop(), RunOutcome::kAbandoned);
+  const auto answer = sender.answer_to(put);
+  done.count_down();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, scene_response_t::STATUS_OVERLOADED);
+  EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
 }
 
 TEST(SceneServiceSideBySide, OfAClientTheChangesOfASceneStayInOrder) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -487,7 +488,7 @@ void add_restore(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
                   "Make a new revision with the objects of an earlier one, which `history` lists");
   add_scene_name(*command, flags);
   command->add_option("--revision", flags->revision, "The earlier one")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
       ->required();
   command
       ->add_option("--as", flags->restore_as,
