@@ -36,7 +36,7 @@ TEST(LcmUrl, SaysWhatMakesNoSense) {
       {"", "must begin with a provider"},
       {"239.255.76.67:7667", "must begin with a provider"},
       {"bogus://", "(udpm, mpudpm, tcpq, memq)"},
-      {"file:///tmp/log?mode=r", "that sends and receives"},
+      {"file://some.log?mode=r", "that sends and receives"},
       {"udpm://10.0.0.1:7667?ttl=0", "'10.0.0.1' is no multicast group"},
       {"udpm://223.255.255.255", "no multicast group"},
       {"udpm://240.0.0.0", "no multicast group"},
