@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -19,10 +20,10 @@ constexpr int kExitBadInput = 2;
 int run(int argc, char** argv) {
   using namespace camway;
   const service::ParsedOptions parsed = service::parse_daemon_options(argc, argv);
-  if (!parsed.options) {
-    (parsed.exit_code == 0 ? std::cout : std::cerr) << parsed.text;
-    return parsed.exit_code;
-  }
+  std::cout << parsed.text;
+  for (const std::string& fault : parsed.faults) std::cerr << "camwayd: " << fault << '\n';
+  if (!parsed.faults.empty()) return kExitBadInput;
+  if (!parsed.options) return EXIT_SUCCESS;
 
   const auto log = std::make_shared<service::Log>(std::cerr, parsed.options->log_format,
                                                   parsed.options->log_level);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "daemon/correction/detour.h"
@@ -35,9 +37,8 @@ class Ladder {
     result_.path = path;
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
     is_beyond_limit_.resize(open_.size());
-    std::vector<bool> is_hit(keyframes_s_.size() - 1);
-    for (const CollisionInterval& interval : open_) is_hit[gap_of(interval)] = true;
-    const auto gaps_hit = static_cast<int>(std::ranges::count(is_hit, true));
+    for (const CollisionInterval& interval : open_) gaps_.push_back(gap_of(interval));
+    const auto gaps_hit = static_cast<int>(std::set(gaps_.begin(), gaps_.end()).size());
     improvement_ = {Objective::kClosest, kStepsAGap * gaps_hit};
     pursuit_ = {options.objective, kPursuitStepsAGap * gaps_hit, false};
     pursuit_.worth = kPursuitWorth;
@@ -45,26 +46,33 @@ class Ladder {
 
   LadderResult run() && {
     if (options_.max_inserted_keyframes == 0) return std::move(result_);
-    correct_all(Search::kWithRoom);
-    if (result_.separation) return std::move(result_);
-    if (any_without_way() && !deadline_.passed()) {
-      prove_infeasible();
-      if (result_.separation || result_.cage) return std::move(result_);
-      if (space_.may_turn()) correct_all(Search::kTurning);
+    if (correct()) {
+      polish();
+      come_closer();
+      if (options_.objective != Objective::kClosest) pursue_objective();
+      measure_corrections();
+      if (!beyond_limit_s_.empty()) {
+        result_.needed_keyframes = inserted_s_.size() + beyond_limit_s_.size();
+      }
     }
-    result_.timed_out = any_open() && deadline_.passed();
-    polish();
-    come_closer();
-    if (options_.objective != Objective::kClosest) pursue_objective();
-    measure_corrections();
-    if (!beyond_limit_s_.empty()) {
-      result_.needed_keyframes = result_.inserted_s.size() + beyond_limit_s_.size();
-    }
-    std::ranges::sort(result_.inserted_s);
+    result_.inserted_s.assign(inserted_s_.begin(), inserted_s_.end());
     return std::move(result_);
   }
 
  private:
+  // False if it was proved that there is no path.
+  bool correct() {
+    correct_all(Search::kWithRoom);
+    if (result_.separation) return false;
+    if (any_without_way() && !deadline_.passed()) {
+      prove_infeasible();
+      if (result_.separation || result_.cage) return false;
+      if (space_.may_turn()) correct_all(Search::kTurning);
+    }
+    result_.timed_out = any_open() && deadline_.passed();
+    return true;
+  }
+
   // Collisions close to each other are one interval, and there may be a keyframe between them.
   void split_at_keyframes(CollisionInterval interval) {
     auto next = std::ranges::upper_bound(keyframes_s_, interval.t_begin_s);
@@ -88,7 +96,7 @@ class Ladder {
   }
 
   [[nodiscard]] Problem problem(std::size_t index) {
-    Problem problem = problem_of_gap(gap_of(open_[index]));
+    Problem problem = problem_of_gap(gaps_[index]);
     problem.effort = &result_.corrections[index].tried;
     problem.interval = open_[index];
     std::erase(problem.others, open_[index]);
@@ -107,8 +115,11 @@ class Ladder {
     problem.has_path_begin = first == 0;
     problem.has_path_end = last + 1 == keyframes_s_.size();
     problem.interval = {keyframes_s_[gap], keyframes_s_[gap + 1]};
-    for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (is_open(i)) problem.others.push_back(open_[i]);
+    // Only those that reach into the part: there may be thousands elsewhere.
+    auto next =
+        std::ranges::lower_bound(open_, problem.path.begin_s(), {}, &CollisionInterval::t_end_s);
+    for (; next != open_.end() && next->t_begin_s <= problem.path.end_s(); ++next) {
+      if (is_open(static_cast<std::size_t>(next - open_.begin()))) problem.others.push_back(*next);
     }
     return problem;
   }
@@ -202,7 +213,7 @@ class Ladder {
       if (!is_open(i) || is_beyond_limit_[i]) continue;
       if (result_.separation) return;
       if (search == Search::kWithRoom && (nudge_away(i) || is_beyond_limit_[i])) continue;
-      const std::size_t gap = gap_of(open_[i]);
+      const std::size_t gap = gaps_[i];
       // The way round would replace all of the gap: no need to look for it twice.
       if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
     }
@@ -219,9 +230,11 @@ class Ladder {
   // A way round replaces all that lies between the two keyframes.
   bool replace_gap(std::size_t index, Search search) {
     Problem problem = this->problem(index);
+    const auto [first, last] = std::ranges::equal_range(gaps_, gaps_[index]);
     std::vector<std::size_t> same_gap;
-    for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (is_open(i) && gap_of(open_[i]) == gap_of(open_[index])) same_gap.push_back(i);
+    for (auto gap = first; gap != last; ++gap) {
+      const auto i = static_cast<std::size_t>(gap - gaps_.begin());
+      if (is_open(i)) same_gap.push_back(i);
     }
     std::erase_if(problem.others, [&](const CollisionInterval& other) {
       return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
@@ -348,9 +361,10 @@ class Ladder {
 
   // Those that have more than an end in common with the stretch of time.
   void mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const {
-    for (std::size_t gap = 0; gap < gaps.size(); ++gap) {
-      if (begin_s < keyframes_s_[gap + 1] && end_s > keyframes_s_[gap]) gaps[gap] = true;
-    }
+    const auto after_begin = std::ranges::upper_bound(keyframes_s_, begin_s);
+    auto gap = static_cast<std::size_t>(after_begin - keyframes_s_.begin());
+    for (gap -= gap > 0 ? 1 : 0; gap < gaps.size() && keyframes_s_[gap] < end_s; ++gap)
+      gaps[gap] = true;
   }
 
   bool accept(std::size_t index, Rung rung, const std::optional<Candidate>& candidate) {
@@ -382,13 +396,13 @@ class Ladder {
 
   // Puts the candidate into the path, unless it would need more keyframes than allowed.
   bool take(const Candidate& candidate) {
-    std::vector<double> inserted_s = result_.inserted_s;
+    std::vector<double> inserted_s;
     for (const motion::BumpRow& row : candidate.rows) add_keyframes(row, inserted_s);
-    std::ranges::sort(inserted_s);
-    const auto same = std::ranges::unique(inserted_s);
-    inserted_s.erase(same.begin(), same.end());
-    if (inserted_s.size() > static_cast<std::size_t>(options_.max_inserted_keyframes)) return false;
-    result_.inserted_s = std::move(inserted_s);
+    std::erase_if(inserted_s, [this](double time_s) { return inserted_s_.contains(time_s); });
+    const std::set<double> fresh_s(inserted_s.begin(), inserted_s.end());
+    const auto most = static_cast<std::size_t>(options_.max_inserted_keyframes);
+    if (inserted_s_.size() + fresh_s.size() > most) return false;
+    inserted_s_.insert(fresh_s.begin(), fresh_s.end());
     result_.path.replace(candidate.path);
     return true;
   }
@@ -412,16 +426,14 @@ class Ladder {
 
   // Those of one gap often are the same stretch of time.
   void measure_corrections() {
-    std::vector<Correction>& all = result_.corrections;
-    for (auto next = all.begin(); next != all.end(); ++next) {
-      if (next->rung == Rung::kNone) continue;
-      const auto same = std::find_if(all.begin(), next, [&](const Correction& other) {
-        return other.rung != Rung::kNone && other.t_begin_s == next->t_begin_s &&
-               other.t_end_s == next->t_end_s;
-      });
-      if (same == next) measure(*next);
-      next->moved_m = same->moved_m;
-      next->turned_rad = same->turned_rad;
+    std::map<std::pair<double, double>, const Correction*> measured;
+    for (Correction& correction : result_.corrections) {
+      if (correction.rung == Rung::kNone) continue;
+      const auto [same, is_new] =
+          measured.try_emplace({correction.t_begin_s, correction.t_end_s}, &correction);
+      if (is_new) measure(correction);
+      correction.moved_m = same->second->moved_m;
+      correction.turned_rad = same->second->turned_rad;
     }
   }
 
@@ -467,10 +479,12 @@ class Ladder {
   /// What proofs stand on: keyframes that we moved ourselves say nothing of the request.
   std::vector<std::size_t> as_asked_;
   std::vector<motion::Pose> poses_as_asked_;  ///< of these
-  std::vector<CollisionInterval> open_;       ///< as `result_.corrections`
+  std::vector<CollisionInterval> open_;       ///< as `result_.corrections`, in order of time
+  std::vector<std::size_t> gaps_;             ///< that these lie in
   /// Of these, what a way was found for that takes too many keyframes; and their times.
   std::vector<bool> is_beyond_limit_;
   std::vector<double> beyond_limit_s_;
+  std::set<double> inserted_s_;  ///< times of the inserted keyframes
   Improvement improvement_;
   Improvement closer_{Objective::kClosest, kCloserSteps, true, kCloserSpread};
   Improvement pursuit_;                     ///< of another objective than the closest

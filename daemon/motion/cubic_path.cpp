@@ -40,8 +40,11 @@ void CubicPath::replace(const CubicPath& part) {
   const auto last = std::ranges::lower_bound(pieces, part.end_s(), {}, &CubicPiece::t0_s);
   assert(first != pieces.end() && first->t0_s == part.begin_s());
   assert(std::prev(last)->t1_s == part.end_s());
-  const auto at = pieces.erase(first, last);
-  pieces.insert(at, part.pieces.begin(), part.pieces.end());
+  // Of a long path, what comes after is moved once at the most.
+  const auto common = std::min(last - first, std::ssize(part.pieces));
+  std::copy_n(part.pieces.begin(), common, first);
+  const auto at = pieces.erase(first + common, last);
+  pieces.insert(at, part.pieces.begin() + common, part.pieces.end());
 }
 
 Path CubicPath::path() const {

@@ -94,7 +94,8 @@ class Planner {
     }
     result_.keyframes = prepared_keyframes(request_);
     if (!keyframes_are_free()) return false;
-    result_.path = motion::interpolate(result_.keyframes);
+    interpolated_ = motion::interpolate_cubic(result_.keyframes);
+    result_.path = interpolated_.path();
     result_.timing.motion_ms = lap_ms();
     return true;
   }
@@ -186,10 +187,9 @@ class Planner {
     options.objective = request_.options.objective;
     options.orientation = request_.options.orientation;
     options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
-    correction::LadderResult corrected =
-        correction::correct_by_ladder(snapshot_.mesh, obstacles_, *body_, result_.keyframes,
-                                      motion::interpolate_cubic(result_.keyframes), found, options,
-                                      deadline_.share_of_rest(kShareOfCorrection));
+    correction::LadderResult corrected = correction::correct_by_ladder(
+        snapshot_.mesh, obstacles_, *body_, result_.keyframes, interpolated_, found, options,
+        deadline_.share_of_rest(kShareOfCorrection));
     timed_out_ = corrected.timed_out;
     needed_keyframes_ = corrected.needed_keyframes;
     result_.corrections = std::move(corrected.corrections);
@@ -264,24 +264,18 @@ class Planner {
   void keep_the_better_path() {
     if (colliding_s(result_.remaining_collisions) <= colliding_s(result_.collisions)) return;
     if (result_.collisions.empty()) return;
-    result_.keyframes = given_keyframes();
-    result_.path = motion::interpolate(result_.keyframes);
+    std::erase_if(result_.keyframes, [](const Keyframe& keyframe) {
+      return keyframe.origin == motion::KeyframeOrigin::kInserted;
+    });
+    result_.path = interpolated_.path();
     corrected_.reset();
     is_as_interpolated_ = true;
     result_.remaining_collisions = result_.collisions;
   }
 
-  [[nodiscard]] std::vector<Keyframe> given_keyframes() const {
-    std::vector<Keyframe> given = result_.keyframes;
-    std::erase_if(given, [](const Keyframe& keyframe) {
-      return keyframe.origin == motion::KeyframeOrigin::kInserted;
-    });
-    return given;
-  }
-
   void measure() {
     if (result_.path.empty()) return;
-    const motion::Path before = motion::interpolate(given_keyframes());
+    const motion::Path before = interpolated_.path();
     result_.measures_before = motion::measure(before, before);
     if (result_.collisions.empty()) {
       result_.measures_before->clearance_lower_bound_m =
@@ -305,13 +299,14 @@ class Planner {
     if (!result_.measures || !limits.any()) return;
     breach_ = find_limit_breach(result_.path, limits);
     if (!breach_ || !limits.may_retime) return;
-    const motion::CubicPath interpolated = motion::interpolate_cubic(given_keyframes());
-    const motion::CubicPath path =
-        corrected_ ? *corrected_ : motion::interpolate_cubic(result_.keyframes);
+    const motion::CubicPath path = corrected_ ? *corrected_
+                                   : is_as_interpolated_
+                                       ? interpolated_
+                                       : motion::interpolate_cubic(result_.keyframes);
     // The policy is for what the ladder corrects.
     const correction::OrientationPolicy policy =
         corrected_ ? request_.options.orientation : correction::OrientationPolicy{};
-    const TooFast too_fast{path, interpolated, limits, policy, obstacles_, *body_, detect_};
+    const TooFast too_fast{path, interpolated_, limits, policy, obstacles_, *body_, detect_};
     std::optional<Retimed> slowed;
     if (result_.certificate.certified) {
       slowed = slowed_where_needed(too_fast, deadline_.share_of_rest(kShareOfSlowing));
@@ -517,6 +512,7 @@ class Planner {
   const double started_ms_ = deadline_.elapsed_ms();
   double lap_begin_ms_ = started_ms_;
   std::optional<motion::Body> body_;
+  motion::CubicPath interpolated_;  ///< through the given keyframes
   bool is_as_interpolated_ = true;
   bool timed_out_ = false;
   bool is_searched_ = true;                      ///< the path as interpolated, for collisions

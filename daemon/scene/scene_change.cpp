@@ -8,14 +8,6 @@
 namespace camway::scene {
 namespace {
 
-std::uint64_t bytes_of(const SceneChanges& changes) {
-  std::uint64_t bytes = 0;
-  for (const SceneChange& change : changes) {
-    bytes += change.source ? change.source->memory_bytes() : 0;
-  }
-  return bytes;
-}
-
 SceneObjects::iterator place_of(const std::string& name, SceneObjects& objects) {
   return std::ranges::lower_bound(
       objects, name, {}, [](const auto& object) -> const std::string& { return object->name; });
@@ -86,30 +78,43 @@ void SceneHistory::State::remove(std::string_view name) {
   objects.erase(found);
 }
 
-void SceneHistory::State::apply(const SceneChanges& changes) {
-  for (const SceneChange& change : changes) {
-    switch (change.kind) {
-      case SceneChange::Kind::kPut:
-        put(change.object, {change.source, change.placement});
-        break;
-      case SceneChange::Kind::kMove:
-        objects.find(change.object)->second.placement = change.placement;
-        break;
-      case SceneChange::Kind::kRemove:
-        remove(change.object);
-        break;
-    }
+void SceneHistory::State::apply(const SceneChange& change) {
+  switch (change.kind) {
+    case SceneChange::Kind::kPut:
+      put(change.object, {change.source, change.placement});
+      break;
+    case SceneChange::Kind::kMove:
+      objects.find(change.object)->second.placement = change.placement;
+      break;
+    case SceneChange::Kind::kRemove:
+      remove(change.object);
+      break;
   }
 }
 
-std::uint64_t SceneHistory::bytes() const {
-  return entry_bytes_ + before_.bytes - std::min(before_.bytes, newest_.bytes);
+void SceneHistory::State::apply(const SceneChanges& changes) {
+  for (const SceneChange& change : changes) apply(change);
+}
+
+// What is kept is no more than what there was at first and what each change brought beside what
+// its object had been. An object has no more than these, so the difference is never below 0.
+std::uint64_t SceneHistory::bytes() const { return before_.bytes + entry_bytes_ - newest_.bytes; }
+
+std::uint64_t SceneHistory::bytes_beside(const SceneChange& change) const {
+  if (!change.source) return 0;
+  const auto found = newest_.objects.find(change.object);
+  return found == newest_.objects.end() ? change.source->memory_bytes()
+                                        : change.source->memory_bytes_beside(*found->second.source);
 }
 
 void SceneHistory::add(SceneChanges changes, KeptRevision made) {
-  entry_bytes_ += bytes_of(changes);
-  newest_.apply(changes);
-  entries_.push_back({std::move(made), std::move(changes)});
+  Entry entry{std::move(made), std::move(changes)};
+  for (const SceneChange& change : entry.changes) {
+    entry.bytes += bytes_beside(change);
+    newest_.apply(change);
+  }
+  entry_bytes_ += entry.bytes;
+  entries_.push_back(std::move(entry));
   while (entries_.size() > limits_.changes || bytes() > limits_.bytes) forget_oldest();
 }
 
@@ -117,7 +122,7 @@ void SceneHistory::forget_oldest() {
   Entry& entry = entries_.front();
   before_.apply(entry.changes);
   oldest_ = std::move(entry.made);
-  entry_bytes_ -= bytes_of(entry.changes);
+  entry_bytes_ -= entry.bytes;
   entries_.pop_front();
 }
 

@@ -70,6 +70,7 @@ class SceneHistory {
   struct Entry {
     KeptRevision made;  ///< that the changes led to, together
     SceneChanges changes;
+    std::uint64_t bytes = 0;  ///< of their sources, beside what those before them had
   };
 
   /// Begins with `first`.
@@ -78,10 +79,10 @@ class SceneHistory {
   /// Precondition: `changed` made `made.revision` of the newest one.
   void add(SceneChanges changes, KeptRevision made);
 
-  /// What the changes put into the scene, in its own frame, still there or not, and by how much the
-  /// scene before them was larger than it is now. So all that is kept takes no more than this and
-  /// the scene; less, where a change put again what another had put before. Above 0 only if there
-  /// is a change.
+  /// What is kept beside the newest revision, so that earlier ones can be built again: about, and
+  /// more only where a source came back that had been gone. What an object's source shares with the
+  /// one before it, as an occupancy map does after a scan, counts once. Above 0 only if there is a
+  /// change.
   [[nodiscard]] std::uint64_t bytes() const;
   /// Precondition: there is a change.
   void forget_oldest();
@@ -113,9 +114,12 @@ class SceneHistory {
 
     void put(std::string_view name, const Placed& placed);
     void remove(std::string_view name);
+    void apply(const SceneChange& change);
     void apply(const SceneChanges& changes);
   };
 
+  /// What the change keeps that the newest revision has not.
+  [[nodiscard]] std::uint64_t bytes_beside(const SceneChange& change) const;
   [[nodiscard]] std::optional<State> state_at(std::uint64_t revision) const;
 
   std::string name_;
@@ -125,7 +129,7 @@ class SceneHistory {
   State before_;  ///< at `oldest_`
   State newest_;
   std::deque<Entry> entries_;
-  std::uint64_t entry_bytes_ = 0;  ///< of their sources
+  std::uint64_t entry_bytes_ = 0;  ///< of all of them
 };
 
 }  // namespace camway::scene

@@ -154,6 +154,22 @@ std::uint64_t ObjectSource::memory_bytes() const {
   return bytes;
 }
 
+std::uint64_t ObjectSource::memory_bytes_beside(const ObjectSource& other) const {
+  if (this == &other) return 0;
+  std::uint64_t bytes = 0;
+  if (field_O && field_O != other.field_O) bytes += field_O->statistics().memory_bytes;
+  if (map_O && map_O != other.map_O) {
+    bytes += other.map_O ? map_O->memory_bytes_beside(*other.map_O) : map_O->memory_bytes();
+  }
+  auto theirs = other.parts_O.begin();
+  for (const MeshPart& part : parts_O) {
+    while (theirs != other.parts_O.end() && theirs->key < part.key) ++theirs;
+    const bool is_shared = theirs != other.parts_O.end() && theirs->mesh == part.mesh;
+    bytes += is_shared ? sizeof(MeshPart) : part.mesh->memory_bytes() + kBytesBesideAPart;
+  }
+  return bytes;
+}
+
 ImportReport report_of(const Mesh& mesh, std::string format) {
   ImportReport report;
   report.format = std::move(format);

@@ -48,6 +48,8 @@ struct ObjectSource {
 
   /// What the source refers to, also where other sources refer to it as well.
   [[nodiscard]] std::uint64_t memory_bytes() const;
+  /// The same, without what `other` refers to: of a map after a scan, what the scan changed.
+  [[nodiscard]] std::uint64_t memory_bytes_beside(const ObjectSource& other) const;
 };
 
 /// Builds what does not depend on where the object is. `report` says how the mesh came to be.

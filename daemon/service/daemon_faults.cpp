@@ -3,20 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-#include <system_error>
-
 #include "daemon/service/http_page.h"
 #include "lcmtypes/message_keys.h"
 
 namespace camway::service {
 namespace {
-
-bool is_readable_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return !std::filesystem::is_directory(file, ignored) && std::ifstream(file).is_open();
-}
 
 /// The fault is said of the default where that was said, else of the longest.
 void check_deadlines(const DaemonOptions& options, const std::string& table,
@@ -24,10 +15,13 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
   if (limits.default_s <= limits.max_s) return;
   const std::string usual = table + ".deadline_s";
   const std::string longest = table + ".max_deadline_s";
-  const bool blames_usual = options.said_at.contains(usual) || !options.said_at.contains(longest);
-  faults.push_back(fmt::format("{}: {} is {:g}, but must be at most {}, which is {:g}",
-                               options.where(blames_usual ? usual : longest), usual,
-                               limits.default_s, longest, limits.max_s));
+  if (options.said_at.contains(usual) || !options.said_at.contains(longest)) {
+    faults.push_back(fmt::format("{}: is {:g}, but must be at most {}, which is {:g}",
+                                 options.where(usual), limits.default_s, longest, limits.max_s));
+  } else {
+    faults.push_back(fmt::format("{}: is {:g}, but must be at least {}, which is {:g}",
+                                 options.where(longest), limits.max_s, usual, limits.default_s));
+  }
 }
 
 /// A share that is larger than the whole, where somebody asked for that share: it could never
@@ -65,11 +59,6 @@ std::vector<std::string> contradictions(const DaemonOptions& options) {
 
 std::vector<std::string> missing_things(const DaemonOptions& options) {
   std::vector<std::string> faults;
-  for (const SceneArgument& scene : options.scenes) {
-    if (is_readable_file(scene.file)) continue;
-    faults.push_back(fmt::format("{}: scene '{}': {} cannot be read", scene.said_at, scene.name,
-                                 scene.file.string()));
-  }
   if (!options.auth.key_file.empty()) {
     const wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.auth.key_file);
     if (!read.keys) faults.push_back(options.where("auth.key_file") + ": " + read.error);

@@ -13,8 +13,8 @@ namespace camway::service {
 /// Values that contradict each other.
 std::vector<std::string> contradictions(const DaemonOptions& options);
 
-/// Scene files, the key file and the address for metrics, of which this machine must have what the
-/// options say. Looks at them and changes nothing.
+/// The key file and the address for metrics, of which this machine must have what the options say.
+/// Looks at them and changes nothing.
 std::vector<std::string> missing_things(const DaemonOptions& options);
 
 }  // namespace camway::service

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/daemon_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -15,6 +18,7 @@
 #include "daemon/service/daemon_faults.h"
 #include "daemon/service/daemon_settings.h"
 #include "daemon/service/lcm_url.h"
+#include "daemon/service/try_scenes.h"
 
 namespace camway::service {
 namespace {
@@ -22,14 +26,10 @@ namespace {
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
     "signal ends it at once), 1 LCM or the port for metrics cannot be used, or LCM failed, 2 wrong "
-    "command "
-    "line, configuration or scene file.\n"
+    "command line, configuration or scene file.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
-    "is "
-    "logged and needs a restart.\n"
+    "is logged and needs a restart.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";
-
-constexpr int kExitBadInput = 2;
 
 int workers_for_this_machine() {
   return static_cast<int>(
@@ -68,8 +68,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "Configuration file (TOML); what is given on the command line goes before it")
       ->type_name("FILE");
   app.add_flag("--check-config", raw.check_config,
-               "Say what command line and configuration file come to, and end: with code 2 if "
-               "anything is wrong");
+               "Say what command line and configuration file come to, having read the scenes, and "
+               "end: with code 2 if anything is wrong");
   app.add_option("--scene", raw.scenes,
                  "A scene to hold; may be given several times, beside those of the configuration "
                  "file or in the place of one of the same name. scale: file units to metres; up: "
@@ -100,6 +100,16 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                   "How: text for people, or an object of JSON on each line", options);
 }
 
+ParsedOptions failed(std::vector<std::string> faults) {
+  return {std::nullopt, {}, std::move(faults)};
+}
+
+/// `fault` with where its setting was said; nothing if there is none.
+std::string fault_at(std::string_view key, const std::string& fault,
+                     const DaemonOptions& options) {
+  return fault.empty() ? fault : options.where(key) + ": " + fault;
+}
+
 /// Reads the command line over `options`; what to end with if it is no good or asks for help.
 std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& raw,
                                         DaemonOptions& options) {
@@ -110,8 +120,8 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
-    const bool good = app.exit(error, text, text) == 0;
-    return ParsedOptions{std::nullopt, good ? 0 : kExitBadInput, text.str()};
+    if (app.exit(error, text, text) == 0) return ParsedOptions{std::nullopt, text.str(), {}};
+    return failed({fmt::format("{} (see camwayd --help)", error.what())});
   }
 }
 
@@ -147,50 +157,42 @@ std::string open_roots(const std::string& folders, SceneRoots& roots) {
 std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   options.config_file = raw.config_file;
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
-  if (std::string fault = add_scenes(raw.scenes, options.scenes); !fault.empty()) return {fault};
-  if (options.scenes.empty() && options.scene_roots.empty()) {
-    return {
-        "no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
-        "--scene-roots where clients may load scenes from"};
+  std::vector<std::string> faults = contradictions(options);
+  const auto add = [&faults](std::string fault) {
+    if (!fault.empty()) faults.push_back(std::move(fault));
+  };
+  const std::string fault_of_scenes = add_scenes(raw.scenes, options.scenes);
+  add(fault_of_scenes);
+  if (fault_of_scenes.empty() && options.scenes.empty() && options.scene_roots.empty()) {
+    add("no scene is named: give --scene or, in a configuration file, [[scene]]; or say with "
+        "--scene-roots where clients may load scenes from");
   }
   for (SceneArgument& scene : options.scenes) {
     scene.options.import.map_limits = options.service.scene_rules.maps;
     scene.options.mirror_voxels = options.service.scene_rules.mirror_voxels;
   }
-  std::vector<std::string> faults = contradictions(options);
   // Of file and flags it was looked at when it was read; the environment's counts only here.
-  if (const std::string fault = parse_lcm_url(options.lcm_url).fault; !fault.empty()) {
-    faults.push_back(options.where("lcm.url") + ": " + fault);
-  }
-  if (const std::string fault = open_roots(options.scene_roots, options.service.scene_rules.roots);
-      !fault.empty()) {
-    faults.push_back(options.where("scenes.roots") + ": " + fault);
-  }
+  add(fault_at("lcm.url", parse_lcm_url(options.lcm_url).fault, options));
+  add(fault_at("scenes.roots",
+               open_roots(options.scene_roots, options.service.scene_rules.roots), options));
   return faults;
 }
 
-ParsedOptions failed(const std::vector<std::string>& faults) {
-  ParsedOptions parsed{std::nullopt, kExitBadInput, {}};
-  for (const std::string& fault : faults) parsed.text += "camwayd: " + fault + '\n';
-  return parsed;
-}
-
-/// What `--check-config` says of options that are right in themselves.
-ParsedOptions check(const DaemonOptions& options) {
-  if (const std::vector<std::string> faults = missing_things(options); !faults.empty()) {
-    return failed(faults);
-  }
+/// What `--check-config` says of options that have these faults in themselves.
+ParsedOptions check(const DaemonOptions& options, std::vector<std::string> faults) {
+  std::ranges::move(missing_things(options), std::back_inserter(faults));
+  TriedScenes scenes = try_scenes(options.scenes, options.store);
+  std::ranges::move(scenes.faults, std::back_inserter(faults));
+  if (!faults.empty()) return failed(std::move(faults));
   std::ostringstream found;
   found << "camwayd: the configuration is right\n";
-  for (const SceneArgument& scene : options.scenes) {
-    found << "scene '" << scene.name << "': " << scene.file.string() << '\n';
-  }
+  for (const std::string& scene : scenes.found) found << scene << '\n';
   DaemonOptions defaults = default_options();
   defaults.service.workers = workers_for_this_machine();
   for (const SettingChange& change : changes_between(std::move(defaults), options)) {
     found << change.key << " = " << change.after << " (default " << change.before << ")\n";
   }
-  return {std::nullopt, 0, found.str()};
+  return {std::nullopt, found.str(), {}};
 }
 
 }  // namespace
@@ -223,17 +225,16 @@ ParsedOptions parse_daemon_options(int argc, const char* const* argv) {
   if (std::optional<ParsedOptions> end = read_flags(argc, argv, raw, options)) return *end;
   if (!raw.config_file.empty()) {
     options = default_options();
-    const std::vector<std::string> faults = read_config_file(raw.config_file, options);
-    if (!faults.empty()) return failed(faults);
+    std::vector<std::string> faults = read_config_file(raw.config_file, options);
+    if (!faults.empty()) return failed(std::move(faults));
     // Once more, over the file. What was good the first time is good again.
     raw = {};
     if (std::optional<ParsedOptions> end = read_flags(argc, argv, raw, options)) return *end;
   }
-  if (const std::vector<std::string> faults = resolve(raw, options); !faults.empty()) {
-    return failed(faults);
-  }
-  if (raw.check_config) return check(options);
-  return {std::move(options), 0, {}};
+  std::vector<std::string> faults = resolve(raw, options);
+  if (raw.check_config) return check(options, std::move(faults));
+  if (!faults.empty()) return failed(std::move(faults));
+  return {std::move(options), {}, {}};
 }
 
 }  // namespace camway::service

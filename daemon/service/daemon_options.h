@@ -57,16 +57,15 @@ struct DaemonOptions {
 /// for each core.
 DaemonOptions default_options();
 
-/// Options, or what to say in their place and the code to exit with: 0 after `--help`, `--version`
-/// and a good `--check-config` (for standard output), 2 after an error (for standard error).
+/// Options, or what to say in their place.
 struct ParsedOptions {
   std::optional<DaemonOptions> options;
-  int exit_code = 0;
-  std::string text;
+  std::string text;                 ///< after `--help`, `--version` and a good `--check-config`
+  std::vector<std::string> faults;  ///< each begins with where it is; the process ends with code 2
 };
 
 /// Reads the command line and the configuration file that it names. Another call later sees what
-/// became of that file.
+/// became of that file. With `--check-config` it also reads the scenes, as a start would.
 ParsedOptions parse_daemon_options(int argc, const char* const* argv);
 
 }  // namespace camway::service

@@ -5,13 +5,19 @@
 #include <fmt/format.h>
 #include <microhttpd.h>
 #include <netinet/in.h>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 namespace camway::service {
@@ -20,15 +26,15 @@ namespace {
 constexpr std::size_t kConnectionBytes = 16'384;
 constexpr int kBacklog = 16;
 
-/// A socket that is closed unless somebody takes it.
-class Socket {
+/// A descriptor that is closed unless somebody takes it.
+class Descriptor {
  public:
-  explicit Socket(int fd) : fd_(fd) {}
-  ~Socket() {
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
     if (fd_ >= 0) close(fd_);
   }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
 
   [[nodiscard]] int get() const { return fd_; }
   int release() { return std::exchange(fd_, -1); }
@@ -82,32 +88,69 @@ int port_of(int socket) {
   return ntohs(address.storage.ss_family == AF_INET ? v4->sin_port : v6->sin6_port);
 }
 
+/// Waits for its connections on a thread of its own rather than on one of the library's. There,
+/// libmicrohttpd 0.9.75 (Debian 12) dereferences null when rubbish arrives while another thread
+/// stops it: it drops the answer to the rubbish because it is stopped, and then writes its head.
+/// Whoever runs and stops it in one thread never meets that.
 class MicroHttpPage final : public HttpPage {
  public:
   MicroHttpPage(HttpContent content, const HttpLimits& limits)
-      : content_(std::move(content)), limits_(limits) {}
+      : content_(std::move(content)), limits_(limits), stop_(eventfd(0, EFD_CLOEXEC)) {}
   ~MicroHttpPage() override {
-    if (daemon_ != nullptr) MHD_stop_daemon(daemon_);
+    if (!thread_.joinable()) return;
+    eventfd_write(stop_.get(), 1);
+    thread_.join();
   }
   MicroHttpPage(const MicroHttpPage&) = delete;
   MicroHttpPage& operator=(const MicroHttpPage&) = delete;
 
   /// Takes over `socket`, which listens.
-  bool start(Socket& socket) {
+  bool start(Descriptor& socket) {
+    if (stop_.get() < 0) return false;
     port_ = port_of(socket.get());
     daemon_ = MHD_start_daemon(
-        MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_AUTO, 0, nullptr, nullptr, &on_request, this,
-        MHD_OPTION_LISTEN_SOCKET, socket.get(), MHD_OPTION_CONNECTION_LIMIT,
-        static_cast<unsigned int>(limits_.connections), MHD_OPTION_CONNECTION_TIMEOUT,
-        static_cast<unsigned int>(limits_.idle_s), MHD_OPTION_CONNECTION_MEMORY_LIMIT,
-        kConnectionBytes, MHD_OPTION_NOTIFY_CONNECTION, &on_connection, this, MHD_OPTION_END);
-    if (daemon_ != nullptr) socket.release();
-    return daemon_ != nullptr;
+        MHD_USE_EPOLL, 0, nullptr, nullptr, &on_request, this, MHD_OPTION_LISTEN_SOCKET,
+        socket.get(), MHD_OPTION_CONNECTION_LIMIT, static_cast<unsigned int>(limits_.connections),
+        MHD_OPTION_CONNECTION_TIMEOUT, static_cast<unsigned int>(limits_.idle_s),
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, kConnectionBytes, MHD_OPTION_NOTIFY_CONNECTION,
+        &on_connection, this, MHD_OPTION_END);
+    if (daemon_ == nullptr) return false;
+    socket.release();
+    thread_ = std::thread([this] { run(); });
+    return true;
   }
 
   [[nodiscard]] int port() const override { return port_; }
 
  private:
+  /// The page's thread: serves until it shall stop.
+  void run() {
+    const int events = MHD_get_daemon_info(daemon_, MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
+    std::array<pollfd, 2> inputs{{{events, POLLIN, 0}, {stop_.get(), POLLIN, 0}}};
+    while (inputs[1].revents == 0) {
+      serve();
+      poll(inputs.data(), inputs.size(), patience_ms());
+    }
+    MHD_stop_daemon(daemon_);
+  }
+
+  /// Serves what there is. Again after a connection has gone: only then does the library listen
+  /// for those who waited for its place.
+  void serve() {
+    do {
+      one_has_gone_ = false;
+      MHD_run(daemon_);
+    } while (one_has_gone_);
+  }
+
+  /// Until the next connection has been idle for too long; -1 if there is none.
+  [[nodiscard]] int patience_ms() const {
+    MHD_UNSIGNED_LONG_LONG timeout_ms = 0;
+    if (MHD_get_timeout(daemon_, &timeout_ms) != MHD_YES) return -1;
+    return static_cast<int>(
+        std::min<MHD_UNSIGNED_LONG_LONG>(timeout_ms, std::numeric_limits<int>::max()));
+  }
+
   static MHD_Result answer(MHD_Connection* connection, unsigned int code, const std::string& type,
                            const std::string& body) {
     MHD_Response* const response = MHD_create_response_from_buffer(
@@ -124,10 +167,12 @@ class MicroHttpPage final : public HttpPage {
   static void on_connection(void* self, MHD_Connection* /*connection*/, void** /*state*/,
                             MHD_ConnectionNotificationCode what) {
     auto& page = *static_cast<MicroHttpPage*>(self);
-    page.connections_ += what == MHD_CONNECTION_NOTIFY_STARTED ? 1 : -1;
-    const bool full =
-        what == MHD_CONNECTION_NOTIFY_STARTED && page.connections_ >= page.limits_.connections;
-    if (full && page.content_.full) page.content_.full();
+    const bool started = what == MHD_CONNECTION_NOTIFY_STARTED;
+    page.connections_ += started ? 1 : -1;
+    page.one_has_gone_ |= !started;
+    if (started && page.connections_ >= page.limits_.connections && page.content_.full) {
+      page.content_.full();
+    }
   }
 
   static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
@@ -148,9 +193,12 @@ class MicroHttpPage final : public HttpPage {
 
   const HttpContent content_;
   const HttpLimits limits_;
-  int connections_ = 0;  ///< the page's thread alone counts them
+  const Descriptor stop_;  ///< readable when the thread shall end
   MHD_Daemon* daemon_ = nullptr;
   int port_ = 0;
+  int connections_ = 0;        ///< the page's thread alone counts them
+  bool one_has_gone_ = false;  ///< since the library was last asked to serve; as above
+  std::thread thread_;
 };
 
 }  // namespace
@@ -163,7 +211,7 @@ bool is_ip_address(const std::string& text) {
 bool is_address_of_this_machine(const std::string& text) {
   Address address;
   if (!parse({text, 0}, address)) return false;
-  const Socket socket(::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const Descriptor socket(::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
   return socket.get() >= 0 &&
          bind(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.size) == 0;
 }
@@ -175,7 +223,7 @@ OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
     return {nullptr, fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
   }
   const std::string where = fmt::format("cannot listen on {} port {}", address.ip, address.port);
-  Socket socket(::socket(parsed.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  Descriptor socket(::socket(parsed.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!listen_on(socket.get(), parsed)) {
     return {nullptr, fmt::format("{}: {}", where, std::strerror(errno))};
   }

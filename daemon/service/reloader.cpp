@@ -93,10 +93,10 @@ void Reloader::look_at_files(const std::stop_token& stop) {
 
 void Reloader::reload(const std::stop_token& stop) {
   ParsedOptions parsed = read_();
-  if (!parsed.options) {
-    log_->error("reload failed, all stays as it was", {{"reason", parsed.text}});
-    return;
+  for (const std::string& fault : parsed.faults) {
+    log_->error("reload failed, all stays as it was", {{"reason", fault}});
   }
+  if (!parsed.options) return;
   wire::MessageKeys::Read keys;
   if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
   if (!keys.error.empty()) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <ctime>
 #include <list>
 #include <thread>
 #include <vector>
@@ -114,18 +115,62 @@ TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
   EXPECT_GE(full, 1) << "somebody is told";
 }
 
+/// Nothing else happens after one has gone that would make it look for those who wait.
+TEST(HttpPage, TheOnlyPlaceIsGivenOn) {
+  const OpenedHttpPage opened = open_page({}, {.connections = 1, .idle_s = 600});
+  ASSERT_TRUE(opened.page) << opened.error;
+  std::list<LocalConnection> silent;
+  silent.emplace_back(opened.page->port());
+  const LocalConnection next(opened.page->port());
+  ASSERT_TRUE(next.send("GET /page HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"));
+  EXPECT_FALSE(next.has_something(0.3));
+  silent.clear();
+  EXPECT_EQ(body_of(next.receive()), "hello\n");
+}
+
+/// Requests that are none, each wrong in another place.
+std::vector<std::string> rubbish() {
+  return {std::string("\0\1\2\r\n\r\n", 7), std::string(100'000, 'A'),
+          "GET " + std::string(40'000, 'x'),
+          std::string("GET /page HTTP/1.1\r\nContent-Length: -1\r\n\r\n")};
+}
+
 TEST(HttpPage, RubbishDoesNotEndIt) {
   const OpenedHttpPage opened = open_page();
   ASSERT_TRUE(opened.page) << opened.error;
   const int port = opened.page->port();
-  for (const std::string& rubbish :
-       {std::string("\0\1\2\r\n\r\n", 7), std::string(100'000, 'A'),
-        "GET " + std::string(40'000, 'x'),
-        std::string("GET /page HTTP/1.1\r\nContent-Length: -1\r\n\r\n")}) {
-    const LocalConnection connection(port);
-    connection.send(rubbish);
-  }
+  for (const std::string& sent : rubbish()) LocalConnection(port).send(sent);
   EXPECT_EQ(body_of(http_request(port, "GET", "/page")), "hello\n");
+}
+
+/// On the library's own thread this ended the process, about one in fifty stops.
+TEST(HttpPage, RubbishWhileItStopsDoesNoHarm) {
+  for (int i = 0; i < 300; ++i) {
+    OpenedHttpPage opened = open_page();
+    ASSERT_TRUE(opened.page) << opened.error;
+    std::list<LocalConnection> connections;
+    for (int k = 0; k < 12; ++k) connections.emplace_back(opened.page->port());
+    std::atomic<int> sent = 0;
+    const std::jthread sender([&] {
+      for (const LocalConnection& connection : connections) {
+        connection.send("GET /page HTTP/1.1\r\nContent-Length: -1\r\n\r\n");
+        ++sent;
+      }
+    });
+    while (sent < 1 + i % 12) std::this_thread::yield();
+    opened.page.reset();
+  }
+}
+
+/// One that nobody talks to waits, and does not look again and again.
+TEST(HttpPage, CostsNothingWhenNobodyAsks) {
+  const OpenedHttpPage opened = open_page({}, {.idle_s = 600});
+  ASSERT_TRUE(opened.page) << opened.error;
+  const LocalConnection silent(opened.page->port());
+  EXPECT_EQ(body_of(http_request(opened.page->port(), "GET", "/page")), "hello\n");
+  const std::clock_t before = std::clock();
+  EXPECT_FALSE(silent.has_something(0.5));
+  EXPECT_LT(std::clock() - before, CLOCKS_PER_SEC / 4) << "of the processor in half a second";
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(ReloaderTest, TakesOverScenesAndLogLevel) {
   DaemonOptions next = running_;
   next.scenes = {scene_of("hall")};
   next.log_level = LogLevel::kDebug;
-  const std::string said = reload([&] { return ParsedOptions{next, 0, {}}; });
+  const std::string said = reload([&] { return ParsedOptions{next, {}, {}}; });
   EXPECT_THAT(said, HasSubstr("info reloaded setting setting=log.level value=debug"));
   EXPECT_EQ(log_.log()->level(), LogLevel::kDebug);
   EXPECT_NE(store_.find("hall"), nullptr);
@@ -86,7 +86,7 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
   DaemonOptions next = running_;
   next.log_level = LogLevel::kDebug;
   EXPECT_THAT(reload([&] {
-                return ParsedOptions{next, 0, {}};
+                return ParsedOptions{next, {}, {}};
               }),
               HasSubstr("info reloaded configured_scenes=1"))
       << "and reloads as ever";
@@ -108,7 +108,7 @@ TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
   DaemonOptions next = running_;
   next.scenes = {scene_of("hall")};
   testing::write_slow_mesh(next.scenes.front().file);
-  read_ = [&] { return ParsedOptions{next, 0, {}}; };
+  read_ = [&] { return ParsedOptions{next, {}, {}}; };
   reloader_.emplace(
       running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
       std::chrono::milliseconds(5));
@@ -129,7 +129,7 @@ TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
 TEST_F(ReloaderTest, SaysWhatNeedsARestart) {
   DaemonOptions next = running_;
   next.service.queue.jobs = 9;
-  const std::string said = reload([&] { return ParsedOptions{next, 0, {}}; });
+  const std::string said = reload([&] { return ParsedOptions{next, {}, {}}; });
   EXPECT_THAT(said, HasSubstr("warning setting stays until the daemon is started again "
                               "setting=queue.requests value=256 wanted=9"));
   EXPECT_THAT(said, Not(HasSubstr("log.level")));
@@ -137,9 +137,10 @@ TEST_F(ReloaderTest, SaysWhatNeedsARestart) {
 
 TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
   const std::string said = reload([] {
-    return ParsedOptions{std::nullopt, 2, "camwayd: c.toml:3: no"};
+    return ParsedOptions{std::nullopt, {}, {"c.toml:3: no", "c.toml:5: nor this"}};
   });
-  EXPECT_THAT(said, HasSubstr("all stays as it was reason=\"camwayd: c.toml:3: no\""));
+  EXPECT_THAT(said, HasSubstr("all stays as it was reason=\"c.toml:3: no\"\n"));
+  EXPECT_THAT(said, HasSubstr("all stays as it was reason=\"c.toml:5: nor this\"\n"));
   EXPECT_NE(store_.find("room"), nullptr);
 
   DaemonOptions next = running_;
@@ -147,7 +148,7 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
   next.scenes = {scene_of("hall")};
   next.scenes.back().file = "/nowhere.obj";
   EXPECT_THAT(reload([&] {
-                return ParsedOptions{next, 0, {}};
+                return ParsedOptions{next, {}, {}};
               }),
               HasSubstr("not all scenes could be taken over"));
   EXPECT_EQ(log_.log()->level(), LogLevel::kInfo);

@@ -40,6 +40,16 @@ TEST(Cli, HelpsWithUnitsExitCodesAndAnExample) {
   }
 }
 
+TEST(Cli, HelpOfWhatIsNoCommandSaysSo) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"scene", "uplaod", "--help"}, {"uplaod", "--help"}}) {
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("'uplaod' is no command"));
+    EXPECT_EQ(run.out, "");
+  }
+}
+
 // Of those that need no daemon; those of the others are tested where there is one.
 TEST(Cli, ANetworkThatLcmCannotUseIsInvalidInput) {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -36,7 +37,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version
-    return app.exit(success);
+    // Else `camway scene uplaod --help` would show the help of `camway scene` as if all were well.
+    const std::vector<std::string> unknown = app.remaining(/*recurse=*/true);
+    if (unknown.empty()) return app.exit(success);
+    camway::tools::print_error("'" + unknown.front() + "' is no command (see camway --help)");
+    return static_cast<int>(ExitCode::kInvalidInput);
   } catch (const CLI::ParseError& error) {
     camway::tools::print_error(std::string(error.what()) + " (see camway --help)");
     return static_cast<int>(ExitCode::kInvalidInput);
