@@ -11,6 +11,8 @@
 namespace camway::scene {
 namespace {
 
+StoreResult called_off() { return {nullptr, StoreFault::kInvalid, "it was called off"}; }
+
 StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
   const std::vector<KeptRevision> kept = history.revisions();
   return {nullptr, StoreFault::kInvalid,
@@ -134,7 +136,7 @@ StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revisio
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
   const std::shared_ptr<const Snapshot> then = known->rebuild(revision, stop);
-  if (stop.stop_requested()) return {nullptr, StoreFault::kInvalid, "it was called off"};
+  if (stop.stop_requested()) return called_off();
   if (!then) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   auto renamed = std::make_shared<Snapshot>(*then);
@@ -146,6 +148,7 @@ StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revisio
 StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
                                   const std::stop_token& stop) {
   SnapshotResult result = changed(before, changes, before.revision + 1, stop);
+  if (stop.stop_requested()) return called_off();
   if (!result.snapshot) {
     const bool is_limit = result.limit != Limit::kNone;
     return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
