@@ -14,7 +14,8 @@ SceneObjects::iterator place_of(const std::string& name, SceneObjects& objects) 
 }
 
 /// What is wrong with the change; without an error if it was made.
-SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObjects& objects) {
+SnapshotResult apply(const SceneChange& change, const Snapshot& before, const std::stop_token& stop,
+                     SceneObjects& objects) {
   const auto place = place_of(change.object, objects);
   const bool is_there = place != objects.end() && (*place)->name == change.object;
   if (!is_there && change.kind != SceneChange::Kind::kPut) {
@@ -26,7 +27,7 @@ SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObj
   }
   ObjectResult placed =
       place_object(change.object, change.source ? change.source : (*place)->source,
-                   change.placement, before.options, is_there ? place->get() : nullptr);
+                   change.placement, before.options, is_there ? place->get() : nullptr, stop);
   if (!placed.object) return {nullptr, placed.error, placed.limit};
   if (is_there) {
     *place = std::move(placed.object);
@@ -38,17 +39,19 @@ SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObj
 
 }  // namespace
 
-SnapshotResult changed(const Snapshot& before, const SceneChanges& changes,
-                       std::uint64_t revision) {
+SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision,
+                       const std::stop_token& stop) {
   SceneObjects objects = before.objects;
   for (const SceneChange& change : changes) {
-    if (SnapshotResult fault = apply(change, before, objects); !fault.error.empty()) return fault;
+    SnapshotResult fault = apply(change, before, stop, objects);
+    if (!fault.error.empty()) return fault;
   }
   return {assemble(before.name, revision, std::move(objects), before.options), ""};
 }
 
-SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision) {
-  return changed(before, SceneChanges{change}, revision);
+SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision,
+                       const std::stop_token& stop) {
+  return changed(before, SceneChanges{change}, revision, stop);
 }
 
 SceneHistory::SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note)
@@ -160,12 +163,15 @@ std::optional<SceneChanges> SceneHistory::changes_back_to(std::uint64_t revision
   return changes;
 }
 
-std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision) const {
+std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision,
+                                                      const std::stop_token& stop) const {
   const std::optional<State> state = state_at(revision);
   if (!state) return nullptr;
   SceneObjects objects;
   for (const auto& [name, placed] : state->objects) {
-    ObjectResult result = place_object(name, placed.source, placed.placement, options_);
+    ObjectResult result =
+        place_object(name, placed.source, placed.placement, options_, nullptr, stop);
+    if (stop.stop_requested()) return nullptr;
     assert(result.object && "it could be placed before");
     objects.push_back(std::move(result.object));
   }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,13 @@ struct SceneChange {
 using SceneChanges = std::vector<SceneChange>;
 
 /// The scene after `changes`; nothing of what did not change is built again. Fails, with an error
-/// that names the object, if it is not there or cannot be where it shall be. The two snapshots are
-/// independent; safe from any thread. Precondition: a source is there where one is needed.
-SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision);
-SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision);
+/// that names the object, if it is not there or cannot be where it shall be, or if a stop was asked
+/// for meanwhile, as `place_object`. The two snapshots are independent; safe from any thread.
+/// Precondition: a source is there where one is needed.
+SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision,
+                       const std::stop_token& stop = {});
+SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision,
+                       const std::stop_token& stop = {});
 
 /// What is remembered of a change beside what it did, for people who look for a revision.
 struct ChangeNote {
@@ -90,8 +94,10 @@ class SceneHistory {
   [[nodiscard]] std::vector<KeptRevision> revisions() const;
 
   /// Builds a revision again, from what the objects are and where they were then: equal to what it
-  /// was in everything. Nothing if `revision` is none of those that are known.
-  [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision) const;
+  /// was in everything. Nothing if `revision` is none of those that are known, or if a stop was
+  /// asked for.
+  [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision,
+                                                        const std::stop_token& stop = {}) const;
 
   /// What makes the newest revision have the objects of that one, each where it was. Nothing if
   /// that is none of those that are known.
