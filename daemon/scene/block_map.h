@@ -135,10 +135,14 @@ class BlockMap {
   }
 
   /// Of blocks and tables, without what blocks refer to.
-  [[nodiscard]] std::uint64_t memory_bytes() const {
+  [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_beside({}); }
+  /// The same, without the regions that it shares with `other`.
+  [[nodiscard]] std::uint64_t memory_bytes_beside(const BlockMap& other) const {
     constexpr std::uint64_t kOfATableEntry = 8 * sizeof(void*);
-    std::uint64_t bytes = 0;
-    for (const auto& [first, region] : regions_) bytes += region->memory_bytes() + kOfATableEntry;
+    std::uint64_t bytes = regions_.size() * kOfATableEntry;
+    for (const auto& [first, region] : regions_) {
+      if (other.region(first) != region.get()) bytes += region->memory_bytes();
+    }
     return bytes;
   }
 

@@ -6,11 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
 #include "daemon/scene/box_costs.h"
+#include "daemon/scene/mirror_voxels.h"
 
 namespace camway::scene {
 namespace {
@@ -19,8 +19,6 @@ using geometry::Box;
 using geometry::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-using Meshes = std::span<const Mesh* const>;
 
 /// The least value that `cost` takes on the boxes of occupied cubes, or nothing if none is finite
 /// and <= `limit`. Branch and bound, cheapest octant first; see `box_costs.h` for what a cost has
@@ -114,6 +112,8 @@ class CheapestCube {
   std::optional<double> best_;
 };
 
+constexpr const char* kCalledOff = "making its occupancy map was called off";
+
 std::string describe(const Box& box) {
   std::ostringstream text;
   text << '[' << box.min().x() << ", " << box.min().y() << ", " << box.min().z() << "] to ["
@@ -143,11 +143,12 @@ std::string refusal(const Box& bounds, double resolution_m) {
   return {};
 }
 
-std::string refusal(Meshes meshes, double resolution_m) {
+std::string refusal(Meshes meshes, double resolution_m, const std::stop_token& stop) {
   Box bounds;
   std::size_t number = 0;
   for (const Mesh* mesh : meshes) {
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i, ++number) {
+      if (stop.stop_requested()) return kCalledOff;
       for (const Vec3& vertex : mesh->triangle(i)) {
         if (!vertex.allFinite()) return "triangle " + std::to_string(number) + " is not finite";
         bounds.extend(vertex);
@@ -164,105 +165,48 @@ std::string too_many(const Box& bounds, double resolution_m, std::uint64_t max_v
   return text.str();
 }
 
-/// The voxels of all triangles; nothing if there are more than `max_voxels`.
-std::optional<VoxelSet> touched_voxels(Meshes meshes, const VoxelGrid& grid,
-                                       std::uint64_t max_voxels) {
-  VoxelSet voxels;
-  VoxelMarker marker(voxels);
-  const auto is_new = [&](const Voxel& voxel) { return !marker.contains(voxel); };
-  const auto mark = [&](const Voxel& voxel) {
-    marker.insert(voxel);
-    return voxels.size() <= max_voxels;
-  };
-  for (const Mesh* mesh : meshes) {
-    for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
-      if (!for_each_voxel_touched(grid, mesh->triangle(i), is_new, mark)) return std::nullopt;
-    }
-  }
-  return voxels;
-}
-
-/// Adds the voxels with their middle in the solid: what no face touches is inside with all of it.
-/// False if there are more than `max_voxels`, or too many to look at.
-bool fill(const PlacedVoxelMap& solid, const VoxelGrid& grid, std::uint64_t max_voxels,
-          VoxelSet& voxels) {
-  constexpr double kMostLooks = 1e9;
-  if (voxels.empty()) return true;
-  const VoxelSet::Range range = voxels.bounds();
-  double looks = 1.0;
-  for (const VoxelRange& along : range) looks *= double{1} + along.last - along.first;
-  if (looks > kMostLooks) return false;
-  Voxel voxel{};
-  for (voxel[2] = range[2].first; voxel[2] <= range[2].last; ++voxel[2]) {
-    for (voxel[1] = range[1].first; voxel[1] <= range[1].last; ++voxel[1]) {
-      for (voxel[0] = range[0].first; voxel[0] <= range[0].last; ++voxel[0]) {
-        if (!voxels.contains(voxel) && solid.holds(grid.box({voxel, 1}).center())) {
-          voxels.insert(voxel);
-        }
-      }
-      if (voxels.size() > max_voxels) return false;
-    }
-  }
-  return true;
-}
-
-/// What is occupied, or nothing if it is too much.
-std::optional<VoxelTree> occupied_tree(Meshes meshes, const VoxelGrid& grid,
-                                       const std::optional<PlacedVoxelMap>& solid,
-                                       std::uint64_t max_voxels) {
-  std::optional<VoxelSet> voxels = touched_voxels(meshes, grid, max_voxels);
-  if (voxels && solid && !fill(*solid, grid, max_voxels, *voxels)) return std::nullopt;
-  return voxels ? std::optional<VoxelTree>(*voxels) : std::nullopt;
-}
-
-/// That a mirror surely has: those of the largest triangle, as no plane meets more of a cube than
-/// the rectangle through two opposite edges. So that what is hopeless is not begun.
-double least_voxels(Meshes meshes, double resolution_m) {
-  double largest_m2 = 0.0;
-  for (const Mesh* mesh : meshes) {
-    for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
-      const geometry::Triangle t = mesh->triangle(i);
-      largest_m2 = std::max(largest_m2, 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm());
-    }
-  }
-  return largest_m2 / (std::numbers::sqrt2 * resolution_m * resolution_m);
-}
-
 }  // namespace
 
 OccupancyMap::BuildResult OccupancyMap::build(Meshes meshes, double resolution_m,
                                               const std::optional<PlacedVoxelMap>& solid,
-                                              std::uint64_t max_voxels) {
-  if (std::string error = refusal(meshes, resolution_m); !error.empty()) return {nullptr, error};
+                                              std::uint64_t max_voxels,
+                                              const std::stop_token& stop) {
+  if (std::string error = refusal(meshes, resolution_m, stop); !error.empty()) {
+    return {nullptr, error};
+  }
   const VoxelGrid grid(resolution_m);
-  std::optional<VoxelTree> tree;
-  if (least_voxels(meshes, resolution_m) <= static_cast<double>(max_voxels))
-    tree = occupied_tree(meshes, grid, solid, max_voxels);
-  if (!tree) {
+  const MirrorVoxels made = mirror_voxels({meshes, solid, grid, max_voxels, stop});
+  if (made.is_called_off) return {nullptr, kCalledOff};
+  if (!made.voxels) {
     Box bounds;
     for (const Mesh* mesh : meshes) {
       for (const Vec3& vertex : mesh->vertices) bounds.extend(vertex);
     }
     return {nullptr, too_many(bounds, resolution_m, max_voxels), Limit::kMirrorVoxels};
   }
-  return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(*std::move(tree), grid)), {}};
+  return made_of(VoxelTree(*made.voxels, stop), grid, stop);
 }
 
 OccupancyMap::BuildResult OccupancyMap::of_map(const VoxelMap& map, const Box& bounds,
                                                std::uint64_t max_voxels,
                                                const OccupancyMap* mirror_before,
-                                               const VoxelMap* map_before) {
+                                               const VoxelMap* map_before,
+                                               const std::stop_token& stop) {
   const double resolution_m = map.resolution_m();
   if (std::string error = refusal(bounds, resolution_m); !error.empty()) return {nullptr, error};
   if (map.solid().size() > max_voxels) {
     return {nullptr, too_many(bounds, resolution_m, max_voxels), Limit::kMirrorVoxels};
   }
   VoxelTree tree = mirror_before != nullptr
-                       ? mirror_before->tree_.updated(map_before->solid(), map.solid())
-                       : VoxelTree(map.solid());
-  return {std::shared_ptr<const OccupancyMap>(
-              new OccupancyMap(std::move(tree), VoxelGrid(resolution_m))),
-          {}};
+                       ? mirror_before->tree_.updated(map_before->solid(), map.solid(), stop)
+                       : VoxelTree(map.solid(), stop);
+  return made_of(std::move(tree), VoxelGrid(resolution_m), stop);
+}
+
+OccupancyMap::BuildResult OccupancyMap::made_of(VoxelTree tree, const VoxelGrid& grid,
+                                                const std::stop_token& stop) {
+  if (stop.stop_requested()) return {nullptr, kCalledOff};
+  return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(std::move(tree), grid)), {}};
 }
 
 OccupancyMap::OccupancyMap(VoxelTree tree, const VoxelGrid& grid)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "daemon/geometry/types.h"
@@ -53,22 +54,26 @@ class OccupancyMap {
   /// names extent and resolution, a resolution outside `VoxelGrid`'s limits, a mesh that OctoMap's
   /// keys cannot hold, and one whose mirror would pass `max_voxels` (found while building, so that
   /// memory stays below about 50 bytes for each voxel allowed).
-  /// Of a solid, of which the meshes are the faces, what is inside is occupied, too.
+  /// Of a solid, of which the meshes are the faces, what is inside is occupied, too. Fails soon
+  /// after `stop` is asked for.
   static BuildResult build(std::span<const Mesh* const> meshes, double resolution_m,
                            const std::optional<PlacedVoxelMap>& solid = std::nullopt,
-                           std::uint64_t max_voxels = kUsualMostVoxels);
+                           std::uint64_t max_voxels = kUsualMostVoxels,
+                           const std::stop_token& stop = {});
   static BuildResult build(const Mesh& mesh, double resolution_m,
                            const std::optional<PlacedVoxelMap>& solid = std::nullopt,
-                           std::uint64_t max_voxels = kUsualMostVoxels) {
-    return build(std::array{&mesh}, resolution_m, solid, max_voxels);
+                           std::uint64_t max_voxels = kUsualMostVoxels,
+                           const std::stop_token& stop = {}) {
+    return build(std::array{&mesh}, resolution_m, solid, max_voxels, stop);
   }
 
   /// Of a map that stands where its file has it, at its own resolution: its voxels, and no others.
   /// Where `mirror_before`, which may be null, is this of `map_before`, the two share what does not
-  /// differ, and it costs what does. `bounds` are those of its faces. Refuses as `build` does.
+  /// differ, and it costs what does. `bounds` are those of its faces. Refuses, and stops, as
+  /// `build` does.
   static BuildResult of_map(const VoxelMap& map, const geometry::Box& bounds,
                             std::uint64_t max_voxels, const OccupancyMap* mirror_before,
-                            const VoxelMap* map_before);
+                            const VoxelMap* map_before, const std::stop_token& stop);
 
   [[nodiscard]] double resolution_m() const { return grid_.resolution_m(); }
   [[nodiscard]] const OccupancyStatistics& statistics() const { return statistics_; }
@@ -108,6 +113,7 @@ class OccupancyMap {
 
  private:
   OccupancyMap(VoxelTree tree, const VoxelGrid& grid);
+  static BuildResult made_of(VoxelTree tree, const VoxelGrid& grid, const std::stop_token& stop);
 
   template <typename Cost>
   [[nodiscard]] std::optional<double> cheapest(const Cost& cost, double limit, double enough) const;

@@ -8,21 +8,14 @@
 namespace camway::scene {
 namespace {
 
-std::uint64_t bytes_of(const SceneChanges& changes) {
-  std::uint64_t bytes = 0;
-  for (const SceneChange& change : changes) {
-    bytes += change.source ? change.source->memory_bytes() : 0;
-  }
-  return bytes;
-}
-
 SceneObjects::iterator place_of(const std::string& name, SceneObjects& objects) {
   return std::ranges::lower_bound(
       objects, name, {}, [](const auto& object) -> const std::string& { return object->name; });
 }
 
 /// What is wrong with the change; without an error if it was made.
-SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObjects& objects) {
+SnapshotResult apply(const SceneChange& change, const Snapshot& before, const std::stop_token& stop,
+                     SceneObjects& objects) {
   const auto place = place_of(change.object, objects);
   const bool is_there = place != objects.end() && (*place)->name == change.object;
   if (!is_there && change.kind != SceneChange::Kind::kPut) {
@@ -34,7 +27,7 @@ SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObj
   }
   ObjectResult placed =
       place_object(change.object, change.source ? change.source : (*place)->source,
-                   change.placement, before.options, is_there ? place->get() : nullptr);
+                   change.placement, before.options, is_there ? place->get() : nullptr, stop);
   if (!placed.object) return {nullptr, placed.error, placed.limit};
   if (is_there) {
     *place = std::move(placed.object);
@@ -46,17 +39,19 @@ SnapshotResult apply(const SceneChange& change, const Snapshot& before, SceneObj
 
 }  // namespace
 
-SnapshotResult changed(const Snapshot& before, const SceneChanges& changes,
-                       std::uint64_t revision) {
+SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision,
+                       const std::stop_token& stop) {
   SceneObjects objects = before.objects;
   for (const SceneChange& change : changes) {
-    if (SnapshotResult fault = apply(change, before, objects); !fault.error.empty()) return fault;
+    SnapshotResult fault = apply(change, before, stop, objects);
+    if (!fault.error.empty()) return fault;
   }
   return {assemble(before.name, revision, std::move(objects), before.options), ""};
 }
 
-SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision) {
-  return changed(before, SceneChanges{change}, revision);
+SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision,
+                       const std::stop_token& stop) {
+  return changed(before, SceneChanges{change}, revision, stop);
 }
 
 SceneHistory::SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note)
@@ -83,30 +78,43 @@ void SceneHistory::State::remove(std::string_view name) {
   objects.erase(found);
 }
 
-void SceneHistory::State::apply(const SceneChanges& changes) {
-  for (const SceneChange& change : changes) {
-    switch (change.kind) {
-      case SceneChange::Kind::kPut:
-        put(change.object, {change.source, change.placement});
-        break;
-      case SceneChange::Kind::kMove:
-        objects.find(change.object)->second.placement = change.placement;
-        break;
-      case SceneChange::Kind::kRemove:
-        remove(change.object);
-        break;
-    }
+void SceneHistory::State::apply(const SceneChange& change) {
+  switch (change.kind) {
+    case SceneChange::Kind::kPut:
+      put(change.object, {change.source, change.placement});
+      break;
+    case SceneChange::Kind::kMove:
+      objects.find(change.object)->second.placement = change.placement;
+      break;
+    case SceneChange::Kind::kRemove:
+      remove(change.object);
+      break;
   }
 }
 
-std::uint64_t SceneHistory::bytes() const {
-  return entry_bytes_ + before_.bytes - std::min(before_.bytes, newest_.bytes);
+void SceneHistory::State::apply(const SceneChanges& changes) {
+  for (const SceneChange& change : changes) apply(change);
+}
+
+// What is kept is no more than what there was at first and what each change brought beside what
+// its object had been. An object has no more than these, so the difference is never below 0.
+std::uint64_t SceneHistory::bytes() const { return before_.bytes + entry_bytes_ - newest_.bytes; }
+
+std::uint64_t SceneHistory::bytes_beside(const SceneChange& change) const {
+  if (!change.source) return 0;
+  const auto found = newest_.objects.find(change.object);
+  return found == newest_.objects.end() ? change.source->memory_bytes()
+                                        : change.source->memory_bytes_beside(*found->second.source);
 }
 
 void SceneHistory::add(SceneChanges changes, KeptRevision made) {
-  entry_bytes_ += bytes_of(changes);
-  newest_.apply(changes);
-  entries_.push_back({std::move(made), std::move(changes)});
+  Entry entry{std::move(made), std::move(changes)};
+  for (const SceneChange& change : entry.changes) {
+    entry.bytes += bytes_beside(change);
+    newest_.apply(change);
+  }
+  entry_bytes_ += entry.bytes;
+  entries_.push_back(std::move(entry));
   while (entries_.size() > limits_.changes || bytes() > limits_.bytes) forget_oldest();
 }
 
@@ -114,7 +122,7 @@ void SceneHistory::forget_oldest() {
   Entry& entry = entries_.front();
   before_.apply(entry.changes);
   oldest_ = std::move(entry.made);
-  entry_bytes_ -= bytes_of(entry.changes);
+  entry_bytes_ -= entry.bytes;
   entries_.pop_front();
 }
 
@@ -155,12 +163,15 @@ std::optional<SceneChanges> SceneHistory::changes_back_to(std::uint64_t revision
   return changes;
 }
 
-std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision) const {
+std::shared_ptr<const Snapshot> SceneHistory::rebuild(std::uint64_t revision,
+                                                      const std::stop_token& stop) const {
   const std::optional<State> state = state_at(revision);
   if (!state) return nullptr;
   SceneObjects objects;
   for (const auto& [name, placed] : state->objects) {
-    ObjectResult result = place_object(name, placed.source, placed.placement, options_);
+    ObjectResult result =
+        place_object(name, placed.source, placed.placement, options_, nullptr, stop);
+    if (stop.stop_requested()) return nullptr;
     assert(result.object && "it could be placed before");
     objects.push_back(std::move(result.object));
   }

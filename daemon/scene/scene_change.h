@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,13 @@ struct SceneChange {
 using SceneChanges = std::vector<SceneChange>;
 
 /// The scene after `changes`; nothing of what did not change is built again. Fails, with an error
-/// that names the object, if it is not there or cannot be where it shall be. The two snapshots are
-/// independent; safe from any thread. Precondition: a source is there where one is needed.
-SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision);
-SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision);
+/// that names the object, if it is not there or cannot be where it shall be, or if a stop was asked
+/// for meanwhile, as `place_object`. The two snapshots are independent; safe from any thread.
+/// Precondition: a source is there where one is needed.
+SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision,
+                       const std::stop_token& stop = {});
+SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision,
+                       const std::stop_token& stop = {});
 
 /// What is remembered of a change beside what it did, for people who look for a revision.
 struct ChangeNote {
@@ -66,6 +70,7 @@ class SceneHistory {
   struct Entry {
     KeptRevision made;  ///< that the changes led to, together
     SceneChanges changes;
+    std::uint64_t bytes = 0;  ///< of their sources, beside what those before them had
   };
 
   /// Begins with `first`.
@@ -74,10 +79,10 @@ class SceneHistory {
   /// Precondition: `changed` made `made.revision` of the newest one.
   void add(SceneChanges changes, KeptRevision made);
 
-  /// What the changes put into the scene, in its own frame, still there or not, and by how much the
-  /// scene before them was larger than it is now. So all that is kept takes no more than this and
-  /// the scene; less, where a change put again what another had put before. Above 0 only if there
-  /// is a change.
+  /// What is kept beside the newest revision, so that earlier ones can be built again: about, and
+  /// more only where a source came back that had been gone. What an object's source shares with the
+  /// one before it, as an occupancy map does after a scan, counts once. Above 0 only if there is a
+  /// change.
   [[nodiscard]] std::uint64_t bytes() const;
   /// Precondition: there is a change.
   void forget_oldest();
@@ -89,8 +94,10 @@ class SceneHistory {
   [[nodiscard]] std::vector<KeptRevision> revisions() const;
 
   /// Builds a revision again, from what the objects are and where they were then: equal to what it
-  /// was in everything. Nothing if `revision` is none of those that are known.
-  [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision) const;
+  /// was in everything. Nothing if `revision` is none of those that are known, or if a stop was
+  /// asked for.
+  [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision,
+                                                        const std::stop_token& stop = {}) const;
 
   /// What makes the newest revision have the objects of that one, each where it was. Nothing if
   /// that is none of those that are known.
@@ -107,9 +114,12 @@ class SceneHistory {
 
     void put(std::string_view name, const Placed& placed);
     void remove(std::string_view name);
+    void apply(const SceneChange& change);
     void apply(const SceneChanges& changes);
   };
 
+  /// What the change keeps that the newest revision has not.
+  [[nodiscard]] std::uint64_t bytes_beside(const SceneChange& change) const;
   [[nodiscard]] std::optional<State> state_at(std::uint64_t revision) const;
 
   std::string name_;
@@ -119,7 +129,7 @@ class SceneHistory {
   State before_;  ///< at `oldest_`
   State newest_;
   std::deque<Entry> entries_;
-  std::uint64_t entry_bytes_ = 0;  ///< of their sources
+  std::uint64_t entry_bytes_ = 0;  ///< of all of them
 };
 
 }  // namespace camway::scene

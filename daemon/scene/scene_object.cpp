@@ -66,10 +66,12 @@ std::vector<std::shared_ptr<const PlacedPart>> parts_there(const ObjectSource& s
   return parts;
 }
 
+/// Some of them null if a stop was asked for.
 std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& source,
                                                             const Placement& placement,
                                                             const IndexOptions& options,
-                                                            const SceneObject* before) {
+                                                            const SceneObject* before,
+                                                            const std::stop_token& stop) {
   std::vector<std::shared_ptr<const PlacedPart>> parts = parts_there(source, placement, before);
   if (parts.size() == 1) {
     if (!parts[0]) parts[0] = placed(source.parts_O[0], placement, options);
@@ -82,6 +84,7 @@ std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& 
   IndexOptions of_one = options;
   of_one.threads = 1;
   for_each_chunk(chunk_threads(options.threads), missing.size(), [&](unsigned, std::size_t i) {
+    if (stop.stop_requested()) return;
     parts[missing[i]] = placed(source.parts_O[missing[i]], placement, of_one);
   });
   return parts;
@@ -103,19 +106,19 @@ bool has_own_voxels(const SceneObject& object, const ObjectOptions& options) {
 }
 
 OccupancyMap::BuildResult mirror_of(const SceneObject& object, const ObjectOptions& options,
-                                    const SceneObject* before) {
+                                    const SceneObject* before, const std::stop_token& stop) {
   if (has_own_voxels(object, options)) {
     const bool is_like_before = before != nullptr && has_own_voxels(*before, options);
     return OccupancyMap::of_map(*object.source->map_O, object.source->bounds_O,
                                 options.mirror_voxels,
                                 is_like_before ? before->occupancy.get() : nullptr,
-                                is_like_before ? before->source->map_O.get() : nullptr);
+                                is_like_before ? before->source->map_O.get() : nullptr, stop);
   }
   std::vector<const Mesh*> meshes;
   meshes.reserve(object.parts.size());
   for (const auto& part : object.parts) meshes.push_back(part->indexed->mesh.get());
   return OccupancyMap::build(meshes, *options.occupancy_resolution_m, object.solid(),
-                             options.mirror_voxels);
+                             options.mirror_voxels, stop);
 }
 
 bool is_too_far(const geometry::Box& bounds) {
@@ -148,6 +151,22 @@ std::uint64_t ObjectSource::memory_bytes() const {
   std::uint64_t bytes =
       (field_O ? field_O->statistics().memory_bytes : 0) + (map_O ? map_O->memory_bytes() : 0);
   for (const MeshPart& part : parts_O) bytes += part.mesh->memory_bytes() + kBytesBesideAPart;
+  return bytes;
+}
+
+std::uint64_t ObjectSource::memory_bytes_beside(const ObjectSource& other) const {
+  if (this == &other) return 0;
+  std::uint64_t bytes = 0;
+  if (field_O && field_O != other.field_O) bytes += field_O->statistics().memory_bytes;
+  if (map_O && map_O != other.map_O) {
+    bytes += other.map_O ? map_O->memory_bytes_beside(*other.map_O) : map_O->memory_bytes();
+  }
+  auto theirs = other.parts_O.begin();
+  for (const MeshPart& part : parts_O) {
+    while (theirs != other.parts_O.end() && theirs->key < part.key) ++theirs;
+    const bool is_shared = theirs != other.parts_O.end() && theirs->mesh == part.mesh;
+    bytes += is_shared ? sizeof(MeshPart) : part.mesh->memory_bytes() + kBytesBesideAPart;
+  }
   return bytes;
 }
 
@@ -213,10 +232,11 @@ std::optional<PlacedVoxelMap> SceneObject::solid() const {
 
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
                           const Placement& placement, const ObjectOptions& options,
-                          const SceneObject* before) {
+                          const SceneObject* before, const std::stop_token& stop) {
   assert(source);
   auto object = std::make_shared<SceneObject>();
-  object->parts = placed_parts(*source, placement, options.index, before);
+  object->parts = placed_parts(*source, placement, options.index, before, stop);
+  if (stop.stop_requested()) return {nullptr, name + ": making it was called off"};
   for (const auto& part : object->parts) {
     object->bounds_W.extend(part->indexed->tree.bounds());
     object->triangles += part->indexed->mesh->triangles.size();
@@ -229,7 +249,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   object->placement = placement;
   object->digest = digest_of(*object);
   if (options.occupancy_resolution_m) {
-    OccupancyMap::BuildResult mirror = mirror_of(*object, options, before);
+    OccupancyMap::BuildResult mirror = mirror_of(*object, options, before, stop);
     if (!mirror.map) return {nullptr, name + ": " + mirror.error, mirror.limit};
     object->occupancy = std::move(mirror.map);
   }

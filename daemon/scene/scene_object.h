@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct ObjectSource {
 
   /// What the source refers to, also where other sources refer to it as well.
   [[nodiscard]] std::uint64_t memory_bytes() const;
+  /// The same, without what `other` refers to: of a map after a scan, what the scan changed.
+  [[nodiscard]] std::uint64_t memory_bytes_beside(const ObjectSource& other) const;
 };
 
 /// Builds what does not depend on where the object is. `report` says how the mesh came to be.
@@ -97,11 +100,12 @@ struct ObjectResult {
 
 /// Puts an object in its place. Costs what there are triangles in it, but for parts that `before`,
 /// which may be null, has in the same place: these it shares. Refuses one that lies beyond
-/// Placement::kLargestCoordinateM there, or that the mirror cannot hold. Precondition: `before` was
-/// placed with equal options.
+/// Placement::kLargestCoordinateM there, or that the mirror cannot hold. A `stop` that is asked for
+/// ends the making of parts and of the mirror, and it fails. Precondition: `before` was placed with
+/// equal options.
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
                           const Placement& placement, const ObjectOptions& options,
-                          const SceneObject* before = nullptr);
+                          const SceneObject* before = nullptr, const std::stop_token& stop = {});
 
 /// Digest of the triangles' coordinates and order, 32 hexadecimal digits.
 std::string mesh_digest(const Mesh& mesh);

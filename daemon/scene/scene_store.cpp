@@ -11,6 +11,8 @@
 namespace camway::scene {
 namespace {
 
+StoreResult called_off() { return {nullptr, StoreFault::kInvalid, "it was called off"}; }
+
 StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
   const std::vector<KeptRevision> kept = history.revisions();
   return {nullptr, StoreFault::kInvalid,
@@ -108,14 +110,16 @@ StoreResult SceneStore::unknown(std::string_view scene) const {
           "scene: '" + std::string(scene) + "' is unknown; " + summary()};
 }
 
-StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note) {
+StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note,
+                               const std::stop_token& stop) {
   const Turn turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
-  return make_next(*before, {std::move(change)}, std::move(note));
+  return make_next(*before, {std::move(change)}, std::move(note), stop);
 }
 
-StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note) {
+StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note,
+                                const std::stop_token& stop) {
   const Turn turn(*this, scene);
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
@@ -123,14 +127,16 @@ StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, 
   if (!changes) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   const std::shared_ptr<const Snapshot> before = find(scene);
-  return make_next(*before, *std::move(changes), std::move(note));
+  return make_next(*before, *std::move(changes), std::move(note), stop);
 }
 
 StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revision,
-                                   std::string other, ChangeNote note) {
+                                   std::string other, ChangeNote note,
+                                   const std::stop_token& stop) {
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
-  const std::shared_ptr<const Snapshot> then = known->rebuild(revision);
+  const std::shared_ptr<const Snapshot> then = known->rebuild(revision, stop);
+  if (stop.stop_requested()) return called_off();
   if (!then) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   auto renamed = std::make_shared<Snapshot>(*then);
@@ -139,8 +145,10 @@ StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revisio
   return put(std::move(renamed), std::move(note));
 }
 
-StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note) {
-  SnapshotResult result = changed(before, changes, before.revision + 1);
+StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
+                                  const std::stop_token& stop) {
+  SnapshotResult result = changed(before, changes, before.revision + 1, stop);
+  if (stop.stop_requested()) return called_off();
   if (!result.snapshot) {
     const bool is_limit = result.limit != Limit::kNone;
     return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),

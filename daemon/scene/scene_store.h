@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,16 +58,19 @@ class SceneStore {
   /// of the snapshot, or the next that the name has had, whichever is higher.
   StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {});
 
-  /// Changes one object of a scene. Precondition as that of `changed`.
-  StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {});
+  /// Changes one object of a scene. Precondition as that of `changed`. Of this and the next two: a
+  /// `stop` that is asked for while something is being made ends that, and it fails.
+  StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {},
+                     const std::stop_token& stop = {});
 
   /// Makes a new revision with the objects of one that is kept. If it is not, the error says which
   /// are.
-  StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {});
+  StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {},
+                      const std::stop_token& stop = {});
 
   /// Makes a scene `other` of them, or replaces the one of that name; as `put`.
   StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
-                         ChangeNote note = {});
+                         ChangeNote note = {}, const std::stop_token& stop = {});
 
   /// Whether there was such a scene.
   bool remove(std::string_view scene);
@@ -127,7 +131,8 @@ class SceneStore {
   static Load load_of(const Snapshot& snapshot);
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
   /// Precondition: it is the scene's turn, and `before` is its newest.
-  StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note);
+  StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
+                        const std::stop_token& stop);
 
   /// The lowest revision that the next scene of that name may have. Stays true while its turn
   /// lasts.

@@ -11,8 +11,8 @@ namespace camway::scene {
 namespace {
 
 SnapshotResult build(std::string name, std::shared_ptr<const ObjectSource> source,
-                     const ObjectOptions& options) {
-  ObjectResult result = place_object(name, std::move(source), {}, options);
+                     const ObjectOptions& options, const std::stop_token& stop) {
+  ObjectResult result = place_object(name, std::move(source), {}, options, nullptr, stop);
   if (!result.object) return {nullptr, result.error, result.limit};
   return {assemble(std::move(name), 1, {std::move(result.object)}, options), ""};
 }
@@ -122,8 +122,8 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options) {
   ImportReport report = scene::report_of(mesh, "memory");
   return build(std::move(name),
-               make_source(ObjectKind::kMesh, std::move(mesh), std::move(report), options),
-               options);
+               make_source(ObjectKind::kMesh, std::move(mesh), std::move(report), options), options,
+               {});
 }
 
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
@@ -134,7 +134,7 @@ SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file
       import.map ? make_map_source(std::move(import.map), std::move(import.report), options)
                  : make_source(ObjectKind::kMesh, std::move(*import.mesh), std::move(import.report),
                                options);
-  SnapshotResult result = build(std::move(name), source, options);
+  SnapshotResult result = build(std::move(name), source, options, stop);
   if (!result.snapshot) result.error = file.string() + ": " + result.error;
   return result;
 }

@@ -169,6 +169,19 @@ std::uint64_t VoxelMap::memory_bytes() const {
          beliefs_.memory_bytes() + beliefs_.size() * sizeof(Beliefs);
 }
 
+std::uint64_t VoxelMap::memory_bytes_beside(const VoxelMap& other) const {
+  std::uint64_t bytes = occupied_.memory_bytes_beside(other.occupied_) +
+                        free_.memory_bytes_beside(other.free_) +
+                        solid_.memory_bytes_beside(other.solid_) +
+                        beliefs_.memory_bytes_beside(other.beliefs_);
+  beliefs_.for_each_unshared(other.beliefs_, [&](std::uint64_t, const auto* theirs,
+                                                 const auto* ours) {
+    const bool is_shared = theirs != nullptr && ours != nullptr && *theirs == *ours;
+    if (ours != nullptr && !is_shared) bytes += sizeof(Beliefs);
+  });
+  return bytes;
+}
+
 bool VoxelMap::is_solid_near(const Vec3& point_O, double error_m) const {
   if (!point_O.allFinite()) return true;
   VoxelSet::Range near;

@@ -98,6 +98,8 @@ class VoxelMap {
   }
   /// Without its faces.
   [[nodiscard]] std::uint64_t memory_bytes() const;
+  /// The same, without what it shares with `other`.
+  [[nodiscard]] std::uint64_t memory_bytes_beside(const VoxelMap& other) const;
 
   /// The faces of the solid, in the frame of the map; nothing if there are too many.
   [[nodiscard]] const std::optional<VoxelSkin>& skin() const { return skin_; }

@@ -113,8 +113,6 @@ bool VoxelSet::contains(const Voxel& voxel) const {
   return (word >> ((voxel[1] & 7) * 8 + (voxel[0] & 7)) & 1U) != 0;
 }
 
-std::uint64_t VoxelSet::memory_bytes() const { return blocks_.memory_bytes(); }
-
 void VoxelSet::extend(Range& range, std::uint64_t key, const Bits& bits) {
   std::array<unsigned, 3> along{};  // which of the eight places on each axis have a voxel
   std::uint64_t slice = 0;

@@ -38,7 +38,11 @@ class VoxelSet {
   [[nodiscard]] bool contains(const Voxel& voxel) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  [[nodiscard]] std::uint64_t memory_bytes() const;
+  [[nodiscard]] std::uint64_t memory_bytes() const { return blocks_.memory_bytes(); }
+  /// The same, without what it shares with `other`.
+  [[nodiscard]] std::uint64_t memory_bytes_beside(const VoxelSet& other) const {
+    return blocks_.memory_bytes_beside(other.blocks_);
+  }
   /// Of its voxels; kNoVoxels if it is empty.
   [[nodiscard]] Range bounds() const;
 

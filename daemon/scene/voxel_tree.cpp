@@ -207,12 +207,14 @@ VoxelTree::VoxelTree(Branches branches) : branches_(std::move(branches)) {
   }
 }
 
-VoxelTree::VoxelTree(const VoxelSet& voxels)
-    : VoxelTree(VoxelTree(Branches{}).updated({}, voxels)) {}
+VoxelTree::VoxelTree(const VoxelSet& voxels, const std::stop_token& stop)
+    : VoxelTree(VoxelTree(Branches{}).updated({}, voxels, stop)) {}
 
-VoxelTree VoxelTree::updated(const VoxelSet& before, const VoxelSet& after) const {
+VoxelTree VoxelTree::updated(const VoxelSet& before, const VoxelSet& after,
+                             const std::stop_token& stop) const {
   std::set<std::uint64_t> touched;
   after.for_each_difference(before, [&](std::uint64_t key, const auto&, const auto&) {
+    if (stop.stop_requested()) return;
     touched.insert(BlockKey::first_of_cube(key, kBranchLevels));
   });
   Branches branches;
@@ -221,6 +223,7 @@ VoxelTree VoxelTree::updated(const VoxelSet& before, const VoxelSet& after) cons
     if (!touched.contains(branch->key)) branches.push_back(branch);
   }
   for (const std::uint64_t key : touched) {
+    if (stop.stop_requested()) break;
     if (auto branch = BranchBuilder::build(after, key)) branches.push_back(std::move(branch));
   }
   std::ranges::sort(branches, {}, [](const auto& branch) { return branch->order; });

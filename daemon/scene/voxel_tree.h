@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "daemon/scene/voxel_grid.h"
@@ -30,11 +31,13 @@ class VoxelTree {
     const Node* nodes;
   };
 
-  /// Precondition: all voxels are those of a `VoxelGrid`.
-  explicit VoxelTree(const VoxelSet& voxels);
+  /// Precondition: all voxels are those of a `VoxelGrid`. A stop that is asked for meanwhile leaves
+  /// voxels out: then the tree is of no use.
+  explicit VoxelTree(const VoxelSet& voxels, const std::stop_token& stop = {});
 
-  /// The tree of `after`, if this one is that of `before`.
-  [[nodiscard]] VoxelTree updated(const VoxelSet& before, const VoxelSet& after) const;
+  /// The tree of `after`, if this one is that of `before`. The same holds of a stop.
+  [[nodiscard]] VoxelTree updated(const VoxelSet& before, const VoxelSet& after,
+                                  const std::stop_token& stop = {}) const;
 
   /// Holds all voxels, and is never full itself.
   [[nodiscard]] const VoxelCube& root_cube() const { return root_cube_; }

@@ -38,14 +38,14 @@ class SceneService {
   /// A message on the channel for missing pages of maps. Throws only for want of memory.
   void on_missing_map_pages(std::span<const std::uint8_t> message);
 
-  /// Takes no more changes, and refuses those that nobody has begun, and those that read a file,
-  /// which is called off.
+  /// Takes no more changes, and refuses those that nobody has begun, and those that read a file or
+  /// make an occupancy mirror, which is called off.
   void close();
   /// Refuses what is still being done, which nobody will hear of any more.
   void give_up();
   /// How many changes wait, are being made, or were just made and are not answered yet.
   [[nodiscard]] std::size_t unanswered() const { return unanswered_.size(); }
-  /// Calls off the reading of files and waits for what is being done. Before `Core` goes.
+  /// Calls off what can be, and waits for what is being done. Before `Core` goes.
   void stop();
 
  private:

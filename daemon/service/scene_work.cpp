@@ -187,8 +187,9 @@ class Work {
     Made<Content> made = read_mesh(request_, upload_, context_);
     if (!made.value) return refused(made.error, made.limit);
     const std::string warnings = warnings_of(made.value->report);
-    scene::ObjectResult placed = scene::place_object(
-        request_.scene, source_of(*std::move(made.value), options), {}, options);
+    scene::ObjectResult placed =
+        scene::place_object(request_.scene, source_of(*std::move(made.value), options), {}, options,
+                            nullptr, context_.stop);
     if (!placed.object) return refused(placed.error, placed.limit);
     return answer_to(
         scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options),
@@ -240,13 +241,14 @@ class Work {
   Answer restore() {
     const auto revision = static_cast<std::uint64_t>(std::max<std::int64_t>(request_.revision, 0));
     if (request_.restore_as.empty() || request_.restore_as == request_.scene) {
-      return answer_to(scenes_.restore(request_.scene, revision, note("")), "");
+      return answer_to(scenes_.restore(request_.scene, revision, note(""), context_.stop), "");
     }
     if (!is_scene_name(request_.restore_as)) {
       return invalid("restore_as: must be of [A-Za-z0-9_.-]{1,128}");
     }
-    return answer_to(scenes_.restore_as(request_.scene, revision, request_.restore_as, note("")),
-                     "");
+    return answer_to(
+        scenes_.restore_as(request_.scene, revision, request_.restore_as, note(""), context_.stop),
+        "");
   }
 
   Answer put() {
@@ -323,7 +325,8 @@ class Work {
 
   Answer change(SceneChange change, std::string_view message) {
     const std::string object = change.object;
-    return answer_to(scenes_.change(request_.scene, std::move(change), note(object)), message);
+    return answer_to(scenes_.change(request_.scene, std::move(change), note(object), context_.stop),
+                     message);
   }
 
   const Request& request_;

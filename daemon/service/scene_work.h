@@ -39,7 +39,7 @@ struct SceneContext {
   const SceneRules& rules;
   scene::SceneStore& scenes;
   std::mutex& writing;   ///< held by who writes a file below the roots: two might mean the same
-  std::stop_token stop;  ///< ends the reading of files
+  std::stop_token stop;  ///< ends the reading of files and the making of mirrors
 };
 
 /// What came of a request.

@@ -424,6 +424,23 @@ TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
   EXPECT_THAT(result.error, HasSubstr("more than 300000000 voxels"));
 }
 
+TEST(OccupancyMap, IsNotMadeAfterAStop) {
+  std::stop_source stop;
+  stop.request_stop();
+  std::mt19937_64 random(kSeed);
+  const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
+  VoxelSet voxels;
+  voxels.insert(Voxel{1, 2, 3});
+  const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
+  for (const OccupancyMap::BuildResult& result :
+       {OccupancyMap::build(mesh, 0.1, std::nullopt, 1000, stop.get_token()),
+        OccupancyMap::of_map(*map, {}, 1000, nullptr, nullptr, stop.get_token())}) {
+    EXPECT_EQ(result.map, nullptr);
+    EXPECT_THAT(result.error, HasSubstr("called off"));
+    EXPECT_EQ(result.limit, Limit::kNone);
+  }
+}
+
 TEST(OccupancyMap, TheVoxelLimitIsExact) {
   std::mt19937_64 random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);

@@ -197,11 +197,11 @@ TEST(SceneHistory, GoesBackToEveryRevisionThatItKeeps) {
 }
 
 TEST(SceneHistory, KeepsWithinItsBytes) {
-  const auto source = box(Vec3(1, 1, 1));
   std::shared_ptr<const Snapshot> scene = empty_scene();
-  SceneHistory history(*scene, {.changes = 1000, .bytes = 3 * source->memory_bytes()});
+  SceneHistory history(*scene,
+                       {.changes = 1000, .bytes = 3 * box(Vec3(1, 1, 1))->memory_bytes()});
   for (int i = 0; i < 10; ++i) {
-    const SceneChange change{Kind::kPut, "a", source, at(Vec3(i, 0, 0))};
+    const SceneChange change{Kind::kPut, "a", box(Vec3(1, 1, 1)), at(Vec3(i, 0, 0))};
     scene = after(*scene, change);
     history.add({change}, {scene->revision, {}});
   }

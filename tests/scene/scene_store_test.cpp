@@ -78,6 +78,26 @@ TEST(SceneStore, ChangesASceneRevisionByRevision) {
   EXPECT_FALSE(store.history("attic"));
 }
 
+TEST(SceneStore, WhatIsCalledOffChangesNothing) {
+  SceneStore store;
+  ObjectOptions options;
+  options.occupancy_resolution_m = 0.1;
+  store.put(assemble("room", 1, {}, options));
+  store.change("room", put_box("a"));
+  const std::shared_ptr<const Snapshot> before = store.find("room");
+  std::stop_source stop;
+  stop.request_stop();
+  for (const StoreResult& result : {store.change("room", put_box("b"), {}, stop.get_token()),
+                                    store.restore("room", 1, {}, stop.get_token())}) {
+    EXPECT_EQ(result.fault, StoreFault::kInvalid);
+    EXPECT_THAT(result.error, HasSubstr("called off"));
+  }
+  EXPECT_EQ(store.find("room"), before);
+  EXPECT_EQ(store.kept("room").revisions.size(), 2U);
+  EXPECT_EQ(store.restore_as("room", 2, "hall", {}, stop.get_token()).fault, StoreFault::kInvalid);
+  EXPECT_EQ(store.find("hall"), nullptr);
+}
+
 TEST(SceneStore, RestoresARevisionAndSaysWhichAreKept) {
   SceneStore store({.history = {.changes = 3}});
   store.put(revision_of("room", 1), {.operation = "load"});

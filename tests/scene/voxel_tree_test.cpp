@@ -142,6 +142,15 @@ TEST(VoxelTree, UpdatedIsTheTreeThatIsMadeAnew) {
   }
 }
 
+TEST(VoxelTree, AStopLeavesVoxelsOut) {
+  std::stop_source stop;
+  stop.request_stop();
+  VoxelSet voxels;
+  voxels.insert(VoxelCube{{0, 0, 0}, 64});
+  EXPECT_EQ(VoxelTree(voxels, stop.get_token()).voxels(), 0U);
+  EXPECT_EQ(VoxelTree(VoxelSet()).updated({}, voxels, stop.get_token()).voxels(), 0U);
+}
+
 TEST(VoxelTree, OfNothingHoldsNothing) {
   VoxelSet looked_at;
   EXPECT_FALSE(VoxelMarker(looked_at).contains({1, 2, 3})) << "leaves a block without voxels";

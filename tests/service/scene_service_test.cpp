@@ -424,6 +424,28 @@ TEST(SceneServiceSideBySide, AStopCallsOffImportsAndSaysSo) {
   }
 }
 
+TEST(SceneServiceSideBySide, AStopCallsOffTheMakingOfAMirror) {
+  ServiceConfig config;
+  config.scene_rules.mirror_voxels = 1'000'000'000;
+  RunningService running(config);
+  Sender sender(running);
+  scene_request_t load = request_for(1, scene_request_t::LOAD, "fine");
+  load.occupancy_resolution_m = 0.002;
+  sender.send(load);
+  ASSERT_TRUE(sender.answer_to(load));
+  const scene_request_t large = put_box(2, "fine", "hangar", 14.0);  // minutes
+  sender.send(large);
+  scene_request_t other = put_box(3, "room", "crate");
+  other.client_id = "other";
+  sender.send(other);
+  ASSERT_TRUE(sender.answer_to(other)) << "so the hangar is being made";
+  running.stop();  // else the end of `running` waits for those minutes
+  const auto answer = sender.answer_to(large);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, scene_response_t::STATUS_OVERLOADED);
+  EXPECT_TRUE(running.scenes.find("fine")->objects.empty());
+}
+
 TEST(SceneServiceSideBySide, AStopWaitsForNoLongChange) {
   RunningService running;
   Sender sender(running);

@@ -333,8 +333,8 @@ TEST(Service, StopFinishesWhatIsBeingPlannedAndRefusesTheRest) {
 // A worker counts as idle only some instants after it woke the loop with its answer: a stop that
 // looked in between and then waited for another wake would sit out its limit.
 TEST(Service, StopEndsAsSoonAsTheLastAnswerIsOut) {
-  const auto begin = std::chrono::steady_clock::now();
   for (int round = 0; round < 200; ++round) {
+    const auto begin = std::chrono::steady_clock::now();
     RunningService daemon;
     daemon.planner.hold();
     daemon.send(request_with(1));

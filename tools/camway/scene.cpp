@@ -28,7 +28,7 @@ struct SceneCommandFlags {
   std::string url;
   std::string prefix = "CAMWAY";
   std::string key_file;
-  double timeout_s = ClientOptions{}.deadline_s;
+  std::optional<double> timeout_s;
   std::string scene;
   std::string object;
   std::string file;         ///< below a root of the daemon
@@ -172,7 +172,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
-  options.deadline_s = flags.timeout_s;
+  use_timeout(flags.timeout_s, options);
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
