@@ -68,6 +68,7 @@ void read_correction_head(const plan_response_t& page, PlanResponse& response) {
   if (page.has_measures != 0) response.measures = from_wire(page.measures);
   response.near_scale = page.near_scale;
   response.time_scale = page.time_scale;
+  response.deadline_reached = page.deadline_reached != 0;
   if (page.has_infeasibility == 0) return;
   response.infeasibility = Infeasibility{page.keyframe_inside, page.keyframe_outside, {}};
   if (page.has_cage != 0) response.infeasibility->cage = from_wire(page.proof_cage);

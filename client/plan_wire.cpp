@@ -128,6 +128,7 @@ bool same_answer(const plan_response_t& a, const plan_response_t& b) {
          a.certified == b.certified &&
          same_bits(a.clearance_lower_bound_m, b.clearance_lower_bound_m) &&
          same_bits(a.near_scale, b.near_scale) && same_bits(a.time_scale, b.time_scale) &&
+         a.deadline_reached == b.deadline_reached &&
          a.has_measures_before == b.has_measures_before && a.has_measures == b.has_measures &&
          a.has_infeasibility == b.has_infeasibility && a.keyframe_inside == b.keyframe_inside &&
          a.keyframe_outside == b.keyframe_outside && a.has_cage == b.has_cage &&

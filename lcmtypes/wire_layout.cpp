@@ -114,6 +114,7 @@ constexpr std::array kPlanResponse{
     fixed("certified", kByte),
     fixed("clearance_lower_bound_m", kDouble),
     fixed("scales", 2 * kDouble),
+    fixed("deadline_reached", kByte),
     fixed("has_measures_before", kByte),
     fixed("measures_before", kMeasures),
     fixed("has_measures", kByte),

@@ -128,6 +128,9 @@ void read_report(const Field& root, planning::PlanResult& result) {
   }
   if (const auto scale = root.optional_member("near_scale")) result.near_scale = scale->number();
   if (const auto scale = root.optional_member("time_scale")) result.time_scale = scale->number();
+  if (const auto reached = root.optional_member("deadline_reached")) {
+    result.deadline_reached = reached->boolean();
+  }
   if (const auto list = root.optional_member("slowed")) {
     const std::size_t count = list->size();
     for (std::size_t i = 0; i < count && !list->failed(); ++i) {

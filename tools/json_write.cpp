@@ -275,6 +275,7 @@ void write_report(Writer& w, const planning::PlanResult& result) {
     w.raw(",\n  \"time_scale\": ");
     w.number(result.time_scale, "time_scale");
   }
+  if (result.deadline_reached) w.raw(",\n  \"deadline_reached\": true");
   if (!result.slowed.empty()) {
     w.raw(",\n  \"slowed\": ");
     w.list(result.slowed, [&](const planning::SlowedStretch& s) { write_slowed(w, s); });

@@ -150,6 +150,9 @@ struct PlanResponse {
   std::vector<SlowedStretch> slowed;           ///< where that was, in order of time
   std::vector<KeyframeFault> keyframe_faults;  ///< why invalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< the proof, if infeasible
+  /// Whether the deadline left anything undone, of whatever status: then, and only then, the same
+  /// request may have another answer the next time.
+  bool deadline_reached = false;
 
   std::string scene;
   std::int64_t scene_revision = 0;  ///< of the scene that the answer holds for

@@ -55,7 +55,14 @@ Deadline Deadline::share_of_rest(double share) const {
   return sooner;
 }
 
-bool Deadline::passed() const { return stopped() || now() - start_ >= budget_; }
+bool Deadline::passed() const { return told(stopped() || now() - start_ >= budget_); }
+
+bool Deadline::leaves_s(double seconds) const { return !told(remaining_s() < seconds); }
+
+bool Deadline::told(bool is_over) const {
+  if (is_over) struck_->store(true, std::memory_order_relaxed);
+  return is_over;
+}
 
 double Deadline::remaining_s() const {
   if (stopped()) return 0.0;

@@ -47,6 +47,13 @@ class Deadline {
   /// What is left, 0 once it has passed.
   [[nodiscard]] double remaining_s() const;
 
+  /// Whether so much is left.
+  [[nodiscard]] bool leaves_s(double seconds) const;
+
+  /// Whether somebody has been told that it passed, or leaves too little, it or any that was made
+  /// of it: only then can an answer depend on the clock.
+  [[nodiscard]] bool struck() const { return struck_->load(std::memory_order_relaxed); }
+
   /// Milliseconds since it was made.
   [[nodiscard]] double elapsed_ms() const;
 
@@ -59,12 +66,16 @@ class Deadline {
 
   explicit Deadline(Clock::duration budget);
 
+  /// Hands on what those who asked are told.
+  [[nodiscard]] bool told(bool is_over) const;
+
   [[nodiscard]] Clock::time_point now() const;
 
   Clock::time_point start_;
   Clock::duration budget_;
   std::stop_token stop_;
   std::shared_ptr<Progress> progress_;
+  std::shared_ptr<std::atomic<bool>> struck_ = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<std::atomic<std::int64_t>> looks_;  ///< at a clock that goes on by them; or null
 };
 

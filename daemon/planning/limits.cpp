@@ -183,7 +183,7 @@ std::optional<Retimed> slowed_where_needed(const TooFast& problem,
   const double mean_s = (path.end_s() - path.begin_s()) / pieces;
   for (double knots = kFewestKnots; knots <= kMostKnots && !deadline.passed(); knots *= 2.0) {
     if (knots * pieces > static_cast<double>(kMostPieces)) break;
-    if (knots * pieces * kLeast_s_per_knot > deadline.remaining_s()) break;
+    if (!deadline.leaves_s(knots * pieces * kLeast_s_per_knot)) break;
     if (auto slowed = slowed_with_step(problem, path, mean_s / knots, deadline)) return slowed;
   }
   return std::nullopt;

@@ -564,8 +564,14 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
     const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
       return Planner(snapshot, asked, until).run();
     };
-    if (!(request.options.max_shrink > 0.0) || request.body) return plan_at_size(request, deadline);
-    return plan_with_shrinking(request, deadline, plan_at_size);
+    const bool may_shrink = request.options.max_shrink > 0.0 && !request.body;
+    PlanResult result = may_shrink ? plan_with_shrinking(request, deadline, plan_at_size)
+                                   : plan_at_size(request, deadline);
+    result.deadline_reached = deadline.struck();
+    if (result.deadline_reached && result.status == Status::kOk) {
+      result.message += "; the deadline came before it was improved to the end";
+    }
+    return result;
   } catch (const std::exception& error) {
     // Out of memory, or a mistake of ours: either must not take the caller's process with it.
     PlanResult result;

@@ -36,7 +36,8 @@ struct Certificate {
   double clearance_lower_bound_m = 0.0;
 };
 
-/// Wall-clock milliseconds. The only part of a result that may differ between two runs.
+/// Wall-clock milliseconds. The only part of a result that may differ between two runs, unless
+/// `PlanResult::deadline_reached`.
 struct Timing {
   double load_scene_ms = 0.0;
   double motion_ms = 0.0;
@@ -115,6 +116,9 @@ struct PlanResult {
   std::vector<SlowedStretch> slowed;  ///< where that was, in order of time; beyond, times are moved
   std::vector<KeyframeFault> keyframe_faults;  ///< for kInvalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
+  /// Whether anything was left undone because of the deadline, of whatever status: then, and only
+  /// then, the answer to the same request may be another one the next time.
+  bool deadline_reached = false;
   Timing timing;
 };
 

@@ -210,6 +210,7 @@ void put_report(const PlanResult& result, plan_response_t& wire) {
   if (result.measures) wire.measures = wire_measures(*result.measures);
   wire.near_scale = result.near_scale;
   wire.time_scale = result.time_scale;
+  wire.deadline_reached = result.deadline_reached ? 1 : 0;
   for (const planning::SlowedStretch& stretch : result.slowed) {
     wire.slowed.push_back(wire_slowed(stretch));
   }
@@ -226,6 +227,7 @@ std::string read_report(const plan_response_t& wire, PlanResult& result) {
   if (wire.has_measures != 0) result.measures = measures_of(wire.measures);
   result.near_scale = wire.near_scale;
   result.time_scale = wire.time_scale;
+  result.deadline_reached = wire.deadline_reached != 0;
   for (const slowed_stretch_t& stretch : wire.slowed) {
     result.slowed.push_back(
         {stretch.t_begin_s, stretch.t_end_s, stretch.given_t_begin_s, stretch.given_t_end_s});

@@ -245,6 +245,7 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   for (plan_response_t& page : pages) {
     page.near_scale = 0.75;
     page.time_scale = 1.25;
+    page.deadline_reached = 1;
     page.has_measures = 1;
     page.measures.length_m = 7.0;
     page.measures.largest_turn_acceleration_rad_per_s2 = 8.0;
@@ -315,6 +316,7 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   EXPECT_EQ(response.measures->clearance_lower_bound_m, 9.0);
   EXPECT_EQ(response.near_scale, 0.75);
   EXPECT_EQ(response.time_scale, 1.25);
+  EXPECT_TRUE(response.deadline_reached);
   ASSERT_EQ(response.keyframe_faults.size(), 2u);
   EXPECT_EQ(response.keyframe_faults[0].keyframe, 4);
   EXPECT_EQ(response.keyframe_faults[0].depth_m, 0.5);

@@ -47,6 +47,18 @@ TEST(Deadline, AfterLooksGoesByLooksAndNoClock) {
   EXPECT_FALSE(deadline.passed());
 }
 
+TEST(Deadline, KnowsWhetherAnybodyWasToldThatItIsOver) {
+  const Deadline deadline = Deadline::after_s(1000.0);
+  EXPECT_FALSE(deadline.passed());
+  EXPECT_TRUE(deadline.leaves_s(900.0));
+  EXPECT_FALSE(deadline.struck());
+  EXPECT_TRUE(deadline.sooner_by_s(1000.0).share_of_rest(0.5).passed());
+  EXPECT_TRUE(deadline.struck()) << "all that are made of one are one";
+  const Deadline other = Deadline::after_s(1000.0);
+  EXPECT_FALSE(other.leaves_s(2000.0));
+  EXPECT_TRUE(other.struck());
+}
+
 TEST(Deadline, HandsOnWhatIsReported) {
   const auto progress = std::make_shared<Progress>();
   const Deadline deadline = Deadline::after_s(1.0).watched({}, progress);

@@ -84,6 +84,7 @@ void add_report(planning::PlanResult& result, Random& random) {
   if (below(random, 2) == 0) result.measures = measures(random);
   result.near_scale = 0.75;
   result.time_scale = 1.25;
+  result.deadline_reached = true;
   for (std::size_t i = 0; i < below(random, 5); ++i)
     result.slowed.push_back({number(random), number(random), number(random), number(random)});
   for (std::size_t i = 0; i < below(random, 5); ++i) {

@@ -338,6 +338,7 @@ plan_response_t random_message<plan_response_t>(Random& random) {
       fill_list(message.remaining, length(random, 100), [&] { return interval(random); });
   message.near_scale = number(random);
   message.time_scale = number(random);
+  message.deadline_reached = static_cast<std::int8_t>(random());
   message.has_measures_before = static_cast<std::int8_t>(random());
   message.measures_before = measures(random);
   message.has_measures = static_cast<std::int8_t>(random());

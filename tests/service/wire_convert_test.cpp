@@ -208,6 +208,7 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     EXPECT_EQ(back.result->measures, result.measures);
     EXPECT_EQ(back.result->near_scale, 0.75);
     EXPECT_EQ(back.result->time_scale, 1.25);
+    EXPECT_TRUE(back.result->deadline_reached);
     EXPECT_EQ(back.result->slowed, result.slowed);
     EXPECT_EQ(back.result->keyframe_faults.size(), result.keyframe_faults.size());
     ASSERT_TRUE(back.result->infeasibility);

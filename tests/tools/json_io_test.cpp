@@ -406,6 +406,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   result.measures = measures;
   result.near_scale = 0.75;
   result.time_scale = 1.5;
+  result.deadline_reached = true;
   result.slowed = {{2.0, 4.0, 1.5, 2.5}};
   const std::string text = *write_plan_response(result).value;
   EXPECT_THAT(text, HasSubstr(R"("corrections": [
@@ -416,6 +417,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
     "after": {"length_m": 5.0,)"));
   EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
   "time_scale": 1.5,
+  "deadline_reached": true,
   "slowed": [
     {"t_begin": 2.0, "t_end": 4.0, "given": [1.5, 2.5]}
   ])"));
@@ -423,6 +425,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   ASSERT_TRUE(read.value) << read.error;
   EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
   EXPECT_EQ(read.value->measures, result.measures);
+  EXPECT_TRUE(read.value->deadline_reached);
   EXPECT_EQ(read.value->slowed, result.slowed);
 }
 
@@ -477,7 +480,8 @@ TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
   for (const char* key :
-       {"measures", "near_scale", "time_scale", "slowed", "keyframe_faults", "infeasibility"}) {
+       {"measures", "near_scale", "time_scale", "deadline_reached", "slowed", "keyframe_faults",
+        "infeasibility"}) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
   }
 }

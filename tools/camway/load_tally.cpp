@@ -82,7 +82,8 @@ void LoadTally::add(const LoadQuestion& question, const PlanResponse& answer) {
     const double elapsed_ms = 1e3 * answer.elapsed_s;
     latency_ms.push_back(static_cast<float>(elapsed_ms));
     overhead_ms.push_back(static_cast<float>(elapsed_ms - answer.timing.total_ms));
-  } else if (answer.status == Status::kOverloaded || answer.status == Status::kTimeout) {
+  } else if (answer.status == Status::kOverloaded || answer.status == Status::kTimeout ||
+             answer.deadline_reached) {
     ++refused;
   } else {
     ++wrong;

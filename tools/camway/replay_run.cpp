@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <set>
@@ -44,7 +46,10 @@ std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& 
   if (!recorded.answer) return "no answer in the log";
   if (!recorded.answer->result) return "recorded: " + recorded.answer->status;
   const Status then = recorded.answer->result->status;
-  if (then == Status::kTimeout) return "recorded: timeout, which hangs on the machine's speed";
+  if (then == Status::kTimeout || recorded.answer->result->deadline_reached) {
+    return fmt::format("recorded: {}, cut short by its deadline, which hangs on the machine's speed",
+                       planning::to_string(then));
+  }
   if (then == Status::kUnknownScene && now.status != Status::kUnknownScene) {
     return "recorded: unknown_scene";
   }
