@@ -19,18 +19,18 @@ using geometry::Quat;
 using ::testing::HasSubstr;
 
 // A row of posts in the way of a straight flight, to be passed one by one.
-std::shared_ptr<const scene::Snapshot> posts() {
+std::shared_ptr<const scene::Snapshot> posts(int count = 4) {
   scene::Mesh mesh;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < count; ++i)
     testing::add_cuboid(mesh, {2.0 * i + 0.9, -3, -0.15}, {2.0 * i + 1.1, 3, 0.0});
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
 }
 
-PlanRequest flight() {
+PlanRequest flight(int posts = 4) {
   PlanRequest request;
   request.camera = testing::small_camera();
   request.has_times = true;
-  for (int i = 0; i <= 4; ++i)
+  for (int i = 0; i <= posts; ++i)
     request.keyframes.push_back({2.0 * i, {{2.0 * i, 0, 0}, Quat::Identity()}});
   return request;
 }
@@ -109,6 +109,25 @@ TEST(PlanDeadline, WhatIsSaidIsTrueWhereverItStrikes) {
   EXPECT_EQ(statuses, (std::set<Status>{Status::kOk, Status::kTimeout}));
   EXPECT_TRUE(left.contains(4)) << "nothing was corrected yet";
   EXPECT_TRUE(left.contains(2)) << "what was corrected by then was kept";
+}
+
+// There are more stretches to check than looks at the clock that are kept for that at the least.
+TEST(PlanDeadline, WhatWasNotCheckedIsPutBack) {
+  constexpr int kPosts = 40;
+  const auto snapshot = posts(kPosts);
+  std::set<std::ptrdiff_t> kept;
+  for (int looks = 100; looks <= 600; looks += 25) {
+    const PlanResult result = plan(*snapshot, flight(kPosts), Deadline::after_looks(looks));
+    EXPECT_EQ(fault_in(*snapshot, flight(kPosts), result), "") << looks << ": " << result.message;
+    if (result.collisions.empty()) continue;  // it struck before they were searched for
+    const auto corrected = std::ranges::count_if(result.corrections, [](const auto& correction) {
+      return correction.rung != correction::Rung::kNone;
+    });
+    // Put back, a collision is none that was corrected.
+    EXPECT_EQ(std::ssize(result.remaining_collisions), kPosts - corrected) << looks;
+    kept.insert(corrected);
+  }
+  EXPECT_GT(kept.size(), 2u);
 }
 
 TEST(PlanDeadline, OfTheSeedsMethodToo) {
