@@ -112,8 +112,7 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
     tell(watched, std::move(event));
     return;
   }
-  const WatchHandler handler = watched.handler;
-  const Watched last = std::move(watched);
+  Watched last = std::move(watched);
   remove(request_id);
   tell(last, std::move(event));
   WatchEvent end;
@@ -148,12 +147,26 @@ void WatchList::take_report(std::span<const std::uint8_t> bytes, Clock::time_poi
   if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
   const watch_report_t& report = *decoded.message;
   endings_.erase(report.request_id);
-  if (unanswered_.erase(report.request_id) > 0 && unanswered_.empty()) {
+  const bool is_renewed = unanswered_.erase(report.request_id) > 0 && unanswered_.empty();
+  if (is_renewed) {
     renewed_at_ = now;
     is_lost_ = false;
     renew_at_ = now + seconds(context_.options().watch_lease_s / kRenewals);
   }
   for (const path_state_t& state : report.paths) take_state(state, report, now);
+  if (is_renewed) tell_watched_again();
+}
+
+/// The answer to a renewal says nothing of paths whose state is known here.
+void WatchList::tell_watched_again() {
+  for (auto& [id, watched] : watched_) {
+    const bool is_asked_for = watched.is_asked || watched.ask_at != Clock::time_point::max();
+    if (!watched.is_lost || watched.serial == 0 || is_asked_for) continue;
+    WatchEvent event;
+    event.kind = WatchEvent::Kind::kWatched;
+    event.scene_revision = watched.scene_revision;
+    tell(watched, std::move(event));
+  }
 }
 
 void WatchList::take_state(const path_state_t& state, const watch_report_t& report,
@@ -327,7 +340,9 @@ void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double 
   hooks_.send({context_.channels().watch(), wire::encode(message)});
 }
 
-void WatchList::tell(const Watched& watched, WatchEvent event) {
+void WatchList::tell(Watched& watched, WatchEvent event) {
+  watched.is_lost = event.kind == WatchEvent::Kind::kLost;
+  if (!watched.is_lost) watched.scene_revision = event.scene_revision;
   if (!watched.handler || is_closed_) return;
   event.request_id = watched.request.request_id;
   try {

@@ -61,6 +61,8 @@ class WatchList {
     std::int64_t held_revision = -1;  ///< of the answer that is here; below 0: none
     std::int64_t serial = 0;          ///< of the daemon's newest state that is here
     bool is_broken = false;
+    bool is_lost = false;             ///< as was told last
+    std::int64_t scene_revision = 0;  ///< of what was told before that
     std::string refusal = {};             ///< why the daemon does not watch it; empty if it may
     std::vector<WatchEvent> untold = {};  ///< the answer since then, told once it is watched
   };
@@ -82,8 +84,9 @@ class WatchList {
   void acknowledge();
   void end_unwanted(Clock::time_point now);
   void send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s);
-  void tell(const Watched& watched, WatchEvent event);
+  void tell(Watched& watched, WatchEvent event);
   void tell_lost(Watched& watched, std::string error);
+  void tell_watched_again();
 
   Context& context_;
   const Hooks hooks_;

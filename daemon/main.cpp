@@ -20,7 +20,10 @@ constexpr int kExitBadInput = 2;
 int run(int argc, char** argv) {
   using namespace camway;
   const service::ParsedOptions parsed = service::parse_daemon_options(argc, argv);
-  std::cout << parsed.text;
+  if (!(std::cout << parsed.text).flush()) {
+    std::cerr << "camwayd: standard output cannot be written\n";
+    return kExitFault;
+  }
   for (const std::string& fault : parsed.faults) std::cerr << "camwayd: " << fault << '\n';
   if (!parsed.faults.empty()) return kExitBadInput;
   if (!parsed.options) return EXIT_SUCCESS;

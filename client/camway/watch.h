@@ -17,9 +17,10 @@ struct WatchEvent {
     kAnswer,  ///< an answer came: the first, a corrected one, or one after a restart of the daemon
     kBroken,  ///< a change of the scene: the path of the last answer collides now, as `broken` says
     kFree,    ///< the path that was broken is proved free again, as it was answered
-    /// Nobody watches for now, as `error` says; the client goes on trying. Where the daemon refused
-    /// to, the next event is the answer with which it watches.
+    /// Nobody watches for now, as `error` says; the client goes on trying, and the next event says
+    /// what came of it.
     kLost,
+    kWatched,  ///< after kLost: watched again, and what was said last before that holds still
     kEnded,  ///< the answer before proves no path, so there is nothing to watch
   };
   Kind kind = Kind::kLost;

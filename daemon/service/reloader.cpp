@@ -35,7 +35,7 @@ void Reloader::request() {
   {
     const std::lock_guard lock(mutex_);
     requested_ = true;
-    work_.request_stop();
+    if (may_call_off_) work_.request_stop();
   }
   changed_.notify_one();
 }
@@ -45,23 +45,26 @@ void Reloader::serve(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     work_.request_stop();
   });
+  bool was_called_off = false;
   while (wait(stop)) {
     manager_.reloading();
-    const std::stop_token work = begin_work(stop);
+    const std::stop_token work = begin_work(stop, !was_called_off);
     try {
       reload(work);
     } catch (const std::exception& error) {
       log_->error("reload failed, all stays as it was", {{"reason", error.what()}});
     }
     if (stop.stop_requested()) return;  // the manager is told that we stop
-    if (!work.stop_requested()) manager_.ready("serving");
+    was_called_off = work.stop_requested();
+    if (!was_called_off) manager_.ready("serving");
   }
 }
 
-std::stop_token Reloader::begin_work(const std::stop_token& stop) {
+std::stop_token Reloader::begin_work(const std::stop_token& stop, bool may_call_off) {
   const std::lock_guard lock(mutex_);
   work_ = std::stop_source();
-  if (requested_ || stop.stop_requested()) work_.request_stop();
+  may_call_off_ = may_call_off;
+  if ((requested_ && may_call_off) || stop.stop_requested()) work_.request_stop();
   return work_.get_token();
 }
 
@@ -78,7 +81,7 @@ bool Reloader::wait(const std::stop_token& stop) {
         return true;
       }
     }
-    look_at_files(begin_work(stop));
+    look_at_files(begin_work(stop, /*may_call_off=*/true));
   }
   return false;
 }

@@ -39,15 +39,16 @@ class Reloader {
 
   /// From any thread. It waits for nothing: the reading of a file that changed is called off for
   /// it, to be done afterwards, and so is a reload that is being done, since the newest
-  /// configuration counts.
+  /// configuration counts. But not the one after that: requests that come all the time must not
+  /// keep every reload from its end.
   void request();
 
  private:
   void serve(const std::stop_token& stop);
   /// Whether a reload was asked for; looks at files until then, or until the stop.
   bool wait(const std::stop_token& stop);
-  /// What calls off the work that begins now.
-  std::stop_token begin_work(const std::stop_token& stop);
+  /// What calls off the work that begins now: the end of all, or also a request.
+  std::stop_token begin_work(const std::stop_token& stop, bool may_call_off);
   void look_at_files(const std::stop_token& stop);
   void reload(const std::stop_token& stop);
   void take_over(const DaemonOptions& next);
@@ -59,10 +60,11 @@ class Reloader {
   std::shared_ptr<Log> log_;
   std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
   const std::chrono::milliseconds look_every_;
-  std::mutex mutex_;  ///< guards requested_ and work_
+  std::mutex mutex_;  ///< guards requested_, work_ and may_call_off_
   std::condition_variable_any changed_;
   bool requested_ = false;
   std::stop_source work_;
+  bool may_call_off_ = true;  ///< whether a request ends the work
   std::jthread thread_;  ///< last: uses all above
 };
 

@@ -271,6 +271,40 @@ TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
   EXPECT_TRUE(sent().empty());
 }
 
+TEST_F(WatchListTest, TellsThatALostPathIsWatchedAgain) {
+  begin();
+  const auto lose = [&] {
+    while (events_.back().kind != Kind::kLost) step_at(milliseconds(100));
+    sent();
+    while (sent_.empty()) step_at(milliseconds(100));
+    return sent().back().request_id;
+  };
+  watch_report_t nothing_new{};
+  nothing_new.client_id = "tester";
+  nothing_new.request_id = lose();
+  list_.take_report(wire::encode(nothing_new), now_);
+  ASSERT_EQ(events_.size(), 3u) << "answer, lost, watched";
+  EXPECT_EQ(events_[2].kind, Kind::kWatched);
+  EXPECT_EQ(events_[2].scene_revision, 3);
+
+  report(101, path_state_t::BROKEN, 5, 3, lose());
+  ASSERT_EQ(events_.size(), 5u);
+  EXPECT_EQ(events_[4].kind, Kind::kBroken) << "which says as much";
+
+  nothing_new.request_id = lose();
+  list_.take_report(wire::encode(nothing_new), now_);
+  ASSERT_EQ(events_.size(), 7u);
+  EXPECT_EQ(events_[6].kind, Kind::kWatched);
+  EXPECT_EQ(events_[6].scene_revision, 5) << "in which it is broken still";
+
+  report(0, path_state_t::UNKNOWN, 0, 0, lose());
+  EXPECT_EQ(events_.size(), 8u) << "it is asked for anew";
+  step_at(seconds(1));
+  finish_call(answer(6));
+  ASSERT_EQ(events_.size(), 9u);
+  EXPECT_EQ(events_[8].kind, Kind::kAnswer);
+}
+
 TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
   begin();
   step_at(seconds(5));

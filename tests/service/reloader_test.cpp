@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <stdexcept>
@@ -124,6 +125,23 @@ TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
   EXPECT_NE(store_.find("attic"), nullptr);
   EXPECT_THAT(log_.text(), HasSubstr("info reload called off"));
   EXPECT_THAT(log_.text(), Not(HasSubstr("cannot be read")));
+}
+
+TEST_F(ReloaderTest, RequestsThatComeAllTheTimeKeepNoReloadFromItsEnd) {
+  DaemonOptions next = running_;
+  next.scenes = {scene_of("hall")};
+  constexpr int kRequests = 10;
+  std::atomic<int> reads = 0;
+  std::atomic<int> reads_until_it_was_there = 0;
+  reload([&] {
+    if (store_.find("hall") != nullptr && reads_until_it_was_there == 0) {
+      reads_until_it_was_there = reads.load();
+    }
+    if (++reads < kRequests) reloader_->request();
+    return ParsedOptions{next, {}, {}};
+  });
+  EXPECT_EQ(reads_until_it_was_there, 2) << "the first is called off for the second";
+  reloader_.reset();
 }
 
 TEST_F(ReloaderTest, SaysWhatNeedsARestart) {

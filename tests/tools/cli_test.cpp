@@ -2,7 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -38,6 +43,27 @@ TEST(Cli, HelpsWithUnitsExitCodesAndAnExample) {
         << command;
     EXPECT_THAT(run.out, HasSubstr("Example: camway " + command));
   }
+}
+
+/// What the shell sees of `camway` with that behind it.
+int exit_code_of_shell(const std::string& rest) {
+  return WEXITSTATUS(std::system(("'" CAMWAY_BINARY "' " + rest).c_str()));
+}
+
+// A script must not take an empty file for an answer, nor a full disk for a crash.
+TEST(Cli, OutputThatCannotBeWrittenIsSaid) {
+  const TemporaryFolder folder;
+  const std::string said = folder.file("said");
+  const std::string scene = folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const std::string& command :
+       {std::string("--version"), std::string("plan --help"), "info --scene '" + scene + "'"}) {
+    EXPECT_EQ(exit_code_of_shell(command + " >/dev/full 2>'" + said + "'"), 2) << command;
+    std::ifstream text(said);
+    EXPECT_THAT(std::string(std::istreambuf_iterator<char>(text), {}),
+                HasSubstr("standard output cannot be written"));
+  }
+  EXPECT_EQ(exit_code_of_shell("info --scene '" + scene + "' >'" + said + "'"), 0);
+  EXPECT_EQ(exit_code_of_shell("info --scene /nowhere.obj 2>/dev/full"), 2);
 }
 
 TEST(Cli, HelpOfWhatIsNoCommandSaysSo) {

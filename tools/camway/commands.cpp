@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 
 namespace camway::tools {
 
@@ -15,7 +16,11 @@ ExitCode worse(ExitCode a, ExitCode b) {
   return ExitCode::kSuccess;
 }
 
-void print_error(std::string_view message) { fmt::print(stderr, "camway: {}\n", message); }
+void print_error(std::string_view message) {
+  const std::string line = fmt::format("camway: {}\n", message);
+  // Not fmt::print, which throws where nothing can be written: there is nobody left to tell.
+  std::fputs(line.c_str(), stderr);
+}
 
 std::string exit_code_help(std::string_view negative, bool asks_daemon) {
   return fmt::format("Exit codes: 0 success; 1 our fault{}; 2 invalid input{}{}{}.",

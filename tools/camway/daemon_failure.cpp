@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/daemon_failure.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
 namespace camway::tools {
 namespace {
 
@@ -27,11 +31,19 @@ ExitCode exit_code_of(Status status) {
 
 }  // namespace
 
-CLI::Option* add_timeout(CLI::App& command, double& timeout_s) {
+CLI::Option* add_timeout(CLI::App& command, std::optional<double>& timeout_s) {
   return command
-      .add_option("--timeout-s", timeout_s, "How long to wait for the daemon's answer, seconds")
-      ->check(CLI::Range(0.01, 86'400.0))
-      ->capture_default_str();
+      .add_option("--timeout-s", timeout_s,
+                  fmt::format("How long to wait for the daemon's answer, seconds [{:g}; some 10 "
+                              "where no daemon is heard]",
+                              ClientOptions{}.deadline_s))
+      ->check(CLI::Range(0.01, 86'400.0));
+}
+
+void use_timeout(const std::optional<double>& timeout_s, ClientOptions& options) {
+  if (!timeout_s) return;
+  options.deadline_s = *timeout_s;
+  options.retries = std::numeric_limits<int>::max();
 }
 
 ExitCode report_failure(Status status, const std::string& error, const std::string& key_file) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <camway/status.h>
+#include <camway/client.h>
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -12,7 +13,11 @@
 namespace camway::tools {
 
 /// Declares `--timeout-s` of a command that asks a daemon.
-CLI::Option* add_timeout(CLI::App& command, double& timeout_s);
+CLI::Option* add_timeout(CLI::App& command, std::optional<double>& timeout_s);
+
+/// Makes a client wait so long, though it hear no daemon: one may be about to start. Without a
+/// timeout it stays as it is, and gives up earlier where it hears none.
+void use_timeout(const std::optional<double>& timeout_s, ClientOptions& options);
 
 /// Says on standard error why a daemon gave no answer, or which, with what the flags of a command
 /// can do about it; `key_file` is that of `--key-file`, or empty. Returns what the shell is to see.

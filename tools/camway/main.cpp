@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
@@ -49,14 +50,25 @@ int run(int argc, char** argv) {
   return static_cast<int>(exit_code);
 }
 
+/// Whether what was printed has come where it should. fmt::print throws where it notices; most of
+/// it is noticed here only.
+bool is_output_written() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
+int no_output() {
+  camway::tools::print_error("standard output cannot be written: the disk is full, or nobody reads");
+  return static_cast<int>(camway::tools::ExitCode::kInvalidInput);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    return is_output_written() ? exit_code : no_output();
   } catch (const std::bad_alloc&) {
     camway::tools::print_error("out of memory");
   } catch (const std::exception& error) {
+    if (!is_output_written()) return no_output();
     camway::tools::print_error(std::string("internal error: ") + error.what());
   }
   return static_cast<int>(camway::tools::ExitCode::kOurFault);

@@ -21,7 +21,7 @@ struct OccupancyFlags {
   std::string url;
   std::string prefix = "CAMWAY";
   std::string key_file;
-  double timeout_s = ClientOptions{}.deadline_s;
+  std::optional<double> timeout_s;
   double deadline_s = 0.0;  ///< 0: the daemon's
   std::optional<double> resolution_m;
   OccupancyTexts queries;
@@ -39,8 +39,8 @@ ExitCode ask_map(const OccupancyFlags& flags, const OccupancyBatch& batch) {
   }
   const scene::OccupancyMirror& map = *loaded.result.snapshot->occupancy;
   const scene::OccupancyStatistics statistics = map.statistics();
-  fmt::print(stderr, "camway: {} occupied voxels of {} m\n", statistics.occupied_voxels,
-             statistics.resolution_m);
+  print_error(fmt::format("{} occupied voxels of {} m", statistics.occupied_voxels,
+                          statistics.resolution_m));
   fmt::print("{}", describe(flags.queries, answer_offline(map, batch)));
   if (flags.map_file.empty()) return ExitCode::kSuccess;
   const std::string error = map.write_bt(flags.map_file);
@@ -53,7 +53,7 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
-  options.deadline_s = flags.timeout_s;
+  use_timeout(flags.timeout_s, options);
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
@@ -67,8 +67,8 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
   batch.deadline_s = flags.deadline_s;
   const OccupancyAnswer answer = client.occupancy(batch);
   if (!answer.ok()) return report_failure(answer.status, answer.error, flags.key_file);
-  fmt::print(stderr, "camway: scene {}, revision {}, voxels of {} m\n", flags.daemon_scene,
-             answer.scene_revision, answer.resolution_m);
+  print_error(fmt::format("scene {}, revision {}, voxels of {} m", flags.daemon_scene,
+                          answer.scene_revision, answer.resolution_m));
   fmt::print("{}", describe(flags.queries, answer));
   return ExitCode::kSuccess;
 }

@@ -31,7 +31,7 @@ struct SceneCommandFlags {
   std::string url;
   std::string prefix = "CAMWAY";
   std::string key_file;
-  double timeout_s = ClientOptions{}.deadline_s;
+  std::optional<double> timeout_s;
   double deadline_s = ClientOptions{}.change_deadline_s;
   std::string scene;
   std::string object;
@@ -195,7 +195,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   ClientOptions options;
   options.url = flags.url;
   options.prefix = flags.prefix;
-  options.deadline_s = flags.timeout_s;
+  use_timeout(flags.timeout_s, options);
   options.change_deadline_s = flags.deadline_s;
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);

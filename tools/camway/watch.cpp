@@ -50,6 +50,8 @@ const char* name_of(WatchEvent::Kind kind) {
       return "free";
     case WatchEvent::Kind::kLost:
       return "lost";
+    case WatchEvent::Kind::kWatched:
+      return "watched";
     case WatchEvent::Kind::kEnded:
       return "ended";
   }
@@ -73,6 +75,9 @@ std::string text_of(const WatchEvent& event) {
     }
     case WatchEvent::Kind::kFree:
       return fmt::format("revision {}: proved free again, as it was answered",
+                         event.scene_revision);
+    case WatchEvent::Kind::kWatched:
+      return fmt::format("revision {}: watched again, what was said last holds",
                          event.scene_revision);
     case WatchEvent::Kind::kLost:
     case WatchEvent::Kind::kEnded:
@@ -102,7 +107,7 @@ void print(const WatchEvent& event, bool as_json) {
   if (as_json) {
     fmt::print("{}\n", json_of(event).dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
   } else {
-    fmt::print("{:%H:%M:%S} {:<6} {}\n", fmt::localtime(std::time(nullptr)), name_of(event.kind),
+    fmt::print("{:%H:%M:%S} {:<7} {}\n", fmt::localtime(std::time(nullptr)), name_of(event.kind),
                text_of(event));
   }
   std::fflush(stdout);
@@ -216,8 +221,7 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
       "Events: answer (the first path, or a corrected one), broken (the path collides since a "
       "change,\nand a corrected one is being planned), free (it is proved free again), lost (the "
       "daemon does not\nwatch for now, perhaps as a limit of its [watch] is reached; we go on "
-      "trying "
-      "in silence).\nAt the end, and when interrupted, the daemon is told to watch no more.\n" +
+      "trying in silence), watched\n(it does again, and what was said before holds).\nAt the end, and when interrupted, the daemon is told to watch no more.\n" +
       exit_code_help("no path was proved, so there is nothing to watch; or nobody watched it at "
                      "the end",
                      /*asks_daemon=*/true) +
