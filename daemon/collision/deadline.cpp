@@ -24,6 +24,12 @@ Deadline Deadline::after_s(double seconds) { return Deadline(duration_of(seconds
 
 Deadline Deadline::never() { return after_s(kLongest_s); }
 
+Deadline Deadline::after_looks(int looks) {
+  Deadline deadline{std::chrono::milliseconds(looks)};
+  deadline.looks_ = std::make_shared<std::atomic<std::int64_t>>(0);
+  return deadline;
+}
+
 Deadline Deadline::watched(std::stop_token stop, std::shared_ptr<Progress> progress) const {
   Deadline watched = *this;
   watched.stop_ = std::move(stop);
@@ -33,26 +39,37 @@ Deadline Deadline::watched(std::stop_token stop, std::shared_ptr<Progress> progr
 
 Deadline Deadline::not_before_s(double seconds) const {
   Deadline later = *this;
-  later.budget_ = std::max(budget_, Clock::now() - start_ + duration_of(seconds));
+  later.budget_ = std::max(budget_, now() - start_ + duration_of(seconds));
   return later;
+}
+
+Deadline Deadline::sooner_by_s(double seconds) const {
+  Deadline sooner = *this;
+  sooner.budget_ -= duration_of(seconds);
+  return sooner;
 }
 
 Deadline Deadline::share_of_rest(double share) const {
   Deadline sooner = *this;
-  sooner.budget_ = Clock::now() - start_ + duration_of(share * remaining_s());
+  sooner.budget_ = now() - start_ + duration_of(share * remaining_s());
   return sooner;
 }
 
-bool Deadline::passed() const { return stopped() || Clock::now() - start_ >= budget_; }
+bool Deadline::passed() const { return stopped() || now() - start_ >= budget_; }
 
 double Deadline::remaining_s() const {
   if (stopped()) return 0.0;
-  const double left_s = std::chrono::duration<double>(budget_ - (Clock::now() - start_)).count();
+  const double left_s = std::chrono::duration<double>(budget_ - (now() - start_)).count();
   return std::max(left_s, 0.0);
 }
 
 double Deadline::elapsed_ms() const {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  return std::chrono::duration<double, std::milli>(now() - start_).count();
+}
+
+Deadline::Clock::time_point Deadline::now() const {
+  if (!looks_) return Clock::now();
+  return start_ + std::chrono::milliseconds(looks_->fetch_add(1));
 }
 
 void Deadline::report(Progress::Stage stage) const {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <stop_token>
 
@@ -20,11 +22,19 @@ class Deadline {
   /// Never strikes.
   static Deadline never();
 
+  /// Strikes at the look after so many, by a clock that stands still but for a millisecond at each
+  /// look at it, of this deadline and of all that are made of it: for tests of what an answer is
+  /// that was cut short at any place. [Limit: 0 <= value]
+  static Deadline after_looks(int looks);
+
   /// The same, that strikes as well when `stop` is requested, and hands on what planning reports.
   [[nodiscard]] Deadline watched(std::stop_token stop, std::shared_ptr<Progress> progress) const;
 
   /// The same, but not before `seconds` from now, unless it is told to stop.
   [[nodiscard]] Deadline not_before_s(double seconds) const;
+
+  /// The same, that strikes so much sooner. [Limit: 0 <= value]
+  [[nodiscard]] Deadline sooner_by_s(double seconds) const;
 
   /// The same, that strikes when `share` of what is left is over. [Limit: 0 <= value <= 1]
   [[nodiscard]] Deadline share_of_rest(double share) const;
@@ -49,10 +59,13 @@ class Deadline {
 
   explicit Deadline(Clock::duration budget);
 
+  [[nodiscard]] Clock::time_point now() const;
+
   Clock::time_point start_;
   Clock::duration budget_;
   std::stop_token stop_;
   std::shared_ptr<Progress> progress_;
+  std::shared_ptr<std::atomic<std::int64_t>> looks_;  ///< at a clock that goes on by them; or null
 };
 
 }  // namespace camway::collision

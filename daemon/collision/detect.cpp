@@ -79,9 +79,12 @@ class Detector {
       if (finished_) return;
     }
     close();
+    if (!timed_out_) until_s_ = t_end_s;
   }
 
   [[nodiscard]] bool timed_out() const { return timed_out_; }
+  /// Up to when all is known.
+  [[nodiscard]] double until_s() const { return until_s_; }
   [[nodiscard]] std::vector<CollisionInterval>& intervals() { return intervals_; }
 
  private:
@@ -89,7 +92,10 @@ class Detector {
     const SegmentMotion motion(*all.segment);
     double width = all.u1 - all.u0;
     for (double u = all.u0; u < all.u1 && !finished_;) {
-      if (out_of_time()) return;
+      if (out_of_time()) {
+        until_s_ = last_ ? begin_s_ : motion::segment_time_s(*all.segment, u);
+        return;
+      }
       const Piece piece{all.segment, u, end_of_step(u, width, all.u1)};
       width = piece.u1 - u;
       const Stretch stretch = motion.around(piece.u0, piece.u1);
@@ -223,6 +229,10 @@ class Detector {
     const SegmentMotion motion(*last_->segment);
     const double end_s =
         last_is_sure_ ? last_->end_s() : last_not_free(motion, *last_).value_or(last_->end_s());
+    if (timed_out_) {
+      until_s_ = begin_s_;
+      return;
+    }
     intervals_.push_back({begin_s_, end_s, std::nullopt});
     if (!only_first_) intervals_.back().witness = witness(0.5 * (begin_s_ + end_s));
     last_.reset();
@@ -283,6 +293,7 @@ class Detector {
   unsigned looks_ = 0;
   bool finished_ = false;
   bool timed_out_ = false;
+  double until_s_ = 0.0;
 
   // Of the interval that is open.
   std::optional<Piece> last_;
@@ -303,15 +314,23 @@ class Detector {
 std::optional<std::vector<CollisionInterval>> detect_collisions(
     const Obstacles& obstacles, const motion::Path& path, const motion::Body& body,
     double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline) {
+  Search search = search_collisions(obstacles, path, body, t_begin_s, t_end_s, options, deadline);
+  if (!search.complete) return std::nullopt;
+  return std::move(search.collisions);
+}
+
+Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
+                         const motion::Body& body, double t_begin_s, double t_end_s,
+                         const DetectOptions& options, const Deadline& deadline) {
   Detector detector(obstacles, body, options, deadline, /*only_first=*/false);
   detector.run(path, t_begin_s, t_end_s);
-  if (detector.timed_out()) return std::nullopt;
-  std::vector<CollisionInterval> intervals = std::move(detector.intervals());
-  if (intervals.size() > 1) {
+  Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
+  if (search.collisions.size() > 1) {
     const double travel_m = travel_bound_m(path, body.radius_m());
-    join_close_intervals(intervals, options.gap_m / travel_m * (path.end_s() - path.begin_s()));
+    join_close_intervals(search.collisions,
+                         options.gap_m / travel_m * (path.end_s() - path.begin_s()));
   }
-  return intervals;
+  return search;
 }
 
 FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,

@@ -36,6 +36,18 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(
     const Obstacles& obstacles, const motion::Path& path, const motion::Body& body,
     double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline);
 
+/// What a search found, which the deadline may have ended.
+struct Search {
+  bool complete = false;
+  std::vector<CollisionInterval> collisions;  ///< all up to `until_s`, as `detect_collisions` says
+  double until_s = 0.0;                       ///< beyond, nothing is known
+};
+
+/// As `detect_collisions`, with what is known where the deadline struck before the end.
+Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
+                         const motion::Body& body, double t_begin_s, double t_end_s,
+                         const DetectOptions& options, const Deadline& deadline);
+
 /// Only the first of them, with its end, and without a witness: who looks for a path has no use for
 /// one.
 struct FirstCollision {

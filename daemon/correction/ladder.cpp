@@ -27,7 +27,12 @@ class Ladder {
          const std::vector<motion::Keyframe>& keyframes, const CubicPath& path,
          const std::vector<CollisionInterval>& collisions, const LadderOptions& options,
          const collision::Deadline& deadline)
-      : mesh_(mesh), space_(space), options_(options), deadline_(deadline), original_(path) {
+      : mesh_(mesh),
+        space_(space),
+        options_(options),
+        whole_deadline_(deadline),
+        deadline_(deadline),
+        original_(path) {
     for (std::size_t i = 0; i < keyframes.size(); ++i) {
       keyframes_s_.push_back(keyframes[i].time_s);
       if (keyframes[i].is_repaired) continue;
@@ -35,6 +40,7 @@ class Ladder {
       poses_as_asked_.push_back(keyframes[i].pose);
     }
     result_.path = path;
+    leave_time_for_the_rest();
     for (const CollisionInterval& interval : collisions) split_at_keyframes(interval);
     is_beyond_limit_.resize(open_.size());
     for (const CollisionInterval& interval : open_) gaps_.push_back(gap_of(interval));
@@ -295,7 +301,7 @@ class Ladder {
     };
     std::vector<Astray> astray;
     const std::vector<bool> gaps = corrected_gaps();
-    for (std::size_t gap = 0; gap < gaps.size(); ++gap) {
+    for (std::size_t gap = 0; gap < gaps.size() && !deadline_.passed(); ++gap) {
       if (!gaps[gap]) continue;
       const Problem problem = problem_of_gap(gap);
       const CubicPath part = problem.path.around(problem.gap_begin_s(), problem.gap_end_s());
@@ -404,7 +410,14 @@ class Ladder {
     if (inserted_s_.size() + fresh_s.size() > most) return false;
     inserted_s_.insert(fresh_s.begin(), fresh_s.end());
     result_.path.replace(candidate.path);
+    leave_time_for_the_rest();
     return true;
+  }
+
+  // Which grows with the path.
+  void leave_time_for_the_rest() {
+    const auto pieces = static_cast<double>(result_.path.pieces.size());
+    deadline_ = whole_deadline_.sooner_by_s(options_.rest_s_per_piece * pieces);
   }
 
   // A bump stands for a keyframe at its peak, unless one is there already, or no path, or it moves
@@ -473,7 +486,8 @@ class Ladder {
   const scene::WholeMesh& mesh_;
   FreeSpace& space_;
   const LadderOptions& options_;
-  const collision::Deadline& deadline_;
+  const collision::Deadline& whole_deadline_;
+  collision::Deadline deadline_;  ///< of corrections
   const CubicPath& original_;
   std::vector<double> keyframes_s_;
   /// What proofs stand on: keyframes that we moved ourselves say nothing of the request.

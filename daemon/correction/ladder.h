@@ -27,6 +27,9 @@ struct LadderOptions {
   /// By up to which share the camera may be made smaller, about its eye: there is no path only if
   /// there is none for any such size. [Limit: 0 <= value < 1]
   double max_shrink = 0.0;
+  /// How long it takes, for each piece of the path, what is to be done with it afterwards: so much
+  /// before the deadline corrections end. [Limit: 0 <= value] [Units: seconds]
+  double rest_s_per_piece = 0.0;
 };
 
 struct LadderResult {

@@ -57,4 +57,21 @@ std::string note_of_method(const PlanRequest& request) {
   return note;
 }
 
+std::string why_infeasible(const Infeasibility& proof, bool may_shrink) {
+  if (proof.cage) {
+    const geometry::Vec3 center =
+        proof.cage->orientation * geometry::Vec3(proof.cage->box.center());
+    return fmt::format(
+        "there is no path: keyframe {} is inside a cage about ({:.4g}, {:.4g}, {:.4g}) with no "
+        "hole wider than {:.3g} m, keyframe {} outside; the smaller side of the near "
+        "quadrilateral is {:.3g} m{}",
+        proof.keyframe_inside, center.x(), center.y(), center.z(), proof.cage->widest_hole_m,
+        proof.keyframe_outside, proof.cage->shortest_chord_m, may_shrink ? " at its smallest" : "");
+  }
+  return fmt::format(
+      "there is no path: keyframe {} is inside a closed surface of {} triangles of the scene, "
+      "keyframe {} outside",
+      proof.keyframe_inside, proof.triangles.size(), proof.keyframe_outside);
+}
+
 }  // namespace camway::planning

@@ -6,6 +6,7 @@
 
 #include "daemon/correction/correction.h"
 #include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
 
 namespace camway::planning {
 
@@ -22,5 +23,8 @@ std::string note_of_effort(const std::vector<correction::Correction>& correction
 /// "; note: ..." about options that the request's method does not look at; nothing where there are
 /// none.
 std::string note_of_method(const PlanRequest& request);
+
+/// "there is no path: ..." by this proof, which may be for the smallest camera that is allowed.
+std::string why_infeasible(const Infeasibility& proof, bool may_shrink);
 
 }  // namespace camway::planning

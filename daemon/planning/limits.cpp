@@ -36,6 +36,9 @@ constexpr double kFewestKnots = 4.0;
 constexpr double kMostKnots = 256.0;
 constexpr std::size_t kMostPieces = 80'000;
 
+// What a law takes at the least for each of its knots, without a look at the deadline; measured.
+constexpr double kLeast_s_per_knot = 2e-6;
+
 constexpr int kSamples = 32;  // of a segment, for breaches
 
 /// The largest rate beside its limit, in words.
@@ -78,6 +81,20 @@ std::vector<Sample> samples_of(const Path& path, const RateLimits& limits) {
     }
   }
   return samples;
+}
+
+/// The largest of the same samples; nothing if the deadline struck first.
+std::optional<double> largest_needed_stretch(const Path& path, const RateLimits& limits,
+                                             const collision::Deadline& deadline) {
+  double largest = motion::needed_stretch(path.segments().front(), 0.0, limits);
+  for (const Segment& segment : path.segments()) {
+    if (deadline.passed()) return std::nullopt;
+    for (int i = 0; i <= kSamples; ++i) {
+      const double u = static_cast<double>(i) / kSamples;
+      largest = std::max(largest, motion::needed_stretch(segment, u, limits));
+    }
+  }
+  return largest;
 }
 
 /// How far any point of the body is, at samples between the knots of `law`, from where it was.
@@ -138,8 +155,12 @@ std::vector<SlowedStretch> slowed_stretches(const TimeLaw& law) {
 
 }  // namespace
 
+bool meets_limits(const Path& path, const RateLimits& limits) {
+  return motion::meets(path, stretched(limits, 1.0 + kLimitRounding));
+}
+
 std::optional<LimitBreach> find_limit_breach(const Path& path, const RateLimits& limits) {
-  if (motion::meets(path, stretched(limits, 1.0 + kLimitRounding))) return std::nullopt;
+  if (meets_limits(path, limits)) return std::nullopt;
   const std::vector<Sample> samples = samples_of(path, limits);
   const auto worst = std::ranges::max_element(samples, {}, &Sample::needed_stretch);
   auto first = worst;
@@ -162,25 +183,28 @@ std::optional<Retimed> slowed_where_needed(const TooFast& problem,
   const double mean_s = (path.end_s() - path.begin_s()) / pieces;
   for (double knots = kFewestKnots; knots <= kMostKnots && !deadline.passed(); knots *= 2.0) {
     if (knots * pieces > static_cast<double>(kMostPieces)) break;
+    if (knots * pieces * kLeast_s_per_knot > deadline.remaining_s()) break;
     if (auto slowed = slowed_with_step(problem, path, mean_s / knots, deadline)) return slowed;
   }
   return std::nullopt;
 }
 
-Retimed slowed_alike(const TooFast& problem) {
+std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Deadline& deadline) {
   const Path path = problem.path.path();
-  const std::vector<Sample> samples = samples_of(path, problem.limits);
-  double factor = std::ranges::max_element(samples, {}, &Sample::needed_stretch)->needed_stretch;
+  const std::optional<double> needed = largest_needed_stretch(path, problem.limits, deadline);
+  if (!needed) return std::nullopt;
+  double factor = *needed;
   // Samples may miss a little of the largest rate, or much of one that peaks.
   double margin = kSlowerThanAllowed;
   do {
+    if (deadline.passed()) return std::nullopt;
     factor *= margin;
     margin *= margin;
   } while (std::isfinite(factor) && !motion::meets(path, stretched(problem.limits, factor)));
   TimeLaw law = TimeLaw::alike(path.begin_s(), path.end_s(), factor);
   CubicPath slowed = motion::stretched(problem.path, law);
   CubicPath interpolated = motion::stretched(problem.interpolated, law);
-  return {std::move(law), std::move(slowed), std::move(interpolated), std::nullopt};
+  return Retimed{std::move(law), std::move(slowed), std::move(interpolated), std::nullopt};
 }
 
 void move_times(const TimeLaw& law, PlanResult& result) {

@@ -23,7 +23,10 @@ struct LimitBreach {
   std::string rate;           ///< e.g. "its speed is up to 1.4 m/s, of 1 m/s that are allowed"
 };
 
-/// Nothing if the path meets the limits at every instant, to a millionth.
+/// Whether the path is shown to meet the limits at every instant, to a millionth.
+bool meets_limits(const motion::Path& path, const motion::RateLimits& limits);
+
+/// Nothing if it does.
 std::optional<LimitBreach> find_limit_breach(const motion::Path& path,
                                              const motion::RateLimits& limits);
 
@@ -57,8 +60,8 @@ struct Retimed {
 std::optional<Retimed> slowed_where_needed(const TooFast& problem,
                                            const collision::Deadline& deadline);
 
-/// The path with all times stretched alike.
-Retimed slowed_alike(const TooFast& problem);
+/// The path with all times stretched alike. Nothing if the deadline struck first.
+std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Deadline& deadline);
 
 /// Moves every time of the result but those of its path, which `law` was made for: of keyframes,
 /// collisions and corrections. Says in it where and by how much it was slowed.

@@ -20,6 +20,7 @@
 #include "daemon/planning/effort_text.h"
 #include "daemon/planning/keyframe_faults.h"
 #include "daemon/planning/limits.h"
+#include "daemon/planning/search_changes.h"
 #include "daemon/planning/shrink.h"
 
 namespace camway::planning {
@@ -187,6 +188,7 @@ class Planner {
     options.objective = request_.options.objective;
     options.orientation = request_.options.orientation;
     options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
+    options.rest_s_per_piece = kSearching_s_per_piece + rest_s_per_piece();
     correction::LadderResult corrected = correction::correct_by_ladder(
         snapshot_.mesh, obstacles_, *body_, result_.keyframes, interpolated_, found, options,
         deadline_.share_of_rest(kShareOfCorrection));
@@ -223,11 +225,19 @@ class Planner {
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     correction::KeyframeInsertionResult corrected = correction::insert_keyframes(
         obstacles_.index, result_.keyframes, motion::near_corners_C(request_.camera), options,
-        deadline_.share_of_rest(kShareOfCorrection));
+        deadline_.share_of_rest(kShareOfCorrection).sooner_by_s(rest_s()));
     is_as_interpolated_ = false;
     result_.keyframes = std::move(corrected.keyframes);
     result_.path = std::move(corrected.path);
     timed_out_ = corrected.timed_out;
+  }
+
+  // What comes after the final check, for each piece of the path, and in all.
+  [[nodiscard]] double rest_s_per_piece() const {
+    return kMeasuring_s_per_piece + (request_.options.limits.any() ? kSlowing_s_per_piece : 0.0);
+  }
+  [[nodiscard]] double rest_s() const {
+    return rest_s_per_piece() * static_cast<double>(result_.path.segments().size());
   }
 
   // The final check of the path as it will be returned, which also runs when correction ran out of
@@ -235,28 +245,53 @@ class Planner {
   void certify() {
     if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
     deadline_.report(collision::Progress::Stage::kCertifying);
-    const Deadline budget = deadline_.not_before_s(kFinalCheckBudget_s);
-    PathCheck check = final_check(budget);
-    if (check.complete) {
-      result_.remaining_collisions = std::move(check.collisions);
-      result_.certificate = check.certificate;
-    } else {
-      timed_out_ = true;
-      mark_all_as_remaining();
+    const Deadline budget = deadline_.sooner_by_s(rest_s()).not_before_s(kLeastBudget_s);
+    // As interpolated, these very segments were searched already.
+    result_.remaining_collisions = is_as_interpolated_ ? result_.collisions : final_search(budget);
+    if (result_.remaining_collisions.empty()) {
+      result_.certificate = certificate_of_free(obstacles_, result_.path, *body_, detect_, budget);
     }
     result_.timing.certify_ms = lap_ms();
   }
 
-  PathCheck final_check(const Deadline& budget) const {
-    if (!is_as_interpolated_) {
-      return check_path(obstacles_, result_.path, *body_, detect_, budget, budget);
+  // Of the whole path; where there is no time for that, of what was changed.
+  std::vector<CollisionInterval> final_search(const Deadline& budget) {
+    collision::Search whole{false, {}, result_.path.begin_s()};
+    if (!timed_out_) {
+      whole = collision::search_collisions(obstacles_, result_.path, *body_, result_.path.begin_s(),
+                                           result_.path.end_s(), detect_,
+                                           budget.share_of_rest(kShareOfWholeSearch));
     }
-    // These very segments were searched already.
-    PathCheck check{true, result_.collisions, {}};
-    if (check.collisions.empty()) {
-      check.certificate = certificate_of_free(obstacles_, result_.path, *body_, detect_, budget);
+    if (whole.complete) return std::move(whole.collisions);
+    timed_out_ = true;
+    // The seed's method changes the path everywhere.
+    const motion::Path before = corrected_ ? interpolated_.path() : motion::Path();
+    collision::Search changes = search_changes(obstacles_, result_.path, *body_, detect_,
+                                               {before, result_.collisions}, whole, budget);
+    if (!changes.complete) give_up_corrections(changes.until_s);
+    return std::move(changes.collisions);
+  }
+
+  // There was no time to check them.
+  void give_up_corrections(double from_s) {
+    put_back(from_s);
+    for (correction::Correction& correction : result_.corrections) {
+      if (correction.interval.t_end_s > from_s) correction = {correction.interval};
     }
-    return check;
+  }
+
+  // From then on the path as interpolated, whose collisions are known.
+  void put_back(double from_s) {
+    std::erase_if(result_.keyframes, [&](const Keyframe& keyframe) {
+      return keyframe.origin == motion::KeyframeOrigin::kInserted && keyframe.time_s >= from_s;
+    });
+    is_as_interpolated_ = from_s <= interpolated_.begin_s();
+    if (is_as_interpolated_) {
+      corrected_.reset();
+    } else {
+      corrected_ = with_rest_of(*corrected_, interpolated_, from_s);
+    }
+    result_.path = (corrected_ ? *corrected_ : interpolated_).path();
   }
 
   // Corrections of some intervals can bend the spline into others. Who gets a path that collides
@@ -264,12 +299,7 @@ class Planner {
   void keep_the_better_path() {
     if (colliding_s(result_.remaining_collisions) <= colliding_s(result_.collisions)) return;
     if (result_.collisions.empty()) return;
-    std::erase_if(result_.keyframes, [](const Keyframe& keyframe) {
-      return keyframe.origin == motion::KeyframeOrigin::kInserted;
-    });
-    result_.path = interpolated_.path();
-    corrected_.reset();
-    is_as_interpolated_ = true;
+    put_back(result_.path.begin_s());
     result_.remaining_collisions = result_.collisions;
   }
 
@@ -297,8 +327,8 @@ class Planner {
   void meet_limits() {
     const correction::MotionLimits& limits = request_.options.limits;
     if (!result_.measures || !limits.any()) return;
-    breach_ = find_limit_breach(result_.path, limits);
-    if (!breach_ || !limits.may_retime) return;
+    if (!limits.may_retime) breach_ = find_limit_breach(result_.path, limits);
+    if (!limits.may_retime || meets_limits(result_.path, limits)) return;
     const motion::CubicPath path = corrected_ ? *corrected_
                                    : is_as_interpolated_
                                        ? interpolated_
@@ -312,7 +342,9 @@ class Planner {
       slowed = slowed_where_needed(too_fast, deadline_.share_of_rest(kShareOfSlowing));
     }
     slowed_everywhere_ = !slowed;
-    take(slowed ? std::move(*slowed) : slowed_alike(too_fast));
+    if (!slowed) slowed = slowed_alike(too_fast, deadline_.not_before_s(kLeastBudget_s));
+    is_too_fast_ = !slowed;
+    if (slowed) take(std::move(*slowed));
     result_.timing.certify_ms += lap_ms();
   }
 
@@ -325,7 +357,6 @@ class Planner {
     }
     if (slowed.certificate) result_.certificate = *slowed.certificate;
     result_.measures = motion::measure(result_.path, slowed.interpolated.path());
-    breach_.reset();
   }
 
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
@@ -385,6 +416,13 @@ class Planner {
       result_.message = why_too_fast();
       return;
     }
+    if (remaining == 0 && is_too_fast_) {
+      result_.status = Status::kTimeout;
+      result_.message =
+          "options.limits: the path is free, but too fast, and the deadline came before it was "
+          "slowed";
+      return;
+    }
     if (remaining == 0) {
       result_.status = Status::kOk;
       result_.message = fmt::format("{} found, {} inserted{}, proved free with {:.3g} m clearance",
@@ -396,14 +434,15 @@ class Planner {
     }
     if (result_.infeasibility) {
       result_.status = Status::kInfeasible;
-      result_.message = why_infeasible() + note();
+      const bool may_shrink = request_.options.max_shrink > 0.0 && !request_.body;
+      result_.message = why_infeasible(*result_.infeasibility, may_shrink) + note();
       return;
     }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
     if (!is_searched_) {
       result_.message =
           "the deadline came before the path was searched for collisions: nothing is known of it" +
-          note();
+          note_of_haste() + note();
       return;
     }
     result_.message = fmt::format("{}{} found, {} inserted{}, {} left on the path",
@@ -411,7 +450,12 @@ class Planner {
                                   counted(result_.collisions.size(), "collision"),
                                   counted(inserted, "keyframe"), repaired(), remaining) +
                       note_of_keyframe_limit() + note_of_effort(result_.corrections) +
-                      note_of_times() + note();
+                      note_of_haste() + note_of_times() + note();
+  }
+
+  // What the deadline left undone.
+  [[nodiscard]] std::string note_of_haste() const {
+    return is_too_fast_ ? "; it was not slowed to meet options.limits" : "";
   }
 
   [[nodiscard]] std::string note_of_keyframe_limit() const {
@@ -449,25 +493,6 @@ class Planner {
                        slowed_everywhere_ ? "all the way" : "in part", result_.time_scale);
   }
 
-  [[nodiscard]] std::string why_infeasible() const {
-    const Infeasibility& proof = *result_.infeasibility;
-    if (proof.cage) {
-      const geometry::Vec3 center =
-          proof.cage->orientation * geometry::Vec3(proof.cage->box.center());
-      return fmt::format(
-          "there is no path: keyframe {} is inside a cage about ({:.4g}, {:.4g}, {:.4g}) with no "
-          "hole wider than {:.3g} m, keyframe {} outside; the smaller side of the near "
-          "quadrilateral is {:.3g} m{}",
-          proof.keyframe_inside, center.x(), center.y(), center.z(), proof.cage->widest_hole_m,
-          proof.keyframe_outside, proof.cage->shortest_chord_m,
-          request_.options.max_shrink > 0.0 && !request_.body ? " at its smallest" : "");
-    }
-    return fmt::format(
-        "there is no path: keyframe {} is inside a closed surface of {} triangles of the scene, "
-        "keyframe {} outside",
-        proof.keyframe_inside, proof.triangles.size(), proof.keyframe_outside);
-  }
-
   std::optional<std::vector<CollisionInterval>> detect() const {
     return collision::detect_collisions(obstacles_, result_.path, *body_, result_.path.begin_s(),
                                         result_.path.end_s(), detect_, deadline_);
@@ -496,12 +521,19 @@ class Planner {
   // Cameras are seldom rolled by so much: 30 degrees.
   static constexpr double kNotableTilt_rad = 0.5236;
 
-  // What comes after these takes as long as the path is, and would begin when time is up.
-  static constexpr double kShareOfCorrection = 0.9;
+  // Of what is left: what comes after these has to be done by the deadline, too.
+  static constexpr double kShareOfCorrection = 0.95;
+  static constexpr double kShareOfWholeSearch = 0.7;
   static constexpr double kShareOfSlowing = 0.5;
 
-  // For the final check, however little of the deadline is left.
-  static constexpr double kFinalCheckBudget_s = 1.0;
+  // The final check, and what comes after it; measured, on two slow cores.
+  static constexpr double kSearching_s_per_piece = 4e-6;
+  static constexpr double kMeasuring_s_per_piece = 6e-6;
+  static constexpr double kSlowing_s_per_piece = 10e-6;
+
+  // For the final check and for stretching times, however little of the deadline is left: enough
+  // for most paths.
+  static constexpr double kLeastBudget_s = 0.02;
 
   const scene::Snapshot& snapshot_;
   const collision::Obstacles obstacles_;
@@ -516,6 +548,7 @@ class Planner {
   bool is_as_interpolated_ = true;
   bool timed_out_ = false;
   bool is_searched_ = true;                      ///< the path as interpolated, for collisions
+  bool is_too_fast_ = false;                     ///< as the deadline came before it was slowed
   std::optional<std::size_t> needed_keyframes_;  ///< set if more than allowed
   std::optional<motion::CubicPath> corrected_;   ///< what the ladder made of the path, if anything
   std::optional<LimitBreach> breach_;            ///< limits that are not met

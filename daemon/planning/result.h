@@ -30,7 +30,7 @@ std::string_view to_string(Status status);
 std::optional<Status> status_from_string(std::string_view text);
 
 /// What is proved about the returned segments, exactly as sent. With `kOk` always; with `kPartial`
-/// only where nothing but limits of the motion is not met.
+/// and `kTimeout` only where nothing but limits of the motion is not met.
 struct Certificate {
   bool certified = false;
   double clearance_lower_bound_m = 0.0;

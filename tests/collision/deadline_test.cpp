@@ -29,6 +29,24 @@ TEST(Deadline, CanBePutOffButNotBroughtForward) {
   EXPECT_GT(Deadline::after_s(100.0).not_before_s(1.0).remaining_s(), 90.0);
 }
 
+TEST(Deadline, CanBeBroughtForward) {
+  EXPECT_LT(Deadline::after_s(100.0).sooner_by_s(60.0).remaining_s(), 41.0);
+  EXPECT_TRUE(Deadline::after_s(100.0).sooner_by_s(200.0).passed());
+  EXPECT_FALSE(Deadline::never().sooner_by_s(1e6).passed());
+}
+
+TEST(Deadline, AfterLooksGoesByLooksAndNoClock) {
+  const Deadline deadline = Deadline::after_looks(10);
+  EXPECT_EQ(deadline.remaining_s(), 0.010);
+  EXPECT_EQ(deadline.elapsed_ms(), 1.0);
+  const Deadline copy = deadline.sooner_by_s(0.004);
+  EXPECT_EQ(copy.remaining_s(), 0.004);  // the third look, of either
+  EXPECT_FALSE(copy.passed());
+  for (int i = 4; i < 6; ++i) EXPECT_FALSE(copy.passed()) << i;
+  EXPECT_TRUE(copy.passed());
+  EXPECT_FALSE(deadline.passed());
+}
+
 TEST(Deadline, HandsOnWhatIsReported) {
   const auto progress = std::make_shared<Progress>();
   const Deadline deadline = Deadline::after_s(1.0).watched({}, progress);

@@ -203,6 +203,37 @@ TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
           .decided);
 }
 
+// Wherever it strikes, what is told up to then is what a search to the end tells.
+TEST(SearchCollisions, KnowsAllUpToWhereTheDeadlineStruck) {
+  Mesh mesh;
+  for (int i = 0; i < 4; ++i) testing::add_cuboid(mesh, {-1, -1, i - 0.1}, {1, 1, i + 0.1});
+  const SceneIndex index = SceneIndex::build(mesh);
+  const motion::Body body(testing::small_camera());
+  const Path path = straight({0, 0, 5}, {0, 0, -2}, Quat::Identity());
+  const auto all = detect_collisions(index, path, body, 0.0, 1.0, {}, Deadline::never());
+  ASSERT_EQ(all->size(), 8u);  // two faces each
+  double until_s = 0.0;
+  std::size_t most = 0;
+  for (int looks = 0;; ++looks) {
+    const Search found =
+        search_collisions(index, path, body, 0.0, 1.0, {}, Deadline::after_looks(looks));
+    EXPECT_GE(found.until_s, until_s);
+    until_s = found.until_s;
+    ASSERT_LE(found.collisions.size(), all->size());
+    for (std::size_t i = 0; i < all->size(); ++i) {
+      const bool is_told = i < found.collisions.size();
+      EXPECT_EQ((*all)[i].t_begin_s < until_s, is_told) << looks;
+      if (is_told) {
+        EXPECT_EQ(found.collisions[i], (*all)[i]) << looks;
+      }
+    }
+    if (!found.complete) most = std::max(most, found.collisions.size());
+    if (found.complete) break;
+  }
+  EXPECT_EQ(until_s, 1.0);
+  EXPECT_GT(most, 1u) << "it never struck in between";
+}
+
 // Of a path that nobody can evaluate nothing is free, and the search for it ends.
 TEST(DetectCollisions, NumbersWithoutMeaningCollideAllOver) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());

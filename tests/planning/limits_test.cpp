@@ -200,11 +200,13 @@ TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
   const TooFast problem{path,  path, request.options.limits, request.options.orientation, obstacles,
                         *body, {}};
   EXPECT_FALSE(slowed_where_needed(problem, collision::Deadline::after_s(0.0)));
-  const Retimed slowed = slowed_alike(problem);
-  EXPECT_TRUE(motion::meets(slowed.path.path(), request.options.limits));
-  EXPECT_FALSE(slowed.certificate);
+  EXPECT_FALSE(slowed_alike(problem, collision::Deadline::after_s(0.0)));
+  const std::optional<Retimed> slowed = slowed_alike(problem, collision::Deadline::never());
+  ASSERT_TRUE(slowed);
+  EXPECT_TRUE(motion::meets(slowed->path.path(), request.options.limits));
+  EXPECT_FALSE(slowed->certificate);
   for (std::size_t i = 0; i < path.pieces.size(); ++i)
-    EXPECT_EQ(slowed.path.pieces[i].position, path.pieces[i].position);
+    EXPECT_EQ(slowed->path.pieces[i].position, path.pieces[i].position);
 }
 
 TEST(Limits, TheSameRequestGivesTheSameBits) {
