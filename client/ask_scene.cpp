@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include <camway/cancel_t.hpp>
 #include <camway/map_page_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
@@ -30,6 +31,8 @@ std::string explain(std::int32_t status, const std::string& message) {
   return to_string(static_cast<Status>(status)) + ": " +
          (message.empty() ? "(no reason given)" : message);
 }
+
+Failure cancelled() { return {Status::kCancelled, "cancelled before anything was changed"}; }
 
 /// What came of one question.
 template <class Response>
@@ -62,10 +65,23 @@ class OneAnswer final : public Call {
     }
     response_ = std::move(*decoded.message);
   }
-  bool answered() const override { return response_.has_value(); }
+  bool answered() const override { return response_.has_value() || ends_; }
+  void cancel() override {
+    // The daemon does nothing for an upload that would have to end.
+    ends_ = kind() != Kind::kScene;
+    if (ends_) return;
+    cancel_t question{};
+    question.client_id = context_.options().client_id;
+    question.request_id = request_id();
+    question.utime = microseconds_since_1970();
+    replace_question({{context_.channels().cancel_scene(), wire::encode(question)}});
+    retry().restart();
+  }
   void finish(Outcome outcome) override {
     Asked<Response> asked{std::move(response_), {Status::kOk, {}}};
-    if (outcome != Outcome::kAnswered) {
+    if (outcome == Outcome::kAnswered && !asked.response) {
+      asked.failure = cancelled();
+    } else if (outcome != Outcome::kAnswered) {
       asked = {std::nullopt,
                refusal_ && (outcome == Outcome::kDeadline || outcome == Outcome::kSilence)
                    ? Failure{Status::kOverloaded, *refusal_}
@@ -79,24 +95,48 @@ class OneAnswer final : public Call {
   std::optional<Response> response_;
   std::optional<std::string> refusal_;
   std::string fault_;
+  bool ends_ = false;  ///< nobody wants the answer any more
   std::promise<Asked<Response>> promise_;
 };
 
-/// What calls ask with.
-struct Asker {
+/// What one call about scenes asks with, one question after the other.
+class Asker {
+ public:
+  explicit Asker(const SceneAsker& asker)
+      : context(asker.context),
+        engine(asker.engine),
+        deadline(after(asker.context.options().deadline_s)),
+        cancel_(asker.cancel),
+        cancels_(asker.cancel.count()) {}
+
   Context& context;
   Engine& engine;
-  Clock::time_point deadline;
+  const Clock::time_point deadline;
 
   template <class Response>
   Asked<Response> ask(Call::Kind kind, std::int64_t request_id,
                       std::vector<Outgoing> question) const {
+    if (is_cancelled()) return {std::nullopt, cancelled()};
     const auto call = std::make_shared<OneAnswer<Response>>(kind, context, request_id,
                                                             std::move(question), deadline);
     std::future<Asked<Response>> answer = call->answer();
-    engine.start(call);
+    start(call);
     return answer.get();
   }
+
+  /// Whether that was asked for since the call began.
+  bool is_cancelled() const { return cancel_.count() != cancels_; }
+
+  /// Starts a question that hears of it, too.
+  void start(const std::shared_ptr<Call>& call) const {
+    engine.start(call);
+    // One that was asked for just before did not find the question.
+    if (is_cancelled()) engine.cancel(call->kind(), call->request_id());
+  }
+
+ private:
+  const SceneCancel& cancel_;
+  const std::uint64_t cancels_;
 };
 
 /// Sends these pages and asks what is missing then.
@@ -149,6 +189,7 @@ Asked<scene_response_t> ask_once(const Asker& asker, scene_request_t request) {
   request.client_id = asker.context.options().client_id;
   request.request_id = asker.context.new_request_id();
   request.utime = microseconds_since_1970();
+  request.deadline_s = asker.context.options().change_deadline_s;
   return asker.ask<scene_response_t>(
       Call::Kind::kScene, request.request_id,
       {{asker.context.channels().scene_request(), wire::encode(request)}});
@@ -190,12 +231,19 @@ std::optional<std::string> fault_in_form(const scene_request_t& request) {
 
 }  // namespace
 
-SceneAnswer ask_scene(Context& context, Engine& engine, scene_request_t request,
+void SceneCancel::cancel(Engine& engine) {
+  ++count_;
+  for (const Call::Kind kind : {Call::Kind::kScene, Call::Kind::kUpload, Call::Kind::kMap}) {
+    engine.cancel_all(kind);
+  }
+}
+
+SceneAnswer ask_scene(const SceneAsker& with, scene_request_t request,
                       const std::vector<std::uint8_t>& bytes) {
   if (const auto fault = fault_in_form(request)) {
     return failed<SceneAnswer>({Status::kInvalid, *fault});
   }
-  const Asker asker{context, engine, after(context.options().deadline_s)};
+  const Asker asker(with);
   if (bytes.empty()) return answer_of(ask_once(asker, std::move(request)));
   SceneAnswer answer;
   // Between upload and request the daemon may be started anew, or give its room to others.
@@ -249,7 +297,8 @@ class MapPages final : public Call {
       came_.pages.push_back(std::move(page));
     }
   }
-  bool answered() const override { return wanted_.empty() || refusal_.has_value(); }
+  bool answered() const override { return wanted_.empty() || refusal_.has_value() || ends_; }
+  void cancel() override { ends_ = true; }
   std::vector<Outgoing> missing() const override {
     missing_pages_t message{};
     message.client_id = context_.options().client_id;
@@ -265,6 +314,8 @@ class MapPages final : public Call {
       came_.failure = context_.explain(outcome, retry().ever_heard(), {}, fault_);
     } else if (refusal_) {
       came_.failure = {Status::kInvalid, *refusal_};
+    } else if (!wanted_.empty()) {
+      came_.failure = cancelled();
     }
     promise_.set_value(std::move(came_));
   }
@@ -276,6 +327,7 @@ class MapPages final : public Call {
   Came came_;
   std::optional<std::string> refusal_;
   std::string fault_;
+  bool ends_ = false;  ///< nobody wants the pages any more
   std::promise<Came> promise_;
 };
 
@@ -295,7 +347,7 @@ SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
     const auto call = std::make_shared<MapPages>(asker.context, exported.request_id, num_pages,
                                                  wanted, asker.deadline);
     std::future<MapPages::Came> answer = call->answer();
-    asker.engine.start(call);
+    asker.start(call);
     MapPages::Came came = answer.get();
     if (came.failure.status != Status::kOk) return failed<SceneMap>(came.failure);
     std::ranges::sort(came.pages, {}, &map_page_t::page);
@@ -313,11 +365,11 @@ SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
 
 }  // namespace
 
-SceneMap ask_scene_map(Context& context, Engine& engine, const scene_request_t& request) {
+SceneMap ask_scene_map(const SceneAsker& with, const scene_request_t& request) {
   if (const auto fault = fault_in_form(request)) {
     return failed<SceneMap>({Status::kInvalid, *fault});
   }
-  const Asker asker{context, engine, after(context.options().deadline_s)};
+  const Asker asker(with);
   SceneMap map;
   // Another client's exports may have taken its room, or the daemon was started anew.
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
@@ -330,11 +382,11 @@ SceneMap ask_scene_map(Context& context, Engine& engine, const scene_request_t& 
   return map;
 }
 
-SceneAnswer ask_scene_list(Context& context, Engine& engine, scene_request_t request) {
+SceneAnswer ask_scene_list(const SceneAsker& with, scene_request_t request) {
   if (const auto fault = fault_in_form(request)) {
     return failed<SceneAnswer>({Status::kInvalid, *fault});
   }
-  const Asker asker{context, engine, after(context.options().deadline_s)};
+  const Asker asker(with);
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
     SceneAnswer all;
     const auto size = [](const SceneAnswer& answer) {

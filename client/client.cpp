@@ -70,19 +70,22 @@ class Client::Impl {
 
   SceneAnswer ask(scene_request_t request, const Bytes& upload = {}) {
     if (const auto why = failure_to_wait()) return failed<SceneAnswer>(*why);
-    return ask_scene(context, *engine, std::move(request), upload);
+    return ask_scene(asker(), std::move(request), upload);
   }
 
   SceneAnswer ask_list(scene_request_t request) {
     if (const auto why = failure_to_wait()) return failed<SceneAnswer>(*why);
-    return ask_scene_list(context, *engine, std::move(request));
+    return ask_scene_list(asker(), std::move(request));
   }
+
+  SceneAsker asker() { return {context, *engine, scene_cancel}; }
 
   Context context;
   Link link;
   std::string error;
   std::string warning;
   Status error_status = Status::kInvalid;
+  SceneCancel scene_cancel;
   std::optional<Engine> engine;  ///< last: its thread uses all else
 };
 
@@ -229,7 +232,7 @@ SceneAnswer Client::insert_scan(const std::string& scene, const std::string& obj
 
 SceneMap Client::export_map(const std::string& scene) {
   if (const auto why = impl_->failure_to_wait()) return failed<SceneMap>(*why);
-  return ask_scene_map(impl_->context, *impl_->engine, request_for(scene_request_t::EXPORT, scene));
+  return ask_scene_map(impl_->asker(), request_for(scene_request_t::EXPORT, scene));
 }
 
 SceneAnswer Client::export_map_to(const std::string& scene, const std::string& file) {
@@ -237,6 +240,10 @@ SceneAnswer Client::export_map_to(const std::string& scene, const std::string& f
   request.file = file;
   if (file.empty()) return failed<SceneAnswer>({Status::kInvalid, "file: is empty"});
   return impl_->ask(std::move(request));
+}
+
+void Client::cancel_scene_calls() {
+  if (impl_->engine) impl_->scene_cancel.cancel(*impl_->engine);
 }
 
 DaemonStatus Client::status(double timeout_s) {

@@ -38,6 +38,9 @@ std::string fault_in(const ClientOptions& options) {
     return "ClientOptions.client_id: \"" + options.client_id + "\" is not of [A-Za-z0-9_-]{1,32}";
   }
   if (!is_time(options.deadline_s)) return "ClientOptions.deadline_s: must be above 0";
+  if (!(options.change_deadline_s >= 0.0)) {
+    return "ClientOptions.change_deadline_s: must not be below 0";
+  }
   if (!is_time(options.try_timeout_s)) return "ClientOptions.try_timeout_s: must be above 0";
   if (!is_time(options.max_try_timeout_s))
     return "ClientOptions.max_try_timeout_s: must be above 0";

@@ -126,6 +126,14 @@ void Engine::cancel(Call::Kind kind, std::int64_t request_id) {
   });
 }
 
+void Engine::cancel_all(Call::Kind kind) {
+  post([this, kind] {
+    for (const auto& [key, call] : calls_) {
+      if (key.first == kind) call->cancel();
+    }
+  });
+}
+
 void Engine::watch(const PlanRequest& request, WatchHandler handler) {
   post([this, request, handler = std::move(handler)] { watches_.add(request, handler); });
 }

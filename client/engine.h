@@ -41,6 +41,8 @@ class Engine {
 
   void start(std::shared_ptr<Call> call);
   void cancel(Call::Kind kind, std::int64_t request_id);
+  /// All calls of that kind.
+  void cancel_all(Call::Kind kind);
 
   /// As those of `WatchList`.
   void watch(const PlanRequest& request, WatchHandler handler);

@@ -57,6 +57,7 @@ struct Channels {
   }
   [[nodiscard]] std::string cancel() const { return prefix + "_CANCEL"; }
   [[nodiscard]] std::string cancel_occupancy() const { return prefix + "_CANCEL_OCCUPANCY"; }
+  [[nodiscard]] std::string cancel_scene() const { return prefix + "_CANCEL_SCENE"; }
   [[nodiscard]] std::string missing_pages() const { return prefix + "_MISSING_PAGES"; }
   [[nodiscard]] std::string missing_pages(std::string_view client_id) const {
     return (prefix + "_MISSING_PAGES_").append(client_id);

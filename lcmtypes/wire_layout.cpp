@@ -235,6 +235,7 @@ constexpr std::array kSceneRequest{
     fixed("first", kInt32),
     fixed("revision", kInt64),
     text("restore_as", kMaxSceneNameBytes),
+    fixed("deadline_s", kDouble),
 };
 
 constexpr std::array kSceneResponse{

@@ -32,6 +32,9 @@ struct ClientOptions {
 
   /// A call ends by then, whatever happens (planning calls: not before the request's own deadline).
   double deadline_s = 60.0;
+  /// How long the daemon may take for a change of a scene, from its receipt; what is not in force
+  /// by then changes nothing and ends with `kTimeout`. 0: its own default. [Limit: 0 <= value]
+  double change_deadline_s = 0.0;
   double try_timeout_s = 0.4;  ///< how long a first answer may take before the request is repeated
   double backoff = 1.6;        ///< each further try waits so many times longer [Limit: >= 1]
   double max_try_timeout_s = 5.0;  ///< but never longer than this
@@ -157,6 +160,10 @@ class Client {
   /// Has the daemon write it to a file below one of its scene roots, of which the name ends with
   /// ".bt". One that is there is replaced.
   SceneAnswer export_map_to(const std::string& scene, const std::string& file);
+
+  /// For another thread than those that wait in calls about scenes: all of them end soon, with
+  /// `kCancelled` if they changed nothing, or with their answer if the change was in force already.
+  void cancel_scene_calls();
 
   /// Waits for the daemon's next heartbeat; there is one each second.
   DaemonStatus status(double timeout_s = 3.0);

@@ -11,7 +11,7 @@
 namespace camway::scene {
 namespace {
 
-StoreResult called_off() { return {nullptr, StoreFault::kInvalid, "it was called off"}; }
+StoreResult called_off() { return {nullptr, StoreFault::kCalledOff, "it was called off"}; }
 
 StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
   const std::vector<KeptRevision> kept = history.revisions();
@@ -80,7 +80,8 @@ void SceneStore::count(const Load& before, const Load& after) {
   total_.occupancy_bytes += after.occupancy_bytes - before.occupancy_bytes;
 }
 
-StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note) {
+StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
+                            const Undertaking& undertaking) {
   assert(snapshot);
   note.when = std::chrono::system_clock::now();
   std::optional<Entry> old;  // takes its time to go, when nobody waits any more
@@ -95,6 +96,7 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
   {
     const std::lock_guard lock(mutex_);
     if (StoreResult over = over_limit(*snapshot, entry.load); !over.error.empty()) return over;
+    if (!undertaking.come_into_force()) return called_off();
     if (const auto found = scenes_.find(snapshot->name); found != scenes_.end()) {
       old = std::move(found->second);
     }
@@ -111,15 +113,15 @@ StoreResult SceneStore::unknown(std::string_view scene) const {
 }
 
 StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note,
-                               const std::stop_token& stop) {
+                               const Undertaking& undertaking) {
   const Turn turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
-  return make_next(*before, {std::move(change)}, std::move(note), stop);
+  return make_next(*before, {std::move(change)}, std::move(note), undertaking);
 }
 
 StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note,
-                                const std::stop_token& stop) {
+                                const Undertaking& undertaking) {
   const Turn turn(*this, scene);
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
@@ -127,28 +129,28 @@ StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, 
   if (!changes) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   const std::shared_ptr<const Snapshot> before = find(scene);
-  return make_next(*before, *std::move(changes), std::move(note), stop);
+  return make_next(*before, *std::move(changes), std::move(note), undertaking);
 }
 
 StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revision,
                                    std::string other, ChangeNote note,
-                                   const std::stop_token& stop) {
+                                   const Undertaking& undertaking) {
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
-  const std::shared_ptr<const Snapshot> then = known->rebuild(revision, stop);
-  if (stop.stop_requested()) return called_off();
+  const std::shared_ptr<const Snapshot> then = known->rebuild(revision, undertaking.stop());
+  if (undertaking.is_called_off()) return called_off();
   if (!then) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   auto renamed = std::make_shared<Snapshot>(*then);
   renamed->name = std::move(other);
   renamed->revision = 1;
-  return put(std::move(renamed), std::move(note));
+  return put(std::move(renamed), std::move(note), undertaking);
 }
 
 StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
-                                  const std::stop_token& stop) {
-  SnapshotResult result = changed(before, changes, before.revision + 1, stop);
-  if (stop.stop_requested()) return called_off();
+                                  const Undertaking& undertaking) {
+  SnapshotResult result = changed(before, changes, before.revision + 1, undertaking.stop());
+  if (undertaking.is_called_off()) return called_off();
   if (!result.snapshot) {
     const bool is_limit = result.limit != Limit::kNone;
     return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
@@ -159,6 +161,7 @@ StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, 
   {
     const std::lock_guard lock(mutex_);
     if (StoreResult over = over_limit(*result.snapshot, load); !over.error.empty()) return over;
+    if (!undertaking.come_into_force()) return called_off();
     Entry& entry = scenes_.find(before.name)->second;
     entry.newest = result.snapshot;
     count(std::exchange(entry.load, load), load);
@@ -182,13 +185,13 @@ void SceneStore::forget_history() {
   }
 }
 
-bool SceneStore::remove(std::string_view scene) {
+bool SceneStore::remove(std::string_view scene, const Undertaking& undertaking) {
   std::optional<Entry> old;
   const Turn turn(*this, scene);
   {
     const std::lock_guard lock(mutex_);
     const auto found = scenes_.find(scene);
-    if (found == scenes_.end()) return false;
+    if (found == scenes_.end() || !undertaking.come_into_force()) return false;
     highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
     old = std::move(found->second);
     count(old->load, {});

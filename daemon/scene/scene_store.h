@@ -10,7 +10,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "daemon/scene/limit.h"
 #include "daemon/scene/scene_change.h"
 #include "daemon/scene/snapshot.h"
+#include "daemon/scene/undertaking.h"
 
 namespace camway::scene {
 
@@ -32,7 +32,7 @@ struct SceneStoreLimits {
 };
 
 /// Why the store refused something.
-enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit };
+enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit, kCalledOff };
 
 struct StoreResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< the newest now; null on error
@@ -49,31 +49,31 @@ struct StoreResult {
 /// side by side: each holds the turn of its scene from its beginning to its end, and what all wait
 /// for, who only looks included, no longer than it takes to put the finished snapshot in its place.
 /// What all scenes together come to is looked at there, too, so no limit is ever broken; what is
-/// being made is not counted yet.
+/// being made is not counted yet. What is called off before (`Undertaking`) changes nothing.
 class SceneStore {
  public:
   explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
 
   /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is that
   /// of the snapshot, or the next that the name has had, whichever is higher.
-  StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {});
+  StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {},
+                  const Undertaking& undertaking = {});
 
-  /// Changes one object of a scene. Precondition as that of `changed`. Of this and the next two: a
-  /// `stop` that is asked for while something is being made ends that, and it fails.
+  /// Changes one object of a scene. Precondition as that of `changed`.
   StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {},
-                     const std::stop_token& stop = {});
+                     const Undertaking& undertaking = {});
 
   /// Makes a new revision with the objects of one that is kept. If it is not, the error says which
   /// are.
   StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {},
-                      const std::stop_token& stop = {});
+                      const Undertaking& undertaking = {});
 
   /// Makes a scene `other` of them, or replaces the one of that name; as `put`.
   StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
-                         ChangeNote note = {}, const std::stop_token& stop = {});
+                         ChangeNote note = {}, const Undertaking& undertaking = {});
 
-  /// Whether there was such a scene.
-  bool remove(std::string_view scene);
+  /// Whether there was such a scene; false, too, if it was called off.
+  bool remove(std::string_view scene, const Undertaking& undertaking = {});
 
   /// Calls `listener` from now on after each change, on the thread of whoever made it, but never on
   /// two at a time; no function ends that. It must not change scenes. Once this returns the one
@@ -132,7 +132,7 @@ class SceneStore {
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
   /// Precondition: it is the scene's turn, and `before` is its newest.
   StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
-                        const std::stop_token& stop);
+                        const Undertaking& undertaking);
 
   /// The lowest revision that the next scene of that name may have. Stays true while its turn
   /// lasts.

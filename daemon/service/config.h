@@ -48,6 +48,8 @@ struct ServiceConfig {
   double malformed_answers_per_s = 100.0;
   DeadlineLimits deadline;            ///< of plan requests
   DeadlineLimits occupancy_deadline;  ///< of batches of occupancy queries
+  /// Of changes of scenes: generous, as a large scene takes its time.
+  DeadlineLimits change_deadline{.default_s = 600.0, .max_s = 3600.0};
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;
   PageAssembly<plan_request_t>::Limits assembly;

@@ -53,6 +53,7 @@ std::vector<std::string> contradictions(const DaemonOptions& options) {
   std::vector<std::string> faults;
   check_deadlines(options, "planning", options.service.deadline, faults);
   check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
+  check_deadlines(options, "scenes", options.service.change_deadline, faults);
   check_shares(options, faults);
   return faults;
 }

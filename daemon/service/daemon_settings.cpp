@@ -151,6 +151,8 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"scenes.roots", &options.scene_roots},
       {"scenes.write_maps", &service.scene_rules.write_maps},
       {"scenes.workers", &service.scene_workers, 1, kMaxWorkers},
+      {"scenes.deadline_s", &service.change_deadline.default_s, 1e-3, kDayS},
+      {"scenes.max_deadline_s", &service.change_deadline.max_s, 1e-3, kDayS},
       {"scenes.scenes", &options.store.scenes, 1, 1e6},
       {"scenes.objects", &options.store.objects, 1, 1e6},
       {"scenes.triangles", &options.store.triangles, 1, 4e9},

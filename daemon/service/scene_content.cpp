@@ -132,7 +132,8 @@ Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
   if (request.upload_bytes == 0) {
     const RootedFile rooted = context.rules.roots.resolve(request.file);
     if (!rooted.error.empty()) return {std::nullopt, rooted.error};
-    return imported(rooted.file, wire::printable(request.file), *options.value, context.stop);
+    return imported(rooted.file, wire::printable(request.file), *options.value,
+                    context.undertaking.stop());
   }
   if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
   if (!is_extension(request.upload_format)) {
@@ -140,7 +141,8 @@ Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
   }
   const UploadFile file(*upload, request.upload_format);
   if (!file.is_good()) return {std::nullopt, "upload: the daemon has no room for the file"};
-  return imported(file.path(), "upload." + request.upload_format, *options.value, context.stop);
+  return imported(file.path(), "upload." + request.upload_format, *options.value,
+                  context.undertaking.stop());
 }
 
 Made<std::vector<Vec3>> read_points(const UploadedBytes& upload) {

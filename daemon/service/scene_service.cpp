@@ -8,7 +8,9 @@
 #include <exception>
 #include <set>
 #include <utility>
+#include <vector>
 
+#include <camway/cancel_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
 #include "lcmtypes/wire_check.h"
@@ -22,6 +24,18 @@ RequestDigest digest_of(scene_request_t request) {
   const Bytes bytes = wire::encode(request);
   const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
   return {hash.high64, hash.low64};
+}
+
+RequestKey key_of(const scene_request_t& request) {
+  return {request.client_id, request.request_id};
+}
+
+/// One that says nothing but whose it is.
+scene_request_t request_of(const RequestKey& key) {
+  scene_request_t request{};
+  request.client_id = key.client_id;
+  request.request_id = key.request_id;
+  return request;
 }
 
 /// The answer, whatever happens.
@@ -54,26 +68,57 @@ SceneService::SceneService(Core& core, scene::SceneStore& scenes)
       workers_(core.config.scene_workers,
                with_room_for_others(core.config.changes, core.config.scene_workers)) {}
 
-void SceneService::on_request(std::span<const std::uint8_t> message) {
-  wire::Decoded<scene_request_t> decoded = wire::decode<scene_request_t>(message);
+template <class Message>
+std::optional<Message> SceneService::read(const std::string& channel,
+                                          std::span<const std::uint8_t> message) {
+  wire::Decoded<Message> decoded = wire::decode<Message>(message);
+  const std::string type = Message::getTypeName();
   if (!decoded.message) {
-    refuse_malformed(message, decoded.fault.text("scene_request_t"));
-    return;
+    refuse_malformed<Message>(channel, message, decoded.fault.text(type));
+    return std::nullopt;
   }
   if (!wire::is_client_id(decoded.message->client_id)) {
-    refuse_malformed(message, "scene_request_t.client_id: is not of [A-Za-z0-9_-]{1,32}");
+    refuse_malformed<Message>(channel, message, type + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
+    return std::nullopt;
+  }
+  return std::move(decoded.message);
+}
+
+template <class Message>
+void SceneService::refuse_malformed(const std::string& channel,
+                                    std::span<const std::uint8_t> message,
+                                    std::string_view reason) {
+  if (!core_.note_malformed(channel, message.size(), reason)) return;
+  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
+  if (!sender) {
+    core_.report_unanswerable(channel, message, reason);
     return;
   }
+  send(plain_scene_answer(request_of({sender->client_id, sender->request_id}),
+                          scene_response_t::STATUS_MALFORMED, reason));
+}
+
+void SceneService::on_request(std::span<const std::uint8_t> message) {
+  auto decoded = read<scene_request_t>(core_.channels.scene_request(), message);
+  if (!decoded) return;
   // No scene or object of ours has a name with control characters, so nothing is lost.
-  decoded.message->scene = wire::printable(decoded.message->scene);
-  decoded.message->object = wire::printable(decoded.message->object);
-  decoded.message->restore_as = wire::printable(decoded.message->restore_as);
-  const auto request = std::make_shared<const scene_request_t>(std::move(*decoded.message));
+  decoded->scene = wire::printable(decoded->scene);
+  decoded->object = wire::printable(decoded->object);
+  decoded->restore_as = wire::printable(decoded->restore_as);
+  const auto request = std::make_shared<const scene_request_t>(std::move(*decoded));
   if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, context()).answer);
-    return;
+    finish(*request, answer_of(*request, nullptr, context({})).answer);
+  } else if (!(request->deadline_s >= 0.0)) {
+    send(plain_scene_answer(
+        *request, scene_response_t::STATUS_INVALID,
+        fmt::format("deadline_s: is {}; it must be at least 0", request->deadline_s)));
+  } else {
+    take_change(request);
   }
-  const RequestKey key{request->client_id, request->request_id};
+}
+
+void SceneService::take_change(const Request& request) {
+  const RequestKey key = key_of(*request);
   const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(*request));
   switch (found.known) {
     case AnswerCache::Known::kRunning:
@@ -95,35 +140,87 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   }
 }
 
-void SceneService::begin(const std::shared_ptr<const scene_request_t>& request) {
-  unanswered_.emplace(RequestKey{request->client_id, request->request_id}, request);
+void SceneService::begin(const Request& request) {
+  const RequestKey key = key_of(*request);
+  const std::chrono::duration<double> allowed(
+      deadline_of(request->deadline_s, core_.config.change_deadline));
+  const Pending pending{
+      request, {}, Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed)};
+  unanswered_.insert_or_assign(key, pending);
+  deadlines_.emplace(pending.deadline, key);
   const UploadedBytes upload =
       uploads_.find({request->client_id, request->upload_bytes, request->upload_checksum});
   Job work;
   work.client = request->client_id;
+  work.id = request->request_id;
   work.strand = target_of(*request);
-  work.run = [this, request, upload] {
-    auto done = std::make_shared<Performed>(answer_of(*request, upload, context()));
+  work.run = [this, request, upload, undertaking = pending.undertaking] {
+    auto done = std::make_shared<Performed>(answer_of(*request, upload, context(undertaking)));
     Pages map;
-    if (!done->map.empty()) map = map_pages({request->client_id, request->request_id}, done->map);
-    core_.mailbox.post([this, request, done, map] {
-      if (!unanswered_.contains({request->client_id, request->request_id})) return;  // given up
-      if (done->is_called_off) return refuse(*request, Refusal::kStopping);
-      const RequestKey key{request->client_id, request->request_id};
-      if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
-        done->answer = plain_scene_answer(
-            *request, scene_response_t::STATUS_LIMIT,
-            fmt::format("the map is larger than all exports may be together, {} bytes "
-                        "(scenes.all_exports_bytes)",
-                        core_.config.exports.bytes));
-      }
-      finish(*request, std::move(done->answer));
-    });
+    if (!done->map.empty()) map = map_pages(key_of(*request), done->map);
+    core_.mailbox.post([this, request, done, map] { take_done(request, std::move(*done), map); });
   };
   work.abandon = [this, request](Refusal why) { refuse(*request, why); };
   if (std::optional<FairQueue::Refused> refused = workers_.submit(std::move(work))) {
     refused->job.abandon(refused->why);
   }
+}
+
+void SceneService::take_done(const Request& request, Performed done, const Pages& map) {
+  left_behind_.erase(request);
+  const RequestKey key = key_of(*request);
+  const auto pending = unanswered_.find(key);
+  if (pending == unanswered_.end() || pending->second.request != request) return;  // called off
+  if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
+    done.answer = plain_scene_answer(
+        *request, scene_response_t::STATUS_LIMIT,
+        fmt::format("the map is larger than all exports may be together, {} bytes "
+                    "(scenes.all_exports_bytes)",
+                    core_.config.exports.bytes));
+  }
+  finish(*request, std::move(done.answer));
+}
+
+void SceneService::on_cancel(std::span<const std::uint8_t> message) {
+  const auto cancel = read<cancel_t>(core_.channels.cancel_scene(), message);
+  if (!cancel) return;
+  const RequestKey key{cancel->client_id, cancel->request_id};
+  if (const auto found = unanswered_.find(key); found != unanswered_.end()) {
+    const Pending pending = found->second;
+    if (!call_off(pending)) return;  // its answer is on the way
+    finish(*pending.request,
+           plain_scene_answer(*pending.request, scene_response_t::STATUS_CANCELLED,
+                              "cancelled by its client; nothing was changed"));
+  } else if (const Pages answer = cache_.find(key)) {
+    core_.outbox.add(core_.channels.scene_response(key.client_id), answer);
+  } else {
+    send(plain_scene_answer(request_of(key), scene_response_t::STATUS_CANCELLED,
+                            "the daemon knows no such request"));
+  }
+}
+
+bool SceneService::call_off(const Pending& pending) {
+  if (!pending.undertaking.call_off()) return false;
+  const RequestKey key = key_of(*pending.request);
+  if (!workers_.take(key.client_id, key.request_id)) left_behind_.insert(pending.request);
+  return true;
+}
+
+void SceneService::tick(Clock::time_point now) {
+  while (!deadlines_.empty() && deadlines_.begin()->first <= now) {
+    const Pending pending = unanswered_.at(deadlines_.begin()->second);
+    deadlines_.erase(deadlines_.begin());
+    if (!call_off(pending)) continue;  // it is in force, and its answer on the way
+    finish(*pending.request,
+           plain_scene_answer(*pending.request, scene_response_t::STATUS_TIMEOUT,
+                              "the deadline passed before the change was in force, and nothing was "
+                              "changed; allow more time with deadline_s (up to "
+                              "scenes.max_deadline_s)"));
+  }
+}
+
+SceneService::Clock::time_point SceneService::next_tick() const {
+  return deadlines_.empty() ? Clock::time_point::max() : deadlines_.begin()->first;
 }
 
 void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
@@ -139,8 +236,8 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
   if (!only_looks(request)) {
-    unanswered_.erase({request.client_id, request.request_id});
-    cache_.finish({request.client_id, request.request_id}, std::move(pages));
+    forget(key_of(request));
+    cache_.finish(key_of(request), std::move(pages));
   }
 }
 
@@ -158,9 +255,15 @@ Pages SceneService::send(scene_response_t answer) {
   return pages;
 }
 
+void SceneService::forget(const RequestKey& key) {
+  const auto pending = unanswered_.find(key);
+  deadlines_.erase({pending->second.deadline, key});
+  unanswered_.erase(pending);
+}
+
 void SceneService::refuse(const scene_request_t& request, Refusal why) {
-  unanswered_.erase({request.client_id, request.request_id});
-  cache_.forget({request.client_id, request.request_id});
+  forget(key_of(request));
+  cache_.forget(key_of(request));
   ++core_.counters.overloaded;
   const std::string_view message =
       why == Refusal::kStopping ? "the daemon is stopping"
@@ -170,21 +273,6 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
       "refused scene request",
       {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
   send(plain_scene_answer(request, scene_response_t::STATUS_OVERLOADED, message));
-}
-
-void SceneService::refuse_malformed(std::span<const std::uint8_t> message,
-                                    std::string_view reason) {
-  if (!core_.note_malformed(core_.channels.scene_request(), message.size(), reason)) return;
-  const std::optional<wire::Sender> sender =
-      wire::peek_sender(wire::layout_of<scene_request_t>(), message);
-  if (!sender) {
-    core_.report_unanswerable(core_.channels.scene_request(), message, reason);
-    return;
-  }
-  scene_request_t request{};
-  request.client_id = sender->client_id;
-  request.request_id = sender->request_id;
-  send(plain_scene_answer(request, scene_response_t::STATUS_MALFORMED, reason));
 }
 
 void SceneService::on_upload(std::span<const std::uint8_t> message) {
@@ -240,23 +328,30 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
   if (!which.empty()) core_.outbox.add(channel, pages, {which.begin(), which.end()});
 }
 
-SceneContext SceneService::context() { return {rules_, scenes_, writing_, stop_.get_token()}; }
+SceneContext SceneService::context(const scene::Undertaking& undertaking) {
+  return {rules_, scenes_, writing_, undertaking};
+}
 
 void SceneService::close() {
-  stop_.request_stop();
   for (const Job& job : workers_.close()) job.abandon(Refusal::kStopping);
+  std::vector<Pending> begun;
+  for (const auto& [key, pending] : unanswered_) begun.push_back(pending);
+  for (const Pending& pending : begun) {
+    if (call_off(pending)) refuse(*pending.request, Refusal::kStopping);
+  }
 }
 
 void SceneService::give_up() {
   // Each refusal takes one out.
   while (!unanswered_.empty()) {
-    const std::shared_ptr<const scene_request_t> request = unanswered_.begin()->second;
+    const Request request = unanswered_.begin()->second.request;
     refuse(*request, Refusal::kStopping);
   }
+  left_behind_.clear();
 }
 
 void SceneService::stop() {
-  stop_.request_stop();
+  for (const auto& [key, pending] : unanswered_) pending.undertaking.call_off();
   workers_.stop();
 }
 

@@ -5,9 +5,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <span>
-#include <stop_token>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "daemon/service/core.h"
 #include "daemon/service/map_exports.h"
@@ -22,15 +25,24 @@ namespace camway::service {
 /// imports of one leave room for the moves of others. Who only looks is answered at once. The loop
 /// thread calls everything here.
 ///
+/// A change has a deadline from its receipt on, and may be called off: it is answered at once then,
+/// whatever a worker is at, and changes nothing; unless it is in force already, and its answer on
+/// the way.
+///
 /// A change that is asked for again, by its ids and content, is not made again: it gets the same
 /// answer.
 class SceneService {
  public:
+  using Clock = Job::Clock;
+
   /// Both must outlive the service.
   SceneService(Core& core, scene::SceneStore& scenes);
 
   /// A message on the scene request channel. Throws only for want of memory.
   void on_request(std::span<const std::uint8_t> message);
+
+  /// A message on the channel that calls changes off. Throws only for want of memory.
+  void on_cancel(std::span<const std::uint8_t> message);
 
   /// A message on the upload channel. Throws only for want of memory.
   void on_upload(std::span<const std::uint8_t> message);
@@ -38,23 +50,47 @@ class SceneService {
   /// A message on the channel for missing pages of maps. Throws only for want of memory.
   void on_missing_map_pages(std::span<const std::uint8_t> message);
 
-  /// Takes no more changes, and refuses those that nobody has begun, and those that read a file or
-  /// make an occupancy mirror, which is called off.
+  /// Answers the changes whose deadline has come by `now`.
+  void tick(Clock::time_point now);
+  /// When there is something to do for that; the end of time if never.
+  [[nodiscard]] Clock::time_point next_tick() const;
+
+  /// Takes no more changes, and refuses all that are not in force yet.
   void close();
-  /// Refuses what is still being done, which nobody will hear of any more.
+  /// Refuses what is not answered yet, and waits no longer for what was called off.
   void give_up();
-  /// How many changes wait, are being made, or were just made and are not answered yet.
-  [[nodiscard]] std::size_t unanswered() const { return unanswered_.size(); }
+  /// How many changes wait, are being made, though they may have been called off, or were just made
+  /// and are not answered yet.
+  [[nodiscard]] std::size_t unfinished() const { return unanswered_.size() + left_behind_.size(); }
   /// Calls off what can be, and waits for what is being done. Before `Core` goes.
   void stop();
 
  private:
-  void begin(const std::shared_ptr<const scene_request_t>& request);
+  using Request = std::shared_ptr<const scene_request_t>;
+  /// A change that is not answered yet.
+  struct Pending {
+    Request request;
+    scene::Undertaking undertaking;
+    Clock::time_point deadline;
+  };
+
+  template <class Message>
+  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
+  template <class Message>
+  void refuse_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                        std::string_view reason);
+  void take_change(const Request& request);
+  void begin(const Request& request);
+  /// What a worker made of a change.
+  void take_done(const Request& request, Performed done, const Pages& map);
+  /// Calls a change off, whoever is at it; false if it is in force already.
+  bool call_off(const Pending& pending);
   void finish(const scene_request_t& request, scene_response_t answer);
   void refuse(const scene_request_t& request, Refusal why);
-  void refuse_malformed(std::span<const std::uint8_t> message, std::string_view reason);
+  /// Of a change that is answered.
+  void forget(const RequestKey& key);
   Pages send(scene_response_t answer);
-  [[nodiscard]] SceneContext context();
+  [[nodiscard]] SceneContext context(const scene::Undertaking& undertaking);
 
   Core& core_;
   scene::SceneStore& scenes_;
@@ -62,9 +98,10 @@ class SceneService {
   Uploads uploads_;
   MapExports exports_;
   AnswerCache cache_;
-  std::map<RequestKey, std::shared_ptr<const scene_request_t>> unanswered_;
-  std::mutex writing_;  ///< see `SceneContext`
-  std::stop_source stop_;
+  std::map<RequestKey, Pending> unanswered_;
+  std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< of those, till they come
+  std::set<Request> left_behind_;  ///< called off and answered, but a worker is still at it
+  std::mutex writing_;             ///< see `SceneContext`
   WorkerPool workers_;
 };
 

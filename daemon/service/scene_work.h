@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <mutex>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +12,7 @@
 #include <camway/scene_response_t.hpp>
 
 #include "daemon/scene/scene_store.h"
+#include "daemon/scene/undertaking.h"
 #include "daemon/service/scene_rules.h"
 #include "daemon/service/uploads.h"
 
@@ -34,24 +34,25 @@ const std::string& target_of(const scene_request_t& request);
 /// One word.
 const char* operation_name(const scene_request_t& request);
 
-/// What a request is carried out on. All outlive the call.
+/// What a request is carried out on. All references outlive the call.
 struct SceneContext {
   const SceneRules& rules;
   scene::SceneStore& scenes;
-  std::mutex& writing;   ///< held by who writes a file below the roots: two might mean the same
-  std::stop_token stop;  ///< ends the reading of files and the making of mirrors
+  std::mutex& writing;  ///< held by who writes a file below the roots: two might mean the same
+  /// Called off, nothing is changed any more, and the reading of files and the making of mirrors
+  /// ends.
+  scene::Undertaking undertaking;
 };
 
 /// What came of a request.
 struct Performed {
   scene_response_t answer;
   std::vector<std::uint8_t> map;  ///< of an export that goes to the client
-  /// It failed after a stop was asked for, so perhaps for that alone: it is to be sent again.
-  bool is_called_off = false;
 };
 
 /// Does what a request asks for and says how it went; a file or an upload is read by the import
 /// process. `upload` is the one that the request names, null if it is not there. `utime` is left 0.
+/// What is called off fails; what it says of that is for nobody.
 /// For a thread that has time: a file may take as long as its import may. Safe from any thread; the
 /// changes of one scene are to be asked for one after the other, or one that was made meanwhile may
 /// be lost.

@@ -75,6 +75,7 @@ bool Service::subscribe() {
          to(core_.channels.occupancy_request(), occupancy_, &OccupancyService::on_message) &&
          to(core_.channels.cancel_occupancy(), occupancy_, &OccupancyService::on_cancel) &&
          to(core_.channels.scene_request(), scenes_, &SceneService::on_request) &&
+         to(core_.channels.cancel_scene(), scenes_, &SceneService::on_cancel) &&
          to(core_.channels.upload(), scenes_, &SceneService::on_upload) &&
          to(core_.channels.missing_map_pages(), scenes_, &SceneService::on_missing_map_pages);
 }
@@ -85,9 +86,10 @@ void Service::turn(Clock::duration longest_wait) {
   core_.expire_jobs();
   plans_.tick(Clock::now());
   watches_.tick(Clock::now());
+  scenes_.tick(Clock::now());
   core_.outbox.send_burst();
-  const Clock::time_point next =
-      std::min({core_.workers.next_expiry(), plans_.next_tick(), watches_.next_tick(Clock::now())});
+  const Clock::time_point next = std::min({core_.workers.next_expiry(), plans_.next_tick(),
+                                           watches_.next_tick(Clock::now()), scenes_.next_tick()});
   if (next != Clock::time_point::max()) longest_wait = std::min(longest_wait, next - Clock::now());
   std::chrono::milliseconds wait = in_milliseconds(longest_wait);
   if (!core_.outbox.empty()) wait = std::min(wait, Outbox::kPause);
@@ -111,7 +113,7 @@ RunOutcome Service::drain() {
       return RunOutcome::kAbandoned;
     }
     if (now >= changes_limit) {
-      given_up += scenes_.unanswered();
+      given_up += scenes_.unfinished();
       scenes_.give_up();
     }
     turn(std::min<Clock::duration>(limit - now, kDrainLook));
@@ -126,7 +128,7 @@ RunOutcome Service::drain() {
 
 bool Service::idle() const {
   // In this order: a worker leaves its answer in the mailbox before it counts as idle.
-  return core_.workers.running() == 0 && scenes_.unanswered() == 0 && core_.mailbox.empty() &&
+  return core_.workers.running() == 0 && scenes_.unfinished() == 0 && core_.mailbox.empty() &&
          core_.outbox.empty();
 }
 

@@ -16,6 +16,7 @@
 #include <camway/occupancy_response_t.hpp>
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
+#include <camway/scene_request_t.hpp>
 #include <camway/status_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
@@ -34,6 +35,7 @@ class FakeDaemon {
   using PlanScript = std::function<std::vector<Bytes>(const plan_request_t&)>;
   using CancelScript = std::function<std::vector<Bytes>(const cancel_t&)>;
   using MissingScript = std::function<std::vector<Bytes>(const missing_pages_t&)>;
+  using SceneScript = std::function<std::vector<Bytes>(const scene_request_t&)>;
   using OccupancyScript = std::function<std::vector<Bytes>(const occupancy_request_t&)>;
 
   PlanScript on_plan;
@@ -41,6 +43,8 @@ class FakeDaemon {
   MissingScript on_missing;  ///< likewise
   OccupancyScript on_occupancy;
   CancelScript on_cancel_occupancy;
+  SceneScript on_scene;
+  CancelScript on_cancel_scene;
   /// 0: silent.
   std::chrono::milliseconds heartbeat_every{0};
   double uptime_s = 1000.0;
@@ -56,6 +60,8 @@ class FakeDaemon {
     lcm_.subscribeFunction(channels_.missing_pages(), &FakeDaemon::take_missing, this);
     lcm_.subscribeFunction(channels_.occupancy_request(), &FakeDaemon::take_occupancy, this);
     lcm_.subscribeFunction(channels_.cancel_occupancy(), &FakeDaemon::take_cancel_occupancy, this);
+    lcm_.subscribeFunction(channels_.scene_request(), &FakeDaemon::take_scene, this);
+    lcm_.subscribeFunction(channels_.cancel_scene(), &FakeDaemon::take_cancel_scene, this);
     running_ = true;
     thread_ = std::thread([this] { run(); });
   }
@@ -111,6 +117,25 @@ class FakeDaemon {
     if (!decoded.message || !self->on_cancel_occupancy) return;
     for (const Bytes& bytes : self->on_cancel_occupancy(*decoded.message)) {
       self->publish(self->channels_.occupancy_response(decoded.message->client_id), bytes);
+    }
+  }
+
+  static void take_cancel_scene(const lcm::ReceiveBuffer* buffer, const std::string&,
+                                FakeDaemon* self) {
+    self->answer_scene<cancel_t>(buffer, self->on_cancel_scene);
+  }
+
+  static void take_scene(const lcm::ReceiveBuffer* buffer, const std::string&, FakeDaemon* self) {
+    self->answer_scene<scene_request_t>(buffer, self->on_scene);
+  }
+
+  template <class Message, class Script>
+  void answer_scene(const lcm::ReceiveBuffer* buffer, const Script& script) {
+    const auto decoded =
+        wire::decode<Message>({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (!decoded.message || !script) return;
+    for (const Bytes& bytes : script(*decoded.message)) {
+      publish(channels_.scene_response(decoded.message->client_id), bytes);
     }
   }
 

@@ -79,6 +79,7 @@ std::vector<Target> targets(Random& random) {
           target_of<occupancy_request_t>(channels.occupancy_request(), random),
           target_of<cancel_t>(channels.cancel_occupancy(), random),
           target_of<scene_request_t>(channels.scene_request(), random),
+          target_of<cancel_t>(channels.cancel_scene(), random),
           target_of<upload_page_t>(channels.upload(), random),
           target_of<missing_pages_t>(channels.missing_map_pages(), random)};
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -45,7 +46,8 @@ class SceneTest : public IntegrationTest {
     std::ofstream(file("root/cube.obj")) << kCube;
     std::ofstream(file("outside.obj")) << kCube;
     std::filesystem::create_symlink(file("outside.obj"), file("root/link.obj"));
-    std::ofstream(file("camwayd.toml")) << "[scenes]\nwrite_maps = true\n";
+    std::ofstream(file("camwayd.toml"))
+        << "[scenes]\nwrite_maps = true\nmirror_voxels = 1000000000\n";
     start_daemon_with_scenes({}, {"--config", file("camwayd.toml"), "--scene-roots", file("root")});
   }
 };
@@ -279,6 +281,36 @@ TEST_F(SceneTest, TheCommandListsAndRestoresRevisions) {
               HasSubstr("9 of scene 'yard' is not kept; 1 to 4 are"));
   EXPECT_EQ(camway({"unload", "copy"}, 0), "copy is unloaded\n");
   EXPECT_THAT(camway({"load", "folder", "--upload", file("root")}, 2), HasSubstr("cannot read"));
+}
+
+/// Whether a signal of that number waits until the process looks for it.
+bool holds_back(const Process& process, int number) {
+  std::istringstream status(read_file("/proc/" + std::to_string(process.pid()) + "/status"));
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("SigBlk:")) continue;
+    return (std::stoull(line.substr(7), nullptr, 16) >> (number - 1) & 1U) != 0;
+  }
+  return false;
+}
+
+TEST_F(SceneTest, TheCommandLeavesAllAsItWasAtItsDeadlineAndOnASignal) {
+  Client client(patient());
+  ASSERT_TRUE(client.load_scene("fine", {}, 0.002).ok());
+  const std::vector<std::string> minutes{CAMWAY_BINARY, "scene", "add",     "fine",
+                                         "hangar",      "--box", "14,14,14"};
+  std::vector<std::string> arguments = minutes;
+  arguments.insert(arguments.end(), {"--deadline-s", "0.2"});
+  Process late(arguments, file("late.log"));
+  EXPECT_EQ(late.wait(), 3) << late.output();
+  EXPECT_THAT(late.output(), HasSubstr("the deadline passed"));
+  Process cancelled(minutes, file("cancelled.log"));
+  ASSERT_TRUE(eventually([&] { return holds_back(cancelled, SIGINT); }));
+  cancelled.signal(SIGINT);
+  EXPECT_EQ(cancelled.wait(), 3) << cancelled.output();
+  EXPECT_THAT(cancelled.output(), HasSubstr("cancelled"));
+  const SceneAnswer put = client.put_object("fine", "crate", SceneBox{{0.01, 0.01, 0.01}});
+  ASSERT_TRUE(put.ok()) << put.error;
+  EXPECT_EQ(put.scene.revision, 2) << "nothing else was changed";
 }
 
 TEST_F(SceneTest, TheCommandMovesWhatItIsToldAndRefusesWhatIsAmbiguous) {

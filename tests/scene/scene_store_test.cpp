@@ -80,22 +80,43 @@ TEST(SceneStore, ChangesASceneRevisionByRevision) {
 
 TEST(SceneStore, WhatIsCalledOffChangesNothing) {
   SceneStore store;
-  ObjectOptions options;
-  options.occupancy_resolution_m = 0.1;
-  store.put(assemble("room", 1, {}, options));
+  store.put(revision_of("room", 1));
   store.change("room", put_box("a"));
   const std::shared_ptr<const Snapshot> before = store.find("room");
-  std::stop_source stop;
-  stop.request_stop();
-  for (const StoreResult& result : {store.change("room", put_box("b"), {}, stop.get_token()),
-                                    store.restore("room", 1, {}, stop.get_token())}) {
-    EXPECT_EQ(result.fault, StoreFault::kInvalid);
+  const Undertaking off;
+  ASSERT_TRUE(off.call_off());
+  for (const StoreResult& result :
+       {store.change("room", put_box("b"), {}, off), store.restore("room", 1, {}, off),
+        store.restore_as("room", 2, "hall", {}, off), store.put(revision_of("room", 9), {}, off),
+        store.put(revision_of("hall", 1), {}, off)}) {
+    EXPECT_EQ(result.snapshot, nullptr);
+    EXPECT_EQ(result.fault, StoreFault::kCalledOff);
     EXPECT_THAT(result.error, HasSubstr("called off"));
   }
+  EXPECT_FALSE(store.remove("room", off));
   EXPECT_EQ(store.find("room"), before);
   EXPECT_EQ(store.kept("room").revisions.size(), 2U);
-  EXPECT_EQ(store.restore_as("room", 2, "hall", {}, stop.get_token()).fault, StoreFault::kInvalid);
   EXPECT_EQ(store.find("hall"), nullptr);
+}
+
+TEST(SceneStore, AChangeIsCalledOffOrInForceAndNeverBoth) {
+  SceneStore store;
+  store.put(revision_of("room", 1));
+  std::uint64_t expected = 1;
+  for (int run = 0; run < 200; ++run) {
+    const Undertaking undertaking;
+    bool is_called_off = false;
+    std::jthread other([&] {
+      if (run % 2 == 0) std::this_thread::yield();
+      is_called_off = undertaking.call_off();
+    });
+    const StoreResult result = store.change("room", put_box("a"), {}, undertaking);
+    other.join();
+    ASSERT_NE(result.snapshot != nullptr, is_called_off);
+    expected += is_called_off ? 0 : 1;
+    ASSERT_EQ(store.find("room")->revision, expected);
+    ASSERT_EQ(store.kept("room").revisions.size(), expected);
+  }
 }
 
 TEST(SceneStore, RestoresARevisionAndSaysWhichAreKept) {

@@ -431,6 +431,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.first = small(random);
   message.revision = below(random, 2) == 0 ? small(random) : integer(random);
   message.restore_as = text(random, wire::kMaxSceneNameBytes);
+  message.deadline_s = number(random);
   return message;
 }
 

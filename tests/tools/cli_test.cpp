@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -25,7 +24,7 @@ using ::testing::StartsWith;
 /// With the exit codes beside 0, 1 and 2 that the table in README.md names for them.
 const std::vector<std::pair<std::string, std::string>> kCommands{
     {"plan", "3"},   {"check", "3"},  {"info", ""},    {"occupancy", "34"},
-    {"load", "34"},  {"draw", ""},    {"replay", "3"}, {"scene", "4"},
+    {"load", "34"},  {"draw", ""},    {"replay", "3"}, {"scene", "34"},
     {"status", "4"}, {"watch", "34"}, {"doctor", "3"}};
 
 TEST(Cli, HelpsWithUnitsExitCodesAndAnExample) {

@@ -19,6 +19,7 @@ ExitCode exit_code_of(Status status) {
     case Status::kNetworkUnusable:
       return ExitCode::kInvalidInput;
     case Status::kTimeout:
+    case Status::kCancelled:
       return ExitCode::kNegative;
     case Status::kNoDaemon:
     case Status::kNoAnswer:

@@ -13,10 +13,13 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <stop_token>
+#include <thread>
 
 #include "client/camway/client.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/daemon_failure.h"
+#include "tools/camway/interruption.h"
 #include "tools/camway/key_file.h"
 #include "tools/output_file.h"
 
@@ -29,6 +32,7 @@ struct SceneCommandFlags {
   std::string prefix = "CAMWAY";
   std::string key_file;
   std::optional<double> timeout_s;
+  double deadline_s = ClientOptions{}.change_deadline_s;
   std::string scene;
   std::string object;
   std::string file;         ///< below a root of the daemon
@@ -166,6 +170,25 @@ Pose pose_of(const SceneCommandFlags& flags, Pose pose) {
   return pose;
 }
 
+/// While it lives a signal to end calls off what the client asks for; the next one ends the
+/// process.
+class CallOff {
+ public:
+  CallOff(const Interruption& interruption, Client& client)
+      : thread_([&interruption, &client](const std::stop_token& stop) {
+          constexpr long kLookMs = 50;
+          for (bool is_cancelled = false; !stop.stop_requested();) {
+            if (!interruption.came_within(kLookMs)) continue;
+            if (is_cancelled) interruption.end_process();
+            client.cancel_scene_calls();
+            is_cancelled = true;
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
 /// Opens a client and lets `call` ask with it.
 template <class Call>
 ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
@@ -173,15 +196,18 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   options.url = flags.url;
   options.prefix = flags.prefix;
   use_timeout(flags.timeout_s, options);
+  options.change_deadline_s = flags.deadline_s;
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);
     return ExitCode::kInvalidInput;
   }
+  const Interruption interruption;
   Client client(options);
   if (!client.good()) {
     print_error(client.error());
     return ExitCode::kInvalidInput;
   }
+  const CallOff call_off(interruption, client);
   return print_answer(call(client), flags.key_file);
 }
 
@@ -303,6 +329,18 @@ CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, co
   return command;
 }
 
+/// One that changes a scene, or may take its time for other reasons.
+CLI::App* add_change(CLI::App& parent, const Flags& flags, const char* name, const char* help) {
+  CLI::App* command = add_command(parent, flags, name, help);
+  command
+      ->add_option("--deadline-s", flags->deadline_s,
+                   "How long the daemon may take; then, and on Ctrl-C, it leaves all as it was. "
+                   "Seconds; 0: its own")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  return command;
+}
+
 void add_scene_name(CLI::App& command, const Flags& flags) {
   command.add_option("SCENE", flags->scene, "Name of the scene in the daemon")->required();
 }
@@ -388,7 +426,7 @@ void add_shape_flags(CLI::App& command, const Flags& flags) {
 
 void add_load(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* command =
-      add_command(parent, flags, "load", "Load a scene from a file, or make one without objects");
+      add_change(parent, flags, "load", "Load a scene from a file, or make one without objects");
   add_scene_name(*command, flags);
   add_mesh_flags(*command, flags);
   command->add_option("--occupancy", flags->occupancy_m,
@@ -397,8 +435,7 @@ void add_load(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
 }
 
 void add_changes(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
-  CLI::App* add =
-      add_command(parent, flags, "add", "Add an object, or replace the one of its name");
+  CLI::App* add = add_change(parent, flags, "add", "Add an object, or replace the one of its name");
   add_scene_name(*add, flags);
   add_object_name(*add, flags);
   add_mesh_flags(*add, flags);
@@ -406,13 +443,13 @@ void add_changes(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   add_pose_flags(*add, flags, "as in the file, or at the origin");
   add->callback([flags, &exit_code] { exit_code = run_add(*flags); });
 
-  CLI::App* move = add_command(parent, flags, "move", "Put an object elsewhere, or turn it");
+  CLI::App* move = add_change(parent, flags, "move", "Put an object elsewhere, or turn it");
   add_scene_name(*move, flags);
   add_object_name(*move, flags);
   add_pose_flags(*move, flags, "as it is; one of both is needed");
   move->callback([flags, &exit_code] { exit_code = run_move(*flags); });
 
-  CLI::App* remove = add_command(parent, flags, "remove", "Take an object out of a scene");
+  CLI::App* remove = add_change(parent, flags, "remove", "Take an object out of a scene");
   add_scene_name(*remove, flags);
   add_object_name(*remove, flags);
   remove->callback([flags, &exit_code] {
@@ -441,7 +478,7 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   });
 
   CLI::App* scan =
-      add_command(parent, flags, "scan", "Tell an object that is an OctoMap what a sensor saw");
+      add_change(parent, flags, "scan", "Tell an object that is an OctoMap what a sensor saw");
   add_scene_name(*scan, flags);
   add_object_name(*scan, flags);
   scan->add_option("--points", flags->points_file, "Three numbers a line, metres in the world")
@@ -454,9 +491,8 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
       ->required();
   scan->callback([flags, &exit_code] { exit_code = run_scan(*flags); });
 
-  CLI::App* out =
-      add_command(parent, flags, "export",
-                  "Write a scene's occupancy map as OctoMap's .bt, which octovis opens");
+  CLI::App* out = add_change(parent, flags, "export",
+                             "Write a scene's occupancy map as OctoMap's .bt, which octovis opens");
   add_scene_name(*out, flags);
   CLI::Option* to = out->add_option("--to", flags->to_file, "File here")->type_name("FILE");
   out->add_option("--file", flags->file,
@@ -473,7 +509,7 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
         with_client(*flags, [&](Client& client) { return client.scene_history(flags->scene); });
   });
 
-  CLI::App* unload = add_command(parent, flags, "unload", "Let the daemon forget a scene");
+  CLI::App* unload = add_change(parent, flags, "unload", "Let the daemon forget a scene");
   add_scene_name(*unload, flags);
   unload->callback([flags, &exit_code] {
     exit_code =
@@ -484,8 +520,8 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
 
 void add_restore(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   CLI::App* command =
-      add_command(parent, flags, "restore",
-                  "Make a new revision with the objects of an earlier one, which `history` lists");
+      add_change(parent, flags, "restore",
+                 "Make a new revision with the objects of an earlier one, which `history` lists");
   add_scene_name(*command, flags);
   command->add_option("--revision", flags->revision, "The earlier one")
       ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
@@ -509,7 +545,8 @@ void add_scene_command(CLI::App& app, ExitCode& exit_code) {
                                        "them, over LCM");
   scene->require_subcommand(1);
   scene->footer(
-      exit_code_help("", /*asks_daemon=*/true) +
+      exit_code_help("the deadline passed, or it was cancelled; nothing was changed",
+                     /*asks_daemon=*/true) +
       "\nWrite --position=-1,2,3 if the first number is negative."
       "\nExample: camway scene load hall --upload hall.obj && camway scene add hall crate "
       "--box 1,1,1 --position 4,0.5,2 && camway scene move hall crate --position 5,0.5,2");

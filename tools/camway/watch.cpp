@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -21,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/camway/commands.h"
+#include "tools/camway/interruption.h"
 #include "tools/camway/key_file.h"
 #include "tools/client_request.h"
 #include "tools/json_io.h"
@@ -137,25 +137,6 @@ class Events {
   std::mutex mutex_;  ///< guards events_
   std::condition_variable changed_;
   std::deque<WatchEvent> events_;
-};
-
-/// Keeps SIGINT and SIGTERM from ending this process at once, so that the daemon can be told first.
-/// To be made before the client, whose thread takes it over.
-class Interruption {
- public:
-  Interruption() {
-    sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals_, signal);
-    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  }
-  /// Whether one came since the last time.
-  [[nodiscard]] bool came() const {
-    const timespec no_wait{};
-    return sigtimedwait(&signals_, nullptr, &no_wait) > 0;
-  }
-
- private:
-  sigset_t signals_{};
 };
 
 /// Prints events until the flags or a signal end it.
