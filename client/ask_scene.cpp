@@ -69,7 +69,7 @@ class OneAnswer final : public Call {
   void cancel() override {
     // The daemon does nothing for an upload that would have to end.
     ends_ = kind() != Kind::kScene;
-    if (ends_) return;
+    if (ends_ || std::exchange(is_cancelled_, true)) return;
     cancel_t question{};
     question.client_id = context_.options().client_id;
     question.request_id = request_id();
@@ -95,7 +95,8 @@ class OneAnswer final : public Call {
   std::optional<Response> response_;
   std::optional<std::string> refusal_;
   std::string fault_;
-  bool ends_ = false;  ///< nobody wants the answer any more
+  bool ends_ = false;          ///< nobody wants the answer any more
+  bool is_cancelled_ = false;  ///< so the daemon was told
   std::promise<Asked<Response>> promise_;
 };
 

@@ -178,10 +178,11 @@ class CallOff {
       : thread_([&interruption, &client](const std::stop_token& stop) {
           constexpr long kLookMs = 50;
           for (bool is_cancelled = false; !stop.stop_requested();) {
-            if (!interruption.came_within(kLookMs)) continue;
-            if (is_cancelled) interruption.end_process();
-            client.cancel_scene_calls();
-            is_cancelled = true;
+            const bool came = interruption.came_within(kLookMs);
+            if (came && is_cancelled) interruption.end_process();
+            is_cancelled = is_cancelled || came;
+            // Again and again: it may have come before the client asked anything.
+            if (is_cancelled) client.cancel_scene_calls();
           }
         }) {}
 
