@@ -70,6 +70,13 @@ class FileDescriptor {
   int fd_;
 };
 
+/// A file for what the child writes, never in the place of a standard stream: whoever started us may
+/// have closed those, and in the child they are opened anew. Below 0, with `errno` set, on failure.
+int open_output() {
+  const FileDescriptor first(memfd_create("camway-import", MFD_CLOEXEC));
+  return first.get() < 0 ? -1 : fcntl(first.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+}
+
 /// What happens between fork and exec, which `posix_spawn` does without running any code of ours.
 class SpawnSettings {
  public:
@@ -187,7 +194,7 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
             {},
             std::string(kProgram) + " is neither beside this program nor on PATH"};
   }
-  const FileDescriptor output(memfd_create("camway-import", MFD_CLOEXEC));
+  const FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};
   // Processor time a little longer, so that it is the wall clock that strikes.
   const double cpu_s = std::ceil(std::clamp(time_limit_s, 0.0, 1e6)) + 1.0;

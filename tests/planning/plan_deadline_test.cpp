@@ -63,7 +63,9 @@ std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request
   });
   if (inserted > 0 && !any_corrected) return "keyframes of no correction";
   const auto meets_keyframe = [&](const motion::Keyframe& keyframe) {
-    return (result.path.pose(keyframe.time_s).position - keyframe.pose.position).norm() < 1e-9;
+    constexpr double kRounding_m = 1e-9;  // that of coordinates up to 600 m is below 1e-12
+    return (result.path.pose(keyframe.time_s).position - keyframe.pose.position).norm() <
+           kRounding_m;
   };
   if (!std::ranges::all_of(result.keyframes, meets_keyframe)) return "misses a keyframe";
   return {};
@@ -138,7 +140,10 @@ TEST(PlanDeadline, OfTheSeedsMethodToo) {
 }
 
 TEST(PlanDeadline, AFreePathThatWasNotSlowedInTimeSaysSo) {
+  // So many keyframes that the time which slowing has in any case is not enough.
   PlanRequest request = flight();
+  for (int i = 5; i <= 300; ++i)
+    request.keyframes.push_back({2.0 * i, {{2.0 * i, 0, 0}, Quat::Identity()}});
   request.options.limits.speed_m_per_s = 0.5;
   request.options.limits.may_retime = true;
   const auto snapshot = scene::make_snapshot("test", scene::Mesh{}).snapshot;
@@ -153,7 +158,7 @@ TEST(PlanDeadline, AFreePathThatWasNotSlowedInTimeSaysSo) {
     EXPECT_EQ(result.time_scale, 1.0);
     EXPECT_THAT(result.message, HasSubstr("options.limits: the path is free, but too fast"));
   });
-  RecordProperty("unslowed", unslowed);
+  EXPECT_GT(unslowed, 0);
 }
 
 /// A shorter way, or fewer keyframes, is left undone where time is short.

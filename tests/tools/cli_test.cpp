@@ -63,6 +63,8 @@ TEST(Cli, OutputThatCannotBeWrittenIsSaid) {
   }
   EXPECT_EQ(exit_code_of_shell("info --scene '" + scene + "' >'" + said + "'"), 0);
   EXPECT_EQ(exit_code_of_shell("info --scene /nowhere.obj 2>/dev/full"), 2);
+  EXPECT_EQ(exit_code_of_shell("info --scene '" + scene + "' <&- >'" + said + "' 2>&-"), 0)
+      << "scenes are read whatever the starter has closed";
 }
 
 TEST(Cli, HelpOfWhatIsNoCommandSaysSo) {
