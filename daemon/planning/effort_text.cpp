@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string_view>
 
 namespace camway::planning {
@@ -23,15 +24,22 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+std::string rounded_down(double value) {
+  if (!(value > 0.0)) return "0";
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
+  return fmt::format("{:.3g}", std::floor(value * scale) / scale);
+}
+
 std::string effort_text(const Effort& effort) {
   std::string text;
-  const auto add_some = [&](std::int32_t count, std::string_view noun) {
-    if (count > 0) add(text, counted(static_cast<std::size_t>(count), noun));
+  const auto add_some = [&](std::int32_t count, std::string_view noun, std::string_view what_for) {
+    if (count == 0) return;
+    add(text, counted(static_cast<std::size_t>(count), noun) + std::string(what_for));
   };
-  add_some(effort.directions, "direction");
-  add_some(effort.paths, "changed path");
-  add_some(effort.lattice_points, "lattice point");
-  add_some(effort.tree_samples, "tree sample");
+  add_some(effort.directions, "direction", " to move or turn in");
+  add_some(effort.paths, "changed path", "");
+  add_some(effort.lattice_points, "place", " on a way round");
+  add_some(effort.tree_samples, "pose", " on a way round that turns");
   return text;
 }
 
@@ -58,20 +66,27 @@ std::string note_of_method(const PlanRequest& request) {
 }
 
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink) {
-  if (proof.cage) {
-    const geometry::Vec3 center =
-        proof.cage->orientation * geometry::Vec3(proof.cage->box.center());
+  if (!proof.cage) {
     return fmt::format(
-        "there is no path: keyframe {} is inside a cage about ({:.4g}, {:.4g}, {:.4g}) with no "
-        "hole wider than {:.3g} m, keyframe {} outside; the smaller side of the near "
-        "quadrilateral is {:.3g} m{}",
-        proof.keyframe_inside, center.x(), center.y(), center.z(), proof.cage->widest_hole_m,
-        proof.keyframe_outside, proof.cage->shortest_chord_m, may_shrink ? " at its smallest" : "");
+        "no path exists: keyframe {} is inside a closed surface of {} of the scene, keyframe {} "
+        "outside",
+        proof.keyframe_inside, counted(proof.triangles.size(), "triangle"), proof.keyframe_outside);
   }
-  return fmt::format(
-      "there is no path: keyframe {} is inside a closed surface of {} triangles of the scene, "
-      "keyframe {} outside",
-      proof.keyframe_inside, proof.triangles.size(), proof.keyframe_outside);
+  const geometry::Vec3 center = proof.cage->orientation * geometry::Vec3(proof.cage->box.center());
+  const geometry::Vec3 size_m = proof.cage->box.sizes();
+  const std::string place =
+      fmt::format("of {:.3g} x {:.3g} x {:.3g} m about ({:.4g}, {:.4g}, {:.4g})", size_m.x(),
+                  size_m.y(), size_m.z(), center.x(), center.y(), center.z());
+  const std::string camera =
+      fmt::format("the camera's near quadrilateral ({:.3g} m{})", proof.cage->shortest_chord_m,
+                  may_shrink ? " at its smallest" : "");
+  const std::string holes =
+      proof.cage->widest_hole_m > 0.0
+          ? fmt::format("whose holes ({:.3g} m at most) are too narrow for {}",
+                        proof.cage->widest_hole_m, camera)
+          : "without holes";
+  return fmt::format("no path exists: keyframe {} is inside a box {} {}, keyframe {} outside",
+                     proof.keyframe_inside, place, holes, proof.keyframe_outside);
 }
 
 }  // namespace camway::planning

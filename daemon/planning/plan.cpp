@@ -146,7 +146,7 @@ class Planner {
       message += deadline_.passed() ? "the deadline came before a free pose was found"
                                     : "no free pose was found near it";
     }
-    if (faults.size() > 1) message += fmt::format("; {} keyframes are at fault", faults.size());
+    if (faults.size() > 1) message += fmt::format("; {} keyframes collide", faults.size());
     if (faults.size() >= kMostKeyframeFaults && request_.options.repair_keyframes)
       message += ", too many to be repaired";
     refuse(std::move(message), first.keyframe);
@@ -408,7 +408,6 @@ class Planner {
   }
 
   void conclude() {
-    const std::size_t inserted = inserted_keyframes();
     const std::size_t remaining = result_.remaining_collisions.size();
     if (remaining == 0 && breach_) {
       // It is proved free, and the certificate says so; it is not what was asked for.
@@ -425,11 +424,10 @@ class Planner {
     }
     if (remaining == 0) {
       result_.status = Status::kOk;
-      result_.message = fmt::format("{} found, {} inserted{}, proved free with {:.3g} m clearance",
-                                    counted(result_.collisions.size(), "collision"),
-                                    counted(inserted, "keyframe"), repaired(),
-                                    result_.certificate.clearance_lower_bound_m) +
-                        note_of_times() + note();
+      result_.message =
+          fmt::format("{}; the path is proved free of collision, {} m or more from the scene",
+                      what_was_done(), rounded_down(result_.certificate.clearance_lower_bound_m)) +
+          note_of_times() + note();
       return;
     }
     if (result_.infeasibility) {
@@ -445,10 +443,9 @@ class Planner {
           note_of_haste() + note();
       return;
     }
-    result_.message = fmt::format("{}{} found, {} inserted{}, {} left on the path",
-                                  timed_out_ ? "the deadline came first: " : "",
-                                  counted(result_.collisions.size(), "collision"),
-                                  counted(inserted, "keyframe"), repaired(), remaining) +
+    result_.message = fmt::format("{}the path still collides, {}: {}",
+                                  timed_out_ ? "the deadline came first; " : "",
+                                  counted(remaining, "time"), what_was_done()) +
                       note_of_keyframe_limit() + note_of_effort(result_.corrections) +
                       note_of_haste() + note_of_times() + note();
   }
@@ -471,9 +468,16 @@ class Planner {
         *needed_keyframes_);
   }
 
-  [[nodiscard]] std::string repaired() const {
-    const std::size_t count = result_.keyframe_faults.size();
-    return count == 0 ? std::string() : fmt::format(", {} repaired", count);
+  // "3 collisions at first, 12 keyframes inserted": numbers that are 0 are left out.
+  [[nodiscard]] std::string what_was_done() const {
+    std::string text = result_.collisions.empty()
+                           ? "no collision to correct"
+                           : counted(result_.collisions.size(), "collision") + " at first";
+    const std::size_t inserted = inserted_keyframes();
+    if (inserted > 0) text += fmt::format(", {} inserted", counted(inserted, "keyframe"));
+    const std::size_t repaired = result_.keyframe_faults.size();
+    if (repaired > 0) text += fmt::format(", {} repaired", counted(repaired, "keyframe"));
+    return text;
   }
 
   [[nodiscard]] std::string why_too_fast() const {

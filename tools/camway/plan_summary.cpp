@@ -50,7 +50,7 @@ std::string deed(const Correction& correction) {
     case Rung::kTurn:
       return text.empty() ? "turned" : text.substr(2);
     case Rung::kGoRound:
-      return "goes round" + text;
+      return "goes another way" + text;
     case Rung::kShrink:
       return "near distance made smaller" + text;
     case Rung::kNone:
@@ -60,26 +60,41 @@ std::string deed(const Correction& correction) {
 }
 
 /// "2.31-2.65", or "2.31" where that is all to a hundredth.
-std::string span(const collision::CollisionInterval& interval) {
-  const std::string begin = fmt::format("{:.2f}", interval.t_begin_s);
-  const std::string end = fmt::format("{:.2f}", interval.t_end_s);
+std::string span(double begin_s, double end_s) {
+  const std::string begin = fmt::format("{:.2f}", begin_s);
+  const std::string end = fmt::format("{:.2f}", end_s);
   return begin == end ? begin : begin + "-" + end;
 }
 
-/// "edge 2", "the inside".
-std::string part_of_body(const std::string& feature) {
-  if (feature.empty()) return "it";
-  return feature == "inside" || feature == "surface" ? "the " + feature : feature;
+/// "2.31-2.65, 2.80 s"; of many only from when to when, and how many.
+std::string spans(const PlanResult& result, const std::vector<std::size_t>& change) {
+  const auto interval = [&](std::size_t i) { return result.corrections[change[i]].interval; };
+  if (change.size() > kMostStretches) {
+    return fmt::format("{} s, {}", span(interval(0).t_begin_s, interval(change.size() - 1).t_end_s),
+                       plural(change.size(), "time"));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + span(interval(i).t_begin_s, interval(i).t_end_s);
+  }
+  return text + " s";
 }
 
-/// "edge 2 met sofa_04", or nothing if nobody saw what collided.
-std::string meeting(const PlanResult& result, std::size_t collision) {
-  if (collision >= result.collisions.size() || collision >= result.collision_names.size())
-    return {};
-  if (!result.collisions[collision].witness) return {};
-  const planning::WitnessNames& names = result.collision_names[collision];
-  return fmt::format("{} met {}", part_of_body(names.feature),
-                     names.object.empty() ? "the scene" : names.object);
+/// "collides with sofa_04, lamp"; which part of the body does is in the response.
+std::string meetings(const PlanResult& result, const std::vector<std::size_t>& change) {
+  std::vector<std::string> names;
+  for (const std::size_t i : change) {
+    if (i >= result.collisions.size() || i >= result.collision_names.size()) continue;
+    if (!result.collisions[i].witness) continue;
+    const std::string& object = result.collision_names[i].object;
+    const std::string name = object.empty() ? "the scene" : object;
+    if (std::ranges::count(names, name) == 0) names.push_back(name);
+  }
+  std::string text = names.empty() ? "collides" : "collides with ";
+  for (std::size_t i = 0; i < std::min(names.size(), kMostObjects); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  return names.size() > kMostObjects ? text + ", ..." : text;
 }
 
 /// Whether one change of the path is what became of both.
@@ -104,22 +119,13 @@ std::vector<std::vector<std::size_t>> changes(const std::vector<Correction>& cor
   return changes;
 }
 
-/// "2.31-2.65, 2.80-2.91 s: goes round, moved 1.3 m (edge 2 met sofa_04, corner 0 met lamp)".
+/// "2.31-2.65, 2.80-2.91 s: collides with sofa_04, lamp; goes another way, moved 1.3 m".
 std::string change_line(const PlanResult& result, const std::vector<std::size_t>& change) {
-  std::string spans;
-  std::vector<std::string> meetings;
-  for (const std::size_t i : change) {
-    spans += (spans.empty() ? "" : ", ") + span(result.corrections[i].interval);
-    const std::string met = meeting(result, i);
-    if (!met.empty() && std::ranges::count(meetings, met) == 0) meetings.push_back(met);
-  }
   const Correction& correction = result.corrections[change.front()];
-  std::string line = spans + " s: " + deed(correction);
-  const std::size_t shown = std::min(meetings.size(), kMostObjects);
-  for (std::size_t i = 0; i < shown; ++i) line += (i == 0 ? " (" : ", ") + meetings[i];
-  if (shown > 0) line += shown < meetings.size() ? ", ...)" : ")";
+  std::string line =
+      spans(result, change) + ": " + meetings(result, change) + "; " + deed(correction);
   const std::string effort = planning::effort_text(correction.tried);
-  if (!effort.empty()) line += "; tried " + effort;
+  if (!effort.empty()) line += ", tried " + effort;
   return line;
 }
 
@@ -132,16 +138,18 @@ void add_corrections(const PlanResult& result, std::vector<std::string>& lines) 
 
 void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lines) {
   const bool repaired = result.status != Status::kInvalid;
+  if (!repaired && result.keyframe_faults.size() == 1) return;  // the message says all
   const std::size_t shown = std::min(result.keyframe_faults.size(), kMostLines);
   for (std::size_t i = 0; i < shown; ++i) {
     const planning::KeyframeFault& fault = result.keyframe_faults[i];
-    std::string line = fmt::format("keyframe {}: {:.2g} m too deep", fault.keyframe, fault.depth_m);
+    std::string line =
+        fmt::format("keyframe {}: collides by {:.2g} m", fault.keyframe, fault.depth_m);
     if (fault.free_pose) {
       const geometry::Vec3& p = fault.free_pose->position;
-      line += fmt::format(", {} [{:.4g}, {:.4g}, {:.4g}]", repaired ? "moved to" : "free at", p.x(),
+      line += fmt::format("; {} [{:.4g}, {:.4g}, {:.4g}]", repaired ? "moved to" : "free at", p.x(),
                           p.y(), p.z());
     } else {
-      line += ", no free pose was found near it";
+      line += "; no free pose was found near it";
     }
     lines.push_back(std::move(line));
   }
@@ -166,60 +174,41 @@ std::vector<std::string> objects_of(const std::vector<std::uint32_t>& triangles,
   return names;
 }
 
-/// What one keyframe is inside of and another outside.
-std::string what_separates(const planning::Infeasibility& proof) {
-  const std::string triangles = plural(proof.triangles.size(), "triangle");
-  if (!proof.cage) return "a closed surface of " + triangles;
-  const geometry::Vec3 size_m = proof.cage->box.sizes();
-  return fmt::format(
-      "a cage of {:.3g} x {:.3g} x {:.3g} m made of {}, its holes at most {:.3g} m wide and the "
-      "camera {:.3g} m",
-      size_m.x(), size_m.y(), size_m.z(), triangles, proof.cage->widest_hole_m,
-      proof.cage->shortest_chord_m);
-}
-
+/// The objects that the proof is made of; the message says the rest.
 void add_proof(const PlanResult& result, const scene::Mesh* mesh, std::vector<std::string>& lines) {
-  if (!result.infeasibility) return;
-  const planning::Infeasibility& proof = *result.infeasibility;
-  std::string line =
-      fmt::format("keyframe {} is inside and keyframe {} outside of {}", proof.keyframe_inside,
-                  proof.keyframe_outside, what_separates(proof));
-  const auto names =
-      mesh != nullptr ? objects_of(proof.triangles, *mesh) : std::vector<std::string>();
+  if (!result.infeasibility || mesh == nullptr) return;
+  const std::vector<std::string> names = objects_of(result.infeasibility->triangles, *mesh);
+  if (names.empty()) return;
+  std::string line = result.infeasibility->cage ? "the box is made of" : "the surface belongs to";
   for (std::size_t i = 0; i < std::min(names.size(), kMostObjects); ++i) {
-    line += (i == 0 ? ": " : ", ") + names[i];
+    line += (i == 0 ? " " : ", ") + names[i];
   }
   if (names.size() > kMostObjects) line += ", ...";
   lines.push_back(std::move(line));
 }
 
-void add_scales(const PlanResult& result, std::vector<std::string>& lines) {
-  if (result.near_scale != 1.0) {
-    lines.push_back(
-        fmt::format("the near distance is {:.3g} of the one asked for", result.near_scale));
+/// Where the path is slower than asked for; the message says how much longer it takes.
+void add_slowed(const PlanResult& result, std::vector<std::string>& lines) {
+  if (result.slowed.empty()) return;
+  std::string line = "slowed at ";
+  const std::size_t shown = std::min(result.slowed.size(), kMostStretches);
+  for (std::size_t i = 0; i < shown; ++i) {
+    line += fmt::format("{}{:.4g}-{:.4g} s", i == 0 ? "" : ", ", result.slowed[i].t_begin_s,
+                        result.slowed[i].t_end_s);
   }
-  if (result.time_scale != 1.0) {
-    std::string line =
-        fmt::format("to meet the limits it takes {:.4g} times as long", result.time_scale);
-    const std::size_t shown = std::min(result.slowed.size(), kMostStretches);
-    for (std::size_t i = 0; i < shown; ++i) {
-      line += fmt::format("{}{:.4g}-{:.4g} s", i == 0 ? ", slowed at " : ", ",
-                          result.slowed[i].t_begin_s, result.slowed[i].t_end_s);
-    }
-    if (shown < result.slowed.size()) line += ", ...";
-    lines.push_back(std::move(line));
-  }
+  lines.push_back(shown < result.slowed.size() ? line + ", ..." : line);
+}
+
+/// "0.9 ms", "1.23 s".
+std::string duration(double ms) {
+  return ms < 1000.0 ? fmt::format("{:.1f} ms", ms) : fmt::format("{:.2f} s", ms / 1000.0);
 }
 
 std::string headline(const PlanResult& result) {
   if (result.status == Status::kInvalid) return result.message;
-  return fmt::format(
-      "{}: {} before correction, {} inserted, {} remaining, planned in {:.1f} ms, scene loaded in "
-      "{:.1f} ms: {}",
-      planning::to_string(result.status), plural(result.collisions.size(), "collision"),
-      plural(inserted_count(result), "keyframe"),
-      plural(result.remaining_collisions.size(), "collision"), result.timing.total_ms,
-      result.timing.load_scene_ms, result.message);
+  return fmt::format("{}: {} (scene read in {}, planned in {})", planning::to_string(result.status),
+                     result.message, duration(result.timing.load_scene_ms),
+                     duration(result.timing.total_ms));
 }
 
 }  // namespace
@@ -239,7 +228,7 @@ std::string plan_summary(const PlanResult& result, const scene::Mesh* mesh) {
   std::vector<std::string> lines;
   add_corrections(result, lines);
   add_keyframe_faults(result, lines);
-  add_scales(result, lines);
+  add_slowed(result, lines);
   add_proof(result, mesh, lines);
   std::string text = headline(result);
   for (const std::string& line : lines) text += "\n  " + line;

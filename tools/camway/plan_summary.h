@@ -8,11 +8,11 @@
 
 namespace camway::tools {
 
-/// What came of planning, for a person: a line that says it all, then, indented, a line for each
-/// correction ("2.31-2.65 s: moved 0.12 m (edge 2 met sofa_04)"), each keyframe at fault, what was
-/// scaled, and the surface that proves that there is no path. No line ends the text. Witnesses have
-/// their names already (`planning::name_witnesses`); `mesh`, if there is one, names the objects of
-/// the proof.
+/// The outcome of planning for a person: status, message and times in one line, then, indented, a
+/// line for each change of the path ("2.31-2.65 s: collides with sofa_04; moved 0.12 m"), each
+/// keyframe that collides where there are several, where the path was slowed, and the objects that
+/// prove that there is no path. No newline ends the text. Witnesses have their names already
+/// (`planning::name_witnesses`); `mesh`, if there is one, names the objects of the proof.
 std::string plan_summary(const planning::PlanResult& result, const scene::Mesh* mesh);
 
 /// "1 keyframe", "2 keyframes".
