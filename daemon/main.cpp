@@ -11,6 +11,7 @@
 #include "daemon/service/daemon_run.h"
 #include "daemon/service/log.h"
 #include "daemon/service/process_signals.h"
+#include "daemon/service/standard_streams.h"
 
 namespace {
 
@@ -46,6 +47,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!camway::service::occupy_closed_standard_streams()) return kExitFault;
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/service/build_info.h"
+#include "daemon/service/standard_streams.h"
 #include "tools/camway/commands.h"
 
 namespace {
@@ -62,6 +63,9 @@ int no_output() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!camway::service::occupy_closed_standard_streams()) {
+    return static_cast<int>(camway::tools::ExitCode::kOurFault);
+  }
   try {
     const int exit_code = run(argc, argv);
     return is_output_written() ? exit_code : no_output();
