@@ -137,7 +137,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "keyframes[].origin\n"
       "and scene_digest are read, if they are there.\n" +
       exit_code_help("the path collides, or the deadline came first") +
-      "\nExample: camway check --scene office.obj --request R.json --response P.json");
+      "\nExample: camway check --scene scenes/office.obj --request "
+      "scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_check(*flags); });
 }
 

@@ -102,8 +102,8 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
                       .description("y|z"))
       ->type_name("AXIS");
   command->footer(exit_code_help("") +
-                  "\nExample: camway draw --scene office.obj --request office-graze-1.json "
-                  "--response out.json --picture out.svg");
+                  "\nExample: camway draw --scene scenes/office.obj --request "
+                  "scenes/requests/office-graze-door.json --response out.json --picture out.svg");
   command->callback([flags, &exit_code] { exit_code = run_draw(*flags); });
 }
 

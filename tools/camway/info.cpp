@@ -216,7 +216,7 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
       ->type_name("METRES");
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer(exit_code_help("") +
-                  "\nExample: camway info --scene csb5.off --scale 0.0254 --up z-to-y");
+                  "\nExample: camway info --scene scenes/office.obj --scale 0.0254 --up z-to-y");
   command->callback([flags, &exit_code] { exit_code = run_info(*flags); });
 }
 

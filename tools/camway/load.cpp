@@ -258,7 +258,7 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
       exit_code_help("an answer was wrong or lost, or memory grew by more than allowed",
                      /*asks_daemon=*/true) +
       "\nExample: camway load --scene office=scenes/office.obj --request "
-      "scenes/requests/office-graze-*.json --clients 8 --seconds 20");
+      "scenes/requests/office-graze-*.json --clients 8 --seconds 5");
   command->callback([flags, &exit_code] { exit_code = run_command(*flags); });
 }
 

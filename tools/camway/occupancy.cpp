@@ -152,8 +152,8 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   command->footer(exit_code_help("the daemon's deadline came first", /*asks_daemon=*/true) +
                   "\nCoordinates are metres in the scene's frame; write --point=-1,2,3 if the "
                   "first is negative."
-                  "\nExample: camway occupancy --scene office.obj --resolution 0.1 --point 3,1.5,4 "
-                  "--write office.bt");
+                  "\nExample: camway occupancy --scene scenes/office.obj --resolution 0.1 --point "
+                  "3,1.5,4 --write office.bt");
   command->callback([flags, &exit_code] { exit_code = run_occupancy(*flags); });
 }
 

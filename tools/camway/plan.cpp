@@ -319,7 +319,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "how "
       "hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
-      "Example: camway plan --scene office.obj --request office-graze-1.json --response out.json");
+      "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
 }
 

@@ -549,7 +549,7 @@ void add_scene_command(CLI::App& app, ExitCode& exit_code) {
       exit_code_help("the deadline passed, or it was cancelled; nothing was changed",
                      /*asks_daemon=*/true) +
       "\nWrite --position=-1,2,3 if the first number is negative."
-      "\nExample: camway scene load hall --upload hall.obj && camway scene add hall crate "
+      "\nExample: camway scene load hall --upload scenes/maze.obj && camway scene add hall crate "
       "--box 1,1,1 --position 4,0.5,2 && camway scene move hall crate --position 5,0.5,2");
   const auto flags = std::make_shared<SceneCommandFlags>();
   add_load(*scene, flags, exit_code);

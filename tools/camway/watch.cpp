@@ -221,11 +221,13 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
       "Events: answer (the first path, or a corrected one), broken (the path collides since a "
       "change,\nand a corrected one is being planned), free (it is proved free again), lost (the "
       "daemon does not\nwatch for now, perhaps as a limit of its [watch] is reached; we go on "
-      "trying in silence), watched\n(it does again, and what was said before holds).\nAt the end, and when interrupted, the daemon is told to watch no more.\n" +
+      "trying in silence), watched\n(it does again, and what was said before holds).\nAt the end, "
+      "and when interrupted, the daemon is told to watch no more.\n" +
       exit_code_help("no path was proved, so there is nothing to watch; or nobody watched it at "
                      "the end",
                      /*asks_daemon=*/true) +
-      "\nExample: camway watch office --request request.json");
+      "\nExample: camway watch office --request "
+      "scenes/requests/office-free-door.json");
   command->callback([flags, &exit_code] { exit_code = run_watch(*flags); });
 }
 

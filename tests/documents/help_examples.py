@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+"""The examples that the programs' help shows, with the marks that a document would have for them."""
+import re
+
+_RECORDING = ("lcm-logger --quiet session.lcmlog & sleep 1; camway load --scene "
+              "office=scenes/office.obj --request scenes/requests/office-graze-door.json "
+              "--seconds 1; kill -INT $!; wait")
+_MARKS = {
+    "camway doctor": {"not run": "it looks at this machine's own configuration"},
+    "camway replay": {"run first": _RECORDING},
+    "camway status": {"interrupted after": "sleep 2"},
+    "camway watch": {"interrupted after": "sleep 2"},
+}
+
+
+def help_examples(session):
+    """Place, command and marks of each example, in an order in which they work. Raises ValueError
+    for a command without one."""
+    commands = ["camwayd"] + [f"camway {name}" for name in _subcommands(session)]
+    return [(command + " --help", _example(session, command), _MARKS.get(command, {}))
+            for command in commands]
+
+
+def _subcommands(session):
+    text = session.run("camway --help")[1]
+    return re.findall(r"^  ([a-z]+) ", text[text.index("Subcommands:"):], re.MULTILINE)
+
+
+def _example(session, command):
+    help_text = session.run(f"{command} --help")[1]
+    found = re.search(r"^Example: (.*)$", help_text, re.MULTILINE)
+    if not found:
+        raise ValueError(f"{command} --help: shows no example")
+    return found[1]
