@@ -36,7 +36,7 @@ TEST_F(CliPlan, WritesTheResponseToStandardOutput) {
   EXPECT_EQ(response.value->status, Status::kOk);
   EXPECT_EQ(response.value->keyframes.size(), 2U);
   EXPECT_GT(response.value->timing.load_scene_ms, 0.0);
-  EXPECT_THAT(run.err, HasSubstr("free.json: ok: 0 collisions before correction"));
+  EXPECT_THAT(run.err, HasSubstr("free.json: ok: no collision to correct; the path is proved free"));
 }
 
 TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {

@@ -63,7 +63,7 @@ start_daemon() {
   bash -c "exec camwayd --scene maze=$kScenes/maze.obj,occupancy=0.1 --scene-roots $kScenes \
     </dev/null >daemon.out 2>daemon.err $1" &
   daemon=$!
-  until camway status >status 2>&1; do kill -0 "$daemon" || return 1; done
+  until camway status >/dev/null 2>&1; do kill -0 "$daemon" || return 1; done
 }
 
 stop_daemon() {
