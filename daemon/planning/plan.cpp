@@ -135,8 +135,8 @@ class Planner {
                   "is nearer to the scene than the clearance of {:.3g} m that was asked for",
                   detect_.clearance_m)
             : std::string("collides with the scene");
-    std::string message = fmt::format("keyframes[{}]: the {} {} there, by about {:.3g} m",
-                                      first.keyframe, body, rule, first.depth_m);
+    std::string message = fmt::format("keyframes[{}]: the {} {} there", first.keyframe, body, rule);
+    if (first.depth_m > 0.0) message += fmt::format(", by about {:.3g} m", first.depth_m);
     if (first.free_pose) {
       const geometry::Vec3& to = first.free_pose->position;
       message +=
@@ -443,7 +443,7 @@ class Planner {
           note_of_haste() + note();
       return;
     }
-    result_.message = fmt::format("{}the path still collides, {}: {}",
+    result_.message = fmt::format("{}the path still collides {} ({})",
                                   timed_out_ ? "the deadline came first; " : "",
                                   counted(remaining, "time"), what_was_done()) +
                       note_of_keyframe_limit() + note_of_effort(result_.corrections) +

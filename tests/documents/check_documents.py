@@ -109,7 +109,12 @@ def documents_of(source):
 def check_help(documents):
     """The examples of `--help`, each as if it were a block of a document."""
     with Session(documents.source, documents.programs) as session:
-        for place, command, marks in help_examples(session):
+        try:
+            examples = help_examples(session)
+        except ValueError as error:
+            documents.faults.append(str(error))
+            return
+        for place, command, marks in examples:
             documents.check_block(session, Block(place, 1, "shell", "$ " + command, marks), [])
 
 

@@ -23,7 +23,10 @@ def help_examples(session):
 
 def _subcommands(session):
     text = session.run("camway --help")[1]
-    return re.findall(r"^  ([a-z]+) ", text[text.index("Subcommands:"):], re.MULTILINE)
+    names = re.findall(r"^  ([a-z]+) ", text.partition("Subcommands:")[2], re.MULTILINE)
+    if not names:
+        raise ValueError(f"camway --help: names no subcommands: {text}")
+    return names
 
 
 def _example(session, command):

@@ -19,7 +19,7 @@ PATH=$kPrograms:$PATH
 faults=0
 daemon=
 folder=$(mktemp -d)
-trap '[[ -z $daemon ]] || kill "$daemon"; rm -r "$folder"' EXIT
+trap '[[ -z $daemon ]] || kill "$daemon" || true; rm -r "$folder"' EXIT
 cd "$folder"
 mkdir open closed
 
@@ -68,7 +68,7 @@ start_daemon() {
 
 stop_daemon() {
   local code=0
-  kill "$daemon"
+  kill "$daemon" || true # it may have died
   wait "$daemon" || code=$?
   daemon=
   [[ $code == 0 ]] || fault "camwayd $1: ends with $code"

@@ -48,12 +48,14 @@ TEST(PlanSummary, SaysWhatEachCorrectionDid) {
   result.collision_names[0] = {"sofa_04", "edge 2"};
   result.collisions[4].witness.emplace();
   result.collision_names[4] = {"", "corner 1"};
-  EXPECT_THAT(plan_summary(result, nullptr),
-              EndsWith("\n  2.31-2.65 s: collides with sofa_04; moved 0.12 m\n"
-                       "  3.00-4.00 s: collides; turned 4 degrees\n"
-                       "  5.00-6.00 s: collides; goes another way, moved 1.3 m, turned 29 degrees\n"
-                       "  7.00-8.00 s: collides; near distance made smaller\n"
-                       "  9.00-10.00 s: collides with the scene; not corrected"));
+  EXPECT_THAT(
+      plan_summary(result, nullptr),
+      EndsWith(
+          "\n  2.31-2.65 s: collides with sofa_04; moved up to 0.12 m\n"
+          "  3.00-4.00 s: collides; turned up to 4 degrees\n"
+          "  5.00-6.00 s: collides; goes another way, moved up to 1.3 m, turned up to 29 degrees\n"
+          "  7.00-8.00 s: collides; near distance made smaller\n"
+          "  9.00-10.00 s: collides with the scene; not corrected"));
 }
 
 TEST(PlanSummary, LeavesRoundingOutAndLargeNumbersWhole) {
@@ -62,9 +64,10 @@ TEST(PlanSummary, LeavesRoundingOutAndLargeNumbersWhole) {
                                          corrected(5.001, 5.002, Rung::kTurn, 1e-15, 1e-9)});
   EXPECT_THAT(
       plan_summary(result, nullptr),
-      EndsWith("  1.00-2.00 s: collides; moved 0.046 m\n"
-               "  3.00-4.00 s: collides; goes another way, moved 123 m, turned 120 degrees\n"
-               "  5.00 s: collides; turned"));
+      EndsWith(
+          "  1.00-2.00 s: collides; moved up to 0.046 m\n"
+          "  3.00-4.00 s: collides; goes another way, moved up to 123 m, turned up to 120 degrees\n"
+          "  5.00 s: collides; turned"));
 }
 
 TEST(PlanSummary, BeginsWithStatusMessageAndTimes) {
@@ -84,12 +87,10 @@ TEST(PlanSummary, HasALineForEachChangeOfThePath) {
   result.collision_names[0] = {"sofa", "edge 2"};
   result.collision_names[2] = {"lamp", "inside"};
   result.collision_names[3] = {"sofa", "edge 2"};
-  EXPECT_THAT(
-      plan_summary(result, nullptr),
-      EndsWith(
-          "\n  1.00-2.00, 3.00-4.00, 5.00 s: collides with sofa, lamp; goes another way, moved "
-          "0.5 m\n"
-          "  2.50-2.75 s: collides; moved 0.1 m"));
+  EXPECT_THAT(plan_summary(result, nullptr),
+              EndsWith("\n  1.00-2.00, 3.00-4.00, 5.00 s: collides with sofa, lamp; goes another "
+                       "way, moved up to 0.5 m\n"
+                       "  2.50-2.75 s: collides; moved up to 0.1 m"));
 }
 
 TEST(PlanSummary, SaysHowHardItTried) {
@@ -113,7 +114,7 @@ TEST(PlanSummary, ManyCollisionsOfOneChangeAreCounted) {
   }
   EXPECT_THAT(plan_summary(result, nullptr),
               EndsWith("\n  0.00-5.50 s, 6 times: collides with wall_0, wall_1, wall_2, ...; goes "
-                       "another way, moved 4.2 m"));
+                       "another way, moved up to 4.2 m"));
 }
 
 TEST(PlanSummary, CutsLongLists) {
@@ -150,14 +151,18 @@ TEST(PlanSummary, SaysWhatIsWrongWithKeyframes) {
   fault.keyframe = 3;
   fault.free_pose = motion::Pose{{1.23456, 2, -3}, geometry::Quat(1, 0, 0, 0)};
   result.keyframe_faults.push_back(fault);
+  fault.keyframe = 5;
+  fault.depth_m = 0.0;
+  result.keyframe_faults.push_back(fault);
   EXPECT_EQ(plan_summary(result, nullptr),
             "R.json: keyframes[1]: collides\n"
             "  keyframe 1: collides by 0.13 m; no free pose was found near it\n"
-            "  keyframe 3: collides by 0.13 m; free at [1.235, 2, -3]");
+            "  keyframe 3: collides by 0.13 m; free at [1.235, 2, -3]\n"
+            "  keyframe 5: collides; free at [1.235, 2, -3]");
   result.status = Status::kOk;
   EXPECT_THAT(plan_summary(result, nullptr), HasSubstr("by 0.13 m; moved to [1.235, 2, -3]"));
   result.status = Status::kInvalid;
-  result.keyframe_faults.pop_back();
+  result.keyframe_faults.resize(1);
   EXPECT_EQ(plan_summary(result, nullptr), "R.json: keyframes[1]: collides") << "said already";
 }
 

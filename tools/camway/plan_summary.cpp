@@ -32,13 +32,13 @@ std::string two_digits(double value) {
   return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
-/// ", moved 0.12 m, turned 3 degrees", or what of that there is to see.
+/// ", moved up to 0.12 m, turned up to 3 degrees", or what of that there is to see.
 std::string extent(const Correction& correction) {
   std::string text;
   if (correction.moved_m >= kLeastMove_m)
-    text += ", moved " + two_digits(correction.moved_m) + " m";
+    text += ", moved up to " + two_digits(correction.moved_m) + " m";
   const double turned_deg = degrees(correction.turned_rad);
-  if (turned_deg >= kLeastTurn_deg) text += ", turned " + two_digits(turned_deg) + " degrees";
+  if (turned_deg >= kLeastTurn_deg) text += ", turned up to " + two_digits(turned_deg) + " degrees";
   return text;
 }
 
@@ -119,7 +119,7 @@ std::vector<std::vector<std::size_t>> changes(const std::vector<Correction>& cor
   return changes;
 }
 
-/// "2.31-2.65, 2.80-2.91 s: collides with sofa_04, lamp; goes another way, moved 1.3 m".
+/// "2.31-2.65, 2.80-2.91 s: collides with sofa_04, lamp; goes another way, moved up to 1.3 m".
 std::string change_line(const PlanResult& result, const std::vector<std::size_t>& change) {
   const Correction& correction = result.corrections[change.front()];
   std::string line =
@@ -142,8 +142,8 @@ void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lin
   const std::size_t shown = std::min(result.keyframe_faults.size(), kMostLines);
   for (std::size_t i = 0; i < shown; ++i) {
     const planning::KeyframeFault& fault = result.keyframe_faults[i];
-    std::string line =
-        fmt::format("keyframe {}: collides by {:.2g} m", fault.keyframe, fault.depth_m);
+    std::string line = fmt::format("keyframe {}: collides", fault.keyframe);
+    if (fault.depth_m > 0.0) line += fmt::format(" by {:.2g} m", fault.depth_m);
     if (fault.free_pose) {
       const geometry::Vec3& p = fault.free_pose->position;
       line += fmt::format("; {} [{:.4g}, {:.4g}, {:.4g}]", repaired ? "moved to" : "free at", p.x(),

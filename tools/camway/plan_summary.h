@@ -9,7 +9,7 @@
 namespace camway::tools {
 
 /// The outcome of planning for a person: status, message and times in one line, then, indented, a
-/// line for each change of the path ("2.31-2.65 s: collides with sofa_04; moved 0.12 m"), each
+/// line for each change of the path ("2.31-2.65 s: collides with sofa_04; moved up to 0.12 m"), each
 /// keyframe that collides where there are several, where the path was slowed, and the objects that
 /// prove that there is no path. No newline ends the text. Witnesses have their names already
 /// (`planning::name_witnesses`); `mesh`, if there is one, names the objects of the proof.
