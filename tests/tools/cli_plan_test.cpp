@@ -187,7 +187,7 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
   EXPECT_TRUE(response.value->measures_before);
   EXPECT_TRUE(response.value->measures);
   EXPECT_THAT(run.err, HasSubstr("\n  0."));
-  EXPECT_THAT(run.err, HasSubstr(" met fin)"));
+  EXPECT_THAT(run.err, HasSubstr(" s: collides with fin; moved up to "));
 }
 
 TEST_F(CliPlan, FlagsGoBeforeTheRequestsOptions) {
