@@ -112,7 +112,9 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
   // They change nothing, and end before they begin.
   std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
   const std::optional<Span> changed = span_of(rows, problem);
-  if (!changed) return {std::nullopt, problem.interval};
+  const bool all_fit =
+      std::ranges::all_of(rows, [](const motion::BumpRow& row) { return row.knots.fits(); });
+  if (!changed || !all_fit) return {std::nullopt, problem.interval};
   Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
   if (!keeps_keyframes(candidate.path, candidate.rows, problem))
     return {std::nullopt, problem.interval};

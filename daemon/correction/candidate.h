@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,9 +27,15 @@ struct Problem {
   /// not grow.
   std::vector<collision::CollisionInterval> others;
   Effort* effort = nullptr;  ///< where it is counted what is tried; may be null
+  /// Where the knots of bumps may be. Null: anywhere.
+  std::shared_ptr<const motion::KnotPlaces> places = nullptr;
 
   [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
   [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }
+  /// Knots in `count` steps over the gap.
+  [[nodiscard]] motion::KnotRow knots(int count) const {
+    return {gap_begin_s(), gap_end_s(), count, places};
+  }
 };
 
 /// What a correction came to.
@@ -43,8 +50,9 @@ std::optional<collision::CollisionInterval> first_new_collision(
     const motion::CubicPath& path, double t_begin_s, double t_end_s, const Problem& problem,
     const FreeSpace& space, const collision::Deadline& deadline);
 
-/// `problem.path` with `rows` added, if it still meets all keyframes, and is proved to meet the
-/// rule for orientations and to be free wherever they change it.
+/// `problem.path` with `rows` added, if times are fine enough for them, it still meets all
+/// keyframes, and is proved to meet the rule for orientations and to be free wherever they change
+/// it.
 struct Attempt {
   std::optional<Candidate> candidate;
   /// Where there is none: the first collision, or where the rule is broken.

@@ -96,7 +96,8 @@ class Detour {
   // Where a row of bumps is too coarse for the guide, a finer one is added for what is missing,
   // next to the collision alone.
   std::optional<Candidate> refined(const Guide& guide) {
-    motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), kFine.back()};
+    motion::KnotRow knots = problem_.knots(kFine.back());
+    if (!knots.fits()) return std::nullopt;
     const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
     const std::optional<Offsets> offsets = offsets_on(problem_.path, timed, knots);
     if (!offsets) return std::nullopt;
@@ -106,7 +107,7 @@ class Detour {
       if (tried.candidate) return std::move(tried.candidate);
       const double at_s = 0.5 * (tried.collision->t_begin_s + tried.collision->t_end_s);
       knots.count = 2 * finest_at(rows, at_s);
-      if (knots.count > kFinest) return std::nullopt;
+      if (knots.count > kFinest || !knots.fits()) return std::nullopt;
       const std::optional<Offsets> rest =
           offsets_on(motion::with_bumps(problem_.path, rows), timed, knots);
       if (!rest) return std::nullopt;
@@ -144,7 +145,8 @@ class Detour {
   }
 
   std::optional<Candidate> drawn(const Guide& guide, int count) {
-    const motion::KnotRow knots{problem_.gap_begin_s(), problem_.gap_end_s(), count};
+    const motion::KnotRow knots = problem_.knots(count);
+    if (!knots.fits()) return std::nullopt;
     const TimedGuide timed(problem_.path, guide, knots.begin_s, knots.end_s, space_);
     const std::optional<Offsets> offsets = offsets_on(problem_.path, timed, knots);
     if (!offsets) return std::nullopt;

@@ -137,9 +137,13 @@ std::optional<Offsets> offsets_to(const motion::CubicPath& path,
   return offsets;
 }
 
-CubicPoint holding(const CubicPoint& before, const CubicPoint& after) {
-  const double share = -motion::kBumpShoulder / motion::kBumpPeak;
-  return {share * (before.position + after.position), share * (before.image + after.image)};
+CubicPoint holding(const motion::KnotRow& knots, int knot, const CubicPoint& before,
+                   const CubicPoint& after) {
+  const double peak = knots.bump_at_knot(knot, knot);
+  const double of_before = -knots.bump_at_knot(knot - 1, knot) / peak;
+  const double of_after = -knots.bump_at_knot(knot + 1, knot) / peak;
+  return {of_before * before.position + of_after * after.position,
+          of_before * before.image + of_after * after.image};
 }
 
 BumpRow bumps_for(const Offsets& offsets, Ends ends) {
@@ -150,7 +154,8 @@ BumpRow bumps_for(const Offsets& offsets, Ends ends) {
   BumpRow row{offsets.knots, first, {}};
   for (int k = first; k <= last; ++k) {
     const bool is_keyframe = k == 0 || k == count;
-    row.bumps.push_back(is_keyframe ? holding(offsets(k - 1), offsets(k + 1)) : offsets(k));
+    row.bumps.push_back(is_keyframe ? holding(offsets.knots, k, offsets(k - 1), offsets(k + 1))
+                                    : offsets(k));
   }
   // Bumps without a coefficient would only cut the path into pieces.
   while (!row.bumps.empty() && is_none(row.bumps.back())) row.bumps.pop_back();

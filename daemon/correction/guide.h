@@ -76,8 +76,9 @@ enum class Ends {
 /// keyframes is made so.
 motion::BumpRow bumps_for(const Offsets& offsets, Ends ends);
 
-/// The coefficient of the bump at a keyframe that makes the sum zero there.
-motion::CubicPoint holding(const motion::CubicPoint& before, const motion::CubicPoint& after);
+/// The coefficient of the bump at a knot that makes the sum zero there.
+motion::CubicPoint holding(const motion::KnotRow& knots, int knot, const motion::CubicPoint& before,
+                           const motion::CubicPoint& after);
 
 /// Leaves out poses of `guide` where the straight motion between others is free and shorter.
 Guide shortened(const Guide& guide, FreeSpace& space, double margin_m);

@@ -36,7 +36,7 @@ class Corrector {
         radius_m_(motion::body_radius_m(corners_C)),
         keyframes_(std::move(keyframes)),
         mean_speed_m_per_s_(mean_speed_m_per_s()),
-        path_(motion::interpolate(keyframes_)) {}
+        path_(motion::interpolate(keyframes_, options.origin)) {}
 
   KeyframeInsertionResult run() && {
     KeyframeInsertionResult result;
@@ -70,7 +70,7 @@ class Corrector {
       } else {
         ++round.gave_up;
         keyframes_ = before;
-        path_ = motion::interpolate(keyframes_);
+        path_ = motion::interpolate(keyframes_, options_.origin);
       }
       if (interval->t_end_s <= cursor_s) break;
       cursor_s = interval->t_end_s;
@@ -110,7 +110,7 @@ class Corrector {
   }
 
   bool insert_at_middle(const CollisionInterval& interval) {
-    const double t_mid_s = 0.5 * (interval.t_begin_s + interval.t_end_s);
+    const double t_mid_s = options_.origin.nearest_s(0.5 * (interval.t_begin_s + interval.t_end_s));
     const auto next = std::upper_bound(
         keyframes_.begin(), keyframes_.end(), t_mid_s,
         [](double time_s, const Keyframe& keyframe) { return time_s < keyframe.time_s; });
@@ -122,7 +122,7 @@ class Corrector {
     const Keyframe inserted{t_mid_s, pushed.pose, motion::KeyframeOrigin::kInserted};
     if (hurries(*std::prev(next), inserted) || hurries(inserted, *next)) return false;
     keyframes_.insert(next, inserted);
-    path_ = motion::interpolate(keyframes_);
+    path_ = motion::interpolate(keyframes_, options_.origin);
     return true;
   }
 

@@ -6,11 +6,13 @@
 #include "daemon/collision/sweep_detection.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/path.h"
+#include "daemon/motion/time_origin.h"
 
 namespace camway::correction {
 
 struct KeyframeInsertionOptions {
   collision::SweepOptions sweep;
+  motion::TimeOrigin origin;         ///< of all times
   int max_inserted_keyframes = 200;  ///< cut-off for the whole path [Limit: 0 <= value]
   int max_recursion = 8;             ///< cut-off for one interval: passes that insert into its rest
   int max_rounds = 4;                ///< how often the whole path is gone through again

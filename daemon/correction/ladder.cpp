@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -121,6 +122,7 @@ class Ladder {
     problem.has_path_begin = first == 0;
     problem.has_path_end = last + 1 == keyframes_s_.size();
     problem.interval = {keyframes_s_[gap], keyframes_s_[gap + 1]};
+    problem.places = places_for(problem);
     // Only those that reach into the part: there may be thousands elsewhere.
     auto next =
         std::ranges::lower_bound(open_, problem.path.begin_s(), {}, &CollisionInterval::t_end_s);
@@ -128,6 +130,23 @@ class Ladder {
       if (is_open(static_cast<std::size_t>(next - open_.begin()))) problem.others.push_back(*next);
     }
     return problem;
+  }
+
+  // Knots keep to the joints of the path, or away from them.
+  [[nodiscard]] std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& problem) const {
+    motion::KnotPlaces places{options_.origin, {problem.path.begin_s()}, 0.0};
+    double size_m = 0.0;
+    for (const motion::CubicPiece& piece : problem.path.pieces) {
+      places.taken_s.push_back(piece.t1_s);
+      size_m = std::max(size_m, piece.position[3].cwiseAbs().maxCoeff());
+    }
+    const double gap_s = problem.gap_end_s() - problem.gap_begin_s();
+    const double chord_m = (problem.path.at(problem.gap_end_s()).position -
+                            problem.path.at(problem.gap_begin_s()).position)
+                               .norm();
+    // Where the camera only turns, corrections move it by about its own size.
+    places.same_s = motion::least_piece_s(gap_s, std::max(chord_m, space_.ball_radius_m()), size_m);
+    return std::make_shared<const motion::KnotPlaces>(std::move(places));
   }
 
   [[nodiscard]] bool is_open(std::size_t index) const {

@@ -13,6 +13,7 @@
 #include "daemon/correction/separation.h"
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
+#include "daemon/motion/time_origin.h"
 #include "daemon/scene/whole_mesh.h"
 
 namespace camway::correction {
@@ -23,7 +24,8 @@ struct LadderOptions {
   OrientationPolicy orientation;
   /// For the whole path; with 0 nothing is corrected, nor looked for. [Limit: 0 <= value]
   int max_inserted_keyframes = 200;
-  std::uint64_t seed = 1;  ///< of the search for ways round
+  motion::TimeOrigin origin;  ///< of all times
+  std::uint64_t seed = 1;     ///< of the search for ways round
   /// By up to which share the camera may be made smaller, about its eye: there is no path only if
   /// there is none for any such size. [Limit: 0 <= value < 1]
   double max_shrink = 0.0;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "daemon/correction/guide.h"
 #include "daemon/correction/orientation_rule.h"
@@ -19,6 +21,7 @@ using geometry::Vec3;
 using geometry::Vec4;
 using motion::BumpRow;
 using motion::CubicPoint;
+using motion::KnotRow;
 using motion::Pose;
 using motion::SignedPose;
 
@@ -35,6 +38,7 @@ constexpr double kMoreEachTime = 1.35;
 constexpr int kMostRaises = 3;
 constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
 constexpr int kMostWidths = 2;
+constexpr double kLeastPeak = 0.1;  // of a bump, after what takes it back at keyframes
 
 /// A direction to nudge to: of the move, or the axis of the turn.
 struct Way {
@@ -246,38 +250,43 @@ CubicPoint scaled(const CubicPoint& point, double factor) {
   return {factor * point.position, factor * point.image};
 }
 
-BumpRow single(double peak_s, double spacing_s, const CubicPoint& coefficient) {
-  return {{peak_s - 2.0 * spacing_s, peak_s + 2.0 * spacing_s, 4}, 2, {coefficient}};
+constexpr int kSingle = 2;  // the knot of the only bump of a row
+constexpr int kSteps = 4;   // of its support
+
+/// The places, and beside them the knots of `row`.
+std::shared_ptr<const motion::KnotPlaces> with_knots_of(
+    const motion::KnotRow& row, const std::shared_ptr<const motion::KnotPlaces>& places) {
+  if (!places) return nullptr;
+  motion::KnotPlaces all = *places;
+  for (int k = 0; k <= kSteps; ++k) all.taken_s.push_back(row.knot_s(k));
+  std::ranges::sort(all.taken_s);
+  return std::make_shared<const motion::KnotPlaces>(std::move(all));
 }
 
 // The bump, and one at each keyframe within its support that takes back what it does there. Those
 // are so narrow that they do not reach other keyframes.
 std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spacing_s) const {
-  const auto value = [&](double time_s) {
-    return motion::bump_value((time_s - middle_s_) / spacing_s);
-  };
+  const KnotRow wide = KnotRow::about(middle_s_, spacing_s, problem_.places);
+  if (!wide.fits()) return {};
+  const std::shared_ptr<const motion::KnotPlaces> places = with_knots_of(wide, problem_.places);
   const std::vector<double>& keyframes_s = problem_.keyframes_s;
-  std::vector<double> narrow_s;
-  std::vector<BumpRow> rows;
-  double peak = motion::kBumpPeak;
+  std::vector<BumpRow> rows = {{wide, kSingle, {offset}}};
+  double peak = wide.bump_value(kSingle, middle_s_);
   for (std::size_t i = 0; i < keyframes_s.size(); ++i) {
-    const double share = value(keyframes_s[i]);
-    narrow_s.push_back(0.0);
-    if (share == 0.0) continue;
+    const double value = wide.bump_value(kSingle, keyframes_s[i]);
+    if (value == 0.0) continue;
     double room_s = spacing_s;
     if (i > 0) room_s = std::min(room_s, 0.5 * (keyframes_s[i] - keyframes_s[i - 1]));
     if (i + 1 < keyframes_s.size())
       room_s = std::min(room_s, 0.5 * (keyframes_s[i + 1] - keyframes_s[i]));
-    narrow_s.back() = room_s;
-    peak -= share / motion::kBumpPeak * motion::bump_value((middle_s_ - keyframes_s[i]) / room_s);
+    const KnotRow narrow = KnotRow::about(keyframes_s[i], room_s, places);
+    if (!narrow.fits()) return {};
+    const double share = -value / narrow.bump_value(kSingle, keyframes_s[i]);
+    peak += share * narrow.bump_value(kSingle, middle_s_);
+    rows.push_back({narrow, kSingle, {scaled(offset, share)}});
   }
-  if (!(peak > 0.1)) return {};
-  rows.push_back(single(middle_s_, spacing_s, scaled(offset, 1.0 / peak)));
-  for (std::size_t i = 0; i < keyframes_s.size(); ++i) {
-    if (narrow_s[i] == 0.0) continue;
-    const double share = -value(keyframes_s[i]) / (motion::kBumpPeak * peak);
-    rows.push_back(single(keyframes_s[i], narrow_s[i], scaled(offset, share)));
-  }
+  if (!(peak > kLeastPeak)) return {};
+  for (BumpRow& row : rows) row.bumps[0] = scaled(row.bumps[0], 1.0 / peak);
   return rows;
 }
 

@@ -435,7 +435,8 @@ std::optional<Candidate> polished(const Problem& problem, int knots, Improvement
                                   FreeSpace& space, const collision::Deadline& deadline) {
   int steps_left = std::min(kMostSteps, improvement.steps_left);
   if (steps_left == 0) return std::nullopt;
-  const Offsets none{{problem.gap_begin_s(), problem.gap_end_s(), knots}, 1, {}};
+  const Offsets none{problem.knots(knots), 1, {}};
+  if (!none.knots.fits()) return std::nullopt;
   const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
   Relaxation relaxation(problem, none, ends, improvement, space, steps_left);
   if (!relaxation.promises(improvement.worth)) return std::nullopt;

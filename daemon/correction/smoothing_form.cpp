@@ -82,6 +82,11 @@ FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow
     last_ = knots.count + (is_last ? 1 : knots_beyond(knots, knots.count, 1, times_s[gap + 2]));
   }
   for (int k = first_; k <= last_; ++k) size_ += is_held(k) ? 0 : 1;
+  for (const int k : {0, knots.count}) {
+    const double peak = knots.bump_at_knot(k, k);
+    held_shares_[k == 0 ? 0 : 1] = {-knots.bump_at_knot(k - 1, k) / peak,
+                                    -knots.bump_at_knot(k + 1, k) / peak};
+  }
 }
 
 Eigen::Index FreeCoefficients::variable(int k) const {
@@ -93,9 +98,9 @@ Eigen::Index FreeCoefficients::variable(int k) const {
 void FreeCoefficients::add(int k, double factor, Terms& terms) const {
   if (k < first_ || k > last_ || factor == 0.0) return;
   if (is_held(k)) {
-    const double share = -factor * motion::kBumpShoulder / motion::kBumpPeak;
-    add(k - 1, share, terms);
-    add(k + 1, share, terms);
+    const auto [of_before, of_after] = held_shares_[k == 0 ? 0 : 1];
+    add(k - 1, factor * of_before, terms);
+    add(k + 1, factor * of_after, terms);
     return;
   }
   const auto known = std::ranges::find(terms, variable(k), &Term::variable);

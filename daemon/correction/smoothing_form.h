@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,6 +71,8 @@ class FreeCoefficients {
   int last_ = 0;
   bool holds_keyframes_ = false;
   Eigen::Index size_ = 0;
+  /// Of the bumps before and after each keyframe, in the one there.
+  std::array<std::pair<double, double>, 2> held_shares_;
 };
 
 inline StackedPoint combined(const Terms& terms, const StackedPoints& variables) {

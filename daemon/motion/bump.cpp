@@ -15,23 +15,12 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-/// Bézier points of the uniform cubic B-spline on the four knot intervals of its support (Farin
-/// 2002, section 8.6).
-constexpr std::array<std::array<double, 4>, 4> kBumpPieces = {{
-    {0.0, 0.0, 0.0, 1.0 / 6.0},
-    {1.0 / 6.0, 2.0 / 6.0, 4.0 / 6.0, 4.0 / 6.0},
-    {4.0 / 6.0, 4.0 / 6.0, 2.0 / 6.0, 1.0 / 6.0},
-    {1.0 / 6.0, 0.0, 0.0, 0.0},
-}};
-
-/// Where `piece` is cut: its ends, and what knots lie well inside.
+/// Where `piece` is cut: its ends, and the knots inside.
 std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> rows) {
-  std::vector<double> inner_s;
-  double same_s = std::numeric_limits<double>::infinity();
+  std::vector<double> cuts = {piece.t0_s};
   for (const BumpRow& row : rows) {
-    same_s = std::min(same_s, kSameKnot * row.knots.spacing_s());
     const int last = row.first + static_cast<int>(row.bumps.size()) + 1;
-    // Only those between: a step more on either side makes up for rounding.
+    // Only those between: a step more on either side makes up for knots that are not equidistant.
     const auto steps_to = [&](double time_s) {
       return static_cast<int>(std::clamp((time_s - row.knots.begin_s) / row.knots.spacing_s(),
                                          row.first - 3.0, last + 1.0));
@@ -40,14 +29,12 @@ std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> row
     const int to = std::min(last, steps_to(piece.t1_s) + 2);
     for (int k = from; k <= to; ++k) {
       const double knot_s = row.knots.knot_s(k);
-      if (knot_s - piece.t0_s > same_s && piece.t1_s - knot_s > same_s) inner_s.push_back(knot_s);
+      if (piece.t0_s < knot_s && knot_s < piece.t1_s) cuts.push_back(knot_s);
     }
   }
-  std::ranges::sort(inner_s);
-  std::vector<double> cuts = {piece.t0_s};
-  for (const double knot_s : inner_s) {
-    if (knot_s - cuts.back() > same_s) cuts.push_back(knot_s);
-  }
+  std::ranges::sort(cuts);
+  const auto repeated = std::ranges::unique(cuts);
+  cuts.erase(repeated.begin(), repeated.end());
   cuts.push_back(piece.t1_s);
   return cuts;
 }
@@ -60,15 +47,17 @@ int knot_before(const KnotRow& knots, double time_s) {
   return k;
 }
 
-/// Adds what `row` is on `piece`, which lies between two knots that follow each other, but for
-/// `kSameKnot`.
+/// Adds what `row` is on `piece`, which lies between two knots that follow each other.
 void add(CubicPiece& piece, const BumpRow& row) {
   const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
   // So far away, in spacings, as no number of a knot can say.
   if (middle_s <= row.begin_s() || middle_s >= row.end_s()) return;
   const int before = knot_before(row.knots, middle_s);
-  const double from_s = row.knots.knot_s(before);
-  const double to_s = row.knots.knot_s(before + 1);
+  std::array<double, 8> knots_s;  // of all bumps that reach here
+  for (int i = 0; i < 8; ++i)
+    knots_s[static_cast<std::size_t>(i)] = row.knots.knot_s(before - 3 + i);
+  const double from_s = knots_s[3];
+  const double to_s = knots_s[4];
   const auto parameter = [&](double time_s) {
     // Exact at the knots: there the neighbours have to agree, and the ends to be zero.
     if (time_s == to_s) return 1.0;
@@ -80,7 +69,10 @@ void add(CubicPiece& piece, const BumpRow& row) {
   for (int k = std::max(row.first, before - 1); k < std::min(end, before + 3); ++k) {
     const CubicPoint& bump = row.bumps[static_cast<std::size_t>(k - row.first)];
     const auto part = static_cast<std::size_t>(before - (k - 2));
-    const std::array<double, 4> weights = bezier::sub_curve(kBumpPieces[part], u0, u1);
+    const double* support_s = &knots_s[3 - part];
+    const auto pieces =
+        b_spline_pieces({support_s[0], support_s[1], support_s[2], support_s[3], support_s[4]});
+    const std::array<double, 4> weights = bezier::sub_curve(pieces[part], u0, u1);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       piece.position[i] += weights[i] * bump.position;
       piece.image[i] += weights[i] * bump.image;
@@ -89,12 +81,6 @@ void add(CubicPiece& piece, const BumpRow& row) {
 }
 
 }  // namespace
-
-double KnotRow::knot_s(int index) const {
-  if (index == 0) return begin_s;
-  if (index == count) return end_s;
-  return begin_s + (end_s - begin_s) * (static_cast<double>(index) / count);
-}
 
 double bump_value(double knots) {
   const double a = std::abs(knots);

@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "daemon/motion/cubic_path.h"
+#include "daemon/motion/knot_row.h"
 
 namespace camway::motion {
 
-/// Equidistant knots: `count` steps from `begin_s` to `end_s`, and as many more of the same length
-/// on either side as are asked for.
-struct KnotRow {
-  double begin_s = 0.0;
-  double end_s = 1.0;  ///< [Limit: value > begin_s]
-  int count = 1;       ///< [Limit: value >= 1]
-
-  /// Knot `index`; exactly `begin_s` at 0 and `end_s` at `count`. Increases with the index, which
-  /// may be negative.
-  [[nodiscard]] double knot_s(int index) const;
-  [[nodiscard]] double spacing_s() const { return (end_s - begin_s) / count; }
-};
-
-/// A uniform cubic B-spline that is added to a path: bump i has its peak, two thirds of its
-/// coefficient, at knot `first + i` and its support between the knots two before and two after. The
-/// sum of equal coefficients is that coefficient. Outside the supports nothing changes, and at
-/// their ends value, first and second derivative are zero: the path stays C².
+/// A cubic B-spline that is added to a path: bump i has its peak, two thirds of its coefficient
+/// where knots are equidistant, at knot `first + i` and its support between the knots two before
+/// and two after. The sum of equal coefficients is that coefficient. Outside the supports nothing
+/// changes, and at their ends value, first and second derivative are zero: the path stays C²,
+/// whatever the knots.
 struct BumpRow {
   KnotRow knots;
   int first = 0;
@@ -37,11 +25,12 @@ struct BumpRow {
   }
 };
 
-/// Peak of a bump with coefficient 1, and its value one knot further.
+/// Peak of a bump with coefficient 1 on equidistant knots, and its value one knot further.
 inline constexpr double kBumpPeak = 2.0 / 3.0;
 inline constexpr double kBumpShoulder = 1.0 / 6.0;
 
-/// Value of a bump with coefficient 1, `knots` steps from its peak on either side.
+/// Value of a bump with coefficient 1 on equidistant knots, `knots` steps from its peak on either
+/// side.
 double bump_value(double knots);
 
 /// `path` with all `rows` added, split at the knots. Pieces outside the supports are the same bit
@@ -49,9 +38,5 @@ double bump_value(double knots);
 /// control point at a join bit for bit. A support may reach beyond the ends of the path, where it
 /// is cut off.
 CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows);
-
-/// Knots that are closer than this share of the shortest spacing become one. It changes a bump's
-/// second derivative by as much of its largest, and spares pieces too short for derivatives.
-inline constexpr double kSameKnot = 1e-9;
 
 }  // namespace camway::motion

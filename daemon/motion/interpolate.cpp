@@ -33,12 +33,12 @@ Columns columns(std::span<const Keyframe> keyframes) {
 
 }  // namespace
 
-CubicPath interpolate_cubic(std::span<const Keyframe> keyframes) {
+CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const TimeOrigin& origin) {
   assert(keyframes.size() >= 2);
   const Columns data = columns(keyframes);
   const std::vector<Vec3> slopes =
       spline_slopes<Vec3>(data.times_s, data.positions, EndCondition::kNatural);
-  const ImageSpline images = quaternion_spline(data.times_s, data.orientations);
+  const ImageSpline images = quaternion_spline(data.times_s, data.orientations, origin);
   CubicPath result{images.reference, {}};
   for (const ImagePiece& piece : images.pieces) {
     const std::size_t i = piece.keyframe;
@@ -54,8 +54,8 @@ CubicPath interpolate_cubic(std::span<const Keyframe> keyframes) {
   return result;
 }
 
-Path interpolate(std::span<const Keyframe> keyframes) {
-  return interpolate_cubic(keyframes).path();
+Path interpolate(std::span<const Keyframe> keyframes, const TimeOrigin& origin) {
+  return interpolate_cubic(keyframes, origin).path();
 }
 
 }  // namespace camway::motion

@@ -7,6 +7,7 @@
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/path.h"
+#include "daemon/motion/time_origin.h"
 
 namespace camway::motion {
 
@@ -38,10 +39,10 @@ std::vector<double> derive_times_s(std::span<const Pose> poses);
 /// reversed keyframes, up to rounding; half turns between neighbours have a sense of their own
 /// (quaternion_spline.h). O(n), deterministic.
 /// Preconditions: at least two keyframes, finite, quaternions of unit length to 1e-3 or so (they
-/// are normalised), times strictly increasing.
-Path interpolate(std::span<const Keyframe> keyframes);
+/// are normalised), times strictly increasing, counted from `origin`.
+Path interpolate(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
 
 /// The same path, as corrections need it.
-CubicPath interpolate_cubic(std::span<const Keyframe> keyframes);
+CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
 
 }  // namespace camway::motion

@@ -99,8 +99,8 @@ Image general_image(std::span<const double> times_s, std::span<const Vec4> q) {
 /// Knots with auxiliary ones where neighbours are too far apart.
 class KnotRefinement {
  public:
-  explicit KnotRefinement(const Image& image, bool one_axis)
-      : inverse_(conjugate(image.reference)), one_axis_(one_axis) {
+  KnotRefinement(const Image& image, bool one_axis, const TimeOrigin& origin)
+      : inverse_(conjugate(image.reference)), one_axis_(one_axis), origin_(origin) {
     knots_.push_back(image.knots.front());
     for (std::size_t i = 1; i < image.knots.size(); ++i) {
       add_between(image.knots[i - 1], image.knots[i], kMaxKnotHalvings);
@@ -112,7 +112,7 @@ class KnotRefinement {
  private:
   void add_between(const Knot& from, const Knot& to, int halvings) {
     const double apart_rad = std::max(angle_rad(from.q, to.q), line_angle_rad(from.x, to.x));
-    const double t_s = from.t_s + (to.t_s - from.t_s) / 2.0;
+    const double t_s = origin_.nearest_s(from.t_s + (to.t_s - from.t_s) / 2.0);
     if (apart_rad <= kLargestKnotAngle_rad || halvings == 0) return;
     if (!(from.t_s < t_s && t_s < to.t_s)) return;
     const Knot middle{t_s, from.keyframe, (from.q + to.q).normalized(), image_between(from, to)};
@@ -129,6 +129,7 @@ class KnotRefinement {
 
   Vec4 inverse_;
   bool one_axis_;
+  TimeOrigin origin_;
   std::vector<Knot> knots_;
 };
 
@@ -168,12 +169,13 @@ std::vector<Vec4> aligned_orientations(std::span<const Vec4> orientations) {
   return aligned;
 }
 
-ImageSpline quaternion_spline(std::span<const double> times_s, std::span<const Vec4> orientations) {
+ImageSpline quaternion_spline(std::span<const double> times_s, std::span<const Vec4> orientations,
+                              const TimeOrigin& origin) {
   assert(times_s.size() == orientations.size() && times_s.size() >= 2);
   const std::vector<Vec4> q = aligned_orientations(orientations);
   const std::optional<Image> one_axis = one_axis_image(times_s, q);
   const Image image = one_axis ? *one_axis : general_image(times_s, q);
-  std::vector<Knot> knots = KnotRefinement(image, one_axis.has_value()).knots();
+  std::vector<Knot> knots = KnotRefinement(image, one_axis.has_value(), origin).knots();
   align_images(knots);
 
   std::vector<double> t_s;

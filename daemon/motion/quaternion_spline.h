@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/geometry/types.h"
+#include "daemon/motion/time_origin.h"
 
 namespace camway::motion {
 
@@ -47,7 +48,8 @@ geometry::Vec4 image_of(const geometry::Vec4& reference, const geometry::Vec4& o
 ///   of axes.
 /// - x_i has unit length (any multiple of it maps to the same q_i), so weights are near 1.
 /// - Neighbours more than 60° apart on S³, or whose x are, get knots half way along their arc and
-///   half way in time, until they are not. Their programs refuse such data.
+///   half way in time, next to it where the sender cannot be told that time exactly, until they are
+///   not. Their programs refuse such data.
 /// - Keyframes on one great circle (turning about one axis) have their x on the plane of
 /// exp(n·θ/2),
 ///   for any number of turns: the axis is kept exactly, a level camera stays level, and no point of
@@ -58,9 +60,10 @@ geometry::Vec4 image_of(const geometry::Vec4& reference, const geometry::Vec4& o
 ///   by 0.0002°, 0.014°, 0.22°, 1.1° (natural ends: 0.04°, 0.4°, 1.6°, 3.6°).
 ///
 /// Preconditions: at least two orientations, about unit length (w, x, y, z), times strictly
-/// increasing.
+/// increasing, counted from `origin`.
 ImageSpline quaternion_spline(std::span<const double> times_s,
-                              std::span<const geometry::Vec4> orientations);
+                              std::span<const geometry::Vec4> orientations,
+                              const TimeOrigin& origin = {});
 
 /// The orientations, normalised, with signs such that neighbours' dot products are >= 0. Where one
 /// is within `kHalfTurnRounding` of zero, the turn is a half turn and neither way is shorter: it

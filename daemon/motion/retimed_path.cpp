@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/motion/retimed_path.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -55,6 +57,15 @@ CubicPath stretched(const CubicPath& path, const TimeLaw& law) {
     piece.t1_s = law.new_time_s(piece.t1_s);
   }
   return result;
+}
+
+bool stretches_alike(const CubicPath& path, const TimeLaw& law) {
+  const double factor = law.stretch();
+  return std::ranges::all_of(path.pieces, [&](const CubicPiece& piece) {
+    const double wanted_s = factor * (piece.t1_s - piece.t0_s);
+    const double duration_s = law.new_time_s(piece.t1_s) - law.new_time_s(piece.t0_s);
+    return std::abs(duration_s - wanted_s) <= kSameRate * wanted_s;
+  });
 }
 
 }  // namespace camway::motion

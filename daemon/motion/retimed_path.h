@@ -15,6 +15,15 @@ namespace camway::motion {
 CubicPath retimed(const CubicPath& path, const TimeLaw& law);
 
 /// `path` at the times of a law that stretches all alike: the same control points, bit for bit.
+/// Smooth as far as the law stretches all pieces alike: see `stretches_alike`.
 CubicPath stretched(const CubicPath& path, const TimeLaw& law);
+
+/// Whether the law stretches each piece of `path` by the same factor but for `kSameRate`.
+bool stretches_alike(const CubicPath& path, const TimeLaw& law);
+
+/// Rates of neighbours that differ by a smaller share leave a path smooth: velocities at a join
+/// then differ by that share, accelerations by twice that. A thousandth of a millionth: far below
+/// what any camera can follow, and above what rounding does to times near 0.
+inline constexpr double kSameRate = 1e-9;
 
 }  // namespace camway::motion

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -163,9 +164,35 @@ TimeLaw::TimeLaw(std::vector<double> knots_s, std::vector<std::array<double, 3>>
     new_knots_s_.push_back(new_knots_s_.back() + passed_s(i, knots_s_[i + 1]));
 }
 
-TimeLaw TimeLaw::alike(double begin_s, double end_s, double factor) {
+TimeLaw TimeLaw::alike(std::vector<double> knots_s, double factor) {
   const double square = 1.0 / (factor * factor);
-  return TimeLaw({begin_s, end_s}, {{square, square, square}});
+  std::vector<std::array<double, 3>> squares(knots_s.size() - 1, {square, square, square});
+  return TimeLaw(std::move(knots_s), std::move(squares));
+}
+
+std::optional<TimeLaw> TimeLaw::sendable(const TimeOrigin& origin,
+                                         std::span<const double> kept_s) const {
+  TimeLaw law = *this;
+  const std::size_t last = squares_.size();
+  for (std::size_t from = 0, to = 1; to <= last; ++to) {
+    if (to != last && !std::ranges::binary_search(kept_s, knots_s_[to])) continue;
+    const double begin_s = law.new_knots_s_[from];
+    const double passed_s = new_knots_s_[to] - new_knots_s_[from];
+    const double end_s = origin.nearest_s(begin_s + passed_s);
+    const double scale = (end_s - begin_s) / passed_s;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double wanted_s = begin_s + scale * (new_knots_s_[i] - new_knots_s_[from]);
+      law.new_knots_s_[i] = origin.nearest_s(wanted_s);
+      law.knots_s_[i] += (law.new_knots_s_[i] - wanted_s) * std::sqrt(squares_[i][0]);
+    }
+    law.new_knots_s_[to] = end_s;
+    from = to;
+  }
+  const auto increases = [](std::span<const double> times_s) {
+    return std::ranges::adjacent_find(times_s, std::greater_equal()) == times_s.end();
+  };
+  if (!increases(law.knots_s_) || !increases(law.new_knots_s_)) return std::nullopt;
+  return law;
 }
 
 TimeLaw TimeLaw::within(const Path& path, const RateLimits& limits, double step_s) {

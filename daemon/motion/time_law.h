@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "daemon/motion/rate_limits.h"
+#include "daemon/motion/time_origin.h"
 
 namespace camway::motion {
 
@@ -17,8 +19,9 @@ namespace camway::motion {
 /// thread.
 class TimeLaw {
  public:
-  /// All times stretched by `factor` alike. Preconditions: `begin_s < end_s`, `factor >= 1`.
-  static TimeLaw alike(double begin_s, double end_s, double factor);
+  /// All times stretched by `factor` alike. Preconditions: two knots or more, increasing, and
+  /// `factor >= 1`.
+  static TimeLaw alike(std::vector<double> knots_s, double factor);
 
   /// The rate is as large as the limits allow, and nowhere above 1: the path stays as fast as it is
   /// where it can, and is slowed where and before it has to be.
@@ -44,6 +47,14 @@ class TimeLaw {
   /// Knots are at the ends of segments, and at most `step_s` apart where the rate is below 1.
   /// O(knots). Preconditions: not empty, `step_s > 0`, limits above 0.
   static TimeLaw within(const Path& path, const RateLimits& limits, double step_s);
+
+  /// The law with new times at knots that the sender can be told exactly, with `origin`. What the
+  /// times at `kept_s` move is spread over the knots between; there the given time moves with the
+  /// new one, so that the path by the law is as smooth as before. Nothing where times are not fine
+  /// enough for the knots. Precondition: those of `kept_s` within the law's span are knots, and
+  /// increase.
+  [[nodiscard]] std::optional<TimeLaw> sendable(const TimeOrigin& origin,
+                                                std::span<const double> kept_s) const;
 
   /// The time that takes the place of `given_s`; strictly increasing but for rounding, and at knots
   /// exactly `new_knots_s`. Clamped to the span of the law.

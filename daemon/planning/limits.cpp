@@ -41,6 +41,8 @@ constexpr double kLeast_s_per_knot = 2e-6;
 
 constexpr int kSamples = 32;  // of a segment, for breaches
 
+constexpr int kMostFits = 4;  // of a path that is stretched alike, slower each time
+
 /// The largest rate beside its limit, in words.
 std::string describe_rate(const Segment& segment, double u, const RateLimits& limits) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -116,11 +118,11 @@ bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw&
   return true;
 }
 
-/// The path by a law with knots `step_s` apart, if it is as it has to be.
-std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path, double step_s,
-                                        const collision::Deadline& deadline) {
-  TimeLaw law = TimeLaw::within(path, stretched(problem.limits, 1.0 / kSlowerThanAllowed), step_s);
-  if (law.knots_s().size() > kMostPieces || deadline.passed()) return std::nullopt;
+/// The spline through the points of the path at the law's knots, if it meets the limits, stays
+/// close to the path and keeps to the rule for orientations. Searched for collisions, unless the
+/// deadline strikes; free if the path was.
+std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law,
+                              const collision::Deadline& deadline) {
   CubicPath slowed = motion::retimed(problem.path, law);
   const Path slowed_path = slowed.path();
   if (deadline.passed() || !motion::meets(slowed_path, problem.limits) ||
@@ -132,10 +134,40 @@ std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path
                                slowed.end_s())) {
     return std::nullopt;
   }
-  const PathCheck check =
+  PathCheck check =
       check_path(problem.obstacles, slowed_path, problem.body, problem.detect, deadline, deadline);
-  if (!check.certificate.certified) return std::nullopt;
-  return Retimed{std::move(law), std::move(slowed), std::move(interpolated), check.certificate};
+  if (!check.complete || (problem.is_free && !check.certificate.certified)) return std::nullopt;
+  return Retimed{std::move(law), std::move(slowed), std::move(interpolated), std::move(check)};
+}
+
+/// The path by a law with knots `step_s` apart, if it is as it has to be.
+std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path, double step_s,
+                                        const collision::Deadline& deadline) {
+  std::optional<TimeLaw> law =
+      TimeLaw::within(path, stretched(problem.limits, 1.0 / kSlowerThanAllowed), step_s)
+          .sendable(problem.origin, problem.keyframes_s);
+  if (!law || law->knots_s().size() > kMostPieces || deadline.passed()) return std::nullopt;
+  return fitted(problem, std::move(*law), deadline);
+}
+
+/// Where `path` begins, its segments end and so on.
+std::vector<double> joints_of(const Path& path) {
+  std::vector<double> joints_s = {path.begin_s()};
+  for (const Segment& segment : path.segments()) joints_s.push_back(segment.t1_s);
+  return joints_s;
+}
+
+/// The path with all times stretched by `factor`.
+std::optional<Retimed> slowed_by(double factor, const TooFast& problem, const Path& path,
+                                 const collision::Deadline& deadline) {
+  std::optional<TimeLaw> law =
+      TimeLaw::alike(joints_of(path), factor).sendable(problem.origin, problem.keyframes_s);
+  if (!law) return std::nullopt;
+  if (!motion::stretches_alike(problem.path, *law))
+    return fitted(problem, std::move(*law), deadline);
+  CubicPath slowed = motion::stretched(problem.path, *law);
+  CubicPath interpolated = motion::stretched(problem.interpolated, *law);
+  return Retimed{std::move(*law), std::move(slowed), std::move(interpolated), std::nullopt};
 }
 
 std::vector<SlowedStretch> slowed_stretches(const TimeLaw& law) {
@@ -196,15 +228,15 @@ std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Dea
   double factor = *needed;
   // Samples may miss a little of the largest rate, or much of one that peaks.
   double margin = kSlowerThanAllowed;
-  do {
-    if (deadline.passed()) return std::nullopt;
+  for (int fits = 0; fits < kMostFits && !deadline.passed();) {
     factor *= margin;
     margin *= margin;
-  } while (std::isfinite(factor) && !motion::meets(path, stretched(problem.limits, factor)));
-  TimeLaw law = TimeLaw::alike(path.begin_s(), path.end_s(), factor);
-  CubicPath slowed = motion::stretched(problem.path, law);
-  CubicPath interpolated = motion::stretched(problem.interpolated, law);
-  return Retimed{std::move(law), std::move(slowed), std::move(interpolated), std::nullopt};
+    if (!std::isfinite(factor)) return std::nullopt;
+    if (!motion::meets(path, stretched(problem.limits, factor))) continue;
+    if (auto slowed = slowed_by(factor, problem, path, deadline)) return slowed;
+    ++fits;
+  }
+  return std::nullopt;
 }
 
 void move_times(const TimeLaw& law, PlanResult& result) {

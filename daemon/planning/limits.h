@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "daemon/collision/deadline.h"
 #include "daemon/collision/detect.h"
@@ -11,6 +13,8 @@
 #include "daemon/motion/body.h"
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/time_law.h"
+#include "daemon/motion/time_origin.h"
+#include "daemon/planning/check.h"
 #include "daemon/planning/result.h"
 
 namespace camway::planning {
@@ -39,6 +43,9 @@ struct TooFast {
   const collision::Obstacles& obstacles;
   const motion::Body& body;
   const collision::DetectOptions detect;
+  const motion::TimeOrigin& origin;        ///< of all times
+  const std::vector<double>& keyframes_s;  ///< of the given keyframes, increasing
+  const bool is_free;                      ///< `path` is proved free of collision
 };
 
 /// A path that meets its limits.
@@ -48,7 +55,7 @@ struct Retimed {
   motion::CubicPath interpolated;  ///< the path before correction, by the same law
   /// Of `path`. Nothing where its control points are as they were: then what was proved still
   /// holds, for proofs are of segments' parameters.
-  std::optional<Certificate> certificate;
+  std::optional<PathCheck> check;
 };
 
 /// Slows a path only where and before it has to be (`motion::TimeLaw::within`), which changes its
@@ -60,7 +67,9 @@ struct Retimed {
 std::optional<Retimed> slowed_where_needed(const TooFast& problem,
                                            const collision::Deadline& deadline);
 
-/// The path with all times stretched alike. Nothing if the deadline struck first.
+/// The path with all times stretched alike. Far from time 0, where times cannot be stretched alike
+/// but for their rounding, it is the spline through the same joints, and searched anew. Nothing if
+/// the deadline struck first, or if that is not as free as it was.
 std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Deadline& deadline);
 
 /// Moves every time of the result but those of its path, which `law` was made for: of keyframes,

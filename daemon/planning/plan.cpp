@@ -19,6 +19,7 @@
 #include "daemon/planning/check.h"
 #include "daemon/planning/effort_text.h"
 #include "daemon/planning/keyframe_faults.h"
+#include "daemon/planning/keyframe_times.h"
 #include "daemon/planning/limits.h"
 #include "daemon/planning/search_changes.h"
 #include "daemon/planning/shrink.h"
@@ -30,23 +31,6 @@ namespace {
 using collision::CollisionInterval;
 using collision::Deadline;
 using motion::Keyframe;
-
-// The keyframes as planning uses them: unit quaternions, times derived where none were given.
-std::vector<Keyframe> prepared_keyframes(const PlanRequest& request) {
-  std::vector<Keyframe> keyframes = request.keyframes;
-  std::vector<motion::Pose> poses;
-  poses.reserve(keyframes.size());
-  for (Keyframe& keyframe : keyframes) {
-    keyframe.pose.orientation.normalize();
-    keyframe.origin = motion::KeyframeOrigin::kGiven;
-    keyframe.is_repaired = false;
-    poses.push_back(keyframe.pose);
-  }
-  if (request.has_times) return keyframes;
-  const std::vector<double> times_s = motion::derive_times_s(poses);
-  for (std::size_t i = 0; i < keyframes.size(); ++i) keyframes[i].time_s = times_s[i];
-  return keyframes;
-}
 
 double colliding_s(const std::vector<CollisionInterval>& intervals) {
   double sum_s = 0.0;
@@ -74,6 +58,7 @@ class Planner {
       meet_limits();
       add_clearance();
       conclude();
+      to_sent_times(origin_, result_);
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
     return std::move(result_);
@@ -93,9 +78,11 @@ class Planner {
       refuse("body: " + fault, std::nullopt);
       return false;
     }
-    result_.keyframes = prepared_keyframes(request_);
+    PreparedKeyframes prepared = prepared_keyframes(request_);
+    result_.keyframes = std::move(prepared.keyframes);
+    origin_ = prepared.origin;
     if (!keyframes_are_free()) return false;
-    interpolated_ = motion::interpolate_cubic(result_.keyframes);
+    interpolated_ = motion::interpolate_cubic(result_.keyframes, origin_);
     result_.path = interpolated_.path();
     result_.timing.motion_ms = lap_ms();
     return true;
@@ -183,6 +170,7 @@ class Planner {
   void correct_by_ladder(const std::vector<CollisionInterval>& found) {
     correction::LadderOptions options;
     options.detect = detect_;
+    options.origin = origin_;
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     options.seed = request_.options.seed;
     options.objective = request_.options.objective;
@@ -222,6 +210,7 @@ class Planner {
   void insert_keyframes() {
     correction::KeyframeInsertionOptions options;
     options.sweep = {request_.options.chord_error_m, detect_};
+    options.origin = origin_;
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
     correction::KeyframeInsertionResult corrected = correction::insert_keyframes(
         obstacles_.index, result_.keyframes, motion::near_corners_C(request_.camera), options,
@@ -332,13 +321,16 @@ class Planner {
     const motion::CubicPath path = corrected_ ? *corrected_
                                    : is_as_interpolated_
                                        ? interpolated_
-                                       : motion::interpolate_cubic(result_.keyframes);
+                                       : motion::interpolate_cubic(result_.keyframes, origin_);
     // The policy is for what the ladder corrects.
     const correction::OrientationPolicy policy =
         corrected_ ? request_.options.orientation : correction::OrientationPolicy{};
-    const TooFast too_fast{path, interpolated_, limits, policy, obstacles_, *body_, detect_};
+    const std::vector<double> times_s = given_times_s();
+    const bool is_free = result_.certificate.certified;
+    const TooFast too_fast{path,   interpolated_, limits,  policy,  obstacles_,
+                           *body_, detect_,       origin_, times_s, is_free};
     std::optional<Retimed> slowed;
-    if (result_.certificate.certified) {
+    if (is_free) {
       slowed = slowed_where_needed(too_fast, deadline_.share_of_rest(kShareOfSlowing));
     }
     slowed_everywhere_ = !slowed;
@@ -348,14 +340,26 @@ class Planner {
     result_.timing.certify_ms += lap_ms();
   }
 
+  [[nodiscard]] std::vector<double> given_times_s() const {
+    std::vector<double> times_s;
+    for (const Keyframe& keyframe : result_.keyframes) {
+      if (keyframe.origin == motion::KeyframeOrigin::kGiven) times_s.push_back(keyframe.time_s);
+    }
+    return times_s;
+  }
+
   void take(Retimed slowed) {
     move_times(slowed.law, result_);
     result_.path = slowed.path.path();
     for (Keyframe& keyframe : result_.keyframes) {
-      if (keyframe.origin == motion::KeyframeOrigin::kInserted)
-        keyframe.pose = result_.path.pose(keyframe.time_s);
+      if (keyframe.origin != motion::KeyframeOrigin::kInserted) continue;
+      keyframe.time_s = origin_.nearest_s(keyframe.time_s);
+      keyframe.pose = result_.path.pose(keyframe.time_s);
     }
-    if (slowed.certificate) result_.certificate = *slowed.certificate;
+    if (slowed.check) {
+      result_.certificate = slowed.check->certificate;
+      result_.remaining_collisions = std::move(slowed.check->collisions);
+    }
     result_.measures = motion::measure(result_.path, slowed.interpolated.path());
   }
 
@@ -482,9 +486,9 @@ class Planner {
 
   [[nodiscard]] std::string why_too_fast() const {
     return fmt::format(
-        "options.limits: the path is free, but too fast from {:.5g} s to {:.5g} s{}: {}; allow "
+        "options.limits: the path is free, but too fast from {} s to {} s{}: {}; allow "
         "limits.retime, or give later times",
-        breach_->t_begin_s, breach_->t_end_s,
+        time_text(origin_.sent_s(breach_->t_begin_s)), time_text(origin_.sent_s(breach_->t_end_s)),
         breach_->stretches > 1
             ? fmt::format(" and at {}", counted(breach_->stretches - 1, "other time"))
             : "",
@@ -548,6 +552,7 @@ class Planner {
   const double started_ms_ = deadline_.elapsed_ms();
   double lap_begin_ms_ = started_ms_;
   std::optional<motion::Body> body_;
+  motion::TimeOrigin origin_;       ///< of all times, until they are made the sender's
   motion::CubicPath interpolated_;  ///< through the given keyframes
   bool is_as_interpolated_ = true;
   bool timed_out_ = false;

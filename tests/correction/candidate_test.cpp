@@ -134,7 +134,7 @@ TEST(Attempt, KeepsKeyframesAndWhatIsBeyond) {
   // Over both keyframes, and zero there but for rounding.
   BumpRow across{{2.0, 4.0, 8}, -1, {}};
   const CubicPoint a{Vec3(0.3, 0.1, 0.7), Vec4::Zero()};
-  across.bumps = {a, holding(a, a), a};
+  across.bumps = {a, holding(across.knots, 0, a, a), a};
   for (const BumpRow& row : {within, across}) {
     const Attempt tried = attempt(problem, {row}, space, Deadline::never());
     ASSERT_TRUE(tried.candidate);
@@ -178,12 +178,15 @@ TEST(Attempt, StaysWithinItsPartOfThePath) {
   // With knots every second: from a second before the begin to 3 s, and from 3 s to a second after
   // the end; zero at all keyframes.
   const auto row_from = [&](int first) {
-    return BumpRow{{2.0, 4.0, 2}, first, {a, holding(a, a), a}};
+    const motion::KnotRow knots{2.0, 4.0, 2};
+    return BumpRow{knots, first, {a, holding(knots, first + 1, a, a), a}};
   };
   const BumpRow early = row_from(-2);  // 0 s, which is a keyframe: its own value has to be zero
   EXPECT_FALSE(attempt(middle_problem(), {early}, space, Deadline::never()).candidate);
-  BumpRow over_begin{{0.0, 2.0, 8}, -1, {a, holding(a, a), a}};
-  BumpRow over_end{{4.0, 6.0, 8}, 7, {a, holding(a, a), a}};
+  BumpRow over_begin{{0.0, 2.0, 8}, -1, {a, CubicPoint{}, a}};
+  over_begin.bumps[1] = holding(over_begin.knots, 0, a, a);
+  BumpRow over_end{{4.0, 6.0, 8}, 7, {a, CubicPoint{}, a}};
+  over_end.bumps[1] = holding(over_end.knots, 8, a, a);
   Problem problem = middle_problem();
   EXPECT_TRUE(attempt(problem, {over_begin}, space, Deadline::never()).candidate);
   EXPECT_FALSE(attempt(problem, {over_end}, space, Deadline::never()).candidate);

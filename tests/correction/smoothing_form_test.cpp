@@ -150,7 +150,7 @@ TEST(FreeCoefficients, DoNotReachBeyondTheNextKeyframe) {
 
 TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
   Draw draw(4105);
-  for_many(draw, 100, [&](const Case&, Ends, const FreeCoefficients& free) {
+  for_many(draw, 100, [&](const Case& c, Ends, const FreeCoefficients& free) {
     const StackedPoints variables = draw.points(free.size(), 1.0);
     const Offsets offsets = free.offsets_of(variables, kLever_m);
     ASSERT_EQ(offsets.first, free.first());
@@ -161,7 +161,7 @@ TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
     // What is held is what keeps the keyframe.
     for (int k = free.first(); k <= free.last(); ++k) {
       if (!free.is_held(k)) continue;
-      const CubicPoint held = holding(offsets(k - 1), offsets(k + 1));
+      const CubicPoint held = holding(c.knots, k, offsets(k - 1), offsets(k + 1));
       ASSERT_LT((offsets(k).position - held.position).norm(), 8.0 * kEps);
       ASSERT_LT((offsets(k).image - held.image).norm(), 8.0 * kEps / kLever_m);
     }

@@ -46,17 +46,6 @@ double b_spline(double x) {
   return sum;
 }
 
-TEST(KnotRow, IsExactAtItsEndsAndIncreasesBeyond) {
-  Random random(811);
-  for (int round = 0; round < 200; ++round) {
-    const double begin_s = random.uniform(-1e6, 1e6);
-    const KnotRow row{begin_s, begin_s + random.log_uniform(1e-3, 1e3), random.integer(1, 64)};
-    EXPECT_EQ(row.knot_s(0), row.begin_s);
-    EXPECT_EQ(row.knot_s(row.count), row.end_s);
-    for (int k = -4; k < row.count + 4; ++k) EXPECT_LT(row.knot_s(k), row.knot_s(k + 1));
-  }
-}
-
 TEST(Bump, ValueIsThatOfTheBSpline) {
   for (int i = -300; i <= 300; ++i) EXPECT_NEAR(bump_value(0.01 * i), b_spline(0.01 * i), 1e-14);
   EXPECT_EQ(bump_value(0.0), kBumpPeak);
@@ -95,6 +84,29 @@ TEST(Bump, KeepsThePathSmooth) {
     // Cut out of the interpolating cubic by three convex combinations, and two rows of up to four
     // terms added.
     test::expect_smooth(with_bumps(path, rows).path(), 16.0);
+  }
+}
+
+// Knots a few nanoseconds apart, or as far from time 0 as seconds since 1970: what the rows add has
+// its knots where the path has joints, and the path stays smooth by the numbers that are sent.
+TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
+  Random random(817);
+  for (int round = 0; round < 200; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    const CubicPath path = random_path(random, 6);
+    const auto places = std::make_shared<KnotPlaces>();
+    for (const CubicPiece& piece : path.pieces) places->taken_s.push_back(piece.t0_s);
+    places->taken_s.push_back(path.end_s());
+    places->same_s = 1e-5;
+    BumpRow row = random_row(random, path, 0.05);
+    // One of its inner knots next to a joint.
+    const double near_s = path.pieces[2].t0_s + random.log_uniform(1e-12, 5e-6);
+    const double spacing_s = row.knots.spacing_s();
+    row.knots = {near_s - 2.0 * spacing_s, near_s + 2.0 * spacing_s, 4, places};
+    row.first = random.integer(0, 4);
+    const CubicPath changed = with_bumps(path, {&row, 1});
+    test::expect_smooth(changed.path(), 16.0);
+    for (const CubicPiece& piece : changed.pieces) EXPECT_GT(piece.t1_s - piece.t0_s, 1e-6);
   }
 }
 

@@ -75,7 +75,7 @@ TEST(RetimedPath, IsTheSamePathByTheLawThatChangesNothing) {
 TEST(RetimedPath, StretchedKeepsEveryControlPoint) {
   Random random(3304);
   const CubicPath path = random_path(random, 7);
-  const TimeLaw law = TimeLaw::alike(path.begin_s(), path.end_s(), 1.7);
+  const TimeLaw law = TimeLaw::alike({path.begin_s(), path.end_s()}, 1.7);
   const CubicPath slower = stretched(path, law);
   ASSERT_EQ(slower.pieces.size(), path.pieces.size());
   for (std::size_t i = 0; i < path.pieces.size(); ++i) {

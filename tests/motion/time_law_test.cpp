@@ -224,7 +224,7 @@ TEST(TimeLaw, ConvergesToTheFastest) {
 }
 
 TEST(TimeLaw, AlikeStretchesAllTimes) {
-  const TimeLaw law = TimeLaw::alike(2.0, 6.0, 1.5);
+  const TimeLaw law = TimeLaw::alike({2.0, 6.0}, 1.5);
   EXPECT_NEAR(law.stretch(), 1.5, 1e-14);
   EXPECT_EQ(law.new_time_s(2.0), 2.0);
   EXPECT_NEAR(law.new_time_s(3.0), 3.5, 1e-14);

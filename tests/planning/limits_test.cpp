@@ -197,14 +197,24 @@ TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
   const auto body = motion::Body::make(request.camera, fault);
   const motion::CubicPath path = motion::interpolate_cubic(request.keyframes);
   const collision::Obstacles obstacles(*snapshot);
-  const TooFast problem{path,  path, request.options.limits, request.options.orientation, obstacles,
-                        *body, {}};
+  const motion::TimeOrigin origin;
+  const std::vector<double> keyframes_s = {0.0, 2.0, 4.0, 6.0};
+  const TooFast problem{path,
+                        path,
+                        request.options.limits,
+                        request.options.orientation,
+                        obstacles,
+                        *body,
+                        {},
+                        origin,
+                        keyframes_s,
+                        /*is_free=*/true};
   EXPECT_FALSE(slowed_where_needed(problem, collision::Deadline::after_s(0.0)));
   EXPECT_FALSE(slowed_alike(problem, collision::Deadline::after_s(0.0)));
   const std::optional<Retimed> slowed = slowed_alike(problem, collision::Deadline::never());
   ASSERT_TRUE(slowed);
   EXPECT_TRUE(motion::meets(slowed->path.path(), request.options.limits));
-  EXPECT_FALSE(slowed->certificate);
+  EXPECT_FALSE(slowed->check);
   for (std::size_t i = 0; i < path.pieces.size(); ++i)
     EXPECT_EQ(slowed->path.pieces[i].position, path.pieces[i].position);
 }
