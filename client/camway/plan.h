@@ -130,7 +130,7 @@ struct PlanResponse {
 
   bool ok() const { return status == Status::kOk; }
 
-  std::int32_t keyframe = -1;                 ///< index of the given keyframe at fault, -1 if none
+  std::int32_t keyframe = -1;                 ///< of the given one at fault or without a way out; -1 if none
   Path path;                                  ///< empty unless ok, partial or timeout
   std::vector<Keyframe> keyframes;            ///< given and inserted ones, with their times
   std::vector<CollisionInterval> collisions;  ///< of the interpolated path, before correction

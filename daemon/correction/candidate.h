@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/collision/deadline.h"
+#include "daemon/correction/cell_search.h"
 #include "daemon/correction/correction.h"
 #include "daemon/correction/free_space.h"
 #include "daemon/motion/bump.h"
@@ -29,6 +30,8 @@ struct Problem {
   Effort* effort = nullptr;  ///< where it is counted what is tried; may be null
   /// Where the knots of bumps may be. Null: anywhere.
   std::shared_ptr<const motion::KnotPlaces> places = nullptr;
+  /// Where it is told that there is no way out of one end of the gap; may be null.
+  std::optional<Pocket>* pocket = nullptr;
 
   [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
   [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }

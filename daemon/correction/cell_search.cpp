@@ -11,6 +11,8 @@
 #include <queue>
 #include <utility>
 
+#include "daemon/correction/closed_corner.h"
+
 namespace camway::correction {
 
 namespace {
@@ -24,9 +26,12 @@ constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt3;  // of a cell, in si
 // Chosen by measurement; none changes what is free.
 constexpr double kMostNear = 8.0;      // times its length that a way without room costs more
 constexpr double kMarginAround = 4.0;  // balls around the scene: ways may lead there too
+constexpr double kRoomInFront = 2.5;   // sides of a cell, from its middle, of a wall that is bare
 constexpr std::size_t kTurnsBetweenLooks = 64;  // at the clock
 
 enum class State : std::uint8_t { kFree, kMixed, kBlocked };
+
+constexpr std::array<std::uint8_t, 2> kEnds = {1, 2};  // bits: of the begin and of the end
 
 struct Cell {
   Place at{};                      ///< from the corner of the whole, in sides of the cell
@@ -34,8 +39,8 @@ struct Cell {
   float gap_m = 0.0F;              ///< of the ball in the middle, for free cells
   std::int8_t level = 0;           ///< how often the whole was divided
   State state = State::kMixed;
-  bool is_reached = false;
-  bool is_waiting = false;
+  std::uint8_t reached = 0;  ///< from which ends
+  std::uint8_t waiting = 0;  ///< for which ends
 };
 
 /// The whole, divided as far as somebody asked.
@@ -61,6 +66,17 @@ class CellTree {
   }
   [[nodiscard]] bool may_divide(const Cell& cell) const {
     return cell.level < kFinestLevel && side_m(cell.level + 1) >= options_.smallest_m;
+  }
+
+  /// Whether from the middle of one cell nothing is to be reached in another beside it that is not
+  /// reached through others: there is a closed wall or corner, and room in front of it.
+  [[nodiscard]] bool leads_nowhere(const Cell& cell, const Cell& beside) const {
+    const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
+    const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
+    const Vec3 center_W = this->center_W(cell);
+    const geometry::Box box(center_W.array() - reach_m, center_W.array() + reach_m);
+    const Vec3 from_W = this->center_W(beside).cwiseMax(box.min()).cwiseMin(box.max());
+    return is_closed_corner(space_.obstacles().index, box, from_W, keep_m);
   }
 
   /// The first of the new cells.
@@ -174,9 +190,10 @@ class CellSearch {
   CellResult run() {
     CellResult result;
     result.exhausted = search();
-    if (goal_ != kNone && tree_[goal_].is_reached) {
+    if (has_met_) {
       result.way_W = way();
-      result.exhausted = false;
+    } else if (result.exhausted) {
+      result.pocket = pocket();
     }
     result.cells = tree_.size();
     return result;
@@ -201,66 +218,100 @@ class CellSearch {
     return {box.min().array() - margin_m, box.max().array() + margin_m};
   }
 
-  /// Whether all was looked at.
+  /// Whether all that is reached from one end was looked at, and the other end is not among it.
   bool search() {
     const std::optional<std::uint32_t> from = tree_.free_cell_at(from_W_);
     const std::optional<std::uint32_t> to = tree_.free_cell_at(to_W_);
     if (!from || !to) return false;
     start_ = *from;
     goal_ = *to;
-    reach(start_);
-    for (std::size_t turn = 0; !tree_[goal_].is_reached; ++turn) {
-      if (waiting_.empty()) return true;
+    reach(start_, 0);
+    reach(goal_, 1);
+    for (std::size_t turn = 0; !has_met_; ++turn) {
       if (tree_.size() >= options_.max_cells) return false;
       if (turn % kTurnsBetweenLooks == 0 && deadline_.passed()) return false;
-      const std::uint32_t next = waiting_.top().cell;
-      waiting_.pop();
-      divide(next);
+      const std::optional<std::uint32_t> cell = next(turn % kEnds.size());
+      if (!cell) return true;
+      divide(*cell);
     }
     return false;
   }
 
+  /// Which to divide for that end; nothing where none is left.
+  std::optional<std::uint32_t> next(std::size_t end) {
+    std::priority_queue<Waiting>& waiting = waiting_[end];
+    while (!waiting.empty()) {
+      const std::uint32_t cell = waiting.top().cell;
+      waiting.pop();
+      // It may have been divided for the other end.
+      if (tree_[cell].children == kNone) return cell;
+    }
+    return std::nullopt;
+  }
+
   // And all that can be reached from there through free cells.
-  void reach(std::uint32_t first) {
-    std::vector<std::uint32_t> open = {first};
-    tree_[first].is_reached = true;
+  void reach(std::uint32_t first, std::size_t end) {
+    std::vector<std::uint32_t> open;
+    const auto add = [&](std::uint32_t cell) {
+      if ((tree_[cell].reached & kEnds[end]) != 0) return;
+      has_met_ = has_met_ || tree_[cell].reached != 0;
+      tree_[cell].reached |= kEnds[end];
+      open.push_back(cell);
+    };
+    add(first);
     while (!open.empty()) {
       const std::uint32_t cell = open.back();
       open.pop_back();
       tree_.for_each_neighbour(cell, [&](std::uint32_t next) {
-        if (tree_[next].state == State::kMixed) put_off(next);
-        if (tree_[next].state != State::kFree || tree_[next].is_reached) return;
-        tree_[next].is_reached = true;
-        open.push_back(next);
+        if (tree_[next].state == State::kMixed) put_off(next, cell, end);
+        if (tree_[next].state == State::kFree) add(next);
       });
     }
   }
 
-  void put_off(std::uint32_t index) {
+  void put_off(std::uint32_t index, std::uint32_t beside, std::size_t end) {
     Cell& cell = tree_[index];
-    if (cell.is_waiting || !tree_.may_divide(cell)) return;
-    cell.is_waiting = true;
+    if ((cell.waiting & kEnds[end]) != 0 || !tree_.may_divide(cell)) return;
+    if (tree_.leads_nowhere(cell, tree_[beside])) return;
+    cell.waiting |= kEnds[end];
     const Vec3 center_W = tree_.center_W(cell);
     // A way that leads there is so much longer than the straight one.
     const double share = apart_m_ / ((center_W - from_W_).norm() + (to_W_ - center_W).norm());
-    waiting_.push({tree_.side_m(cell.level) * share * share, index});
+    waiting_[end].push({tree_.side_m(cell.level) * share * share, index});
   }
 
   void divide(std::uint32_t index) {
     const std::uint32_t first = tree_.divide(index);
     for (std::uint32_t child = first; child < first + 8; ++child) {
-      if (tree_[child].is_reached || tree_[child].state == State::kBlocked) continue;
-      bool is_next_to_reached = false;
+      if (tree_[child].state == State::kBlocked) continue;
       tree_.for_each_neighbour(child, [&](std::uint32_t next) {
-        is_next_to_reached = is_next_to_reached || tree_[next].is_reached;
+        for (std::size_t end = 0; end < kEnds.size(); ++end) {
+          if ((tree_[next].reached & kEnds[end]) == 0) continue;
+          if (tree_[child].state == State::kFree) {
+            reach(child, end);
+          } else {
+            put_off(child, next, end);
+          }
+        }
       });
-      if (!is_next_to_reached) continue;
-      if (tree_[child].state == State::kFree) {
-        reach(child);
-      } else {
-        put_off(child);
+    }
+  }
+
+  /// The end from which less can be reached. Where all was looked at from the other one, there is
+  /// no way out of this one either.
+  [[nodiscard]] Pocket pocket() const {
+    std::array<geometry::Box, 2> boxes;
+    for (std::uint32_t i = 0; i < tree_.size(); ++i) {
+      const Cell& cell = tree_[i];
+      const double half_m = 0.5 * tree_.side_m(cell.level);
+      const Vec3 center_W = tree_.center_W(cell);
+      for (std::size_t end = 0; end < kEnds.size(); ++end) {
+        if (cell.children != kNone || (cell.reached & kEnds[end]) == 0) continue;
+        boxes[end].extend(geometry::Box(center_W.array() - half_m, center_W.array() + half_m));
       }
     }
+    const bool is_at_end = boxes[1].diagonal().norm() < boxes[0].diagonal().norm();
+    return {is_at_end, boxes[is_at_end ? 1 : 0]};
   }
 
   [[nodiscard]] double step_cost_m(std::uint32_t a, std::uint32_t b) const {
@@ -288,7 +339,7 @@ class CellSearch {
       if (at.cell == goal_) break;
       if (-at.worth > steps[at.cell].cost_m) continue;
       tree_.for_each_neighbour(at.cell, [&](std::uint32_t next) {
-        if (!tree_[next].is_reached) return;
+        if (tree_[next].reached == 0) return;
         const double cost_m = steps[at.cell].cost_m + step_cost_m(at.cell, next);
         if (!(cost_m < steps[next].cost_m)) return;
         steps[next] = {cost_m, at.cell};
@@ -312,7 +363,9 @@ class CellSearch {
   CellTree tree_;
   std::uint32_t start_ = kNone;
   std::uint32_t goal_ = kNone;
-  std::priority_queue<Waiting> waiting_;  ///< mixed cells next to what was reached
+  /// Mixed cells next to what was reached, by end.
+  std::array<std::priority_queue<Waiting>, kEnds.size()> waiting_;
+  bool has_met_ = false;
 };
 
 }  // namespace

@@ -205,7 +205,12 @@ class Detour {
   std::optional<Candidate> with_turns() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
-      const std::vector<Vec3> way_W = way_for_ball(share * radius_m_);
+      const CellResult ball = cells_for_ball(share * radius_m_);
+      if (ball.pocket && share == kBallShares.front()) {
+        if (problem_.pocket != nullptr) *problem_.pocket = ball.pocket;
+        return std::nullopt;
+      }
+      const std::vector<Vec3>& way_W = ball.way_W;
       if (way_W.empty()) break;
       if (auto found = follow(threaded(way_W), Turning::kAsGuide)) return found;
       const Guide guide = tree_way(space_, from_, to_, tree_about(way_W), deadline_);
@@ -267,17 +272,17 @@ class Detour {
     return poses;
   }
 
-  std::vector<Vec3> way_for_ball(double ball_radius_m) {
+  CellResult cells_for_ball(double ball_radius_m) {
     const std::optional<SignedPose> begin = escape(from_, ball_radius_m);
     const std::optional<SignedPose> end = escape(to_, ball_radius_m);
     if (!begin || !end) return {};
     const CellOptions options{ball_radius_m, kSmallestCell * radius_m_, kMostCells, radius_m_};
     CellResult found = cell_way(space_, center_W(*begin), center_W(*end), options, deadline_);
     count_points(found.cells);
-    if (found.way_W.empty()) return {};
+    if (found.way_W.empty()) return found;
     found.way_W.insert(found.way_W.begin(), center_W(from_));
     found.way_W.push_back(center_W(to_));
-    return found.way_W;
+    return found;
   }
 
   void count_points(std::size_t points) const {

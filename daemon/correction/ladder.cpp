@@ -240,8 +240,21 @@ class Ladder {
       if (search == Search::kWithRoom && (nudge_away(i) || is_beyond_limit_[i])) continue;
       const std::size_t gap = gaps_[i];
       // The way round would replace all of the gap: no need to look for it twice.
+      if (is_shut_off(gap)) has_no_way[gap] = true;
       if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
     }
+  }
+
+  // From an earlier gap it may be known that there is no way out of one end.
+  [[nodiscard]] bool is_shut_off(std::size_t gap) const {
+    return std::ranges::any_of(result_.shut_in, [&](const ShutIn& known) {
+      return (known.keyframe == gap && !known.holds(middle_W(gap + 1))) ||
+             (known.keyframe == gap + 1 && !known.holds(middle_W(gap)));
+    });
+  }
+
+  [[nodiscard]] geometry::Vec3 middle_W(std::size_t keyframe) const {
+    return space_.center_W(original_.pose(keyframes_s_[keyframe]));
   }
 
   bool nudge_away(std::size_t index) {
@@ -266,9 +279,13 @@ class Ladder {
     });
     Effort effort;
     problem.effort = &effort;
+    std::optional<Pocket> pocket;
+    problem.pocket = &pocket;
     const std::optional<Candidate> found = go_round(
         problem, search, improvement_, space_, options_.seed, [this] { return is_separated(); },
         deadline_);
+    if (pocket)
+      result_.shut_in.push_back({gaps_[index] + (pocket->is_at_end ? 1 : 0), pocket->reached_W});
     for (const std::size_t i : same_gap) result_.corrections[i].tried += effort;
     if (!accept(index, Rung::kGoRound, found)) {
       for (const std::size_t i : same_gap) is_beyond_limit_[i] = is_beyond_limit_[index];

@@ -11,6 +11,7 @@
 #include "daemon/correction/constraints.h"
 #include "daemon/correction/correction.h"
 #include "daemon/correction/separation.h"
+#include "daemon/correction/shut_in.h"
 #include "daemon/motion/cubic_path.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/time_origin.h"
@@ -41,6 +42,7 @@ struct LadderResult {
   /// A proof that there is no path at all, one or the other; looked for where the cheap ways fail.
   std::optional<Separation> separation;
   std::optional<Cage> cage;
+  std::vector<ShutIn> shut_in;  ///< in the order in which that was found
   bool timed_out = false;
   /// How many inserted keyframes it would have taken where more than the limit were needed: those
   /// of the corrections that were found, all together.

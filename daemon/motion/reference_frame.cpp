@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "daemon/motion/min_norm_point.h"
@@ -31,8 +32,11 @@ constexpr std::size_t kStarts = 6;
 constexpr int kStepsPerTemperature = 20;
 constexpr std::array<double, 5> kTemperatures = {0.04, 0.02, 0.01, 0.005, 0.0025};
 
-// Samples of the polygon for the ascent are at most this far apart.
+// Samples of the polygon for the ascent are at most this far apart. Of more samples than this, the
+// ascent goes by those that are nearest to -r, which are told anew for each temperature: the others
+// weigh little, and time with all of them would be a hundred times that of the rest.
 constexpr double kSampleSpacing_rad = 0.2;
+constexpr Eigen::Index kMostSamples = 2048;
 
 double least_dot_with_arc(const Vec4& r, const Vec4& from, const Vec4& to) {
   const double a = r.dot(from);
@@ -130,8 +134,8 @@ class Search {
   }
 
   /// Gradient of `-τ·log Σ exp(-r·p/τ)` over the samples p, plus the preference.
-  [[nodiscard]] Vec4 gradient(const Vec4& r, double temperature) {
-    dots_.noalias() = samples_.transpose() * r;
+  [[nodiscard]] Vec4 gradient(const Samples& samples, const Vec4& r, double temperature) {
+    dots_.noalias() = samples.transpose() * r;
     const double least = dots_.minCoeff();
     Vec4 sum = Vec4::Zero();
     double total = 0.0;
@@ -139,16 +143,34 @@ class Search {
       const double exponent = (dots_[i] - least) / temperature;
       if (exponent > 40.0) continue;  // below the rounding of the sum
       const double weight = std::exp(-exponent);
-      sum += weight * samples_.col(i);
+      sum += weight * samples.col(i);
       total += weight;
     }
     return sum / total + preference_;
   }
 
+  /// The samples that the least dot product with `r` is among; all if there are not too many.
+  const Samples& samples_near(const Vec4& r) {
+    if (samples_.cols() <= kMostSamples) return samples_;
+    dots_.noalias() = samples_.transpose() * r;
+    order_.resize(static_cast<std::size_t>(samples_.cols()));
+    std::iota(order_.begin(), order_.end(), Eigen::Index{0});
+    const auto by_dot = [&](Eigen::Index a, Eigen::Index b) {
+      return dots_[a] != dots_[b] ? dots_[a] < dots_[b] : a < b;
+    };
+    std::ranges::nth_element(order_, order_.begin() + kMostSamples, by_dot);
+    std::ranges::sort(order_.begin(), order_.begin() + kMostSamples);
+    near_.resize(4, kMostSamples);
+    for (Eigen::Index i = 0; i < kMostSamples; ++i)
+      near_.col(i) = samples_.col(order_[static_cast<std::size_t>(i)]);
+    return near_;
+  }
+
   [[nodiscard]] Vec4 ascend(Vec4 r) {
     for (const double temperature : kTemperatures) {
+      const Samples& samples = samples_near(r);
       for (int i = 0; i < kStepsPerTemperature; ++i)
-        r = (r + temperature * gradient(r, temperature)).normalized();
+        r = (r + temperature * gradient(samples, r, temperature)).normalized();
     }
     return r;
   }
@@ -158,6 +180,8 @@ class Search {
   Vec4 preference_;
   std::vector<Candidate> candidates_;  ///< best first
   Eigen::VectorXd dots_;
+  std::vector<Eigen::Index> order_;
+  Samples near_;
 };
 
 }  // namespace

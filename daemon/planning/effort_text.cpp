@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+
+#include "daemon/planning/keyframe_faults.h"
 
 namespace camway::planning {
 
@@ -12,6 +15,9 @@ namespace {
 
 using correction::Correction;
 using correction::Effort;
+using correction::ShutIn;
+
+constexpr std::size_t kMostNamed = 5;  // keyframes
 
 void add(std::string& list, std::string_view item) {
   if (!list.empty()) list += ", ";
@@ -52,6 +58,21 @@ std::string note_of_effort(const std::vector<Correction>& corrections) {
   return text.empty() ? text : "; tried without success: " + text;
 }
 
+std::string note_of_shut_in(const std::vector<ShutIn>& shut_in) {
+  if (shut_in.empty()) return {};
+  const geometry::Vec3 sizes_m = shut_in.front().region_W.sizes();
+  std::string note = fmt::format(
+      "; keyframe {} seems shut in: no way out of a region of {:.2g} x {:.2g} x {:.2g} m about it "
+      "was found",
+      shut_in.front().keyframe, sizes_m.x(), sizes_m.y(), sizes_m.z());
+  std::string others;
+  for (std::size_t i = 1; i < shut_in.size() && i < kMostNamed; ++i)
+    add(others, std::to_string(shut_in[i].keyframe));
+  if (!others.empty()) note += "; and so do " + others;
+  if (shut_in.size() > kMostNamed) note += fmt::format(" and {} more", shut_in.size() - kMostNamed);
+  return note;
+}
+
 std::string note_of_method(const PlanRequest& request) {
   if (request.options.method != Method::kKeyframeInsertion) return {};
   const PlanOptions usual;
@@ -63,6 +84,42 @@ std::string note_of_method(const PlanRequest& request) {
   if (!unused.empty()) note = "; note: keyframe_insertion does not look at " + unused;
   if (request.body) note += "; note: keyframe_insertion corrects paths of cameras alone";
   return note;
+}
+
+const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
+                                   const PlanRequest& request) {
+  const auto lost = std::ranges::find_if(faults, [&](const KeyframeFault& fault) {
+    return request.options.repair_keyframes && !fault.free_pose;
+  });
+  return lost == faults.end() ? faults.front() : *lost;
+}
+
+std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
+                        bool timed_out) {
+  const KeyframeFault& first = fault_to_name(faults, request);
+  const double clearance_m = request.options.clearance_m;
+  const std::string rule =
+      clearance_m > 0.0
+          ? fmt::format("is nearer to the scene than the clearance of {:.3g} m that was asked for",
+                        clearance_m)
+          : std::string("collides with the scene");
+  std::string message =
+      fmt::format("keyframes[{}]: the {} {} there", first.keyframe,
+                  request.body ? "body" : "near quadrilateral", rule);
+  if (first.depth_m > 0.0) message += fmt::format(", by about {:.3g} m", first.depth_m);
+  const bool may_repair = request.options.repair_keyframes;
+  if (first.free_pose) {
+    const geometry::Vec3& to = first.free_pose->position;
+    message +=
+        fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
+  } else {
+    message += may_repair ? "; it could not be repaired: " : "; ";
+    message += timed_out ? "the deadline came before a free pose was found"
+                         : "no free pose was found near it";
+  }
+  if (faults.size() > 1) message += fmt::format("; {} keyframes are at fault", faults.size());
+  if (faults.size() >= kMostKeyframeFaults && may_repair) message += ", too many to be repaired";
+  return message;
 }
 
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink) {

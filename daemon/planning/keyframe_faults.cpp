@@ -24,6 +24,7 @@ constexpr double kMargin = 10.0;
 // So many times as far a keyframe is moved to be seen from its neighbours: most scenes are not
 // closed edge for edge, and what is behind a wall or under a floor is free as well.
 constexpr double kWorthTheView = 1.5;
+constexpr std::size_t kKeyframesBetweenLooks = 256;  // at the clock
 
 /// What a free pose must be inside of, and what it may be inside of or not.
 struct Side {
@@ -43,9 +44,15 @@ class Search {
         deadline_(deadline),
         part_C_(body.triangles_C().front()) {}
 
-  std::vector<KeyframeFault> run() && {
+  KeyframeFaults run() && {
     find_faults();
-    if (faults_.empty() || deadline_.passed()) return std::move(faults_);
+    if (!faults_.empty() && !deadline_.passed()) find_free_poses();
+    const bool complete = checked_ == keyframes_.size() || faults_.size() >= kMostKeyframeFaults;
+    return {std::move(faults_), complete};
+  }
+
+ private:
+  void find_free_poses() {
     sides_.emplace(*snapshot_.mesh, space_.obstacles().index);
     const bool any_free = faults_.size() < checked_;
     const Side usual = any_free ? Side{} : side_of_most();
@@ -55,12 +62,12 @@ class Search {
       const Side side = neighbours.empty() ? usual : side_of(neighbours);
       fault.free_pose = free_pose(fault.keyframe, side, neighbours);
     }
-    return std::move(faults_);
   }
 
- private:
   void find_faults() {
     for (; checked_ < keyframes_.size() && faults_.size() < kMostKeyframeFaults; ++checked_) {
+      if (checked_ % kKeyframesBetweenLooks == kKeyframesBetweenLooks - 1 && deadline_.passed())
+        return;
       const Pose& pose = keyframes_[checked_].pose;
       if (space_.gap_m(pose, space_.detect().tolerance_m) > 0.0) continue;
       const std::optional<collision::Witness> contact = space_.contact(pose, 0.0);
@@ -168,11 +175,10 @@ class Search {
 
 }  // namespace
 
-std::vector<KeyframeFault> find_keyframe_faults(const scene::Snapshot& snapshot,
-                                                const motion::Body& body,
-                                                const collision::DetectOptions& detect,
-                                                const std::vector<Keyframe>& keyframes,
-                                                const Deadline& deadline) {
+KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const motion::Body& body,
+                                    const collision::DetectOptions& detect,
+                                    const std::vector<Keyframe>& keyframes,
+                                    const Deadline& deadline) {
   return Search(snapshot, body, detect, keyframes, deadline).run();
 }
 

@@ -15,6 +15,11 @@ namespace camway::planning {
 /// A request of which more keyframes collide has its unit or its axes wrong.
 inline constexpr std::size_t kMostKeyframeFaults = 100;
 
+struct KeyframeFaults {
+  std::vector<KeyframeFault> faults;
+  bool complete = true;  ///< all keyframes were looked at, unless that many are at fault
+};
+
 /// The given keyframes at which the body collides, or is nearer to the scene than required, in
 /// order, at most `kMostKeyframeFaults`; each with the nearest free pose, if one was found.
 ///
@@ -26,11 +31,10 @@ inline constexpr std::size_t kMostKeyframeFaults = 100;
 /// finds. What is not closed has no sides; there a free pose that is seen from one of these
 /// keyframes is preferred, if it is not much further away than the nearest.
 ///
-/// Once the deadline has passed, no more free poses are looked for.
-std::vector<KeyframeFault> find_keyframe_faults(const scene::Snapshot& snapshot,
-                                                const motion::Body& body,
-                                                const collision::DetectOptions& detect,
-                                                const std::vector<motion::Keyframe>& keyframes,
-                                                const collision::Deadline& deadline);
+/// Once the deadline has passed, no more keyframes are looked at, nor free poses looked for.
+KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const motion::Body& body,
+                                    const collision::DetectOptions& detect,
+                                    const std::vector<motion::Keyframe>& keyframes,
+                                    const collision::Deadline& deadline);
 
 }  // namespace camway::planning

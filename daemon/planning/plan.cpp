@@ -8,6 +8,7 @@
 #include <exception>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "daemon/collision/detect.h"
@@ -82,6 +83,11 @@ class Planner {
     result_.keyframes = std::move(prepared.keyframes);
     origin_ = prepared.origin;
     if (!keyframes_are_free()) return false;
+    if (leaves_too_little(kInterpolating_s_per_keyframe *
+                          static_cast<double>(result_.keyframes.size()))) {
+      give_up("the path was interpolated");
+      return false;
+    }
     interpolated_ = motion::interpolate_cubic(result_.keyframes, origin_);
     result_.path = interpolated_.path();
     result_.timing.motion_ms = lap_ms();
@@ -91,8 +97,9 @@ class Planner {
   // Those that are not are moved to where they would be, if that was asked for; else the request
   // cannot be planned.
   bool keyframes_are_free() {
-    result_.keyframe_faults =
+    KeyframeFaults found =
         find_keyframe_faults(snapshot_, *body_, detect_, result_.keyframes, deadline_);
+    result_.keyframe_faults = std::move(found.faults);
     const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
     const bool all_free = std::ranges::all_of(
         faults, [](const KeyframeFault& fault) { return fault.free_pose.has_value(); });
@@ -105,38 +112,14 @@ class Planner {
       result_.keyframes[fault.keyframe].pose = *fault.free_pose;
       result_.keyframes[fault.keyframe].is_repaired = true;
     }
-    return true;
+    if (!found.complete) give_up("all keyframes were looked at");
+    return found.complete;
   }
 
   void refuse_keyframes() {
     const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
-    // Where keyframes were to be repaired, one that could not be is what is wrong.
-    const auto lost = std::ranges::find_if(faults, [&](const KeyframeFault& fault) {
-      return request_.options.repair_keyframes && !fault.free_pose;
-    });
-    const KeyframeFault& first = lost == faults.end() ? faults.front() : *lost;
-    const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
-    const std::string rule =
-        detect_.clearance_m > 0.0
-            ? fmt::format(
-                  "is nearer to the scene than the clearance of {:.3g} m that was asked for",
-                  detect_.clearance_m)
-            : std::string("collides with the scene");
-    std::string message = fmt::format("keyframes[{}]: the {} {} there", first.keyframe, body, rule);
-    if (first.depth_m > 0.0) message += fmt::format(", by about {:.3g} m", first.depth_m);
-    if (first.free_pose) {
-      const geometry::Vec3& to = first.free_pose->position;
-      message +=
-          fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
-    } else {
-      message += lost == faults.end() ? "; " : "; it could not be repaired: ";
-      message += deadline_.passed() ? "the deadline came before a free pose was found"
-                                    : "no free pose was found near it";
-    }
-    if (faults.size() > 1) message += fmt::format("; {} keyframes collide", faults.size());
-    if (faults.size() >= kMostKeyframeFaults && request_.options.repair_keyframes)
-      message += ", too many to be repaired";
-    refuse(std::move(message), first.keyframe);
+    const KeyframeFault& first = fault_to_name(faults, request_);
+    refuse(why_refused(faults, request_, deadline_.passed()), first.keyframe);
   }
 
   // Whether the path as interpolated collides, and where. Nothing if the deadline struck.
@@ -175,13 +158,14 @@ class Planner {
     options.seed = request_.options.seed;
     options.objective = request_.options.objective;
     options.orientation = request_.options.orientation;
-    options.max_shrink = request_.body ? 0.0 : request_.options.max_shrink;
+    options.max_shrink = may_shrink(request_) ? request_.options.max_shrink : 0.0;
     options.rest_s_per_piece = kSearching_s_per_piece + rest_s_per_piece();
     correction::LadderResult corrected = correction::correct_by_ladder(
         snapshot_.mesh, obstacles_, *body_, result_.keyframes, interpolated_, found, options,
         deadline_.share_of_rest(kShareOfCorrection));
     timed_out_ = corrected.timed_out;
     needed_keyframes_ = corrected.needed_keyframes;
+    result_.shut_in = std::move(corrected.shut_in);
     result_.corrections = std::move(corrected.corrections);
     if (corrected.separation) {
       result_.infeasibility =
@@ -293,7 +277,7 @@ class Planner {
   }
 
   void measure() {
-    if (result_.path.empty()) return;
+    if (result_.path.empty() || (!is_searched_ && leaves_too_little(rest_s()))) return;
     const motion::Path before = interpolated_.path();
     result_.measures_before = motion::measure(before, before);
     if (result_.collisions.empty()) {
@@ -315,7 +299,9 @@ class Planner {
   // curve: it is made slower all the way, which leaves its collisions where they are.
   void meet_limits() {
     const correction::MotionLimits& limits = request_.options.limits;
-    if (!result_.measures || !limits.any()) return;
+    if (!limits.any()) return;
+    is_too_fast_ = !result_.measures && limits.may_retime;  // as far as is known
+    if (!result_.measures) return;
     if (!limits.may_retime) breach_ = find_limit_breach(result_.path, limits);
     if (!limits.may_retime || meets_limits(result_.path, limits)) return;
     const motion::CubicPath path = corrected_ ? *corrected_
@@ -436,8 +422,7 @@ class Planner {
     }
     if (result_.infeasibility) {
       result_.status = Status::kInfeasible;
-      const bool may_shrink = request_.options.max_shrink > 0.0 && !request_.body;
-      result_.message = why_infeasible(*result_.infeasibility, may_shrink) + note();
+      result_.message = why_infeasible(*result_.infeasibility, may_shrink(request_)) + note();
       return;
     }
     result_.status = timed_out_ ? Status::kTimeout : Status::kPartial;
@@ -447,10 +432,11 @@ class Planner {
           note_of_haste() + note();
       return;
     }
+    if (!result_.shut_in.empty()) result_.keyframe = result_.shut_in.front().keyframe;
     result_.message = fmt::format("{}the path still collides {} ({})",
                                   timed_out_ ? "the deadline came first; " : "",
                                   counted(remaining, "time"), what_was_done()) +
-                      note_of_keyframe_limit() + note_of_effort(result_.corrections) +
+                      note_of_shut_in(result_.shut_in) + note_of_keyframe_limit() + note_of_effort(result_.corrections) +
                       note_of_haste() + note_of_times() + note();
   }
 
@@ -518,6 +504,19 @@ class Planner {
     result_.keyframes.clear();
   }
 
+  // There is no path: not even for that was there time.
+  void give_up(std::string_view before) {
+    result_.status = Status::kTimeout;
+    result_.message = fmt::format("the deadline came before {}: there is no path", before);
+    result_.keyframes.clear();
+    result_.keyframe_faults.clear();
+  }
+
+  // What takes no longer than a moment is done in any case.
+  [[nodiscard]] bool leaves_too_little(double seconds) const {
+    return seconds > kLeastBudget_s && !deadline_.leaves_s(seconds);
+  }
+
   double lap_ms() {
     const double now_ms = deadline_.elapsed_ms();
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
@@ -534,7 +533,8 @@ class Planner {
   static constexpr double kShareOfWholeSearch = 0.7;
   static constexpr double kShareOfSlowing = 0.5;
 
-  // The final check, and what comes after it; measured, on two slow cores.
+  // Measured, on two slow cores; then the final check, and what comes after it.
+  static constexpr double kInterpolating_s_per_keyframe = 5e-6;
   static constexpr double kSearching_s_per_piece = 4e-6;
   static constexpr double kMeasuring_s_per_piece = 6e-6;
   static constexpr double kSlowing_s_per_piece = 10e-6;
@@ -573,9 +573,8 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
     const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
       return Planner(snapshot, asked, until).run();
     };
-    const bool may_shrink = request.options.max_shrink > 0.0 && !request.body;
-    PlanResult result = may_shrink ? plan_with_shrinking(request, deadline, plan_at_size)
-                                   : plan_at_size(request, deadline);
+    PlanResult result = may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
+                                            : plan_at_size(request, deadline);
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {
       result.message += "; the deadline came before it was improved to the end";

@@ -28,6 +28,11 @@ std::optional<Method> method_from_string(std::string_view text) {
   return std::nullopt;
 }
 
+bool may_shrink(const PlanRequest& request) {
+  const PlanOptions& options = request.options;
+  return options.max_shrink > 0.0 && !request.body && options.max_inserted_keyframes != 0;
+}
+
 geometry::Vec3 direction_of(const geometry::Vec3& vector) {
   // Scaled first, so that squares neither overflow nor vanish.
   const double largest = vector.cwiseAbs().maxCoeff();

@@ -37,7 +37,9 @@ struct PlanOptions {
   /// How far the body has to stay from the scene; nearer is a collision.
   /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
   double clearance_m = 0.0;
-  /// Cut-off of the correction, per request. [Limit: 0 <= value]
+  /// Cut-off of the correction, per request. With 0 nothing is corrected: neither the path nor, by
+  /// `max_shrink`, the camera. Keyframes are repaired and times moved all the same, if that was
+  /// asked for. [Limit: 0 <= value]
   std::int32_t max_inserted_keyframes = 2000;
   correction::Objective objective = correction::Objective::kClosest;
   correction::OrientationPolicy orientation;
@@ -62,6 +64,9 @@ struct PlanRequest {
   bool has_times = false;  ///< false: `keyframes[i].time_s` mean nothing yet and are derived
   PlanOptions options;
 };
+
+/// Whether the near distance may be made smaller: that corrects a path, and a camera alone has one.
+bool may_shrink(const PlanRequest& request);
 
 /// The unit vector in the direction of `vector`, of any length. A unit vector, as far as doubles
 /// can tell, keeps its bits; what is zero or not finite comes back as it is, for `validate` to

@@ -10,6 +10,7 @@
 #include "daemon/collision/interval.h"
 #include "daemon/correction/cage_box.h"
 #include "daemon/correction/correction.h"
+#include "daemon/correction/shut_in.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/measures.h"
 #include "daemon/motion/path.h"
@@ -90,8 +91,9 @@ struct Infeasibility {
 
 struct PlanResult {
   Status status = Status::kInternalError;
-  std::string message;                  ///< one sentence for a person
-  std::optional<std::size_t> keyframe;  ///< index of the keyframe at fault, for kInvalid
+  std::string message;  ///< one sentence for a person
+  /// Index of the keyframe at fault: for kInvalid; or from which no way out was found.
+  std::optional<std::size_t> keyframe;
   motion::Path path;
   std::vector<motion::Keyframe> keyframes;  ///< given and inserted ones, with their times
   std::vector<collision::CollisionInterval> collisions;            ///< before correction
@@ -116,6 +118,8 @@ struct PlanResult {
   std::vector<SlowedStretch> slowed;  ///< where that was, in order of time; beyond, times are moved
   std::vector<KeyframeFault> keyframe_faults;  ///< for kInvalid, or what was repaired
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
+  /// Keyframes from which no way out was found; no proof. Part of the message elsewhere.
+  std::vector<correction::ShutIn> shut_in;
   /// Whether anything was left undone because of the deadline, of whatever status: then, and only
   /// then, the answer to the same request may be another one the next time.
   bool deadline_reached = false;

@@ -66,6 +66,8 @@ class Shrinking {
       }
       return;
     }
+    // What has no way out at the smallest has none at any size.
+    if (is_shut_in_) return;
     for (std::size_t i = 0; i < least; ++i) {
       if (is_free(i, 1.0 / static_cast<double>(least - i))) return;
     }
@@ -81,6 +83,7 @@ class Shrinking {
     PlanResult result = plan_at_size_(smaller, deadline_.share_of_rest(share));
     tried_.push_back(scales_[index]);
     if (result.status == Status::kTimeout) cut_off_ = true;
+    is_shut_in_ = !result.shut_in.empty();
     if (result.status != Status::kOk) return false;
     result.near_scale = scales_[index];
     best_ = std::move(result);
@@ -128,6 +131,7 @@ class Shrinking {
   std::vector<double> tried_;
   std::optional<PlanResult> best_;
   bool cut_off_ = false;
+  bool is_shut_in_ = false;  ///< a keyframe, for the camera that was tried last
 };
 
 }  // namespace

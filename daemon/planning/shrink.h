@@ -16,7 +16,8 @@ using PlanAtSize = std::function<PlanResult(const PlanRequest&, const collision:
 /// `max_shrink` allows, and answers with the largest for which all is free. Which that is, is
 /// found by halving the range below which one is: where a camera fits, a smaller one mostly does.
 /// If even the smallest does not, the others are tried all the same, since the near quadrilateral
-/// of a smaller camera is elsewhere.
+/// of a smaller camera is elsewhere; unless it found a keyframe shut in, for a ball that is smaller
+/// than theirs.
 ///
 /// The first plan has half of the deadline, so that the others get their share; each of them has
 /// its part of what is left. Where none is free the answer is the first one, its message says what

@@ -101,6 +101,44 @@ TEST(CellWay, SaysWhenThereIsNone) {
   }
 }
 
+// However large the rest is, and from whichever end: about the box that is shut, of bare walls.
+TEST(CellWay, IsOverWhenTheSmallerEndWasLookedAt) {
+  scene::Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 center = Vec3::Zero();
+      Vec3 half = Vec3::Constant(0.55);
+      center[axis] = 0.525 * side;
+      half[axis] = 0.025;
+      testing::add_cuboid(mesh, center - half, center + half);
+    }
+  }
+  std::mt19937_64 random = testing::seeded(5202);
+  scene::Mesh rest = scattered_cuboids(random, 300, 0.1);
+  for (Vec3& vertex : rest.vertices) vertex = 3.0 * vertex + Vec3(6, 0, 0);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), rest.vertices.begin(), rest.vertices.end());
+  for (auto triangle : rest.triangles) {
+    for (std::uint32_t& vertex : triangle) vertex += first;
+    mesh.triangles.push_back(triangle);
+  }
+  const SearchScene scene(mesh);
+  const Vec3 inside_W(0.1, 0.2, -0.1);
+  const Vec3 outside_W(2.0, 0.1, 0.3);
+  for (const bool is_at_end : {false, true}) {
+    const CellResult result =
+        cell_way(scene.space(), is_at_end ? outside_W : inside_W, is_at_end ? inside_W : outside_W,
+                 options_of(0.5 * kBall_m), Deadline::never());
+    EXPECT_TRUE(result.way_W.empty());
+    EXPECT_TRUE(result.exhausted) << result.cells;
+    ASSERT_TRUE(result.pocket);
+    EXPECT_EQ(result.pocket->is_at_end, is_at_end);
+    EXPECT_TRUE(result.pocket->reached_W.contains(inside_W));
+    EXPECT_LT(result.pocket->reached_W.sizes().maxCoeff(), 1.0);
+    EXPECT_LT(result.cells, 50'000U);
+  }
+}
+
 // Fewer cells than the small hole would take.
 TEST(CellWay, LeadsThroughTheWiderHole) {
   const Vec3 small_W(-0.6, 0.1, 0.0);

@@ -38,7 +38,11 @@ PlanRequest flight(int posts = 4) {
 /// What is wrong with an answer, whenever it was cut short; empty if nothing is.
 std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request,
                      const PlanResult& result) {
-  if (result.path.empty()) return "no path";
+  if (result.path.empty()) {
+    const bool says_so = result.status == Status::kTimeout && result.keyframes.empty() &&
+                         result.message.find("there is no path") != std::string::npos;
+    return says_so && !result.certificate.certified ? "" : "no path";
+  }
   const motion::Body body(request.camera);
   const auto found = *collision::detect_collisions(
       collision::Obstacles(snapshot), result.path, body, result.path.begin_s(), result.path.end_s(),
@@ -130,6 +134,27 @@ TEST(PlanDeadline, WhatWasNotCheckedIsPutBack) {
     kept.insert(corrected);
   }
   EXPECT_GT(kept.size(), 2u);
+}
+
+// So many keyframes that looking at them, interpolation and measuring take longer than that.
+TEST(PlanDeadline, IsKeptHoweverManyKeyframesThereAre) {
+  constexpr int kKeyframes = 10'000;
+  const auto snapshot = posts(100);
+  const PlanRequest request = flight(kKeyframes - 1);
+  std::set<bool> any_path;
+  for (const int looks : {5, 20, 60, 100}) {
+    const Deadline deadline = Deadline::after_looks(looks);
+    const PlanResult result = plan(*snapshot, request, deadline);
+    EXPECT_EQ(result.status, Status::kTimeout);
+    EXPECT_TRUE(result.deadline_reached);
+    EXPECT_FALSE(result.certificate.certified);
+    EXPECT_EQ(fault_in(*snapshot, request, result), "");
+    EXPECT_FALSE(result.measures) << "which takes time, too";
+    constexpr int kLooksAfterwards = 20;  // each is a millisecond
+    EXPECT_LT(deadline.elapsed_ms(), looks + kLooksAfterwards);
+    any_path.insert(!result.path.empty());
+  }
+  EXPECT_EQ(any_path, (std::set<bool>{false, true}));
 }
 
 TEST(PlanDeadline, OfTheSeedsMethodToo) {

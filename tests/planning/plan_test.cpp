@@ -402,6 +402,69 @@ TEST(Plan, MakesTheCameraSmallerIfNothingElseHelpsAndItMay) {
   EXPECT_GE(smaller.near_scale, 0.4);
 }
 
+// A camera of a fifth of the size would miss the column.
+TEST(Plan, MakesNothingSmallerWhereNothingIsToBeCorrected) {
+  PlanRequest request = bulging_tour();
+  request.options.max_inserted_keyframes = 0;
+  const PlanResult asked = planned(*column_scene(), request);
+  PlanRequest smaller = request;
+  smaller.camera.near_m *= 0.2;
+  ASSERT_EQ(planned(*column_scene(), smaller).status, Status::kOk);
+  request.options.max_shrink = 0.8;
+  const PlanResult result = planned(*column_scene(), request);
+  EXPECT_EQ(result.status, Status::kPartial);
+  EXPECT_EQ(result.near_scale, 1.0);
+  EXPECT_EQ(result.message, asked.message);
+  EXPECT_EQ(numbers_of(result), numbers_of(asked));
+  EXPECT_THAT(result.message, ::testing::HasSubstr("options.max_inserted_keyframes is 0"));
+}
+
+// Two skins of a wall, and its rims, which stand 2 mm off them: there is a way for what is flat
+// enough, so nothing is proved; but none that a search sees, and it is over soon.
+TEST(Plan, NamesAKeyframeBetweenTheSkinsOfAWall) {
+  const Quat turn_W(Eigen::AngleAxisd(0.3, Vec3(0.2, 1.0, 0.1).normalized()));
+  Mesh mesh;
+  for (const double side : {-1.0, 1.0}) {
+    testing::add_cuboid(mesh, Vec3(-1.5, -1.2, 0.094 * side - 0.006),
+                        Vec3(1.5, 1.2, 0.094 * side + 0.006));
+    testing::add_cuboid(mesh, Vec3(1.51 * side - 0.008, -1.3, -0.2),
+                        Vec3(1.51 * side + 0.008, 1.3, 0.2));
+    testing::add_cuboid(mesh, Vec3(-1.6, 1.21 * side - 0.008, -0.2),
+                        Vec3(1.6, 1.21 * side + 0.008, 0.2));
+  }
+  for (Vec3& vertex : mesh.vertices) vertex = turn_W * vertex;
+  PlanRequest request;
+  request.camera = {.fov_x_rad = 1.4, .fov_y_rad = 1.0, .near_m = 0.05};
+  for (const Vec3& at : {Vec3(0, 0, 1), Vec3(0.4, 0.1, 0.06), Vec3(0, 0.2, -1)})
+    request.keyframes.push_back({0.0, {turn_W * at, turn_W}});
+  const PlanResult result = planned(*snapshot_of(std::move(mesh)), request);
+  EXPECT_EQ(result.status, Status::kPartial);
+  EXPECT_EQ(result.keyframe, 1U);
+  ASSERT_EQ(result.shut_in.size(), 1U);
+  EXPECT_EQ(result.shut_in[0].keyframe, 1U);
+  EXPECT_TRUE(result.shut_in[0].holds(turn_W * Vec3(0.4, 0.1, 0.01)));
+  EXPECT_LT(result.shut_in[0].region_W.diagonal().norm(), 4.5);
+  EXPECT_THAT(result.message, ::testing::HasSubstr("keyframe 1 seems shut in: no way out of a "));
+  std::int32_t points = 0;
+  for (const correction::Correction& correction : result.corrections)
+    points += correction.tried.lattice_points;
+  EXPECT_LT(points, 500'000);
+}
+
+// Repairs and new times are no corrections: who asks for them gets them.
+TEST(Plan, RepairsAndSlowsThoughNothingIsToBeCorrected) {
+  PlanRequest request = bulging_tour();
+  request.keyframes[1].pose.position = {0.4, 0, 0.05};  // the quadrilateral is inside the column
+  request.options.max_inserted_keyframes = 0;
+  request.options.repair_keyframes = true;
+  request.options.limits.speed_m_per_s = 0.5;
+  request.options.limits.may_retime = true;
+  const PlanResult result = planned(*column_scene(), request);
+  EXPECT_EQ(result.keyframes.size(), 3U);
+  EXPECT_TRUE(result.keyframes[1].is_repaired);
+  EXPECT_GT(result.time_scale, 1.0);
+}
+
 TEST(Plan, CorrectionsTurnNothingWhereTheOrientationIsKept) {
   PlanRequest request = bulging_tour();
   request.options.orientation.rule = correction::OrientationRule::kKeep;

@@ -90,6 +90,22 @@ TEST(PlanWithShrinking, TriesThemAllIfNotEvenTheSmallestFits) {
   EXPECT_THAT(none.result.message, Not(HasSubstr("deadline")));
 }
 
+TEST(PlanWithShrinking, TriesNoMoreWhereTheSmallestIsShutIn) {
+  PlanRequest request;
+  request.camera.near_m = 1.0;
+  request.options.max_shrink = 0.5;
+  std::vector<double> tried;
+  const PlanResult result = plan_with_shrinking(request, Deadline::never(),
+                                                [&](const PlanRequest& asked, const Deadline&) {
+                                                  tried.push_back(asked.camera.near_m);
+                                                  PlanResult shut_in = ended(Status::kPartial);
+                                                  shut_in.shut_in = {{1, {}}};
+                                                  return shut_in;
+                                                });
+  EXPECT_EQ(tried, (std::vector<double>{1.0, 0.5}));
+  EXPECT_EQ(result.status, Status::kPartial);
+}
+
 // Each takes all of its time.
 TEST(PlanWithShrinking, UsesTheWholeDeadlineAndNoMore) {
   PlanRequest request;
