@@ -51,7 +51,7 @@ class OneAnswer final : public Call {
 
   std::future<Asked<Response>> answer() { return promise_.get_future(); }
 
-  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point /*now*/) override {
+  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) override {
     wire::Decoded<Response> decoded = wire::decode<Response>(bytes);
     if (!decoded.message) {
       fault_ = decoded.fault.text(Response::getTypeName());
@@ -59,8 +59,10 @@ class OneAnswer final : public Call {
     }
     if (decoded.message->client_id != context_.options().client_id) return;
     retry().note_life();
-    if (decoded.message->status == static_cast<std::int32_t>(Status::kOverloaded)) {
-      refusal_ = explain(decoded.message->status, decoded.message->message);
+    const auto status = static_cast<Status>(decoded.message->status);
+    if (status == Status::kOverloaded || status == Status::kStopping) {
+      refusal_ = {status, explain(decoded.message->status, decoded.message->message)};
+      if (status == Status::kStopping) retry().note_stopping(now);
       return;
     }
     response_ = std::move(*decoded.message);
@@ -84,7 +86,7 @@ class OneAnswer final : public Call {
     } else if (outcome != Outcome::kAnswered) {
       asked = {std::nullopt,
                refusal_ && (outcome == Outcome::kDeadline || outcome == Outcome::kSilence)
-                   ? Failure{Status::kOverloaded, *refusal_}
+                   ? *refusal_
                    : context_.explain(outcome, retry().ever_heard(), {}, fault_)};
     }
     promise_.set_value(std::move(asked));
@@ -93,7 +95,7 @@ class OneAnswer final : public Call {
  private:
   Context& context_;
   std::optional<Response> response_;
-  std::optional<std::string> refusal_;
+  std::optional<Failure> refusal_;
   std::string fault_;
   bool ends_ = false;          ///< nobody wants the answer any more
   bool is_cancelled_ = false;  ///< so the daemon was told

@@ -159,6 +159,10 @@ void Client::unwatch(std::int64_t request_id) {
   if (impl_->engine) impl_->engine->unwatch(request_id);
 }
 
+void Client::take_better(std::int64_t request_id) {
+  if (impl_->engine) impl_->engine->take_better(request_id);
+}
+
 bool Client::unwatch(std::int64_t request_id, double timeout_s) {
   if (impl_->failure_to_wait()) return false;
   return impl_->engine->unwatch(request_id, after(timeout_s)).get();

@@ -51,6 +51,9 @@ std::string fault_in(const ClientOptions& options) {
   if (!(options.watch_lease_s >= 1.0 && options.watch_lease_s <= 86'400.0)) {
     return "ClientOptions.watch_lease_s: must be within 1 and 86400";
   }
+  if (!(options.successor_wait_s >= 0.0)) {
+    return "ClientOptions.successor_wait_s: must not be below 0";
+  }
   if (options.retries < 0) return "ClientOptions.retries: must not be negative";
   return {};
 }
@@ -72,7 +75,7 @@ std::int64_t Context::new_request_id() {
 
 Retry Context::retry(Clock::time_point deadline) {
   const Retry::Rules rules{options_.try_timeout_s, options_.backoff, options_.max_try_timeout_s,
-                           options_.jitter, options_.retries};
+                           options_.jitter,        options_.retries, options_.successor_wait_s};
   return Retry(rules, deadline, next_seed_++);
 }
 
@@ -118,6 +121,14 @@ Failure Context::explain(Outcome outcome, bool ever_heard, std::string_view part
   // What came in part was asked with the right keys.
   return {Status::kNoAnswer, text + where() + "; wait longer, or look at the daemon's log" +
                                  (partly.empty() ? about_keys() : std::string())};
+}
+
+Failure Context::silence(double silent_s) const {
+  char seconds[32];
+  std::snprintf(seconds, sizeof(seconds), "%.3g", silent_s);
+  return {Status::kNoDaemon, "the daemon fell silent: for " + std::string(seconds) +
+                                 " s neither a heartbeat nor an answer came" + where() +
+                                 "; it ended, or the network fails"};
 }
 
 Clock::time_point after(double seconds) {

@@ -49,6 +49,9 @@ class Context {
   Failure explain(Outcome outcome, bool ever_heard, std::string_view partly,
                   std::string_view fault) const;
 
+  /// Why a daemon that was heard before counts as gone, so long after the last sign of life.
+  Failure silence(double silent_s) const;
+
   /// The network, for texts.
   void set_url(std::string url) { url_ = std::move(url); }
 

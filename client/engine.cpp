@@ -94,6 +94,10 @@ void Engine::listen(const std::string& client_id) {
     Call* const call = id ? find(Call::Kind::kPlan, *id) : nullptr;
     if (call != nullptr) call->take_progress(bytes);
   });
+  link_.listen(channels_.plan_offer(client_id), kResponseQueue, [this](auto bytes) {
+    const auto id = request_of<plan_response_t>(bytes);
+    if (id) watches_.take_offer(*id, bytes);
+  });
   link_.listen(channels_.missing_pages(client_id), kSmallQueue,
                [this](auto bytes) { take_missing_pages(bytes); });
   take_answers<occupancy_response_t>(Call::Kind::kOccupancy,
@@ -140,6 +144,10 @@ void Engine::watch(const PlanRequest& request, WatchHandler handler) {
 
 void Engine::unwatch(std::int64_t request_id) {
   post([this, request_id] { watches_.remove(request_id); });
+}
+
+void Engine::take_better(std::int64_t request_id) {
+  post([this, request_id] { watches_.take_better(request_id); });
 }
 
 std::future<bool> Engine::unwatch(std::int64_t request_id, Clock::time_point until) {

@@ -47,6 +47,7 @@ class Engine {
   /// As those of `WatchList`.
   void watch(const PlanRequest& request, WatchHandler handler);
   void unwatch(std::int64_t request_id);
+  void take_better(std::int64_t request_id);
   /// The same, and cancels its planning: true once the daemon does not watch it any more, as it
   /// said or as the lease is over; false if `until` passes or the network breaks.
   std::future<bool> unwatch(std::int64_t request_id, Clock::time_point until);

@@ -22,6 +22,7 @@ Clock::duration duration(double seconds) {
 Retry::Action Retry::next(Clock::time_point now) {
   if (send_now_) return send(now);
   if (now >= deadline_) return Action::kDeadline;
+  if (now >= give_up_at_) return Action::kSilence;
   if (has_part_ && asked_missing_ < kMostAsked) {
     if (now < missing_at_) return Action::kWait;
     ++asked_missing_;
@@ -47,7 +48,7 @@ Retry::Action Retry::send(Clock::time_point now) {
 
 Clock::time_point Retry::wake() const {
   const bool asks = has_part_ && asked_missing_ < kMostAsked;
-  return std::min(asks ? missing_at_ : again_at_, deadline_);
+  return std::min({asks ? missing_at_ : again_at_, deadline_, give_up_at_});
 }
 
 void Retry::note_part(Clock::time_point now) {
@@ -57,8 +58,17 @@ void Retry::note_part(Clock::time_point now) {
   missing_at_ = now + duration(kPageGap_s);
 }
 
+void Retry::note_stopping(Clock::time_point now) {
+  note_life();
+  // Longer than any deadline has no duration.
+  if (std::chrono::duration<double>(deadline_ - now).count() < rules_.successor_wait_s) return;
+  // Each repetition is answered so until the daemon is gone.
+  give_up_at_ = std::min(give_up_at_, now + duration(rules_.successor_wait_s));
+}
+
 void Retry::note_heartbeat(double uptime_s, Clock::time_point now) {
   note_life();
+  give_up_at_ = Clock::time_point::max();
   // Such a daemon cannot have seen the question.
   const std::chrono::duration<double> since_sent = now - sent_at_;
   if (tries_ > 0 && uptime_s < since_sent.count()) send_now_ = true;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 namespace camway {
@@ -17,7 +18,9 @@ using Clock = std::chrono::steady_clock;
 /// - When part of the answer is here and no more comes, the rest is asked for, twice; then the
 ///   question is sent again.
 /// - It is sent again at once when a heartbeat shows a daemon that was started after it was sent.
-/// - It is given up after `retries` repetitions without a sign of life, or at the deadline.
+/// - It is given up after `retries` repetitions without a sign of life, at the deadline, or when
+/// the
+///   daemon said that it ends and no other is heard within `successor_wait_s`.
 class Retry {
  public:
   struct Rules {
@@ -26,6 +29,8 @@ class Retry {
     double max_try_timeout_s;
     double jitter;
     int retries;
+    /// How long another daemon is waited for when one said that it ends.
+    double successor_wait_s = std::numeric_limits<double>::infinity();
   };
 
   Retry(const Rules& rules, Clock::time_point deadline, std::uint64_t seed)
@@ -46,6 +51,8 @@ class Retry {
   void note_part(Clock::time_point now);
   /// Something else came from the daemon.
   void note_life() { life_ = ever_heard_ = true; }
+  /// The daemon said that it ends: it is given up soon, unless another is heard.
+  void note_stopping(Clock::time_point now);
   /// A heartbeat came, of a daemon that has run for so long.
   void note_heartbeat(double uptime_s, Clock::time_point now);
   /// All parts that came were of an answer that does not count.
@@ -75,6 +82,7 @@ class Retry {
   Clock::time_point sent_at_{};
   Clock::time_point again_at_{};
   Clock::time_point missing_at_{};
+  Clock::time_point give_up_at_ = Clock::time_point::max();  ///< as the daemon ends
 };
 
 }  // namespace camway

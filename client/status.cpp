@@ -29,6 +29,8 @@ std::string to_string(Status status) {
       return "cancelled";
     case Status::kLimit:
       return "limit";
+    case Status::kStopping:
+      return "stopping";
     case Status::kNoDaemon:
       return "no_daemon";
     case Status::kNoAnswer:

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -40,8 +41,14 @@ class WatchList {
 
   /// A page of an answer that no call waits for.
   void take_answer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
+  /// A page of an answer on offer.
+  void take_offer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
+  /// The better path that was told last is to be the one that is watched.
+  void take_better(std::int64_t request_id);
   void take_report(std::span<const std::uint8_t> bytes, Clock::time_point now);
   void take_heartbeat(double uptime_s, Clock::time_point now);
+  /// Anything came from the daemon.
+  void note_life(Clock::time_point now);
 
   /// No handler is called any more.
   void close() { is_closed_ = true; }
@@ -51,10 +58,19 @@ class WatchList {
   Clock::time_point wake() const;
 
  private:
+  /// A better answer that the daemon has.
+  struct Offer {
+    std::int64_t revision;
+    Clock::time_point ask_at;  ///< for its pages, or that it be the answer; again
+    double again_s;            ///< how long after the last time
+    bool is_told = false;
+    bool is_taken = false;
+  };
   struct Watched {
     PlanRequest request;
     WatchHandler handler;
     PlanCollector collector;
+    PlanCollector offered;            ///< what came of an offer
     bool is_asked = false;            ///< a call is on its way
     Clock::time_point ask_at{};       ///< again; the end of time if there is no need
     double ask_again_s = 0.0;         ///< how long after the last time
@@ -63,8 +79,9 @@ class WatchList {
     bool is_broken = false;
     bool is_lost = false;             ///< as was told last
     std::int64_t scene_revision = 0;  ///< of what was told before that
-    std::string refusal = {};             ///< why the daemon does not watch it; empty if it may
+    std::optional<Failure> refusal = {};  ///< why the daemon does not watch it; none if it may
     std::vector<WatchEvent> untold = {};  ///< the answer since then, told once it is watched
+    std::optional<Offer> offer = {};
   };
   /// A message that ends the watching of some paths, until it is answered.
   struct Ending {
@@ -79,13 +96,19 @@ class WatchList {
   void take_state(const path_state_t& state, const watch_report_t& report, Clock::time_point now);
   void take_new_state(Watched& watched, const path_state_t& state, const watch_report_t& report,
                       Clock::time_point now);
+  void take_offer_state(Watched& watched, const path_state_t& state, Clock::time_point now);
+  void tell_offer(Watched& watched);
+  void ask_for_offers(Clock::time_point now);
   void ask_later(Watched& watched, Clock::time_point now);
   void renew(Clock::time_point now);
   void acknowledge();
   void end_unwanted(Clock::time_point now);
   void send(std::vector<watched_path_t> paths, std::int64_t id, double lease_s);
+  void look_for_life(Clock::time_point now);
+  void lose_all(const Failure& why);
   void tell(Watched& watched, WatchEvent event);
-  void tell_lost(Watched& watched, std::string error);
+  /// Unless that was told last: that it is still so is no news.
+  void tell_lost(Watched& watched, const Failure& why);
   void tell_watched_again();
 
   Context& context_;
@@ -98,7 +121,11 @@ class WatchList {
   double renew_again_s_ = 0.0;         ///< how long to wait for the answer
   std::set<std::int64_t> unanswered_;  ///< ids of the renewals that were sent last
   Clock::time_point renewed_at_{};     ///< when all of them were answered
-  bool is_lost_ = false;
+  Clock::time_point stepped_at_{};     ///< last
+  Clock::time_point heard_at_{};       ///< a sign of life; later where we did not listen meanwhile
+  Clock::time_point ping_at_{};        ///< not before: that the daemon may give one
+  bool was_heard_ = false;             ///< ever, since there was something to watch
+  bool is_silent_ = false;             ///< as was told
   bool is_closed_ = false;
 };
 

@@ -52,6 +52,9 @@ struct Channels {
   [[nodiscard]] std::string plan_response(std::string_view client_id) const {
     return (prefix + "_PLAN_RESPONSE_").append(client_id);
   }
+  [[nodiscard]] std::string plan_offer(std::string_view client_id) const {
+    return (prefix + "_PLAN_OFFER_").append(client_id);
+  }
   [[nodiscard]] std::string plan_progress(std::string_view client_id) const {
     return (prefix + "_PLAN_PROGRESS_").append(client_id);
   }
@@ -82,6 +85,7 @@ struct Channels {
   [[nodiscard]] std::string map_page(std::string_view client_id) const {
     return (prefix + "_MAP_PAGE_").append(client_id);
   }
+  [[nodiscard]] std::string claim() const { return prefix + "_CLAIM"; }
   [[nodiscard]] std::string status() const { return prefix + "_STATUS"; }
   [[nodiscard]] std::string error() const { return prefix + "_ERROR"; }
 };

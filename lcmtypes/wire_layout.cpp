@@ -4,6 +4,7 @@
 #include <array>
 
 #include <camway/cancel_t.hpp>
+#include <camway/claim_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
@@ -40,8 +41,8 @@ constexpr std::size_t kCage = 12 * kDouble;
 constexpr std::size_t kCorrection = 2 * kDouble + kByte + 4 * kDouble + 4 * kInt32;
 constexpr std::size_t kSlowedStretch = 4 * kDouble;
 constexpr std::size_t kKeyframeFault = kInt32 + kDouble + kByte + (3 + 4) * kDouble;
-constexpr std::size_t kWatchedPath = 2 * kInt64;
-constexpr std::size_t kPathState = 2 * kInt64 + kByte + 2 * kInt64;
+constexpr std::size_t kWatchedPath = 4 * kInt64;
+constexpr std::size_t kPathState = 2 * kInt64 + kByte + 3 * kInt64;
 constexpr std::size_t kBrokenInterval = kInt64 + 2 * kDouble;
 constexpr std::size_t kSegment = (2 + 4 * 3 + 7 * 4) * kDouble;
 
@@ -138,6 +139,11 @@ constexpr std::array kCancel{
     text("client_id", kMaxClientIdLength),
     fixed("request_id", kInt64),
     fixed("utime", kInt64),
+};
+
+constexpr std::array kClaim{
+    fixed("ids", 2 * kInt64),   fixed("utime", kInt64),      fixed("state", kByte),
+    fixed("served_s", kDouble), text("host", kMaxHostBytes), fixed("pid", kInt32),
 };
 
 constexpr std::array kPlanProgress{
@@ -350,6 +356,10 @@ Layout layout_of<plan_response_t>() {
 template <>
 Layout layout_of<cancel_t>() {
   return {"cancel_t", cancel_t::getHash(), kCancel};
+}
+template <>
+Layout layout_of<claim_t>() {
+  return {"claim_t", claim_t::getHash(), kClaim};
 }
 template <>
 Layout layout_of<plan_progress_t>() {

@@ -8,6 +8,7 @@
 
 namespace camway {
 class cancel_t;
+class claim_t;
 class envelope_t;
 class error_t;
 class map_page_t;
@@ -42,6 +43,7 @@ inline constexpr std::size_t kMaxFeatureBytes = 32;
 inline constexpr std::size_t kMaxTextBytes = 1024;
 inline constexpr std::size_t kMaxDigestBytes = 128;
 inline constexpr std::size_t kMaxVersionBytes = 256;
+inline constexpr std::size_t kMaxHostBytes = 64;
 
 /// Limits of requests about scenes.
 inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< of an object that is put into a scene
@@ -95,6 +97,8 @@ template <>
 Layout layout_of<plan_response_t>();
 template <>
 Layout layout_of<cancel_t>();
+template <>
+Layout layout_of<claim_t>();
 template <>
 Layout layout_of<plan_progress_t>();
 template <>

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ struct ClientOptions {
   /// A watched path is watched for so long after the client fell silent. The daemon may allow less.
   /// [Limit: 1 <= value <= 86400]
   double watch_lease_s = 30.0;
+  /// A change of a scene that a daemon refuses because it ends is asked of the next one, for which
+  /// the call waits so long; then it ends with `kStopping`. [Limit: 0 <= value]
+  double successor_wait_s = std::numeric_limits<double>::infinity();
   int retries = 5;  ///< repetitions without a sign of life before the call gives up
 };
 
@@ -108,9 +112,10 @@ class Client {
   void cancel(std::int64_t request_id);
 
   /// Asks for a path and leaves it with the daemon: `on_event` hears of the answer, and from then
-  /// on of each change of the scene that breaks the path, and of the corrected path, until
-  /// `unwatch`. Lost messages and restarts of the daemon are seen to. Returns the id of the
-  /// request; 0, after `on_event` heard why, if it cannot be sent.
+  /// on of each change of the scene that breaks the path, of the corrected path, and of a better
+  /// one once what was in the way is gone, until `unwatch`. Lost messages and restarts of the
+  /// daemon are seen to. Returns the id of the request; 0, after `on_event` heard why, if it cannot
+  /// be sent.
   std::int64_t watch(const PlanRequest& request, WatchHandler on_event);
 
   /// Ends it. An event that is on its way may still come. The daemon is told until it answers, as
@@ -122,6 +127,11 @@ class Client {
   /// next. True if the daemon said so, or the lease is over; false if `timeout_s` passed or the
   /// network broke. Not for handlers of this client, where it is false at once.
   bool unwatch(std::int64_t request_id, double timeout_s);
+
+  /// Has the daemon watch the better path that it offered last (`WatchEvent::Kind::kBetter`) in the
+  /// place of the one before: `kAnswer` tells so, with the same path; `kWithdrawn` or `kBroken` if
+  /// a change of the scene came first. Does nothing where none is on offer. For handlers too.
+  void take_better(std::int64_t request_id);
 
   /// Asks a scene's occupancy map.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);

@@ -19,6 +19,7 @@ enum class Status {
   kNoMap = 9,          ///< the scene was loaded without an occupancy map
   kCancelled = 10,     ///< as the caller asked
   kLimit = 11,         ///< it would break a limit of the daemon's, which the text names
+  kStopping = 12,      ///< the daemon ended before it changed anything, and no other was heard
 
   kNoDaemon = 100,         ///< nobody answered, and no daemon was heard
   kNoAnswer = 101,         ///< a daemon was heard, but its answer did not come, or not all of it

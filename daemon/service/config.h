@@ -66,6 +66,9 @@ struct ServiceConfig {
   FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
   WatchLimits watches;        ///< `watch.paths` and others
   std::chrono::milliseconds heartbeat_period{1000};
+  /// How long to ask, before serving, whether another daemon serves with this prefix (see
+  /// `PrefixClaim`); 0: not at all. [Limit: 0 <= value]
+  std::chrono::milliseconds claim_window{0};
   /// How long a stop waits for what is being planned. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};
   LimitedLog::Limits log_limits;  ///< of what clients can provoke; `log.lines_per_s` and others

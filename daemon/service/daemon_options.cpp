@@ -25,7 +25,8 @@ namespace {
 
 constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
-    "signal ends it at once), 1 LCM or the port for metrics cannot be used, or LCM failed, 2 wrong "
+    "signal ends it at once), 1 LCM or the port for metrics cannot be used, LCM failed, or another "
+    "daemon serves with this prefix, 2 wrong "
     "command line, configuration or scene file.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
     "is logged and needs a restart.\n"
@@ -43,14 +44,27 @@ struct Raw {
   std::vector<std::string> scenes;
 };
 
+/// The setting of that key. Precondition: there is one.
+Setting setting_of(std::string_view key, DaemonOptions& options) {
+  const std::vector<Setting> settings = settings_of(options);
+  return *std::ranges::find(settings, key, &Setting::key);
+}
+
+/// A flag without a value that turns a setting of the configuration file on.
+void declare_switch(CLI::App& app, const std::string& flag, std::string_view key,
+                    const std::string& meaning, DaemonOptions& options) {
+  const auto turn_on = [&options, key, flag] {
+    setting_of(key, options).turn(true);
+    options.said_at[std::string(key)] = flag;
+  };
+  app.add_flag_callback(flag, turn_on, meaning);
+}
+
 /// A flag for a setting of the configuration file; `usual` is what help says of its default.
 void declare_setting(CLI::App& app, const std::string& flag, std::string_view key,
                      const std::string& meaning, DaemonOptions& options,
                      const std::optional<std::string>& usual = std::nullopt) {
-  const auto setting = [&options, key] {
-    const std::vector<Setting> settings = settings_of(options);
-    return *std::ranges::find(settings, key, &Setting::key);
-  };
+  const auto setting = [&options, key] { return setting_of(key, options); };
   const auto apply = [setting, flag, key, &options](const std::string& word) {
     const std::string fault = setting().set_word(word);
     if (!fault.empty()) throw CLI::ValidationError(flag, fault);
@@ -82,6 +96,10 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                   "without them they can upload only",
                   options, "none");
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
+  declare_switch(app, "--share-prefix", "lcm.share_prefix",
+                 "Serve though another daemon serves with this prefix; else this one says so and "
+                 "ends with code 1",
+                 options);
   declare_setting(app, "--url", "lcm.url", "LCM provider; ttl=0 keeps the traffic on this host",
                   options,
                   "lcm.url of the configuration file, else LCM_DEFAULT_URL, else " +

@@ -39,6 +39,7 @@ struct DaemonOptions {
   std::string lcm_url;  ///< `--url`, else the file, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
   LogLevel log_level = LogLevel::kInfo;
   LogFormat log_format = LogFormat::kText;
+  bool share_prefix = false;  ///< `--share-prefix`: serve though another daemon has the prefix
   std::string scene_roots;  ///< folders with ':' between them; see `SceneRoots`
   HttpAddress metrics;      ///< of the page for Prometheus; there is none if the port is 0
   HttpLimits metrics_limits = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/daemon_run.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
@@ -21,7 +22,11 @@ namespace {
 
 constexpr int kExitLcm = 1;
 constexpr int kExitMetrics = 1;
+constexpr int kExitPrefix = 1;
 constexpr int kExitBadInput = 2;
+/// How long a start asks whether another daemon serves with its prefix; that one answers within
+/// milliseconds.
+constexpr std::chrono::milliseconds kClaimWindow{250};
 
 /// The last status, between the loop that makes it and the page that shows it.
 class LatestStatus {
@@ -89,6 +94,8 @@ int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
       return EXIT_SUCCESS;
     case RunOutcome::kAbandoned:
       std::_Exit(EXIT_SUCCESS);
+    case RunOutcome::kPrefixTaken:
+      return kExitPrefix;
     case RunOutcome::kNotSubscribed:
       log.error("LCM takes no subscription", {{"url", url}, {"hint", multicast_hint()}});
       return kExitLcm;
@@ -160,7 +167,9 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   if (const std::size_t files = remove_left_upload_files(); files > 0) {
     log->info("removed uploads that a daemon left behind", {{"files", files}});
   }
-  Service service(transport, scenes, options.service, planner, log, std::move(hooks));
+  ServiceConfig config = options.service;
+  config.claim_window = options.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
+  Service service(transport, scenes, std::move(config), planner, log, std::move(hooks));
   log->info("serving", {{"url", options.lcm_url},
                         {"prefix", options.service.prefix},
                         {"workers", options.service.workers},

@@ -125,6 +125,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
   return {
       {"lcm.url", &options.lcm_url, 0, 0, false, &fault_of_url},
       {"lcm.prefix", &service.prefix, 0, 0, false, &fault_of_prefix},
+      {"lcm.share_prefix", &options.share_prefix},
       {"lcm.waiting_messages", &service.subscription_capacity, 1, 1e6},
       {"planning.workers", &service.workers, 0, kMaxWorkers},
       {"planning.deadline_s", &service.deadline.default_s, 1e-3, kDayS},

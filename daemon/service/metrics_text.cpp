@@ -14,10 +14,11 @@
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 12> kStatusNames{
+constexpr std::array<std::string_view, 13> kStatusNames{
     "ok",        "partial",       "infeasible",     "timeout",
     "invalid",   "unknown_scene", "internal_error", "overloaded",
-    "malformed", "no_map",        "cancelled",      "limit"};
+    "malformed", "no_map",        "cancelled",      "limit",
+    "stopping"};
 
 /// Text within the quotes of a label.
 std::string escaped(std::string_view text) {

@@ -63,11 +63,20 @@ struct PlanService::Pending {
   collision::Deadline deadline;
 };
 
-/// A watched path that collides, on its way likewise.
+/// A watched path that collides, or for which there may be a better one, on its way likewise.
 struct PlanService::Replan {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
   collision::Deadline deadline;
+  bool for_offer;
+};
+
+/// What came of it.
+struct PlanService::Replanned {
+  plan_response_t answer;
+  Pages pages;
+  std::shared_ptr<const planning::WatchedPath> path;  ///< null if the answer proves none
+  std::shared_ptr<const scene::Snapshot> snapshot;
 };
 
 template <class Message>
@@ -159,7 +168,9 @@ void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::tick(Clock::time_point now) {
+  for (Watches::Taken& taken : watches_.take_taken()) put_in_force(std::move(taken), now);
   plan_broken(now);
+  plan_improvable(now);
   for (plan_progress_t& progress : in_flight_.take_due(now)) {
     const auto ahead = core_.workers.ahead_of(progress.client_id, progress.request_id);
     progress.requests_ahead = static_cast<std::int32_t>(ahead.value_or(0));
@@ -277,7 +288,7 @@ void PlanService::run(const Pending& pending) {
       abandon(pending, Refusal::kCancelled);
     } else {
       finish(pending, *answer, pages);
-      if (path) watch(pending, path);
+      if (path) watch(pending, path, *answer);
     }
   });
 }
@@ -303,9 +314,11 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
   send(pending.key, std::move(pages));
 }
 
-void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path) {
-  const WatchableAnswer answer{pending.key, pending.request, std::move(path), pending.snapshot};
-  if (watches_.begin(answer, Clock::now())) cache_.mark_watched(pending.key);
+void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
+                        const plan_response_t& answer) {
+  const WatchableAnswer watched{pending.key, pending.request, std::move(path), pending.snapshot,
+                                AnswerQuality::of(answer)};
+  if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
 }
 
 // Few at a time: they must neither fill the queue nor all be planned in a scene that has changed
@@ -313,61 +326,88 @@ void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::
 void PlanService::plan_broken(Clock::time_point now) {
   const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
   if (replanning_ >= most) return;
-  for (Watches::Broken& broken : watches_.take_broken(most - replanning_, now)) {
-    const double deadline_s = deadline_of(broken.request->deadline_s, core_.config.deadline);
-    const Replan replan{std::move(broken.key), std::move(broken.request),
-                        collision::Deadline::after_s(deadline_s)};
+  for (const Watches::Request& broken : watches_.take_broken(most - replanning_, now)) {
     ++replanning_;
-    Job job;
-    job.run = [this, replan] { run_again(replan); };
-    job.abandon = [this, replan](Refusal) { give_up(replan); };
-    job.client = replan.key.client_id;
-    job.priority = Priority::kLow;
-    job.expires = Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
-                                          std::chrono::duration<double>(deadline_s));
-    core_.submit(std::move(job));
+    plan_again(broken, /*for_offer=*/false);
   }
+}
+
+void PlanService::plan_improvable(Clock::time_point now) {
+  if (const auto watched = watches_.take_improvable(now)) plan_again(*watched, /*for_offer=*/true);
+}
+
+void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
+  const double deadline_s = deadline_of(watched.request->deadline_s, core_.config.deadline);
+  const Replan replan{watched.key, watched.request, collision::Deadline::after_s(deadline_s),
+                      for_offer};
+  Job job;
+  job.run = [this, replan] { run_again(replan); };
+  job.abandon = [this, replan](Refusal) { give_up(replan); };
+  job.client = replan.key.client_id;
+  job.priority = Priority::kLow;
+  job.expires = Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
+                                        std::chrono::duration<double>(deadline_s));
+  core_.submit(std::move(job));
 }
 
 // On a worker.
 void PlanService::run_again(const Replan& replan) {
-  std::shared_ptr<const scene::Snapshot> snapshot = core_.scenes.find(replan.request->scene);
-  if (!snapshot || replan.deadline.passed()) {
+  auto done = std::make_shared<Replanned>();
+  done->snapshot = core_.scenes.find(replan.request->scene);
+  if (!done->snapshot || replan.deadline.passed()) {
     core_.mailbox.post([this, replan] { give_up(replan); });
     return;
   }
-  auto answer = std::make_shared<plan_response_t>(
-      answer_of(planner_, *snapshot, *replan.request, core_.config.deadline, replan.deadline));
-  auto path = watchable_path(*replan.request, *answer, core_.config.deadline);
-  Pages pages = encode_answer(*answer, core_.config.answer_pages);
-  core_.mailbox.post([this, replan, snapshot = std::move(snapshot), answer = std::move(answer),
-                      pages = std::move(pages), path = std::move(path)] {
-    finish_again(replan, *answer, pages, path, snapshot);
-  });
+  done->answer =
+      answer_of(planner_, *done->snapshot, *replan.request, core_.config.deadline, replan.deadline);
+  done->path = watchable_path(*replan.request, done->answer, core_.config.deadline);
+  done->pages = encode_answer(done->answer, core_.config.answer_pages);
+  core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
 }
 
-void PlanService::finish_again(const Replan& replan, const plan_response_t& answer, Pages pages,
-                               std::shared_ptr<const planning::WatchedPath> path,
-                               std::shared_ptr<const scene::Snapshot> snapshot) {
+void PlanService::finish_again(const Replan& replan, const Replanned& done) {
+  const Clock::time_point now = Clock::now();
+  const WatchableAnswer watched{replan.key, replan.request, done.path, done.snapshot,
+                                AnswerQuality::of(done.answer)};
+  if (replan.for_offer) {
+    if (done.path) {
+      watches_.offer(watched, done.pages, now);
+    } else {
+      watches_.no_offer(replan.key, now);
+    }
+    return;
+  }
   --replanning_;
   if (!watches_.ended(replan.key)) return;
   core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
                                                      {"request", replan.key.request_id},
-                                                     {"scene", answer.scene},
-                                                     {"revision", answer.scene_revision},
-                                                     {"status", status_name(answer.status)},
-                                                     {"message", answer.message}});
-  cache_.replace(replan.key, digest_of(*replan.request), pages);
-  send(replan.key, std::move(pages));
-  if (path) {
-    watches_.begin({replan.key, replan.request, std::move(path), std::move(snapshot)},
-                   Clock::now());
+                                                     {"scene", done.answer.scene},
+                                                     {"revision", done.answer.scene_revision},
+                                                     {"status", status_name(done.answer.status)},
+                                                     {"message", done.answer.message}});
+  cache_.replace(replan.key, digest_of(*replan.request), done.pages);
+  send(replan.key, done.pages);
+  if (done.path) {
+    watches_.begin(watched, now);
   } else {
-    watches_.answered(replan.key, answer.scene_revision, Clock::now());
+    watches_.answered(replan.key, done.answer.scene_revision, now);
   }
 }
 
+// The client has its pages, but may have lost them since, and one that asks for the request gets
+// them.
+void PlanService::put_in_force(Watches::Taken taken, Clock::time_point now) {
+  const RequestKey& key = taken.answer.key;
+  cache_.replace(key, digest_of(*taken.answer.request), taken.pages);
+  send(key, std::move(taken.pages));
+  watches_.begin(taken.answer, now);
+}
+
 void PlanService::give_up(const Replan& replan) {
+  if (replan.for_offer) {
+    watches_.not_improved(replan.key, Clock::now());
+    return;
+  }
   --replanning_;
   watches_.not_planned(replan.key, Clock::now());
 }

@@ -48,6 +48,7 @@ class PlanService {
  private:
   struct Pending;
   struct Replan;
+  struct Replanned;
 
   template <class Message>
   std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
@@ -66,12 +67,14 @@ class PlanService {
                        std::string_view message);
   void send(const RequestKey& key, Pages pages, Outbox::Kind kind = Outbox::Kind::kAnswer);
 
-  void watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path);
+  void watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
+             const plan_response_t& answer);
   void plan_broken(Clock::time_point now);
+  void plan_improvable(Clock::time_point now);
+  void put_in_force(Watches::Taken taken, Clock::time_point now);
+  void plan_again(const Watches::Request& watched, bool for_offer);
   void run_again(const Replan& replan);
-  void finish_again(const Replan& replan, const plan_response_t& answer, Pages pages,
-                    std::shared_ptr<const planning::WatchedPath> path,
-                    std::shared_ptr<const scene::Snapshot> snapshot);
+  void finish_again(const Replan& replan, const Replanned& done);
   void give_up(const Replan& replan);
 
   Core& core_;

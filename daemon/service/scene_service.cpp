@@ -247,6 +247,7 @@ Pages SceneService::send(scene_response_t answer) {
   const std::string channel = core_.channels.scene_response(answer.client_id);
   auto pages = std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer));
   const bool is_refused = answer.status == scene_response_t::STATUS_OVERLOADED ||
+                          answer.status == scene_response_t::STATUS_STOPPING ||
                           answer.status == scene_response_t::STATUS_MALFORMED;
   if (core_.outbox.add(channel, pages, {},
                        is_refused ? Outbox::Kind::kRefusal : Outbox::Kind::kAnswer)) {
@@ -265,14 +266,17 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
   forget(key_of(request));
   cache_.forget(key_of(request));
   ++core_.counters.overloaded;
+  const bool is_stopping = why == Refusal::kStopping;
   const std::string_view message =
-      why == Refusal::kStopping ? "the daemon is stopping"
-                                : "too many changes of scenes wait (scenes.waiting_changes and "
-                                  "scenes.waiting_changes_of_a_client); send it again later";
+      is_stopping ? "the daemon is stopping; nothing was changed"
+                  : "too many changes of scenes wait (scenes.waiting_changes and "
+                    "scenes.waiting_changes_of_a_client); send it again later";
   core_.limited_log.refused.write(
       "refused scene request",
       {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
-  send(plain_scene_answer(request, scene_response_t::STATUS_OVERLOADED, message));
+  std::int32_t status = scene_response_t::STATUS_OVERLOADED;
+  if (is_stopping) status = scene_response_t::STATUS_STOPPING;
+  send(plain_scene_answer(request, status, message));
 }
 
 void SceneService::on_upload(std::span<const std::uint8_t> message) {

@@ -14,6 +14,9 @@ namespace {
 /// Nothing wakes the loop when a worker falls idle after its answer, so a stop looks again.
 constexpr std::chrono::milliseconds kDrainLook{5};
 
+/// Between two questions whether another daemon serves.
+constexpr std::chrono::milliseconds kAskPause{50};
+
 /// So long a stop waits for changes of scenes: they end with the daemon, and a large one may take
 /// minutes.
 constexpr std::chrono::milliseconds kDrainChanges{500};
@@ -29,6 +32,7 @@ Service::Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig 
                  Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks)
     : hooks_(std::move(hooks)),
       core_(transport, scenes, std::move(config), std::move(log)),
+      claim_(core_),
       watches_(core_, scenes),
       plans_(core_, watches_, std::move(planner)),
       occupancy_(core_),
@@ -41,7 +45,10 @@ Service::~Service() {
 }
 
 RunOutcome Service::run() {
-  if (!subscribe()) return RunOutcome::kNotSubscribed;
+  if (!claim_prefix() || !subscribe()) return RunOutcome::kNotSubscribed;
+  if (broken_) return RunOutcome::kTransportBroken;
+  if (claim_.rival()) return yield();
+  claim_.serve(Clock::now());
   heartbeat(Clock::now());
   core_.log->info("ready");
   if (hooks_.ready) hooks_.ready();
@@ -50,6 +57,7 @@ RunOutcome Service::run() {
     if (now >= next_heartbeat_) heartbeat(now);
     if (now >= next_alive_) tell_alive(now);
     turn(std::min(next_heartbeat_, next_alive_) - now);
+    if (claim_.rival()) return yield();
   }
   if (broken_) return RunOutcome::kTransportBroken;
   return drain();
@@ -58,6 +66,38 @@ RunOutcome Service::run() {
 void Service::request_stop() noexcept {
   stop_.store(true);
   core_.transport.wake();
+}
+
+// Before all other subscriptions: nothing else is taken before it is clear who answers.
+bool Service::claim_prefix() {
+  const auto take = [this](std::span<const std::uint8_t> message) { claim_.on_message(message); };
+  const std::string channel = core_.channels.claim();
+  if (!core_.transport.subscribe(channel, core_.config.subscription_capacity,
+                                 guarded(take, channel))) {
+    return false;
+  }
+  const Clock::time_point end = Clock::now() + core_.config.claim_window;
+  Clock::time_point next = Clock::now();
+  while (!stop_.load() && !broken_ && !claim_.rival()) {
+    const Clock::time_point now = Clock::now();
+    if (now >= end) break;
+    if (now >= next) {
+      claim_.ask();
+      next = now + kAskPause;
+    }
+    if (!core_.transport.poll(in_milliseconds(std::min(next, end) - now))) broken_ = true;
+  }
+  return true;
+}
+
+RunOutcome Service::yield() {
+  core_.log->error("another daemon serves with this prefix",
+                   {{"prefix", core_.config.prefix},
+                    {"other", *claim_.rival()},
+                    {"hint",
+                     "stop it, give this one another --prefix, or let both serve with "
+                     "--share-prefix (lcm.share_prefix)"}});
+  return RunOutcome::kPrefixTaken;
 }
 
 bool Service::subscribe() {
@@ -98,6 +138,7 @@ void Service::turn(Clock::duration longest_wait) {
 
 RunOutcome Service::drain() {
   if (hooks_.stopping) hooks_.stopping();
+  claim_.leave();
   const std::vector<Job> waiting = core_.workers.close();
   core_.log->info("stopping",
                   {{"being_planned", core_.workers.running()}, {"refused", waiting.size()}});

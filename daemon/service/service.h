@@ -12,6 +12,7 @@
 #include "daemon/service/core.h"
 #include "daemon/service/occupancy_service.h"
 #include "daemon/service/plan_service.h"
+#include "daemon/service/prefix_claim.h"
 #include "daemon/service/scene_service.h"
 #include "daemon/service/transport.h"
 #include "daemon/service/watches.h"
@@ -22,6 +23,7 @@ namespace camway::service {
 enum class RunOutcome {
   kDrained,         ///< stopped on request, everything that was being planned was answered
   kAbandoned,       ///< the same, but threads still plan, or change a scene, for nobody
+  kPrefixTaken,     ///< another daemon serves with the prefix, which was logged
   kNotSubscribed,   ///< the transport took no subscription; nothing was served
   kTransportBroken  ///< the transport failed while serving
 };
@@ -53,8 +55,8 @@ class Service {
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
-  /// Serves until `request_stop`. Logs "ready" and publishes a first status when subscriptions are
-  /// in place. To be called once.
+  /// Serves until `request_stop`, unless another daemon does: see `ServiceConfig::claim_window`.
+  /// Logs "ready" and publishes a first status when subscriptions are in place. To be called once.
   RunOutcome run();
 
   /// From any thread: begins the stop. What is being planned is finished and answered, within the
@@ -64,6 +66,8 @@ class Service {
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool claim_prefix();
+  RunOutcome yield();
   bool subscribe();
   void turn(Clock::duration longest_wait);
   RunOutcome drain();
@@ -75,6 +79,7 @@ class Service {
 
   const ServiceHooks hooks_;
   Core core_;
+  PrefixClaim claim_;
   Watches watches_;
   PlanService plans_;
   OccupancyService occupancy_;

@@ -20,6 +20,11 @@ constexpr milliseconds kFirstPause{200};
 constexpr milliseconds kLongestPause{5000};
 /// How long planning waits after a full queue refused it.
 constexpr milliseconds kPlanAgainIn{500};
+/// A better path is not looked for before a change had so long to be followed by another.
+constexpr milliseconds kSettle{100};
+constexpr milliseconds kLongestImprovePause{30'000};
+/// Paths that were watched before, of each that is.
+constexpr std::size_t kFormers = 2;
 
 std::chrono::steady_clock::duration lease_of(double lease_s, milliseconds most) {
   const std::chrono::duration<double> asked(lease_s);
@@ -33,6 +38,15 @@ path_state_t unwatched(std::int64_t request_id, std::int8_t state) {
   none.request_id = request_id;
   none.state = state;
   return none;
+}
+
+/// Of all intervals together.
+double length_s(const std::vector<collision::CollisionInterval>& intervals) {
+  double length_s = 0.0;
+  for (const collision::CollisionInterval& interval : intervals) {
+    length_s += interval.t_end_s - interval.t_begin_s;
+  }
+  return length_s;
 }
 
 /// Numbers of another daemon are not taken for ours: it begins anywhere.
@@ -56,7 +70,10 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
       answer.path->memory_bytes() + static_cast<std::size_t>(answer.request->getEncodedSize());
   auto position = watches_.find(key);
   const bool is_new = position == watches_.end();
-  if (!is_new) bytes_ -= position->second.bytes;
+  if (!is_new) {
+    bytes_ -= position->second.bytes;
+    make_room(position->second, bytes);
+  }
   if (const std::string limit = limit_hit(key, is_new, bytes); !limit.empty()) {
     if (!is_new) {
       bytes_ += position->second.bytes;
@@ -78,8 +95,7 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
         lease_of(answer.request->watch_lease_s, core_.config.watches.longest_lease);
     position->second.until = now + position->second.lease;
   } else {
-    checker_.forget(position->second.id, position->second.answer.request->scene);
-    keys_.erase(position->second.id);
+    keep_former(position->second, bytes);
   }
   Watch& watch = position->second;
   watch.answer = answer;
@@ -161,6 +177,7 @@ void Watches::apply(const watch_t& message, Clock::time_point now) {
       watch.lease = lease_of(message.lease_s, core_.config.watches.longest_lease);
     }
     watch.until = now + watch.lease;
+    apply_offers(watch, path);
     watch.is_known = path.known_serial == watch.serial;
     if (!watch.is_known) {
       report.add(state_of(watch), watch.collisions);
@@ -198,11 +215,13 @@ Watches::Clock::time_point Watches::next_tick(Clock::time_point now) const {
   Clock::time_point next = due_.empty() ? Clock::time_point::max() : due_.begin()->first;
   const auto later = broken_.upper_bound({now, RequestKey{}});
   if (later != broken_.end()) next = std::min(next, later->first);
+  const auto improvable = improvable_.upper_bound({now, RequestKey{}});
+  if (improvable != improvable_.end()) next = std::min(next, improvable->first);
   return next;
 }
 
-std::vector<Watches::Broken> Watches::take_broken(std::size_t most, Clock::time_point now) {
-  std::vector<Broken> taken;
+std::vector<Watches::Request> Watches::take_broken(std::size_t most, Clock::time_point now) {
+  std::vector<Request> taken;
   while (taken.size() < most && !broken_.empty() && broken_.begin()->first <= now) {
     const RequestKey key = broken_.begin()->second;
     broken_.erase(broken_.begin());
@@ -243,7 +262,15 @@ void Watches::answered(const RequestKey& key, std::int64_t answer_revision, Cloc
 void Watches::note(const WatchChecker::News& news, Clock::time_point now) {
   for (const WatchChecker::Verdict& verdict : news.verdicts) {
     const auto key = keys_.find(verdict.id);
-    if (key != keys_.end()) note(watches_.at(key->second), verdict, news.revision, now);
+    if (key == keys_.end()) continue;
+    Watch& watch = watches_.at(key->second);
+    if (verdict.id == watch.id) {
+      note(watch, verdict, news.revision, now);
+    } else if (watch.offer && verdict.id == watch.offer->id) {
+      note_of_offer(watch, verdict, now);
+    } else {
+      note_of_former(watch, verdict, now);
+    }
   }
   if (!news.is_last) return;
   if (news.revision == 0) {
@@ -264,6 +291,7 @@ void Watches::note(Watch& watch, const WatchChecker::Verdict& verdict, std::uint
   if (is_first && is_free) return;  // it was told so when it began
   if (was_free && !is_free) {
     ++core_.counters.broken_paths;
+    withdraw_offer(watch);  // what is planned now is as good
     core_.limited_log.watches.write("watched path collides",
                                     {{"client", watch.answer.key.client_id},
                                      {"request", watch.answer.key.request_id},
@@ -274,6 +302,152 @@ void Watches::note(Watch& watch, const WatchChecker::Verdict& verdict, std::uint
   make_news(watch, now);
   // Without its scene there is nothing to plan in.
   if (!is_free && revision != 0 && watch.planning == Planning::kNot) plan_at(watch, now);
+}
+
+void Watches::note_of_former(Watch& watch, const WatchChecker::Verdict& verdict,
+                             Clock::time_point now) {
+  const auto former = std::ranges::find(watch.formers, verdict.id, &Former::id);
+  const double before_s = std::exchange(former->colliding_s, length_s(verdict.collisions));
+  if (former->colliding_s < (1.0 - kBetterShare) * before_s) improve_soon(watch, now);
+}
+
+void Watches::note_of_offer(Watch& watch, const WatchChecker::Verdict& verdict,
+                            Clock::time_point now) {
+  const bool was_told = std::exchange(watch.offer->is_checked, true);
+  if (verdict.collisions.empty()) {
+    send_offer(watch);
+  } else {
+    withdraw_offer(watch);
+    if (!was_told) return;
+  }
+  make_news(watch, now);
+}
+
+void Watches::send_offer(const Watch& watch) {
+  core_.outbox.add(core_.channels.plan_offer(watch.answer.key.client_id), watch.offer->pages);
+}
+
+void Watches::withdraw_offer(Watch& watch) {
+  if (!watch.offer) return;
+  checker_.forget(watch.offer->id, watch.answer.request->scene);
+  keys_.erase(watch.offer->id);
+  bytes_ -= watch.offer->bytes;
+  watch.offer.reset();
+}
+
+void Watches::forget_former(Watch& watch, std::size_t which) {
+  const Former& former = watch.formers[which];
+  checker_.forget(former.id, watch.answer.request->scene);
+  keys_.erase(former.id);
+  bytes_ -= former.bytes;
+  watch.formers.erase(watch.formers.begin() + static_cast<std::ptrdiff_t>(which));
+}
+
+// What only might lead to a better path goes first.
+void Watches::make_room(Watch& watch, std::size_t bytes) {
+  withdraw_offer(watch);
+  if (bytes_ + bytes <= core_.config.watches.bytes) return;
+  while (!watch.formers.empty()) forget_former(watch, 0);
+}
+
+/// The path that `watch` has, and that another of `next_bytes` takes the place of, stays with the
+/// checker if it may become better than that.
+void Watches::keep_former(Watch& watch, std::size_t next_bytes) {
+  // Than those that are free, a plan of today is no worse.
+  for (std::size_t i = watch.formers.size(); i-- > 0;) {
+    if (watch.formers[i].colliding_s == 0.0) forget_former(watch, i);
+  }
+  const std::size_t bytes = watch.answer.path->memory_bytes();
+  if (watch.collisions.empty() || bytes_ + next_bytes + bytes > core_.config.watches.bytes) {
+    checker_.forget(watch.id, watch.answer.request->scene);
+    keys_.erase(watch.id);
+    return;
+  }
+  if (watch.formers.size() == kFormers) forget_former(watch, kFormers - 1);
+  watch.formers.push_back({watch.id, bytes, length_s(watch.collisions)});
+  bytes_ += bytes;
+}
+
+void Watches::improve_soon(Watch& watch, Clock::time_point now) {
+  if (watch.improve_at) return;
+  watch.improve_at = std::max<Clock::time_point>(now + kSettle, watch.improve_not_before);
+  improvable_.insert({*watch.improve_at, watch.answer.key});
+}
+
+std::optional<Watches::Request> Watches::take_improvable(Clock::time_point now) {
+  while (!improving_ && !improvable_.empty() && improvable_.begin()->first <= now) {
+    const RequestKey key = improvable_.begin()->second;
+    improvable_.erase(improvable_.begin());
+    Watch& watch = watches_.at(key);
+    watch.improve_at.reset();
+    // One that collides is planned again anyway.
+    if (!watch.collisions.empty() || watch.planning != Planning::kNot) continue;
+    improving_ = key;
+    return Request{key, watch.answer.request};
+  }
+  return std::nullopt;
+}
+
+void Watches::offer(const WatchableAnswer& answer, Pages pages, Clock::time_point now) {
+  no_offer(answer.key, now);
+  const auto position = watches_.find(answer.key);
+  if (position == watches_.end()) return;
+  Watch& watch = position->second;
+  if (!watch.collisions.empty() || watch.planning != Planning::kNot) return;
+  const AnswerQuality& best = watch.offer ? watch.offer->answer.quality : watch.answer.quality;
+  const bool is_newer =
+      static_cast<std::int64_t>(answer.proved_in->revision) > watch.answer_revision;
+  std::size_t bytes = answer.path->memory_bytes();
+  for (const Bytes& page : *pages) bytes += page.size();
+  if (!is_newer || !is_better(answer.quality, best, answer.request->objective) ||
+      bytes_ + bytes > core_.config.watches.bytes) {
+    return;
+  }
+  withdraw_offer(watch);
+  watch.improve_pause = kFirstImprovePause;
+  watch.offer = Offer{answer, std::move(pages), next_id_++, bytes};
+  bytes_ += bytes;
+  keys_.emplace(watch.offer->id, answer.key);
+  checker_.watch(watch.offer->id, answer.request->scene, answer.path, answer.proved_in);
+  core_.limited_log.watches.write("better path on offer",
+                                  {{"client", answer.key.client_id},
+                                   {"request", answer.key.request_id},
+                                   {"scene", answer.request->scene},
+                                   {"revision", answer.proved_in->revision}});
+}
+
+void Watches::no_offer(const RequestKey& key, Clock::time_point now) {
+  improving_.reset();
+  const auto position = watches_.find(key);
+  if (position == watches_.end()) return;
+  Watch& watch = position->second;
+  watch.improve_not_before = now + watch.improve_pause;
+  watch.improve_pause = std::min<Clock::duration>(2 * watch.improve_pause, kLongestImprovePause);
+}
+
+void Watches::not_improved(const RequestKey& key, Clock::time_point now) {
+  no_offer(key, now);
+  const auto position = watches_.find(key);
+  if (position != watches_.end()) improve_soon(position->second, now);
+}
+
+/// What a client says of an offer.
+void Watches::apply_offers(Watch& watch, const watched_path_t& path) {
+  if (!watch.offer || !watch.offer->is_checked) return;
+  const auto revision = static_cast<std::int64_t>(watch.offer->answer.proved_in->revision);
+  if (path.taken_offer == revision) {
+    taken_.push_back({watch.offer->answer, watch.offer->pages});
+    withdraw_offer(watch);
+  } else if (path.wanted_offer == revision) {
+    send_offer(watch);
+  }
+}
+
+std::vector<Watches::Taken> Watches::take_taken() {
+  // A watch may have ended since.
+  std::erase_if(taken_,
+                [this](const Taken& taken) { return !watches_.contains(taken.answer.key); });
+  return std::exchange(taken_, {});
 }
 
 void Watches::make_news(Watch& watch, Clock::time_point now) {
@@ -296,7 +470,10 @@ void Watches::schedule(Watch& watch) {
 }
 
 void Watches::end(WatchMap::iterator position) {
-  const Watch& watch = position->second;
+  Watch& watch = position->second;
+  withdraw_offer(watch);
+  while (!watch.formers.empty()) forget_former(watch, 0);
+  if (watch.improve_at) improvable_.erase({*watch.improve_at, position->first});
   due_.erase({watch.due, position->first});
   checker_.forget(watch.id, watch.answer.request->scene);
   keys_.erase(watch.id);
@@ -319,6 +496,9 @@ path_state_t Watches::state_of(const Watch& watch) const {
   }
   state.scene_revision = static_cast<std::int64_t>(revision);
   state.answer_revision = watch.answer_revision;
+  if (watch.offer && watch.offer->is_checked) {
+    state.offer_revision = static_cast<std::int64_t>(watch.offer->answer.proved_in->revision);
+  }
   return state;
 }
 

@@ -96,6 +96,31 @@ TEST(Retry, SendsAgainAtOnceToADaemonThatCannotHaveHeard) {
   EXPECT_EQ(retry.next(now), Action::kWait) << "once";
 }
 
+TEST(Retry, GivesUpADaemonThatEndsUnlessAnotherIsHeard) {
+  Retry::Rules rules = kRules;
+  rules.successor_wait_s = 1.5;
+  Retry retry(rules, kStart + seconds(100), 1);
+  EXPECT_EQ(retry.next(kStart), Action::kSend);
+  retry.note_stopping(kStart + milliseconds(200));
+  retry.note_stopping(kStart + milliseconds(900));  // again, as the question was repeated
+  Clock::time_point now = kStart + milliseconds(200);
+  while (retry.next(now) != Action::kSilence) now = retry.wake();
+  EXPECT_EQ(now, kStart + milliseconds(1700));
+
+  Retry lucky(rules, kStart + seconds(100), 1);
+  EXPECT_EQ(lucky.next(kStart), Action::kSend);
+  lucky.note_stopping(kStart + milliseconds(200));
+  lucky.note_heartbeat(0.1, kStart + milliseconds(1000));
+  EXPECT_EQ(lucky.next(kStart + milliseconds(1000)), Action::kSend);
+  EXPECT_EQ(lucky.next(kStart + milliseconds(1750)), Action::kWait);
+
+  Retry patient(kRules, kStart + seconds(100), 1);
+  EXPECT_EQ(patient.next(kStart), Action::kSend);
+  patient.note_stopping(kStart + milliseconds(200));
+  EXPECT_EQ(patient.next(kStart + milliseconds(900)), Action::kWait);
+  EXPECT_EQ(patient.next(kStart + seconds(2)), Action::kSend) << "as long as the retries last";
+}
+
 TEST(Retry, AnotherQuestionIsSentAtOnceAndAsPatiently) {
   Retry retry(kRules, kStart + seconds(100), 1);
   Clock::time_point now = kStart;

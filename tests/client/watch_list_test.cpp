@@ -43,6 +43,20 @@ class WatchListTest : public testing::Test {
     list_.add(request, [this](const WatchEvent& event) { events_.push_back(event); });
   }
 
+  /// Steps as the engine does, so long, and a heartbeat each second if `beats`.
+  void live(Clock::duration how_long, bool beats) {
+    for (Clock::duration passed{}; passed < how_long; passed += milliseconds(50)) {
+      step_at(milliseconds(50));
+      if (beats && passed % seconds(1) == Clock::duration::zero()) {
+        list_.take_heartbeat(1000.0, now_);
+      }
+    }
+  }
+
+  std::ptrdiff_t told(Kind kind) const {
+    return std::ranges::count(events_, kind, &WatchEvent::kind);
+  }
+
   static Bytes answer(std::int64_t revision, std::int32_t status = plan_response_t::STATUS_OK) {
     plan_response_t page{};
     page.client_id = "tester";
@@ -69,7 +83,8 @@ class WatchListTest : public testing::Test {
   }
 
   void report(std::int64_t serial, std::int8_t state, std::int64_t revision,
-              std::int64_t answer_revision, std::int64_t answers = 0) {
+              std::int64_t answer_revision, std::int64_t answers = 0,
+              std::int64_t offer_revision = 0) {
     watch_report_t message{};
     message.client_id = "tester";
     message.request_id = answers;
@@ -79,6 +94,7 @@ class WatchListTest : public testing::Test {
     path.state = state;
     path.scene_revision = revision;
     path.answer_revision = answer_revision;
+    path.offer_revision = offer_revision;
     message.paths = {path};
     message.num_paths = 1;
     if (state == path_state_t::BROKEN) {
@@ -99,6 +115,13 @@ class WatchListTest : public testing::Test {
       EXPECT_EQ(message.channel, "CAMWAY_WATCH");
       messages.push_back(wire::decode<watch_t>(message.bytes).message.value());
     }
+    return messages;
+  }
+
+  /// The same, but for questions whether the daemon lives.
+  std::vector<watch_t> sent_renewals() {
+    std::vector<watch_t> messages = sent();
+    std::erase_if(messages, [](const watch_t& message) { return message.num_paths == 0; });
     return messages;
   }
 
@@ -251,11 +274,11 @@ TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
   step_at(seconds(9));
   EXPECT_TRUE(sent().empty());
   step_at(seconds(2));
-  ASSERT_EQ(sent().size(), 1u) << "a third of the lease is over";
+  ASSERT_EQ(sent_renewals().size(), 1u) << "a third of the lease is over";
   int renewals = 0;
   for (int i = 0; i < 600; ++i) {
     step_at(milliseconds(100));
-    renewals += static_cast<int>(sent().size());
+    renewals += static_cast<int>(sent_renewals().size());
   }
   EXPECT_GT(renewals, 5);
   EXPECT_LT(renewals, 20) << "less and less often";
@@ -268,7 +291,7 @@ TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
   step_at(seconds(1));
   sent();
   step_at(seconds(8));
-  EXPECT_TRUE(sent().empty());
+  EXPECT_TRUE(sent_renewals().empty());
 }
 
 TEST_F(WatchListTest, TellsThatALostPathIsWatchedAgain) {
@@ -315,6 +338,150 @@ TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
   list_.take_heartbeat(2.0, now_ + seconds(1));
   step_at(milliseconds(100));
   EXPECT_TRUE(sent().empty()) << "once";
+}
+
+TEST_F(WatchListTest, ThreeMissedHeartbeatsAreToldOnceWithTheReason) {
+  begin();
+  live(seconds(20), /*beats=*/true);
+  EXPECT_EQ(told(Kind::kLost), 0);
+  const Clock::time_point silent_since = now_;
+  while (told(Kind::kLost) == 0) live(milliseconds(50), /*beats=*/false);
+  // The last heartbeat came up to a second before.
+  EXPECT_GT(now_ - silent_since, seconds(2));
+  EXPECT_LE(now_ - silent_since, milliseconds(3500));
+  EXPECT_EQ(events_.back().status, Status::kNoDaemon);
+  EXPECT_NE(events_.back().error.find("fell silent"), std::string::npos) << events_.back().error;
+  live(seconds(90), /*beats=*/false);
+  EXPECT_EQ(told(Kind::kLost), 1) << "once";
+}
+
+TEST_F(WatchListTest, ADaemonThatComesBackIsAskedAtOnceAndToldOnce) {
+  begin();
+  live(seconds(20), /*beats=*/false);
+  ASSERT_EQ(told(Kind::kLost), 1);
+  sent();
+  list_.take_heartbeat(1000.0, now_);
+  step_at(milliseconds(50));
+  const std::vector<watch_t> renewals = sent();
+  ASSERT_EQ(renewals.size(), 1u);
+  ASSERT_EQ(renewals[0].num_paths, 1);
+  report(100, path_state_t::FREE, 3, 3, renewals[0].request_id);
+  EXPECT_EQ(events_.back().kind, Kind::kWatched);
+  live(seconds(5), /*beats=*/true);
+  EXPECT_EQ(told(Kind::kWatched), 1);
+  EXPECT_EQ(told(Kind::kLost), 1);
+}
+
+TEST_F(WatchListTest, AnswersToQuestionsCountWhereHeartbeatsDoNotCome) {
+  begin();
+  std::int64_t asked = 0;
+  for (int i = 0; i < 2000; ++i) {
+    step_at(milliseconds(50));
+    for (const watch_t& message : sent()) {
+      ++asked;
+      watch_report_t nothing_new{};
+      nothing_new.client_id = "tester";
+      nothing_new.request_id = message.request_id;
+      list_.take_report(wire::encode(nothing_new), now_);
+    }
+  }
+  EXPECT_EQ(told(Kind::kLost), 0);
+  EXPECT_GT(asked, 50);
+  EXPECT_LT(asked, 100) << "not each time that it is looked";
+}
+
+TEST_F(WatchListTest, TimeInWhichNobodyListenedIsNoSilence) {
+  begin();
+  live(seconds(5), /*beats=*/true);
+  step_at(seconds(9));  // suspended, say, or in a slow handler
+  EXPECT_EQ(told(Kind::kLost), 0);
+  list_.take_heartbeat(1000.0, now_);
+  live(seconds(5), /*beats=*/true);
+  EXPECT_EQ(told(Kind::kLost), 0);
+}
+
+TEST_F(WatchListTest, ADaemonThatWasNeverHeardIsToldOnce) {
+  while (events_.empty()) live(milliseconds(50), /*beats=*/false);
+  EXPECT_EQ(events_[0].kind, Kind::kLost);
+  EXPECT_EQ(events_[0].status, Status::kNoDaemon);
+  EXPECT_NE(events_[0].error.find("no daemon was heard"), std::string::npos) << events_[0].error;
+  for (int i = 0; i < 4; ++i) {
+    calls_.back()->finish(Outcome::kSilence);
+    live(seconds(20), /*beats=*/false);
+  }
+  EXPECT_GT(calls_.size(), 2u) << "it is asked for on and on";
+  EXPECT_EQ(events_.size(), 1u);
+}
+
+TEST_F(WatchListTest, ABetterPathIsOfferedAndTakenOnlyIfAskedFor) {
+  begin();
+  report(101, path_state_t::BROKEN, 4, 3);
+  list_.take_answer(kId, answer(4));
+  report(102, path_state_t::FREE, 4, 4);
+  list_.take_offer(kId, answer(5));
+  EXPECT_EQ(told(Kind::kBetter), 0) << "not before it is said to be on offer";
+  report(103, path_state_t::FREE, 4, 4, 0, 5);
+  report(103, path_state_t::FREE, 4, 4, 0, 5);
+  list_.take_offer(kId, answer(5));
+  ASSERT_EQ(told(Kind::kBetter), 1);
+  EXPECT_EQ(events_.back().scene_revision, 5);
+  EXPECT_TRUE(events_.back().answer->ok());
+  const auto taken = [&](const std::vector<watch_t>& messages) {
+    std::ptrdiff_t count = 0;
+    for (const watch_t& message : messages) {
+      for (const watched_path_t& path : message.paths) count += path.taken_offer == 5 ? 1 : 0;
+    }
+    return count;
+  };
+  live(seconds(20), /*beats=*/true);
+  EXPECT_EQ(taken(sent()), 0) << "it is not forced";
+
+  list_.take_better(kId);
+  step_at({});
+  EXPECT_EQ(taken(sent()), 1);
+  live(seconds(3), /*beats=*/true);
+  EXPECT_GE(taken(sent()), 2) << "until it is answered";
+  list_.take_answer(kId, answer(5));
+  report(104, path_state_t::FREE, 5, 5);
+  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().scene_revision, 5);
+  live(seconds(20), /*beats=*/true);
+  EXPECT_EQ(taken(sent()), 0);
+  EXPECT_EQ(told(Kind::kWithdrawn), 0);
+}
+
+TEST_F(WatchListTest, TheLostPagesOfAnOfferAreAskedFor) {
+  begin();
+  report(103, path_state_t::FREE, 4, 3, 0, 5);
+  step_at(milliseconds(100));
+  EXPECT_EQ(sent().size(), 1u) << "what is known";
+  live(seconds(1), /*beats=*/true);
+  const std::vector<watch_t> questions = sent();
+  ASSERT_FALSE(questions.empty());
+  EXPECT_EQ(questions[0].paths.at(0).wanted_offer, 5);
+  EXPECT_EQ(questions[0].paths.at(0).taken_offer, 0);
+  list_.take_offer(kId, answer(5));
+  EXPECT_EQ(told(Kind::kBetter), 1);
+  live(seconds(3), /*beats=*/true);
+  EXPECT_TRUE(sent().empty());
+}
+
+TEST_F(WatchListTest, AnOfferThatIsWithdrawnIsToldIfItWas) {
+  begin();
+  report(103, path_state_t::FREE, 5, 3, 0, 5);
+  report(104, path_state_t::FREE, 6, 3, 0, 0);
+  EXPECT_EQ(told(Kind::kWithdrawn), 0) << "nobody heard of it";
+  report(105, path_state_t::FREE, 7, 3, 0, 7);
+  list_.take_offer(kId, answer(7));
+  ASSERT_EQ(events_.back().kind, Kind::kBetter);
+  report(106, path_state_t::FREE, 8, 3, 0, 0);
+  EXPECT_EQ(events_.back().kind, Kind::kWithdrawn);
+  EXPECT_EQ(events_.back().scene_revision, 8);
+  list_.take_better(kId);
+  step_at({});
+  for (const watch_t& message : sent()) {
+    for (const watched_path_t& path : message.paths) EXPECT_EQ(path.taken_offer, 0);
+  }
 }
 
 TEST_F(WatchListTest, ARefusalIsToldOnceAndTheAnswerAgainOnceItIsWatched) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <camway/cancel_t.hpp>
+#include <camway/claim_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
@@ -130,6 +131,7 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
     ++right;
   }
   if (decoded<cancel_t>(bytes)) ++right;
+  if (decoded<claim_t>(bytes)) ++right;
   if (decoded<missing_pages_t>(bytes)) ++right;
   if (decoded<watch_t>(bytes)) ++right;
   if (decoded<watch_report_t>(bytes)) ++right;

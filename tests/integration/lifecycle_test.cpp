@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <fstream>
 #include <future>
 #include <memory>
 #include <string>
@@ -17,6 +18,8 @@
 
 namespace camway::integration {
 namespace {
+
+using testing::HasSubstr;
 
 /// Counts the messages that pass by on a channel.
 class Counter {
@@ -152,6 +155,64 @@ TEST_F(LifecycleTest, SigtermEndsABusyDaemonCleanlyAndAnswersWhatItPlans) {
   // Who was not answered is answered by the next daemon: nobody has to ask twice by hand.
   start_daemon();
   for (auto& client : clients) EXPECT_EQ(client->wait(), 0) << client->output();
+}
+
+TEST_F(LifecycleTest, AChangeThatWaitsEndsWithTheDaemonAndSaysSo) {
+  std::ofstream(file("camwayd.toml")) << "[scenes]\nmirror_voxels = 1000000000000\n";
+  start_daemon({"--config", file("camwayd.toml")});
+  ASSERT_TRUE(Client(patient()).load_scene("fine", {}, 0.002).ok());
+  Counter counter(wire::Channels{}.scene_request());
+  Process minutes(
+      {CAMWAY_BINARY, "scene", "add", "fine", "hangar", "--box", "14,14,14", "--timeout-s", "600"},
+      file("minutes.log"));
+  ASSERT_TRUE(eventually([&] { return counter.messages() > 0; })) << minutes.output();
+  daemon().signal(SIGTERM);
+  EXPECT_EQ(daemon().wait(), 0) << daemon().output();
+  EXPECT_EQ(minutes.wait(), 4) << minutes.output();
+  EXPECT_THAT(minutes.output(), HasSubstr("the daemon is stopping; nothing was changed"));
+}
+
+TEST_F(LifecycleTest, ASecondDaemonSaysSoAndEndsUnlessItMayShareThePrefix) {
+  start_daemon();
+  const std::vector<std::string> command{CAMWAYD_BINARY, "--scene", "maze=" + scene_file("maze")};
+  Process second(command, file("second.log"));
+  EXPECT_EQ(second.wait(), 1) << second.output();
+  EXPECT_THAT(second.output(), HasSubstr("another daemon serves with this prefix"));
+  EXPECT_THAT(second.output(), HasSubstr("process " + std::to_string(daemon().pid())));
+  EXPECT_THAT(second.output(), HasSubstr("--share-prefix"));
+  EXPECT_TRUE(daemon().running()) << "the one that was there first";
+
+  for (const std::string flags : {"--prefix=OTHER", "--share-prefix"}) {
+    std::vector<std::string> allowed = command;
+    allowed.push_back(flags);
+    Process third(allowed, file(flags + ".log"));
+    EXPECT_TRUE(eventually([&] { return third.output().find("ready") != std::string::npos; }))
+        << third.output();
+    third.signal(SIGTERM);
+    EXPECT_EQ(third.wait(), 0) << third.output();
+  }
+}
+
+TEST_F(LifecycleTest, OfTwoDaemonsThatStartAtOnceOneServes) {
+  const std::vector<std::string> command{CAMWAYD_BINARY, "--scene", "maze=" + scene_file("maze")};
+  Process one(command, file("one.log"));
+  Process two(command, file("two.log"));
+  ASSERT_TRUE(eventually([&] { return !one.running() || !two.running(); }));
+  Process& loser = one.running() ? two : one;
+  Process& winner = one.running() ? one : two;
+  EXPECT_EQ(loser.wait(), 1) << loser.output();
+  EXPECT_THAT(loser.output(), HasSubstr("another daemon serves with this prefix"));
+  EXPECT_TRUE(eventually([&] { return Client().status(0.5).ok(); })) << winner.output();
+  winner.signal(SIGTERM);
+  EXPECT_EQ(winner.wait(), 0) << winner.output();
+}
+
+TEST_F(LifecycleTest, ADaemonThatWasJustKilledIsNoObstacle) {
+  for (int i = 0; i < 3; ++i) {
+    start_daemon();  // which waits until it serves
+    kill_daemon();
+  }
+  start_daemon();
 }
 
 TEST_F(LifecycleTest, ClientsOnAnotherPrefixAreLeftAlone) {

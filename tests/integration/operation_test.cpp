@@ -263,7 +263,8 @@ TEST_F(CommandTest, DoctorFindsTheDaemonTheNetworkAndTheScenes) {
     EXPECT_EQ(severities[check], "good") << check;
   }
 
-  Process second({CAMWAYD_BINARY, "--scene", "maze=" + scene_file("maze")}, file("second.log"));
+  Process second({CAMWAYD_BINARY, "--share-prefix", "--scene", "maze=" + scene_file("maze")},
+                 file("second.log"));
   EXPECT_TRUE(eventually([&] {
     camway({"doctor"}, said);
     return said.find("more than one is heard") != std::string::npos;

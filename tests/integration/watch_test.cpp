@@ -145,6 +145,86 @@ TEST_F(WatchTest, ADaemonThatIsStartedAnewWatchesOn) {
   break_and_mend(painter, events, /*hears_all=*/true);
 }
 
+TEST_F(WatchTest, TheSilenceOfADaemonIsToldLongBeforeTheLease) {
+  start_daemon();
+  // What another one says is no sign of life.
+  Process other({CAMWAYD_BINARY, "--prefix", "OTHER", "--scene", "maze=" + scene_file("maze")},
+                file("other.log"));
+  Client painter(patient());
+  ASSERT_TRUE(painter.load_scene("yard", {}).ok());
+  ClientOptions options = patient();
+  options.watch_lease_s = 10'000.0;
+  Client watcher(options);
+  Events events;
+  watcher.watch(walk(), events.handler());
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, 0));
+  daemon().signal(SIGKILL);
+  ASSERT_TRUE(daemon().wait());
+  WatchEvent lost;
+  ASSERT_TRUE(events.wait_for(Kind::kLost, 0, &lost));
+  EXPECT_EQ(lost.status, Status::kNoDaemon);
+  EXPECT_THAT(lost.error, HasSubstr("the daemon fell silent"));
+  other.signal(SIGTERM);
+  EXPECT_EQ(other.wait(), 0) << other.output();
+}
+
+TEST_F(WatchTest, ADaemonThatStoodStillIsToldToBeBack) {
+  start_daemon();
+  Client painter(patient());
+  ASSERT_TRUE(painter.load_scene("yard", {}).ok());
+  Client watcher(patient());
+  Events events;
+  watcher.watch(walk(), events.handler());
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, 0));
+  daemon().signal(SIGSTOP);
+  ASSERT_TRUE(events.wait_for(Kind::kLost, 0));
+  daemon().signal(SIGCONT);
+  ASSERT_TRUE(events.wait_for(Kind::kWatched, 0));
+}
+
+TEST_F(WatchTest, OffersTheFirstPathBitForBitOnceItsObstacleIsGone) {
+  start_daemon();
+  Client watcher(patient());
+  Client painter(patient());
+  ASSERT_TRUE(painter.load_scene("yard", {}).ok());
+  Events events;
+  const std::int64_t id = watcher.watch(walk(), events.handler());
+  WatchEvent first;
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, 0, &first));
+  const SceneAnswer put = painter.put_object("yard", "crate", crate(), at(2.0, 0.0));
+  ASSERT_TRUE(put.ok()) << put.error;
+  WatchEvent detour;
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, put.scene.revision, &detour));
+  ASSERT_TRUE(detour.answer->ok()) << detour.answer->error;
+  const SceneAnswer removed = painter.remove_object("yard", "crate");
+  ASSERT_TRUE(removed.ok()) << removed.error;
+  WatchEvent better;
+  ASSERT_TRUE(events.wait_for(Kind::kBetter, removed.scene.revision, &better));
+  ASSERT_TRUE(better.answer->ok());
+  EXPECT_EQ(better.answer->path.segments().size(), first.answer->path.segments().size());
+  EXPECT_LT(better.answer->measures->largest_deviation_m,
+            detour.answer->measures->largest_deviation_m);
+  watcher.take_better(id);
+  WatchEvent taken;
+  ASSERT_TRUE(events.wait_for(Kind::kAnswer, removed.scene.revision, &taken));
+  for (double time_s = 0.0; time_s <= 4.0; time_s += 0.1) {
+    for (const WatchEvent* event : {&better, &taken}) {
+      EXPECT_EQ(event->answer->path.pose(time_s).position_m,
+                first.answer->path.pose(time_s).position_m);
+    }
+  }
+  // It is the one that is watched now.
+  const SceneAnswer back = painter.put_object("yard", "crate", crate(), at(2.0, 0.0));
+  EXPECT_TRUE(events.wait_for(Kind::kBroken, back.scene.revision));
+}
+
+TEST_F(WatchTest, TheCommandEndsWhereNoDaemonIsHeard) {
+  Process watch({CAMWAY_BINARY, "watch", "office", "--request", request_file("office-free-door")},
+                file("watch.log"));
+  EXPECT_EQ(watch.wait(), 4) << watch.output();
+  EXPECT_THAT(watch.output(), HasSubstr("no daemon was heard"));
+}
+
 TEST_F(WatchTest, TheCommandPrintsWhatHappens) {
   start_daemon();
   Client painter(patient());

@@ -499,6 +499,8 @@ watch_t random_message<watch_t>(Random& random) {
     watched_path_t path{};
     path.request_id = integer(random);
     path.known_serial = integer(random);
+    path.wanted_offer = integer(random);
+    path.taken_offer = integer(random);
     return path;
   });
   return message;
@@ -518,6 +520,7 @@ watch_report_t random_message<watch_report_t>(Random& random) {
     path.state = static_cast<std::int8_t>(below(random, 6));
     path.scene_revision = integer(random);
     path.answer_revision = integer(random);
+    path.offer_revision = integer(random);
     return path;
   });
   message.num_intervals = fill_list(message.intervals, length(random, 500), [&] {
@@ -592,6 +595,19 @@ envelope_t random_message<envelope_t>(Random& random) {
   for (std::uint8_t& byte : message.tag) byte = static_cast<std::uint8_t>(below(random, 256));
   message.num_bytes = fill_list(message.payload, length(random, wire::kMaxMessageBytes),
                                 [&] { return static_cast<std::uint8_t>(below(random, 256)); });
+  return message;
+}
+
+template <>
+claim_t random_message<claim_t>(Random& random) {
+  claim_t message{};
+  message.start_id = integer(random);
+  message.asked_by = integer(random);
+  message.utime = integer(random);
+  message.state = static_cast<std::int8_t>(below(random, 4));
+  message.served_s = number(random);
+  message.host = text(random, wire::kMaxHostBytes);
+  message.pid = small(random);
   return message;
 }
 

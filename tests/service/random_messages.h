@@ -5,6 +5,7 @@
 #include <random>
 
 #include <camway/cancel_t.hpp>
+#include <camway/claim_t.hpp>
 #include <camway/envelope_t.hpp>
 #include <camway/error_t.hpp>
 #include <camway/map_page_t.hpp>
@@ -42,6 +43,8 @@ template <>
 plan_response_t random_message<plan_response_t>(Random& random);
 template <>
 cancel_t random_message<cancel_t>(Random& random);
+template <>
+claim_t random_message<claim_t>(Random& random);
 template <>
 plan_progress_t random_message<plan_progress_t>(Random& random);
 template <>

@@ -418,7 +418,7 @@ TEST(SceneServiceSideBySide, AStopCallsOffImportsAndSaysSo) {
   for (const scene_request_t& load : loads) {
     const auto answer = sender.answer_to(load);
     ASSERT_TRUE(answer);
-    EXPECT_EQ(answer->status, scene_response_t::STATUS_OVERLOADED);
+    EXPECT_EQ(answer->status, scene_response_t::STATUS_STOPPING);
     EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
     EXPECT_EQ(running.scenes.find(load.scene), nullptr);
   }
@@ -442,7 +442,7 @@ TEST(SceneServiceSideBySide, AStopCallsOffTheMakingOfAMirror) {
   running.stop();  // else the end of `running` waits for those minutes
   const auto answer = sender.answer_to(large);
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, scene_response_t::STATUS_OVERLOADED);
+  EXPECT_EQ(answer->status, scene_response_t::STATUS_STOPPING);
   EXPECT_TRUE(running.scenes.find("fine")->objects.empty());
 }
 
@@ -462,7 +462,7 @@ TEST(SceneServiceSideBySide, AStopWaitsForNoLongChange) {
   const auto answer = sender.answer_to(put);
   done.count_down();
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, scene_response_t::STATUS_OVERLOADED);
+  EXPECT_EQ(answer->status, scene_response_t::STATUS_STOPPING);
   EXPECT_THAT(answer->message, HasSubstr("the daemon is stopping"));
 }
 

@@ -78,6 +78,16 @@ class WatchesTest : public ::testing::Test {
     }
   }
 
+  static watched_path_t path(std::int64_t id, std::int64_t known_serial,
+                             std::int64_t wanted_offer = 0, std::int64_t taken_offer = 0) {
+    watched_path_t path{};
+    path.request_id = id;
+    path.known_serial = known_serial;
+    path.wanted_offer = wanted_offer;
+    path.taken_offer = taken_offer;
+    return path;
+  }
+
   void send_watch(std::int64_t message_id, const std::vector<watched_path_t>& paths,
                   double lease_s = 0.0) {
     watch_t message{};
@@ -150,6 +160,42 @@ class WatchesTest : public ::testing::Test {
         .value_or(plan_response_t{});
   }
 
+  /// Watches request 1, and puts a crate in its way. The first answer, and the corrected one, which
+  /// is watched then.
+  std::pair<plan_response_t, plan_response_t> go_round() {
+    send(request(1));
+    const plan_response_t first = next_answer();
+    EXPECT_EQ(first.status, plan_response_t::STATUS_OK) << first.message;
+    put({2, 0, 0});
+    const plan_response_t corrected = next_answer();
+    EXPECT_EQ(corrected.status, plan_response_t::STATUS_OK) << corrected.message;
+    State state = wait_for(1, path_state_t::FREE);
+    while (state.path.answer_revision != corrected.scene_revision) {
+      state = wait_for(1, path_state_t::FREE);
+    }
+    return {first, corrected};
+  }
+
+  /// The next report after one of another offer that says this of that path.
+  State wait_for_offer(std::int64_t id, std::int64_t revision) {
+    State state = wait_for(id, path_state_t::FREE);
+    while (state.path.offer_revision != revision) state = wait_for(id, path_state_t::FREE);
+    return state;
+  }
+
+  plan_response_t next_offer() {
+    return next<plan_response_t>(channels_.plan_offer("tester"), offer_,
+                                 [](const auto&) { return true; })
+        .value_or(plan_response_t{});
+  }
+
+  static void expect_same_path(const plan_response_t& a, const plan_response_t& b) {
+    ASSERT_EQ(a.num_segments, b.num_segments);
+    for (std::size_t i = 0; i < a.segments.size(); ++i) {
+      EXPECT_EQ(wire::encode(a.segments[i]), wire::encode(b.segments[i])) << i;
+    }
+  }
+
   void wait_until_watched(std::int32_t count) {
     std::size_t from = transport_.published_on(channels_.status()).size();
     next<status_t>(channels_.status(), from,
@@ -163,6 +209,7 @@ class WatchesTest : public ::testing::Test {
   std::atomic<int> planned_ = 0;
   std::size_t report_ = 0;
   std::size_t answer_ = 0;
+  std::size_t offer_ = 0;
   std::optional<Service> service_;
   std::thread loop_;
 };
@@ -223,13 +270,84 @@ TEST_F(WatchesTest, TheCorrectedPathIsWatchedInItsTurn) {
   while (broken.path.scene_revision != changed) broken = wait_for(1, path_state_t::BROKEN);
 }
 
+TEST_F(WatchesTest, OffersTheFirstPathAgainOnceWhatBrokeItIsGone) {
+  const auto [first, corrected] = go_round();
+  take_away();
+  const auto mended = static_cast<std::int64_t>(scenes_.find("room")->revision);
+  const State offered = wait_for_offer(1, mended);
+  EXPECT_EQ(offered.path.answer_revision, corrected.scene_revision) << "it is not forced";
+  const plan_response_t better = next_offer();
+  EXPECT_EQ(better.request_id, 1);
+  EXPECT_EQ(better.scene_revision, mended);
+  EXPECT_EQ(better.scene_digest, first.scene_digest);
+  expect_same_path(better, first);
+  EXPECT_EQ(planned_, 3);
+
+  send_watch(7, {path(1, 0, 0, mended)});
+  const plan_response_t taken = next_answer();
+  EXPECT_EQ(wire::encode(taken), wire::encode(better));
+  State state = wait_for(1, path_state_t::FREE);
+  while (state.path.answer_revision != mended) state = wait_for(1, path_state_t::FREE);
+  EXPECT_EQ(state.path.offer_revision, 0);
+  send(request(1));
+  EXPECT_EQ(wire::encode(next_answer()), wire::encode(better)) << "it is the newest answer now";
+  EXPECT_EQ(planned_, 3);
+
+  put({2, 0, 0});
+  const auto broken = static_cast<std::int64_t>(scenes_.find("room")->revision);
+  while (wait_for(1, path_state_t::BROKEN).path.scene_revision != broken) {
+  }
+}
+
+TEST_F(WatchesTest, AnOfferIsWithdrawnWhenAChangeBreaksIt) {
+  const auto [first, corrected] = go_round();
+  take_away();
+  wait_for_offer(1, static_cast<std::int64_t>(scenes_.find("room")->revision));
+  put({2, 0, 0});
+  EXPECT_EQ(wait_for_offer(1, 0).path.answer_revision, corrected.scene_revision)
+      << "the one that was not left still holds";
+  send_watch(7, {path(1, 0, 0, corrected.scene_revision + 1)});
+  EXPECT_EQ(answer_to(7).paths.at(0).offer_revision, 0);
+  EXPECT_EQ(planned_, 3) << "the path that is watched was free all the time";
+}
+
+TEST_F(WatchesTest, TheLostPagesOfAnOfferAreSentAgain) {
+  go_round();
+  take_away();
+  const auto mended = static_cast<std::int64_t>(scenes_.find("room")->revision);
+  wait_for_offer(1, mended);
+  const plan_response_t better = next_offer();
+  send_watch(7, {path(1, 0, mended)});
+  EXPECT_EQ(wire::encode(next_offer()), wire::encode(better));
+}
+
+TEST_F(WatchesTest, LooksForABetterPathOnlyWhereAnObstacleWent) {
+  go_round();
+  put({2, 0, 0}, 0.6);  // the path before collides for longer, and the detour may
+  State state = wait_for(1, path_state_t::FREE);
+  const auto changed = static_cast<std::int64_t>(scenes_.find("room")->revision);
+  while (state.path.scene_revision < changed) state = wait_for(1, path_state_t::FREE);
+  const int planned = planned_;
+  std::string fault;
+  for (int i = 0; i < 5; ++i) {
+    scenes_.change("room",
+                   {SceneChange::Kind::kPut, "far",
+                    scene::make_source(scene::ObjectKind::kBox,
+                                       *scene::box_mesh(Vec3::Constant(0.5)).mesh, {}, {}),
+                    scene::Placement::make(Vec3(100.0 + i, 0, 0), Quat::Identity(), fault)});
+  }
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(planned_, planned);
+  EXPECT_TRUE(transport_.published_on(channels_.plan_offer("tester")).empty());
+}
+
 TEST_F(WatchesTest, ToldAgainUntilTheClientKnows) {
   send(request(1));
   const State first = wait_for(1, path_state_t::FREE);
   EXPECT_EQ(wait_for(1, path_state_t::FREE).path.serial, first.path.serial);
-  send_watch(7, {{.request_id = 1, .known_serial = first.path.serial}});
+  send_watch(7, {path(1, first.path.serial)});
   EXPECT_EQ(answer_to(7).num_paths, 0) << "it knows";
-  send_watch(8, {{.request_id = 1, .known_serial = first.path.serial - 1}});
+  send_watch(8, {path(1, first.path.serial - 1)});
   const watch_report_t again = answer_to(8);
   ASSERT_EQ(again.num_paths, 1);
   EXPECT_EQ(again.paths[0].serial, first.path.serial);
@@ -243,7 +361,7 @@ TEST_F(WatchesTest, IsToldLessAndLessOften) {
 }
 
 TEST_F(WatchesTest, SaysThatItDoesNotKnowAPath) {
-  send_watch(7, {{.request_id = 99, .known_serial = 5}});
+  send_watch(7, {path(99, 5)});
   const watch_report_t report = answer_to(7);
   ASSERT_EQ(report.num_paths, 1);
   EXPECT_EQ(report.paths[0].state, path_state_t::UNKNOWN);
@@ -255,7 +373,7 @@ TEST_F(WatchesTest, ALeaseEndsUnlessItIsRenewed) {
   send(request(1, 0.05));
   wait_for(1, path_state_t::FREE);
   wait_until_watched(0);
-  send_watch(7, {{.request_id = 1, .known_serial = 0}});
+  send_watch(7, {path(1, 0)});
   ASSERT_EQ(answer_to(7).num_paths, 1);
   EXPECT_EQ(answer_to(7).paths[0].state, path_state_t::UNKNOWN);
   next_answer();
@@ -272,7 +390,7 @@ TEST_F(WatchesTest, ARenewalLastsAsLongAsItSays) {
   std::int64_t id = 0;
   auto lease = 250ms;
   const auto renewed_state = [&](std::int64_t message_id) {
-    send_watch(message_id, {{.request_id = id, .known_serial = 0}}, kLongLease_s);
+    send_watch(message_id, {path(id, 0)}, kLongLease_s);
     const watch_report_t report = answer_to(message_id);
     return report.paths.empty() ? path_state_t::UNKNOWN : report.paths[0].state;
   };
@@ -289,7 +407,7 @@ TEST_F(WatchesTest, AClientEndsItsWatch) {
   send(request(1));
   wait_for(1, path_state_t::FREE);
   wait_until_watched(1);
-  send_watch(7, {{.request_id = 1, .known_serial = 0}}, -1.0);
+  send_watch(7, {path(1, 0)}, -1.0);
   EXPECT_EQ(answer_to(7).num_paths, 0);
   wait_until_watched(0);
 }
@@ -350,7 +468,7 @@ TEST_F(WatchesTest, AMessageThatCannotBeReadHarmsNobody) {
   message.client_id = "tester";
   message.lease_s = std::nan("");
   transport_.deliver(channels_.watch(), wire::encode(message));
-  send_watch(7, {{.request_id = 1, .known_serial = 0}});
+  send_watch(7, {path(1, 0)});
   EXPECT_EQ(answer_to(7).num_paths, 1);
 }
 

@@ -23,6 +23,7 @@ ExitCode exit_code_of(Status status) {
       return ExitCode::kNegative;
     case Status::kNoDaemon:
     case Status::kNoAnswer:
+    case Status::kStopping:
       return ExitCode::kNoDaemon;
     default:
       return ExitCode::kOurFault;
@@ -49,7 +50,7 @@ void use_timeout(const std::optional<double>& timeout_s, ClientOptions& options)
 ExitCode report_failure(Status status, const std::string& error, const std::string& key_file) {
   const ExitCode code = exit_code_of(status);
   std::string hint;
-  if (code == ExitCode::kNoDaemon) {
+  if (status == Status::kNoDaemon || status == Status::kNoAnswer) {
     hint = key_file.empty() ? " (--key-file names the keys" : " (--key-file " + key_file;
     hint += status == Status::kNoAnswer ? "; --timeout-s says how long to wait)" : ")";
   }

@@ -26,6 +26,10 @@
 namespace camway::tools {
 namespace {
 
+/// How long a change that a daemon refuses because it ends waits for the next one to be heard: more
+/// than a heartbeat.
+constexpr double kSuccessorWait_s = 1.5;
+
 /// What the subcommands of `camway scene` share, and what they are told.
 struct SceneCommandFlags {
   std::string url;
@@ -197,6 +201,7 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   options.url = flags.url;
   options.prefix = flags.prefix;
   use_timeout(flags.timeout_s, options);
+  options.successor_wait_s = kSuccessorWait_s;
   options.change_deadline_s = flags.deadline_s;
   if (const std::string fault = use_key_file(flags.key_file, options); !fault.empty()) {
     print_error(fault);

@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/camway/commands.h"
+#include "tools/camway/daemon_failure.h"
 #include "tools/camway/interruption.h"
 #include "tools/camway/key_file.h"
 #include "tools/client_request.h"
@@ -37,6 +38,8 @@ struct WatchFlags {
   std::string request;
   double for_s = 0.0;
   std::int64_t count = 0;
+  std::optional<double> timeout_s;
+  bool take_better = false;
   bool json = false;
 };
 
@@ -52,6 +55,10 @@ const char* name_of(WatchEvent::Kind kind) {
       return "lost";
     case WatchEvent::Kind::kWatched:
       return "watched";
+    case WatchEvent::Kind::kBetter:
+      return "better";
+    case WatchEvent::Kind::kWithdrawn:
+      return "withdrawn";
     case WatchEvent::Kind::kEnded:
       return "ended";
   }
@@ -79,6 +86,16 @@ std::string text_of(const WatchEvent& event) {
     case WatchEvent::Kind::kWatched:
       return fmt::format("revision {}: watched again, what was said last holds",
                          event.scene_revision);
+    case WatchEvent::Kind::kBetter:
+      return fmt::format(
+          "revision {}: a better path is on offer, {:.4g} m long and at most {:.4g} m from the one "
+          "asked for",
+          event.scene_revision, event.answer->measures->length_m,
+          event.answer->measures->largest_deviation_m);
+    case WatchEvent::Kind::kWithdrawn:
+      return fmt::format(
+          "revision {}: a change broke the better path, which is not on offer any more",
+          event.scene_revision);
     case WatchEvent::Kind::kLost:
     case WatchEvent::Kind::kEnded:
       return event.error;
@@ -92,6 +109,10 @@ OrderedJson json_of(const WatchEvent& event) {
     json["status"] = to_string(event.answer->status);
     json["message"] = event.answer->message;
     json["segments"] = event.answer->path.segments().size();
+    if (const std::optional<PathMeasures>& measures = event.answer->measures) {
+      json["length_m"] = measures->length_m;
+      json["largest_deviation_m"] = measures->largest_deviation_m;
+    }
   }
   if (event.kind == WatchEvent::Kind::kBroken) {
     json["broken"] = OrderedJson::array();
@@ -139,32 +160,49 @@ class Events {
   std::deque<WatchEvent> events_;
 };
 
-/// Prints events until the flags or a signal end it.
-ExitCode follow(const WatchFlags& flags, const Interruption& interruption, Events& events) {
+/// How following ended.
+struct Followed {
+  ExitCode code;
+  bool is_daemon_there = true;
+};
+
+/// Prints events until the flags or a signal end it, or no daemon is heard at all.
+Followed follow(const WatchFlags& flags, const Interruption& interruption, Events& events) {
   using Clock = std::chrono::steady_clock;
   constexpr double kForEver_s = 1e8;
   constexpr std::chrono::milliseconds kLook{100};  // for signals
   const std::chrono::duration<double> patience(flags.for_s > 0.0 ? flags.for_s : kForEver_s);
-  const Clock::time_point until =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
+  const Clock::time_point begin = Clock::now();
+  const Clock::time_point until = begin + std::chrono::duration_cast<Clock::duration>(patience);
+  const std::chrono::duration<double> timeout(flags.timeout_s.value_or(0.0));
+  const Clock::time_point wait_until = begin + std::chrono::duration_cast<Clock::duration>(timeout);
+  std::optional<WatchEvent> unheard;  // the last event, if it says so
   bool is_answered = false;
   bool is_watched = false;
   for (std::int64_t heard = 0; flags.count == 0 || heard < flags.count;) {
     const Clock::time_point now = Clock::now();
     if (interruption.came() || now >= until) break;
+    if (unheard && now >= wait_until) {
+      return {report_failure(unheard->status, unheard->error, flags.key_file), false};
+    }
     const std::optional<WatchEvent> event = events.take(std::min(until, now + kLook));
     if (!event) continue;
     if (event->kind == WatchEvent::Kind::kEnded) {
       print_error(event->error);
-      return ExitCode::kNegative;
+      return {ExitCode::kNegative};
     }
+    const bool is_unheard =
+        event->kind == WatchEvent::Kind::kLost && !is_answered &&
+        (event->status == Status::kNoDaemon || event->status == Status::kNoAnswer);
+    unheard = is_unheard ? event : std::nullopt;
+    if (is_unheard) continue;
     print(*event, flags.json);
     ++heard;
     is_watched = event->kind != WatchEvent::Kind::kLost;
     is_answered = is_answered || event->kind == WatchEvent::Kind::kAnswer;
   }
-  if (!is_answered) return ExitCode::kNoDaemon;
-  return is_watched ? ExitCode::kSuccess : ExitCode::kNegative;
+  if (!is_answered) return {ExitCode::kNoDaemon};
+  return {is_watched ? ExitCode::kSuccess : ExitCode::kNegative};
 }
 
 ExitCode invalid_input(std::string_view message) {
@@ -183,9 +221,15 @@ ExitCode run_watch(WatchFlags flags) {
   Client client(flags.client);
   if (!client.good()) return invalid_input(client.error());
   if (!client.warning().empty()) print_error(client.warning());
-  const std::int64_t id = client.watch(to_client_request(*request.value, flags.scene),
-                                       [&](const WatchEvent& event) { events.add(event); });
-  const ExitCode code = follow(flags, interruption, events);
+  const auto take = [&](const WatchEvent& event) {
+    events.add(event);
+    if (flags.take_better && event.kind == WatchEvent::Kind::kBetter) {
+      client.take_better(event.request_id);
+    }
+  };
+  const std::int64_t id = client.watch(to_client_request(*request.value, flags.scene), take);
+  const auto [code, is_daemon_there] = follow(flags, interruption, events);
+  if (!is_daemon_there) return code;
   // Else it would watch, and plan again, until the lease is over.
   constexpr double kFarewell_s = 3.0;
   if (!client.unwatch(id, kFarewell_s) && code == ExitCode::kSuccess) {
@@ -216,13 +260,21 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0.0, 1e7));
   command->add_option("--count", flags->count, "End after so many events")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  command
+      ->add_option("--timeout-s", flags->timeout_s,
+                   "How long to wait for a daemon to be heard at first, seconds [3.25]")
+      ->check(CLI::Range(0.01, 86'400.0));
+  command->add_flag("--take-better", flags->take_better,
+                    "Take each better path that the daemon offers");
   command->add_flag("--json", flags->json, "Print JSON, for machines: a line for each event");
   command->footer(
-      "Events: answer (the first path, or a corrected one), broken (the path collides since a "
-      "change,\nand a corrected one is being planned), free (it is proved free again), lost (the "
-      "daemon does not\nwatch for now, perhaps as a limit of its [watch] is reached; we go on "
-      "trying in silence), watched\n(it does again, and what was said before holds).\nAt the end, "
-      "and when interrupted, the daemon is told to watch no more.\n" +
+      "Events: answer (the first path, a corrected one, or one that was taken), broken (the path "
+      "collides since a\nchange, and a corrected one is being planned), free (it is proved free "
+      "again), better (what was in the way\nis gone, and a better path is on offer; --take-better "
+      "takes it), withdrawn (it is not on offer any more),\nlost (the daemon does not watch for "
+      "now: it fell silent more than 3 s ago, or a limit of its [watch] is\nreached; we go on "
+      "trying, and say so once), watched (it does again, and what was said before holds).\nAt the "
+      "end, and when interrupted, the daemon is told to watch no more.\n" +
       exit_code_help("no path was proved, so there is nothing to watch; or nobody watched it at "
                      "the end",
                      /*asks_daemon=*/true) +
