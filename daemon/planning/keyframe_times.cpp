@@ -52,7 +52,8 @@ PreparedKeyframes prepared_keyframes(const PlanRequest& request) {
       keyframe.time_s = prepared.origin.local_s(keyframe.time_s);
     return prepared;
   }
-  const std::vector<double> times_s = motion::derive_times_s(poses);
+  const std::vector<double> times_s = motion::derive_times_s(
+      poses, request.options.default_speed_m_per_s.value_or(motion::kNominalSpeed_m_per_s));
   for (std::size_t i = 0; i < times_s.size(); ++i) prepared.keyframes[i].time_s = times_s[i];
   return prepared;
 }

@@ -360,11 +360,9 @@ class Planner {
   [[nodiscard]] std::string note_of_tolerance() const {
     const double size_m = 2.0 * correction::FreeSpace(obstacles_, *body_, detect_).ball_radius_m();
     if (!(size_m < kLeastTolerances * detect_.tolerance_m)) return {};
-    return fmt::format(
-        "; note: the body is {:.2g} m large, and options.interval_tolerance_m of {:.2g} m is "
-        "coarse "
-        "for that",
-        size_m, detect_.tolerance_m);
+    return fmt::format("; note: the body is {:.2g} m large, and {} of {:.2g} m is coarse for that",
+                       size_m, request_.name_of("options.interval_tolerance_m"),
+                       detect_.tolerance_m);
   }
 
   [[nodiscard]] std::string note_of_bounds() const {
@@ -385,9 +383,9 @@ class Planner {
       const double tilt_rad =
           std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
       if (tilt_rad < kNotableTilt_rad) continue;
-      return fmt::format(
-          "; note: keyframe {} is tilted by {:.0f} degrees, check options.orientation.up", i,
-          tilt_rad * 180.0 / std::numbers::pi);
+      return fmt::format("; note: keyframe {} is tilted by {:.0f} degrees, check {}", i,
+                         tilt_rad * 180.0 / std::numbers::pi,
+                         request_.name_of("options.orientation.up"));
     }
     return {};
   }
@@ -407,9 +405,9 @@ class Planner {
     }
     if (remaining == 0 && is_too_fast_) {
       result_.status = Status::kTimeout;
-      result_.message =
-          "options.limits: the path is free, but too fast, and the deadline came before it was "
-          "slowed";
+      result_.message = request_.name_of("options.limits") +
+                        ": the path is free, but too fast, and the deadline came before it was "
+                        "slowed";
       return;
     }
     if (remaining == 0) {
@@ -436,26 +434,27 @@ class Planner {
     result_.message = fmt::format("{}the path still collides {} ({})",
                                   timed_out_ ? "the deadline came first; " : "",
                                   counted(remaining, "time"), what_was_done()) +
-                      note_of_shut_in(result_.shut_in) + note_of_keyframe_limit() + note_of_effort(result_.corrections) +
-                      note_of_haste() + note_of_times() + note();
+                      note_of_shut_in(result_.shut_in) + note_of_keyframe_limit() +
+                      note_of_effort(result_.corrections) + note_of_haste() + note_of_times() +
+                      note();
   }
 
   // What the deadline left undone.
   [[nodiscard]] std::string note_of_haste() const {
-    return is_too_fast_ ? "; it was not slowed to meet options.limits" : "";
+    return is_too_fast_ ? "; it was not slowed to meet " + request_.name_of("options.limits") : "";
   }
 
   [[nodiscard]] std::string note_of_keyframe_limit() const {
     const std::int32_t most = request_.options.max_inserted_keyframes;
     if (result_.collisions.empty()) return {};
-    if (most == 0) return "; nothing was corrected, as options.max_inserted_keyframes is 0";
+    const std::string field = request_.name_of("options.max_inserted_keyframes");
+    if (most == 0) return fmt::format("; nothing was corrected, as {} asks for", field);
     // The seed's method does not say what it would need.
     const bool is_used_up = std::cmp_greater_equal(inserted_keyframes(), most);
     if (!needed_keyframes_ && !is_used_up) return {};
-    if (!needed_keyframes_) return fmt::format("; options.max_inserted_keyframes allows {}", most);
-    return fmt::format(
-        "; options.max_inserted_keyframes allows {}, the corrections that were found need {}", most,
-        *needed_keyframes_);
+    if (!needed_keyframes_) return fmt::format("; {} allows {}", field, most);
+    return fmt::format("; {} allows {}, the corrections that were found need {}", field, most,
+                       *needed_keyframes_);
   }
 
   // "3 collisions at first, 12 keyframes inserted": numbers that are 0 are left out.
@@ -472,13 +471,14 @@ class Planner {
 
   [[nodiscard]] std::string why_too_fast() const {
     return fmt::format(
-        "options.limits: the path is free, but too fast from {} s to {} s{}: {}; allow "
-        "limits.retime, or give later times",
-        time_text(origin_.sent_s(breach_->t_begin_s)), time_text(origin_.sent_s(breach_->t_end_s)),
+        "{}: the path is free, but too fast from {} s to {} s{}: {}; allow {}, or give later "
+        "times",
+        request_.name_of("options.limits"), time_text(origin_.sent_s(breach_->t_begin_s)),
+        time_text(origin_.sent_s(breach_->t_end_s)),
         breach_->stretches > 1
             ? fmt::format(" and at {}", counted(breach_->stretches - 1, "other time"))
             : "",
-        breach_->rate);
+        breach_->rate, request_.name_of("options.limits.retime"));
   }
 
   [[nodiscard]] std::string note_of_times() const {

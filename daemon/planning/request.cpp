@@ -33,6 +33,10 @@ bool may_shrink(const PlanRequest& request) {
   return options.max_shrink > 0.0 && !request.body && options.max_inserted_keyframes != 0;
 }
 
+std::string PlanRequest::name_of(std::string_view path) const {
+  return spelling ? spelling(path) : std::string(path);
+}
+
 geometry::Vec3 direction_of(const geometry::Vec3& vector) {
   // Scaled first, so that squares neither overflow nor vanish.
   const double largest = vector.cwiseAbs().maxCoeff();
