@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace camway::planning {
@@ -11,6 +13,9 @@ namespace {
 
 using correction::Correction;
 using correction::Effort;
+
+// Cameras are seldom rolled by so much: 30 degrees.
+constexpr double kNotableTilt_rad = 0.5236;
 
 void add(std::string& list, std::string_view item) {
   if (!list.empty()) list += ", ";
@@ -53,8 +58,26 @@ std::string note_of_method(const PlanRequest& request) {
   if (request.options.seed != usual.seed) add(unused, "options.seed");
   std::string note;
   if (!unused.empty()) note = "; note: keyframe_insertion does not look at " + unused;
+  if (request.options.bounds.any())
+    note += "; note: keyframe_insertion corrects without regard to options.bounds, and is checked";
   if (request.body) note += "; note: keyframe_insertion corrects paths of cameras alone";
   return note;
+}
+
+std::string note_of_tilt(const PlanRequest& request) {
+  const correction::OrientationPolicy& policy = request.options.orientation;
+  if (policy.rule != correction::OrientationRule::kLevel) return {};
+  for (std::size_t i = 0; i < request.keyframes.size(); ++i) {
+    const geometry::Vec3 across_W =
+        request.keyframes[i].pose.orientation.normalized() * geometry::Vec3::UnitX();
+    const double tilt_rad =
+        std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
+    if (tilt_rad < kNotableTilt_rad) continue;
+    return fmt::format(
+        "; note: keyframe {} is tilted by {:.0f} degrees, check options.orientation.up", i,
+        tilt_rad * 180.0 / std::numbers::pi);
+  }
+  return {};
 }
 
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink) {

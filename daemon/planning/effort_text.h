@@ -24,6 +24,10 @@ std::string note_of_effort(const std::vector<correction::Correction>& correction
 /// none.
 std::string note_of_method(const PlanRequest& request);
 
+/// "; note: ..." about a given keyframe that is tilted much where the policy keeps the horizon
+/// level: fine for who wants it so, but more often another axis is up in the scene.
+std::string note_of_tilt(const PlanRequest& request);
+
 /// "there is no path: ..." by this proof, which may be for the smallest camera that is allowed.
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink);
 

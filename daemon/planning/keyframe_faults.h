@@ -15,8 +15,9 @@ namespace camway::planning {
 /// A request of which more keyframes collide has its unit or its axes wrong.
 inline constexpr std::size_t kMostKeyframeFaults = 100;
 
-/// The given keyframes at which the body collides, or is nearer to the scene than required, in
-/// order, at most `kMostKeyframeFaults`; each with the nearest free pose, if one was found.
+/// The given keyframes at which the body collides, is nearer to the scene than required, or is
+/// beyond the bounds of `obstacles`, in order, at most `kMostKeyframeFaults`; each with the nearest
+/// free pose, if one was found.
 ///
 /// A free pose lies on that side of every closed surface of the scene on which the path has to be
 /// there: where the free keyframes next before and next after are, if these agree. Else there is no
@@ -26,8 +27,10 @@ inline constexpr std::size_t kMostKeyframeFaults = 100;
 /// finds. What is not closed has no sides; there a free pose that is seen from one of these
 /// keyframes is preferred, if it is not much further away than the nearest.
 ///
-/// Once the deadline has passed, no more free poses are looked for.
+/// Once the deadline has passed, no more free poses are looked for. `obstacles` are those of the
+/// snapshot.
 std::vector<KeyframeFault> find_keyframe_faults(const scene::Snapshot& snapshot,
+                                                const collision::Obstacles& obstacles,
                                                 const motion::Body& body,
                                                 const collision::DetectOptions& detect,
                                                 const std::vector<motion::Keyframe>& keyframes,

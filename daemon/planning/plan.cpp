@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -22,6 +21,7 @@
 #include "daemon/planning/limits.h"
 #include "daemon/planning/search_changes.h"
 #include "daemon/planning/shrink.h"
+#include "daemon/planning/way_beyond.h"
 
 namespace camway::planning {
 
@@ -58,9 +58,10 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 // The stages in order, each adding to the result.
 class Planner {
  public:
-  Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
+  Planner(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+          const PlanRequest& request, const Deadline& deadline)
       : snapshot_(snapshot),
-        obstacles_(snapshot),
+        obstacles_(obstacles),
         request_(request),
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
@@ -87,6 +88,11 @@ class Planner {
       refuse(std::move(fault->message), fault->keyframe);
       return false;
     }
+    result_.bounds = obstacles_.bounds;
+    if (geometry::fault_in(obstacles_.bounds)) {
+      refuse("options.bounds: leave no room within the bounds of the scene", std::nullopt);
+      return false;
+    }
     std::string fault;
     body_ = motion::Body::make(request_.body.value_or(request_.camera), fault);
     if (!body_) {
@@ -105,7 +111,7 @@ class Planner {
   // cannot be planned.
   bool keyframes_are_free() {
     result_.keyframe_faults =
-        find_keyframe_faults(snapshot_, *body_, detect_, result_.keyframes, deadline_);
+        find_keyframe_faults(snapshot_, obstacles_, *body_, detect_, result_.keyframes, deadline_);
     const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
     const bool all_free = std::ranges::all_of(
         faults, [](const KeyframeFault& fault) { return fault.free_pose.has_value(); });
@@ -130,7 +136,8 @@ class Planner {
     const KeyframeFault& first = lost == faults.end() ? faults.front() : *lost;
     const std::string body = body_->is_camera() ? "near quadrilateral" : "body";
     const std::string rule =
-        detect_.clearance_m > 0.0
+        first.leaves_bounds ? std::string("leaves the bounds")
+        : detect_.clearance_m > 0.0
             ? fmt::format(
                   "is nearer to the scene than the clearance of {:.3g} m that was asked for",
                   detect_.clearance_m)
@@ -362,7 +369,8 @@ class Planner {
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
   // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
-    return note_of_bounds() + note_of_tilt() + note_of_tolerance() + note_of_method(request_);
+    return note_of_bounds() + note_of_tilt(request_) + note_of_tolerance() +
+           note_of_method(request_);
   }
 
   // What cannot be told from a collision at the tolerance counts as one, and for a tiny body that
@@ -383,23 +391,6 @@ class Planner {
     });
     if (inside || obstacles_.index.bounds().isEmpty()) return {};
     return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
-  }
-
-  // Fine for who wants it so, but more often another axis is up in the scene.
-  [[nodiscard]] std::string note_of_tilt() const {
-    const correction::OrientationPolicy& policy = request_.options.orientation;
-    if (policy.rule != correction::OrientationRule::kLevel) return {};
-    for (std::size_t i = 0; i < request_.keyframes.size(); ++i) {
-      const geometry::Vec3 across_W =
-          request_.keyframes[i].pose.orientation.normalized() * geometry::Vec3::UnitX();
-      const double tilt_rad =
-          std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
-      if (tilt_rad < kNotableTilt_rad) continue;
-      return fmt::format(
-          "; note: keyframe {} is tilted by {:.0f} degrees, check options.orientation.up", i,
-          tilt_rad * 180.0 / std::numbers::pi);
-    }
-    return {};
   }
 
   [[nodiscard]] std::size_t inserted_keyframes() const {
@@ -425,11 +416,13 @@ class Planner {
     }
     if (remaining == 0) {
       result_.status = Status::kOk;
-      result_.message = fmt::format("{} found, {} inserted{}, proved free with {:.3g} m clearance",
-                                    counted(result_.collisions.size(), "collision"),
-                                    counted(inserted, "keyframe"), repaired(),
-                                    result_.certificate.clearance_lower_bound_m) +
-                        note_of_times() + note();
+      result_.message =
+          fmt::format("{} found, {} inserted{}, proved free with {:.3g} m clearance{}",
+                      counted(result_.collisions.size(), "collision"),
+                      counted(inserted, "keyframe"), repaired(),
+                      result_.certificate.clearance_lower_bound_m,
+                      obstacles_.bounds.any() ? " and within bounds" : "") +
+          note_of_times() + note();
       return;
     }
     if (result_.infeasibility) {
@@ -518,9 +511,6 @@ class Planner {
   // A body that is fewer tolerances large is told so.
   static constexpr double kLeastTolerances = 10.0;
 
-  // Cameras are seldom rolled by so much: 30 degrees.
-  static constexpr double kNotableTilt_rad = 0.5236;
-
   // Of what is left: what comes after these has to be done by the deadline, too.
   static constexpr double kShareOfCorrection = 0.95;
   static constexpr double kShareOfWholeSearch = 0.7;
@@ -556,17 +546,28 @@ class Planner {
   PlanResult result_;
 };
 
+PlanResult plan_among(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+                      const PlanRequest& request, const Deadline& deadline) {
+  const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
+    return Planner(snapshot, obstacles, asked, until).run();
+  };
+  const bool may_shrink = request.options.max_shrink > 0.0 && !request.body;
+  return may_shrink ? plan_with_shrinking(request, deadline, plan_at_size)
+                    : plan_at_size(request, deadline);
+}
+
 }  // namespace
 
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const Deadline& deadline) {
   try {
-    const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
-      return Planner(snapshot, asked, until).run();
-    };
-    const bool may_shrink = request.options.max_shrink > 0.0 && !request.body;
-    PlanResult result = may_shrink ? plan_with_shrinking(request, deadline, plan_at_size)
-                                   : plan_at_size(request, deadline);
+    const collision::Obstacles scene(snapshot);
+    PlanResult result =
+        plan_among(snapshot, scene.within(request.options.bounds), request, deadline);
+    if (may_have_way_beyond(request, result)) {
+      add_way_beyond(plan_among(snapshot, scene.without_bounds(), request, deadline), request,
+                     result);
+    }
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {
       result.message += "; the deadline came before it was improved to the end";

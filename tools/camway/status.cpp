@@ -16,9 +16,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "daemon/service/bounds_text.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
+#include "tools/client_request.h"
 
 namespace camway::tools {
 namespace {
@@ -52,6 +54,7 @@ OrderedJson scene_json(const SceneInfo& scene) {
           {"triangles", scene.num_triangles},
           {"bounds_min_m", scene.bounds_min_m},
           {"bounds_max_m", scene.bounds_max_m},
+          {"body_bounds", service::bounds_text(from_client_bounds(scene.body_bounds))},
           {"occupancy_resolution_m", scene.occupancy_resolution_m}};
 }
 
