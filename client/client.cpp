@@ -7,6 +7,7 @@
 
 #include "client/ask_occupancy.h"
 #include "client/ask_scene.h"
+#include "client/constraints_wire.h"
 #include "client/context.h"
 #include "client/engine.h"
 #include "client/plan_call.h"
@@ -174,9 +175,10 @@ OccupancyAnswer Client::occupancy(const OccupancyBatch& batch) {
 }
 
 SceneAnswer Client::load_scene(const std::string& scene, const SceneMesh& mesh,
-                               double occupancy_resolution_m) {
+                               double occupancy_resolution_m, const Bounds& body_bounds) {
   scene_request_t request = request_for(scene_request_t::LOAD, scene);
   request.occupancy_resolution_m = occupancy_resolution_m;
+  request.body_bounds = to_wire(body_bounds);
   const Bytes upload = put_mesh(mesh, request);
   return impl_->ask(std::move(request), upload);
 }

@@ -58,4 +58,24 @@ motion_limits_t to_wire(const MotionLimits& limits) {
   return wire;
 }
 
+bounds_t to_wire(const Bounds& bounds) {
+  bounds_t wire{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    wire.has_min[axis] = bounds.min_m[axis] ? 1 : 0;
+    wire.min_m[axis] = bounds.min_m[axis].value_or(0.0);
+    wire.has_max[axis] = bounds.max_m[axis] ? 1 : 0;
+    wire.max_m[axis] = bounds.max_m[axis].value_or(0.0);
+  }
+  return wire;
+}
+
+Bounds from_wire(const bounds_t& wire) {
+  Bounds bounds;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (wire.has_min[axis] != 0) bounds.min_m[axis] = wire.min_m[axis];
+    if (wire.has_max[axis] != 0) bounds.max_m[axis] = wire.max_m[axis];
+  }
+  return bounds;
+}
+
 }  // namespace camway

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <camway/bounds_t.hpp>
 #include <camway/motion_limits_t.hpp>
 #include <camway/orientation_t.hpp>
 
@@ -13,5 +14,7 @@ namespace camway {
 std::int8_t to_wire(Objective objective);
 orientation_t to_wire(const Orientation& orientation);
 motion_limits_t to_wire(const MotionLimits& limits);
+bounds_t to_wire(const Bounds& bounds);
+Bounds from_wire(const bounds_t& wire);
 
 }  // namespace camway

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "client/constraints_wire.h"
+
 namespace camway {
 namespace {
 
@@ -66,6 +68,7 @@ Cage from_wire(const cage_t& wire) {
 void read_correction_head(const plan_response_t& page, PlanResponse& response) {
   if (page.has_measures_before != 0) response.measures_before = from_wire(page.measures_before);
   if (page.has_measures != 0) response.measures = from_wire(page.measures);
+  response.bounds = from_wire(page.bounds);
   response.near_scale = page.near_scale;
   response.time_scale = page.time_scale;
   response.deadline_reached = page.deadline_reached != 0;

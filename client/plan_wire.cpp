@@ -95,6 +95,7 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.objective = to_wire(request.objective);
   wire.orientation = to_wire(request.orientation);
   wire.limits = to_wire(request.limits);
+  wire.bounds = to_wire(request.bounds);
   wire.max_shrink = request.max_shrink;
   wire.repair_keyframes = request.repair_keyframes ? 1 : 0;
   wire.seed = request.seed;

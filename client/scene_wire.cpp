@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "client/constraints_wire.h"
 #include "lcmtypes/checksum.h"
 #include "lcmtypes/wire_layout.h"
 
@@ -98,6 +99,7 @@ SceneInfo from_wire(const scene_info_t& wire) {
   scene.num_triangles = wire.num_triangles;
   copy(wire.bounds_min_m, scene.bounds_min_m);
   copy(wire.bounds_max_m, scene.bounds_max_m);
+  scene.body_bounds = from_wire(wire.body_bounds);
   scene.occupancy_resolution_m = wire.occupancy_resolution_m;
   return scene;
 }

@@ -35,6 +35,7 @@ constexpr std::size_t kDouble = 8;
 constexpr std::size_t kCamera = 3 * kDouble;
 constexpr std::size_t kKeyframe = (1 + 3 + 4) * kDouble + 2 * kByte;
 constexpr std::size_t kOrientation = kByte + (3 + 3 + 1) * kDouble + kByte + kDouble;
+constexpr std::size_t kBounds = 6 * (kByte + kDouble);
 constexpr std::size_t kMotionLimits = 3 * kDouble + kByte;
 constexpr std::size_t kMeasures = 8 * kDouble;
 constexpr std::size_t kCage = 12 * kDouble;
@@ -87,6 +88,7 @@ constexpr std::array kPlanRequest{
     fixed("objective", kByte),
     fixed("orientation", kOrientation),
     fixed("limits", kMotionLimits),
+    fixed("bounds", kBounds),
     fixed("max_shrink", kDouble),
     fixed("repair_keyframes", kByte),
     fixed("seed", kInt64),
@@ -116,6 +118,7 @@ constexpr std::array kPlanResponse{
     text("scene_digest", kMaxDigestBytes),
     fixed("certified", kByte),
     fixed("clearance_lower_bound_m", kDouble),
+    fixed("bounds", kBounds),
     fixed("scales", 2 * kDouble),
     fixed("deadline_reached", kByte),
     fixed("has_measures_before", kByte),
@@ -203,9 +206,10 @@ constexpr std::array kOccupancyResponse{
 };
 
 constexpr std::array kSceneInfo{
-    text("name", kMaxSceneNameBytes), fixed("revision", kInt64),
-    text("digest", kMaxDigestBytes),  fixed("num_triangles", kInt64),
-    fixed("bounds_m", 6 * kDouble),   fixed("occupancy_resolution_m", kDouble),
+    text("name", kMaxSceneNameBytes),         fixed("revision", kInt64),
+    text("digest", kMaxDigestBytes),          fixed("num_triangles", kInt64),
+    fixed("bounds_m", 6 * kDouble),           fixed("body_bounds", kBounds),
+    fixed("occupancy_resolution_m", kDouble),
 };
 
 constexpr std::array kSceneObject{
@@ -235,6 +239,7 @@ constexpr std::array kSceneRequest{
     fixed("scale", kDouble),
     fixed("up", kByte),
     fixed("unknown", kByte),
+    fixed("body_bounds", kBounds),
     fixed("occupancy_resolution_m", kDouble),
     fixed("kind", kByte),
     fixed("shape", 7 * kDouble),
@@ -257,6 +262,7 @@ constexpr std::array kSceneResponse{
     text("scene.digest", kMaxDigestBytes),
     fixed("scene.num_triangles", kInt64),
     fixed("scene.bounds_m", 6 * kDouble),
+    fixed("scene.body_bounds", kBounds),
     fixed("scene.occupancy_resolution_m", kDouble),
     fixed("first", kInt32),
     fixed("total", kInt32),

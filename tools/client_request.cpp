@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/client_request.h"
 
+#include <cmath>
 #include <variant>
 
 namespace camway::tools {
@@ -81,12 +82,32 @@ void add_correction_options(const planning::PlanOptions& options, PlanRequest& s
   sent.orientation = sent_orientation(options.orientation);
   sent.limits = {options.limits.speed_m_per_s, options.limits.acceleration_m_per_s2,
                  options.limits.turn_rate_rad_per_s, options.limits.may_retime};
+  sent.bounds = to_client_bounds(options.bounds);
   sent.max_shrink = options.max_shrink;
   sent.repair_keyframes = options.repair_keyframes;
   sent.seed = static_cast<std::int64_t>(options.seed);
 }
 
 }  // namespace
+
+Bounds to_client_bounds(const geometry::Bounds& bounds) {
+  Bounds sent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!std::isinf(bounds.limit_m(axis))) sent.min_m[axis] = bounds.limit_m(axis);
+    if (!std::isinf(bounds.limit_m(axis + 3))) sent.max_m[axis] = bounds.limit_m(axis + 3);
+  }
+  return sent;
+}
+
+geometry::Bounds from_client_bounds(const Bounds& bounds) {
+  geometry::Bounds read;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    read.min_W[at] = bounds.min_m[axis].value_or(read.min_W[at]);
+    read.max_W[at] = bounds.max_m[axis].value_or(read.max_W[at]);
+  }
+  return read;
+}
 
 PlanRequest to_client_request(const planning::PlanRequest& request, const std::string& scene) {
   PlanRequest sent;

@@ -14,4 +14,8 @@ namespace camway::tools {
 /// no part.
 PlanRequest to_client_request(const planning::PlanRequest& request, const std::string& scene);
 
+/// Bounds as the client has them, and back.
+Bounds to_client_bounds(const geometry::Bounds& bounds);
+geometry::Bounds from_client_bounds(const Bounds& bounds);
+
 }  // namespace camway::tools

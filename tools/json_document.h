@@ -59,6 +59,7 @@ class Field {
   [[nodiscard]] double number() const;
   [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t largest) const;
   [[nodiscard]] bool boolean() const;
+  [[nodiscard]] bool is_null() const { return value_ != nullptr && value_->is_null(); }
   [[nodiscard]] std::string text() const;
   /// Reads exactly `count` numbers into `out`.
   void numbers(double* out, std::size_t count) const;

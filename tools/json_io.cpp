@@ -112,8 +112,10 @@ collision::Witness read_witness(const Field& field, planning::WitnessNames& name
   collision::Witness witness;
   witness.time_s = field.member("time").number();
   names.object = field.member("object").text();
+  // Below 0 it is a side of the bounds.
+  constexpr auto kSides = static_cast<std::int64_t>(geometry::Bounds::kSides);
   witness.triangle = static_cast<std::uint32_t>(
-      field.member("triangle").integer(0, std::numeric_limits<std::uint32_t>::max()));
+      field.member("triangle").integer(-kSides, std::numeric_limits<std::uint32_t>::max()));
   names.feature = field.member("feature").text();
   witness.depth_m = field.member("depth").number();
   witness.point_W = read_vector<geometry::Vec3>(field.member("point"));

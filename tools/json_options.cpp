@@ -73,6 +73,16 @@ OrientationPolicy read_orientation(const Field& field) {
   return policy;
 }
 
+void read_corner(const Field& parent, std::string_view key, geometry::Vec3& corner_W) {
+  const auto list = parent.optional_member(key);
+  if (!list) return;
+  if (list->size() != 3) list->fail("must be an array of 3, each a number or null");
+  for (std::size_t axis = 0; axis < 3 && !list->failed(); ++axis) {
+    const Field item = list->element(axis);
+    if (!item.is_null()) corner_W[static_cast<Eigen::Index>(axis)] = item.number();
+  }
+}
+
 MotionLimits read_limits(const Field& field) {
   field.allow_only({"speed", "acceleration", "turn_rate_deg", "retime"});
   MotionLimits limits;
@@ -85,10 +95,18 @@ MotionLimits read_limits(const Field& field) {
 
 }  // namespace
 
+geometry::Bounds read_bounds(const Field& field) {
+  field.allow_only({"min", "max"});
+  geometry::Bounds bounds;
+  read_corner(field, "min", bounds.min_W);
+  read_corner(field, "max", bounds.max_W);
+  return bounds;
+}
+
 PlanOptions read_options(const Field& field) {
   field.allow_only({"method", "deadline_s", "clearance", "chord_error_m", "interval_tolerance_m",
-                    "max_inserted_keyframes", "objective", "orientation", "limits", "max_shrink",
-                    "repair_keyframes", "seed", "default_speed_m_per_s"});
+                    "max_inserted_keyframes", "objective", "orientation", "limits", "bounds",
+                    "max_shrink", "repair_keyframes", "seed", "default_speed_m_per_s"});
   PlanOptions options;
   if (const auto option = field.optional_member("method")) options.method = read_method(*option);
   read_number(field, "deadline_s", options.deadline_s);
@@ -106,6 +124,7 @@ PlanOptions read_options(const Field& field) {
     options.orientation = read_orientation(*option);
   }
   if (const auto option = field.optional_member("limits")) options.limits = read_limits(*option);
+  if (const auto option = field.optional_member("bounds")) options.bounds = read_bounds(*option);
   read_number(field, "max_shrink", options.max_shrink);
   if (const auto option = field.optional_member("repair_keyframes")) {
     options.repair_keyframes = option->boolean();

@@ -27,10 +27,16 @@ inline constexpr std::array<std::pair<std::string_view, correction::Objective>, 
 ///                     {"policy": "level", "up": [x, y, z]}    of any length, or
 ///                     {"policy": "target", "target": [x, y, z], "cone_deg": a},
 ///      "limits": {"speed": m/s, "acceleration": m/s², "turn_rate_deg": degrees/s, "retime": true},
+///      "bounds": {"min": [x, y, z], "max": [x, y, z]}   each, and each number in it, may be
+///      absent:
+///                                                        a number by null,
 ///      "max_shrink": share, "repair_keyframes": true, "seed": n, "default_speed_m_per_s": m/s}
 ///
 /// Members that do not count with the policy at hand are refused: a wish must not be dropped.
 /// Ranges are `planning::validate`'s.
 planning::PlanOptions read_options(const Field& field);
+
+/// Reads `bounds` of a request or of a response.
+geometry::Bounds read_bounds(const Field& field);
 
 }  // namespace camway::tools

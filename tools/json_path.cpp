@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "tools/json_options.h"
+
 namespace camway::tools {
 namespace {
 
@@ -54,6 +56,11 @@ PathFile read_path(const Field& root) {
     file.keyframe_times_s = read_keyframe_times(*keyframes);
   }
   if (const auto digest = root.optional_member("scene_digest")) file.scene_digest = digest->text();
+  if (const auto bounds = root.optional_member("bounds")) {
+    file.bounds = read_bounds(*bounds);
+    if (const auto fault = geometry::fault_in(file.bounds))
+      bounds->fail(fault->field + " " + fault->reason);
+  }
   if (const auto scale = root.optional_member("near_scale")) {
     file.near_scale = scale->number();
     if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {

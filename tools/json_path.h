@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/geometry/bounds.h"
 #include "daemon/motion/path.h"
 #include "tools/json_document.h"
 
@@ -21,6 +22,7 @@ struct PathFile {
   std::string scene_digest;  ///< of the scene that it was made for; empty if it does not say
   /// The near distance that it was made for, as a share of the request's. [Limit: 0 < value <= 1]
   double near_scale = 1.0;
+  geometry::Bounds bounds;  ///< that it was made within
 };
 
 /// Reads the path. `segments` has to be there and every field of a segment has to be known, remarks

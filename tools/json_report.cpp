@@ -7,6 +7,7 @@
 
 #include "daemon/planning/request.h"
 #include "tools/json_angle.h"
+#include "tools/json_options.h"
 
 namespace camway::tools {
 namespace {
@@ -126,6 +127,7 @@ void read_report(const Field& root, planning::PlanResult& result) {
     const auto after = measures->optional_member("after");
     if (after) result.measures = read_measures(*after);
   }
+  if (const auto bounds = root.optional_member("bounds")) result.bounds = read_bounds(*bounds);
   if (const auto scale = root.optional_member("near_scale")) result.near_scale = scale->number();
   if (const auto scale = root.optional_member("time_scale")) result.time_scale = scale->number();
   if (const auto reached = root.optional_member("deadline_reached")) {

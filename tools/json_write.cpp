@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "daemon/collision/obstacles.h"
 #include "tools/json_angle.h"
 #include "tools/json_io.h"
 
@@ -108,7 +109,8 @@ void write_witness(Writer& w, const collision::Witness& witness,
   w.number(witness.time_s, what);
   w.raw(", \"object\": ");
   w.text(names.object);
-  w.raw(", \"triangle\": " + std::to_string(witness.triangle) + ", \"feature\": ");
+  w.raw(", \"triangle\": " + std::to_string(collision::Obstacles::signed_number(witness.triangle)) +
+        ", \"feature\": ");
   w.text(names.feature);
   w.raw(", \"depth\": ");
   w.number(witness.depth_m, what);
@@ -262,11 +264,34 @@ void write_infeasibility(Writer& w, const planning::Infeasibility& proof) {
   w.raw("]}");
 }
 
+/// `null` where there is no limit.
+void write_corner(Writer& w, const geometry::Vec3& corner_W) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    w.raw(axis == 0 ? "[" : ", ");
+    if (std::isfinite(corner_W[axis])) {
+      w.number(corner_W[axis], "bounds");
+    } else {
+      w.raw("null");
+    }
+  }
+  w.raw("]");
+}
+
+void write_bounds(Writer& w, const geometry::Bounds& bounds) {
+  if (!bounds.any()) return;
+  w.raw(",\n  \"bounds\": {\"min\": ");
+  write_corner(w, bounds.min_W);
+  w.raw(", \"max\": ");
+  write_corner(w, bounds.max_W);
+  w.raw("}");
+}
+
 /// What correction did, and what stood in its way.
 void write_report(Writer& w, const planning::PlanResult& result) {
   w.raw(",\n  \"corrections\": ");
   w.list(result.corrections, [&](const correction::Correction& c) { write_correction(w, c); });
   write_both_measures(w, result);
+  write_bounds(w, result.bounds);
   if (result.near_scale != 1.0) {
     w.raw(",\n  \"near_scale\": ");
     w.number(result.near_scale, "near_scale");

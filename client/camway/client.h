@@ -137,9 +137,10 @@ class Client {
   OccupancyAnswer occupancy(const OccupancyBatch& batch);
 
   /// Makes a scene of one mesh, or replaces the one of that name; of nothing if `mesh` names
-  /// neither a file nor bytes. The resolution of its occupancy map is for its life, 0 for no map.
+  /// neither a file nor bytes. The resolution of its occupancy map, 0 for no map, and the bounds
+  /// that no body may leave in it, are for its life.
   SceneAnswer load_scene(const std::string& scene, const SceneMesh& mesh,
-                         double occupancy_resolution_m = 0.0);
+                         double occupancy_resolution_m = 0.0, const Bounds& body_bounds = {});
   SceneAnswer unload_scene(const std::string& scene);
   SceneAnswer list_scenes();
   /// All objects of a scene.

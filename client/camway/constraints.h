@@ -62,4 +62,11 @@ struct MotionLimits {
   bool may_retime = false;
 };
 
+/// A box along the axes of the world that no point of the body may leave. A side without a number
+/// is no limit.
+struct Bounds {
+  std::array<std::optional<double>, 3> min_m{};
+  std::array<std::optional<double>, 3> max_m{};
+};
+
 }  // namespace camway

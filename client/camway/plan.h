@@ -75,6 +75,7 @@ struct PlanRequest {
   Objective objective = Objective::kClosest;
   Orientation orientation;
   MotionLimits limits;
+  Bounds bounds;  ///< beside those of the scene; `clearance_m` is about the scene alone
   /// Where nothing else helps, the near distance may be made smaller by up to this share; cameras
   /// only. [Limit: 0 <= value < 1]
   double max_shrink = 0.0;
@@ -107,8 +108,10 @@ struct PlanProgress {
 /// Where a collision was seen to be deepest.
 struct Witness {
   double time_s = 0.0;
-  std::string object;         ///< of the scene; empty if it has no name
-  std::int32_t triangle = 0;  ///< of the scene, counted from 0
+  std::string object;  ///< of the scene; empty if it has no name
+  /// Of the scene, counted from 0; -1 to -6: the body left min.x, min.y, min.z, max.x, max.y or
+  /// max.z of its bounds, which `object` names, too.
+  std::int32_t triangle = 0;
   /// Part of the body: "edge 2", "corner 0", "inside" of a near quadrilateral, "surface" of a
   /// sphere, "face 7" of other bodies.
   std::string feature;
@@ -151,6 +154,7 @@ struct PlanResponse {
       false;  ///< whether freedom of collision is proved for `path`, between samples too
   double clearance_lower_bound_m = 0.0;
 
+  Bounds bounds;  ///< that the body had to keep to: those of request and scene together
   std::vector<Correction> corrections;          ///< what became of each of `collisions`
   std::optional<PathMeasures> measures_before;  ///< of the path as interpolated
   std::optional<PathMeasures> measures;         ///< of `path`

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "camway/constraints.h"
 #include "camway/path.h"
 #include "camway/status.h"
 
@@ -18,8 +19,9 @@ struct SceneInfo {
   std::int64_t revision = 0;  ///< increases with every change
   std::string digest;         ///< of the triangles; equal content, equal digest
   std::int64_t num_triangles = 0;
-  std::array<double, 3> bounds_min_m{};
+  std::array<double, 3> bounds_min_m{};  ///< of the triangles
   std::array<double, 3> bounds_max_m{};
+  Bounds body_bounds;                   ///< what no body may leave in it
   double occupancy_resolution_m = 0.0;  ///< 0: no occupancy map
 };
 

@@ -23,7 +23,7 @@ constexpr double kRoundDown = 1.0 - 4.0 * std::numeric_limits<double>::epsilon()
 class ClearanceSearch {
  public:
   ClearanceSearch(const Obstacles& obstacles, const motion::Body& body, const Deadline& deadline)
-      : probe_(obstacles, body, /*clearance_m=*/0.0), deadline_(deadline) {}
+      : probe_(obstacles.without_bounds(), body, /*clearance_m=*/0.0), deadline_(deadline) {}
 
   std::optional<PathClearance> run(const motion::Path& path) {
     seed(path);

@@ -27,7 +27,7 @@ inline constexpr double kLargestClearance_m = 100.0;
 
 /// Branch and bound over the path with the bound of `Probe::look`: a stretch is final when its
 /// distance is proved to stay within `kClearanceGap` of the least found so far, or above. Covers
-/// every instant, rounding included. Nothing if the deadline struck first.
+/// every instant, rounding included. Bounds do not count. Nothing if the deadline struck first.
 std::optional<PathClearance> path_clearance(const Obstacles& obstacles, const motion::Path& path,
                                             const motion::Body& body, const Deadline& deadline);
 

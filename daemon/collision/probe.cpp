@@ -9,6 +9,7 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
+#include "daemon/scene/passage_search.h"
 
 namespace camway::collision {
 
@@ -45,6 +46,7 @@ bool is_inside(const motion::Solid& solid, const Vec3& point_C) {
 Probe::Probe(const Obstacles& obstacles, const motion::Body& body, double clearance_m)
     : obstacles_(obstacles),
       body_(body),
+      has_bounds_(obstacles.bounds.any()),
       keep_m_((body.ball_radius_m() + clearance_m) * kRoundUp),
       radius_m_(body.radius_m()),
       center_C_(bounds_of(body.triangles_C()).center()),
@@ -92,6 +94,12 @@ scene::MovingBody Probe::move(const motion::Stretch& stretch, Way way) {
 }
 
 Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
+  Look look = glance_at_scene(stretch, margin_m, way);
+  if (has_bounds_) mind_bounds(stretch, margin_m, way, look);
+  return look;
+}
+
+Look Probe::glance_at_scene(const motion::Stretch& stretch, double margin_m, Way way) {
   Look look;
   look.reach_m = reach_m(stretch);
   look.rounding_m = rounding_m(stretch);
@@ -122,8 +130,64 @@ Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
   return look;
 }
 
+double Probe::ball_depth_m(const motion::Stretch& stretch) const {
+  const double depth_m = obstacles_.bounds.depth_m(to_world(stretch, center_C_));
+  return depth_m - center_radius_m_ * kRoundUp;
+}
+
+void Probe::mind_bounds(const motion::Stretch& stretch, double margin_m, Way way, Look& look) {
+  const double ball_m = body_.ball_radius_m();
+  const double keep_m = (margin_m + ball_m) * kRoundUp;
+  const double all_inside_m = ball_depth_m(stretch);
+  if (all_inside_m > (look.reach_m + keep_m) * kRoundUp) {
+    if (look.free) look.ahead = std::min(look.ahead, (all_inside_m - keep_m) / look.reach_m);
+    if (!look.is_measured) look.gap_m = std::min(look.gap_m, all_inside_m - ball_m);
+    return;
+  }
+  const scene::MovingBody body = move(stretch, way);
+  double middle_m = std::numeric_limits<double>::infinity();
+  double first_m = middle_m;
+  double last_m = middle_m;
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      middle_m = std::min(middle_m, obstacles_.bounds.depth_m(placed_[i][k]));
+      first_m = std::min(first_m, obstacles_.bounds.depth_m(ends_[2 * i][k]));
+      last_m = std::min(last_m, obstacles_.bounds.depth_m(ends_[2 * i + 1][k]));
+    }
+  }
+  // A reach that is not a number fails both.
+  const bool is_inside = look.reach_m < std::numeric_limits<double>::infinity() &&
+                         (middle_m > (look.reach_m + keep_m) * kRoundUp ||
+                          std::min(first_m, last_m) > (body.bend_m + keep_m) * kRoundUp);
+  const bool is_bent = body.bend_m > scene::kStraightWay * look.reach_m;
+  const double change_m = last_m - first_m;
+  const double room_m = (is_inside ? last_m : first_m) - keep_m;
+  const double ahead =
+      !is_inside && is_bent ? 0.5 : scene::way_ahead(room_m, change_m, body.bend_m);
+  if (look.free || !is_inside) {
+    look.ahead = look.free != is_inside ? ahead : std::min(look.ahead, ahead);
+  }
+  look.swallows = look.swallows || surely_leaves(look.reach_m);
+  look.gap_m = std::min(look.gap_m, middle_m - ball_m);
+  look.is_measured = look.is_measured || !is_inside;
+  look.free = look.free && is_inside;
+}
+
+std::optional<Probe::Edge> Probe::nearest_edge() const {
+  if (!has_bounds_) return std::nullopt;
+  Edge nearest{0, 0, std::numeric_limits<double>::infinity()};
+  for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
+    for (std::size_t vertex = 0; vertex < 3 * placed_.size(); ++vertex) {
+      const Vec3& vertex_W = placed_[vertex / 3][vertex % 3];
+      const double gap_m = obstacles_.bounds.depth_m(side, vertex_W) - body_.ball_radius_m();
+      if (gap_m < nearest.gap_m) nearest = {side, vertex, gap_m};
+    }
+  }
+  return nearest;
+}
+
 void Probe::measure(const motion::Stretch& stretch, Look& look, double share) {
-  if (look.free || look.swallows) return;
+  if (look.free || look.swallows || !(look.gap_m + keep_m_ > 0.0)) return;
   // "Nearer than": what was found before stays where nothing is.
   const std::optional<scene::Nearest> nearest =
       obstacles_.index.near(place(stretch), look.gap_m + keep_m_, /*certain_m=*/0.0, share);
@@ -157,10 +221,14 @@ bool Probe::is_in_solid() const {
 std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch& stretch,
                                                           std::uint32_t guess) {
   const std::span<const Triangle> placed = place(stretch);
-  const Triangle guessed = obstacles_.index.triangle(guess);
-  const bool is_right = std::ranges::any_of(
-      placed, [&](const Triangle& part) { return geometry::triangles_touch(part, guessed); });
-  if (is_right) return guess;
+  if (const std::optional<Edge> edge = nearest_edge(); edge && edge->gap_m <= 0.0)
+    return Obstacles::number_of_side(edge->side);
+  if (guess < obstacles_.index.size()) {
+    const Triangle guessed = obstacles_.index.triangle(guess);
+    const bool is_right = std::ranges::any_of(
+        placed, [&](const Triangle& part) { return geometry::triangles_touch(part, guessed); });
+    if (is_right) return guess;
+  }
   // "Nearer than": the next number makes it "not further than".
   const double further_m = std::nextafter(keep_m_, std::numeric_limits<double>::infinity());
   const std::optional<scene::Nearest> found = obstacles_.index.any_within(placed, further_m);
@@ -168,14 +236,25 @@ std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch&
   return found->triangle;
 }
 
-bool Probe::surely_collides_with(std::uint32_t triangle, const motion::Stretch& stretch) {
+bool Probe::surely_collides_with(std::uint32_t obstacle, const motion::Stretch& stretch) {
   place(stretch);
-  return surely_meets(obstacles_.index.triangle(triangle), reach_m(stretch));
+  if (!Obstacles::is_side(obstacle))
+    return surely_meets(obstacles_.index.triangle(obstacle), reach_m(stretch));
+  return surely_leaves(reach_m(stretch));
+}
+
+// One vertex stays beyond one side.
+bool Probe::surely_leaves(double moved_m) const {
+  const std::optional<Edge> edge = nearest_edge();
+  // A depth of about the ball's radius is off by as much as rounding that.
+  const double rounding_m = (kRoundUp - 1.0) * body_.ball_radius_m();
+  return edge && -edge->gap_m > (moved_m + rounding_m) * kRoundUp;
 }
 
 std::optional<std::uint32_t> Probe::surely_hit(const motion::Stretch& stretch) {
   place(stretch);
   const double least_m = reach_m(stretch);
+  if (surely_leaves(least_m)) return Obstacles::number_of_side(nearest_edge()->side);
   std::optional<std::uint32_t> hit;
   int tried = 0;
   obstacles_.index.for_each_touching(bounds_of(placed_), [&](std::uint32_t index) {

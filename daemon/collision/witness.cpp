@@ -122,10 +122,27 @@ std::uint32_t nearest_part(std::span<const Triangle> placed, const Vec3& point_W
   return nearest;
 }
 
-}  // namespace
+// The vertex that is furthest beyond the bounds. Precondition: the body is placed.
+std::optional<Witness> beyond_bounds(const Probe& probe, std::span<const Triangle> placed,
+                                     double beyond_m) {
+  const std::optional<Probe::Edge> edge = probe.nearest_edge();
+  if (!edge || edge->gap_m > beyond_m) return std::nullopt;
+  const std::size_t part = edge->vertex / 3;
+  const Vec3& vertex_W = placed[part][edge->vertex % 3];
+  Witness witness;
+  witness.triangle = Obstacles::number_of_side(edge->side);
+  witness.depth_m = std::max(0.0, -edge->gap_m);
+  const Vec3 inward = geometry::Bounds::inward(edge->side);
+  witness.point_W = vertex_W - probe.obstacles().bounds.depth_m(edge->side, vertex_W) * inward;
+  // The corners of (c0, c1, c2) and (c0, c2, c3).
+  constexpr std::array<std::uint32_t, 6> kCorners = {0, 1, 2, 0, 2, 3};
+  witness.feature =
+      probe.body().is_camera() ? 5 + kCorners[edge->vertex] : static_cast<std::uint32_t>(part);
+  return witness;
+}
 
-std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
-                                       double beyond_m) {
+std::optional<Witness> deepest_in_scene(Probe& probe, const motion::Stretch& stretch,
+                                        double beyond_m) {
   const double keep_m = probe.keep_m();
   const std::span<const Triangle> placed = probe.place(stretch);
   const scene::SceneIndex& index = probe.obstacles().index;
@@ -158,6 +175,15 @@ std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stre
   deepest->point_W = closest_on_triangle(obstacle, middle);
   deepest->feature = probe.body().is_camera() ? camera_feature(placed, obstacle) : part_of_deepest;
   return deepest;
+}
+
+}  // namespace
+
+std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
+                                       double beyond_m) {
+  const std::optional<Witness> scene = deepest_in_scene(probe, stretch, beyond_m);
+  const std::optional<Witness> outside = beyond_bounds(probe, probe.place(stretch), beyond_m);
+  return outside && (!scene || outside->depth_m > scene->depth_m) ? outside : scene;
 }
 
 }  // namespace camway::collision

@@ -9,8 +9,8 @@
 namespace camway::collision {
 
 /// The deepest contact of the body, where the middle of `stretch` has it, with a triangle of the
-/// scene. A triangle that is up to `beyond_m` further away than required counts, with depth 0.
-/// Nothing if there is none. The time is left 0.
+/// scene or a side of the bounds. What is up to `beyond_m` further away than required counts, with
+/// depth 0. Nothing if there is none. The time is left 0.
 ///
 /// The depth of two triangles that cross is the least way along the normal of either that takes
 /// them apart; where they are merely too close, what is missing in distance; of what a solid of the

@@ -215,7 +215,10 @@ class CellSearch {
     box.extend(from_W).extend(to_W);
     const double margin_m =
         kMarginAround * (options.comfort_m + options.ball_radius_m + space.detect().clearance_m);
-    return {box.min().array() - margin_m, box.max().array() + margin_m};
+    // What is beyond the bounds need not be looked at.
+    const geometry::Bounds& bounds = space.obstacles().bounds;
+    return {(box.min().array() - margin_m).max(bounds.min_W.array()),
+            (box.max().array() + margin_m).min(bounds.max_W.array())};
   }
 
   /// Whether all that is reached from one end was looked at, and the other end is not among it.

@@ -66,8 +66,7 @@ class Search {
   std::vector<Vec3> directions() {
     std::vector<Vec3> directions_W;
     if (const std::optional<collision::Witness> contact = space_.contact(pose_, 0.0)) {
-      const geometry::Triangle met = space_.obstacles().index.triangle(contact->triangle);
-      const Vec3 normal_W = (met[1] - met[0]).cross(met[2] - met[0]).stableNormalized();
+      const Vec3 normal_W = space_.obstacles().normal_W(contact->triangle).stableNormalized();
       directions_W = {normal_W, -normal_W};
     }
     for (int x = -kShellSide; x <= kShellSide; ++x) {
@@ -159,7 +158,14 @@ class Search {
 
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
                                           double margin_m, const PoseRule& will_do) {
-  return Search(space, pose, margin_m, will_do).run();
+  // However far beyond the bounds, the way back is straight.
+  const motion::Pose inside = space.within_bounds(pose, (1.0 + kFreePosePrecision) * margin_m);
+  const double moved_m = (inside.position - pose.position).norm();
+  if (moved_m > 0.0 && space.is_free(inside, margin_m) && will_do(inside))
+    return FreePose{inside, moved_m};
+  std::optional<FreePose> found = Search(space, inside, margin_m, will_do).run();
+  if (found && moved_m > 0.0) found->moved_m = (found->pose.position - pose.position).norm();
+  return found;
 }
 
 }  // namespace camway::correction

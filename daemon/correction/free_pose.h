@@ -22,9 +22,11 @@ using PoseRule = std::function<bool(const motion::Pose&)>;
 /// is then drawn towards `pose` as far as it gets, by the length and by the direction of the move.
 /// Of moves that differ by less than the precision, one that leads to more room.
 ///
-/// Nothing if there is none on the shells within `kFreePoseReach` radii of the ball about the body.
-/// `margin_m` is kept beside the required clearance, so that a path can leave it. A local search: a
-/// free place that is narrower than the shells are dense may be missed.
+/// A pose that is beyond the bounds is first moved straight within them, however far that is, and
+/// the shells grow from there if it is not free there. Nothing if there is none on the shells
+/// within `kFreePoseReach` radii of the ball about the body. `margin_m` is kept beside the required
+/// clearance, so that a path can leave it. A local search: a free place that is narrower than the
+/// shells are dense may be missed.
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
                                           double margin_m, const PoseRule& will_do);
 

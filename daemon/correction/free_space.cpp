@@ -54,6 +54,9 @@ std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, doubl
   std::optional<scene::Nearest> found = obstacles_.index.near(
       probe_.place(standing), up_to_m + probe_.keep_m(), /*certain_m=*/0.0, kNearestShare);
   if (found) found->distance_m -= probe_.keep_m();
+  const std::optional<collision::Probe::Edge> edge = probe_.nearest_edge();
+  if (edge && edge->gap_m < (found ? found->distance_m : up_to_m))
+    return scene::Nearest{edge->gap_m, collision::Obstacles::number_of_side(edge->side)};
   return found;
 }
 
@@ -64,15 +67,21 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
   // A search need not know to a millimetre where it is stopped.
   options.tolerance_m = std::max(options.tolerance_m, 0.5 * margin_m);
   options.gap_m = std::max(options.gap_m, options.tolerance_m);
+  collision::Obstacles obstacles = obstacles_;
+  // What is required of the scene says nothing of the bounds.
+  obstacles.bounds = obstacles.bounds.shrunk_by(margin_m);
   const motion::Path path({motion::straight_motion(from, to)});
   const collision::FirstCollision found = collision::first_collision(
-      obstacles_, path, body_, 0.0, 1.0, options, collision::Deadline::never());
+      obstacles, path, body_, 0.0, 1.0, options, collision::Deadline::never());
   if (!found.interval) return std::nullopt;
   return found.interval->t_begin_s;
 }
 
 double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
   const double keep_m = radius_m + detect_.clearance_m;
+  const double inside_m = obstacles_.bounds.depth_m(point_W) - radius_m;
+  if (inside_m <= 0.0) return inside_m;
+  up_to_m = std::min(up_to_m, inside_m);
   if (obstacles_.solids != nullptr && obstacles_.solids->hold(point_W)) return -keep_m;
   if (obstacles_.field != nullptr) {
     const double at_least_m = obstacles_.field->clearance_at_least_m(point_W) - keep_m;
@@ -87,15 +96,31 @@ double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_
 }
 
 bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_m) const {
+  const double inside_m =
+      std::min(obstacles_.bounds.depth_m(from_W), obstacles_.bounds.depth_m(to_W));
+  if (!(inside_m > radius_m)) return false;
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
   return !obstacles_.index.any_within(way, radius_m + detect_.clearance_m);
 }
 
 double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m) const {
+  const double inside_m =
+      std::min(obstacles_.bounds.depth_m(from_W), obstacles_.bounds.depth_m(to_W));
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
   const std::optional<scene::Nearest> nearest =
       obstacles_.index.nearest(way, up_to_m + detect_.clearance_m);
-  return nearest ? nearest->distance_m - detect_.clearance_m : up_to_m;
+  return std::min(inside_m, nearest ? nearest->distance_m - detect_.clearance_m : up_to_m);
+}
+
+motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {
+  const geometry::Bounds inner =
+      obstacles_.bounds.shrunk_by(margin_m).shrunk_by(body_.ball_radius_m());
+  geometry::Box box;
+  for (const Triangle& triangle : placed(pose)) box.extend(geometry::bounds(triangle));
+  const Vec3 below = (inner.min_W - box.min()).cwiseMax(0.0);
+  const Vec3 above = (box.max() - inner.max_W).cwiseMax(0.0);
+  if (below.isZero(0.0) && above.isZero(0.0)) return pose;
+  return {pose.position + below - above, pose.orientation};
 }
 
 std::optional<collision::Witness> FreeSpace::contact(const motion::Pose& pose, double beyond_m) {

@@ -20,14 +20,16 @@ class FreeSpace {
   FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
             const collision::DetectOptions& detect, const OrientationPolicy& policy = {});
 
-  /// Whether the body at `pose` keeps the required clearance and `margin_m` more: proved.
+  /// Whether the body at `pose` keeps the required clearance and `margin_m` more, and that much
+  /// within the bounds: proved.
   [[nodiscard]] bool is_free(const motion::Pose& pose, double margin_m);
 
-  /// How much further than required the body at `pose` is from the scene, as computed, or
-  /// `up_to_m` if it is that much; 0 or less where it collides.
+  /// How much further than required the body at `pose` is from the scene, or how far it is inside
+  /// the bounds if that is less, as computed, or `up_to_m` if it is that much; 0 or less where it
+  /// collides.
   [[nodiscard]] double gap_m(const motion::Pose& pose, double up_to_m);
 
-  /// What is nearest to the body at `pose`, with how much further than required it is, about;
+  /// The obstacle nearest to the body at `pose`, with how much further than required it is, about;
   /// nothing where everything is at least `up_to_m` away. What is inside a solid does not count.
   [[nodiscard]] std::optional<scene::Nearest> nearest(const motion::Pose& pose, double up_to_m);
   /// A bound of that gap at the cost of a look-up; below 0 where it does not tell.
@@ -40,27 +42,32 @@ class FreeSpace {
   }
   /// Distance of the body's triangles from the scene at which it collides.
   [[nodiscard]] double keep_m() const { return probe_.keep_m(); }
+  /// `pose`, moved as little as it takes to have the body within the bounds by `margin_m`, as
+  /// computed; as it is, bit for bit, where that is so. Where the body is larger than the bounds it
+  /// is beyond them on both sides.
+  [[nodiscard]] motion::Pose within_bounds(const motion::Pose& pose, double margin_m);
 
   /// Where on the straight motion the body comes closer than the required clearance and
-  /// `margin_m`; nothing where it proved not to.
+  /// `margin_m`, to the bounds than `margin_m`; nothing where it proved not to.
   [[nodiscard]] std::optional<double> first_hit(const motion::SignedPose& from,
                                                 const motion::SignedPose& to, double margin_m);
 
-  /// How much further than required a ball about `point_W` is from the scene, or `up_to_m` if it is
-  /// that much; below 0 where it collides. The sign is right; of the distance of the ball's middle
-  /// only `kBallShare` is sure, which spares time. One of radius `ball_radius_m()` holds the body
-  /// in every orientation.
+  /// How much further than required a ball about `point_W` is from the scene, or inside the bounds
+  /// if that is less, or `up_to_m` if it is that much; below 0 where it collides. The sign is
+  /// right; of the distance of the ball's middle only `kBallShare` is sure, which spares time. One
+  /// of radius `ball_radius_m()` holds the body in every orientation.
   [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double radius_m,
                                   double up_to_m) const;
 
   static constexpr double kBallShare = 0.8;
 
-  /// Whether the ball keeps away from the scene, as computed, on the straight way between the two.
+  /// Whether the ball keeps away from the scene and within the bounds, as computed, on the straight
+  /// way between the two.
   [[nodiscard]] bool ball_passes(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
                                  double radius_m) const;
 
-  /// How much further than required the straight way between the two is from the scene, or
-  /// `up_to_m` if it is that much.
+  /// How much further than required the straight way between the two is from the scene, or inside
+  /// the bounds if that is less, or `up_to_m` if it is that much.
   [[nodiscard]] double way_gap_m(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
                                  double up_to_m) const;
 

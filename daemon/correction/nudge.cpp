@@ -165,8 +165,7 @@ class Nudger {
     };
     const Pose pose = motion::unsigned_pose(samples_[0].pose);
     if (const std::optional<collision::Witness> contact = space_.contact(pose, 0.0)) {
-      const geometry::Triangle triangle = space_.obstacles().index.triangle(contact->triangle);
-      const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+      const Vec3 normal = space_.obstacles().normal_W(contact->triangle);
       add(normal);
       add(-normal);
       add(space_.center_W(pose) - contact->point_W);

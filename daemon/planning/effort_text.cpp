@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "daemon/planning/keyframe_faults.h"
@@ -18,6 +19,9 @@ using correction::Effort;
 using correction::ShutIn;
 
 constexpr std::size_t kMostNamed = 5;  // keyframes
+
+// Cameras are seldom rolled by so much: 30 degrees.
+constexpr double kNotableTilt_rad = 0.5236;
 
 void add(std::string& list, std::string_view item) {
   if (!list.empty()) list += ", ";
@@ -83,8 +87,27 @@ std::string note_of_method(const PlanRequest& request) {
   if (request.options.seed != usual.seed) add_name("options.seed");
   std::string note;
   if (!unused.empty()) note = "; note: keyframe_insertion does not look at " + unused;
+  if (request.options.bounds.any())
+    note += "; note: keyframe_insertion corrects without regard to " +
+            request.name_of("options.bounds") + ", and is checked";
   if (request.body) note += "; note: keyframe_insertion corrects paths of cameras alone";
   return note;
+}
+
+std::string note_of_tilt(const PlanRequest& request) {
+  const correction::OrientationPolicy& policy = request.options.orientation;
+  if (policy.rule != correction::OrientationRule::kLevel) return {};
+  for (std::size_t i = 0; i < request.keyframes.size(); ++i) {
+    const geometry::Vec3 across_W =
+        request.keyframes[i].pose.orientation.normalized() * geometry::Vec3::UnitX();
+    const double tilt_rad =
+        std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
+    if (tilt_rad < kNotableTilt_rad) continue;
+    return fmt::format("; note: keyframe {} is tilted by {:.0f} degrees, check {}", i,
+                       tilt_rad * 180.0 / std::numbers::pi,
+                       request.name_of("options.orientation.up"));
+  }
+  return {};
 }
 
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
@@ -100,13 +123,13 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
   const KeyframeFault& first = fault_to_name(faults, request);
   const double clearance_m = request.options.clearance_m;
   const std::string rule =
-      clearance_m > 0.0
+      first.leaves_bounds ? std::string("leaves the bounds")
+      : clearance_m > 0.0
           ? fmt::format("is nearer to the scene than the clearance of {:.3g} m that was asked for",
                         clearance_m)
           : std::string("collides with the scene");
-  std::string message =
-      fmt::format("keyframes[{}]: the {} {} there", first.keyframe,
-                  request.body ? "body" : "near quadrilateral", rule);
+  std::string message = fmt::format("keyframes[{}]: the {} {} there", first.keyframe,
+                                    request.body ? "body" : "near quadrilateral", rule);
   if (first.depth_m > 0.0) message += fmt::format(", by about {:.3g} m", first.depth_m);
   const bool may_repair = request.options.repair_keyframes;
   if (first.free_pose) {

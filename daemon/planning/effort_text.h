@@ -31,6 +31,10 @@ std::string note_of_shut_in(const std::vector<correction::ShutIn>& shut_in);
 /// none.
 std::string note_of_method(const PlanRequest& request);
 
+/// "; note: ..." about a given keyframe that is tilted much where the policy keeps the horizon
+/// level: fine for who wants it so, but more often another axis is up in the scene.
+std::string note_of_tilt(const PlanRequest& request);
+
 /// Of keyframes at fault, the one that a message is about: where they were to be repaired, the
 /// first that could not be. Precondition: there are some.
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,

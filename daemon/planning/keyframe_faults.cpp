@@ -34,11 +34,11 @@ struct Side {
 
 class Search {
  public:
-  Search(const scene::Snapshot& snapshot, const motion::Body& body,
-         const collision::DetectOptions& detect, const std::vector<Keyframe>& keyframes,
-         const Deadline& deadline)
+  Search(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+         const motion::Body& body, const collision::DetectOptions& detect,
+         const std::vector<Keyframe>& keyframes, const Deadline& deadline)
       : snapshot_(snapshot),
-        space_(collision::Obstacles(snapshot), body, detect),
+        space_(obstacles, body, detect),
         margin_m_(kMargin * detect.tolerance_m),
         keyframes_(keyframes),
         deadline_(deadline),
@@ -72,6 +72,7 @@ class Search {
       if (space_.gap_m(pose, space_.detect().tolerance_m) > 0.0) continue;
       const std::optional<collision::Witness> contact = space_.contact(pose, 0.0);
       faults_.push_back({checked_, contact ? contact->depth_m : 0.0, std::nullopt});
+      faults_.back().leaves_bounds = contact && collision::Obstacles::is_side(contact->triangle);
     }
   }
 
@@ -175,11 +176,13 @@ class Search {
 
 }  // namespace
 
-KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const motion::Body& body,
-                                    const collision::DetectOptions& detect,
-                                    const std::vector<Keyframe>& keyframes,
-                                    const Deadline& deadline) {
-  return Search(snapshot, body, detect, keyframes, deadline).run();
+KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
+                                                const collision::Obstacles& obstacles,
+                                                const motion::Body& body,
+                                                const collision::DetectOptions& detect,
+                                                const std::vector<Keyframe>& keyframes,
+                                                const Deadline& deadline) {
+  return Search(snapshot, obstacles, body, detect, keyframes, deadline).run();
 }
 
 }  // namespace camway::planning

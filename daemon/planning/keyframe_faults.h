@@ -20,8 +20,9 @@ struct KeyframeFaults {
   bool complete = true;  ///< all keyframes were looked at, unless that many are at fault
 };
 
-/// The given keyframes at which the body collides, or is nearer to the scene than required, in
-/// order, at most `kMostKeyframeFaults`; each with the nearest free pose, if one was found.
+/// The given keyframes at which the body collides, is nearer to the scene than required, or is
+/// beyond the bounds of `obstacles`, in order, at most `kMostKeyframeFaults`; each with the nearest
+/// free pose, if one was found.
 ///
 /// A free pose lies on that side of every closed surface of the scene on which the path has to be
 /// there: where the free keyframes next before and next after are, if these agree. Else there is no
@@ -32,7 +33,9 @@ struct KeyframeFaults {
 /// keyframes is preferred, if it is not much further away than the nearest.
 ///
 /// Once the deadline has passed, no more keyframes are looked at, nor free poses looked for.
-KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const motion::Body& body,
+/// `obstacles` are those of the snapshot.
+KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
+                                    const collision::Obstacles& obstacles, const motion::Body& body,
                                     const collision::DetectOptions& detect,
                                     const std::vector<motion::Keyframe>& keyframes,
                                     const collision::Deadline& deadline);

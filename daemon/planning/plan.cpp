@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +23,7 @@
 #include "daemon/planning/limits.h"
 #include "daemon/planning/search_changes.h"
 #include "daemon/planning/shrink.h"
+#include "daemon/planning/way_beyond.h"
 
 namespace camway::planning {
 
@@ -43,9 +43,10 @@ double colliding_s(const std::vector<CollisionInterval>& intervals) {
 // The stages in order, each adding to the result.
 class Planner {
  public:
-  Planner(const scene::Snapshot& snapshot, const PlanRequest& request, const Deadline& deadline)
+  Planner(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+          const PlanRequest& request, const Deadline& deadline)
       : snapshot_(snapshot),
-        obstacles_(snapshot),
+        obstacles_(obstacles),
         request_(request),
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
@@ -73,6 +74,12 @@ class Planner {
       refuse(std::move(fault->message), fault->keyframe);
       return false;
     }
+    result_.bounds = obstacles_.bounds;
+    if (geometry::fault_in(obstacles_.bounds)) {
+      refuse(request_.name_of("options.bounds") + ": leave no room within the bounds of the scene",
+             std::nullopt);
+      return false;
+    }
     std::string fault;
     body_ = motion::Body::make(request_.body.value_or(request_.camera), fault);
     if (!body_) {
@@ -98,7 +105,7 @@ class Planner {
   // cannot be planned.
   bool keyframes_are_free() {
     KeyframeFaults found =
-        find_keyframe_faults(snapshot_, *body_, detect_, result_.keyframes, deadline_);
+        find_keyframe_faults(snapshot_, obstacles_, *body_, detect_, result_.keyframes, deadline_);
     result_.keyframe_faults = std::move(found.faults);
     const std::vector<KeyframeFault>& faults = result_.keyframe_faults;
     const bool all_free = std::ranges::all_of(
@@ -352,7 +359,8 @@ class Planner {
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
   // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
-    return note_of_bounds() + note_of_tilt() + note_of_tolerance() + note_of_method(request_);
+    return note_of_bounds() + note_of_tilt(request_) + note_of_tolerance() +
+           note_of_method(request_);
   }
 
   // What cannot be told from a collision at the tolerance counts as one, and for a tiny body that
@@ -371,23 +379,6 @@ class Planner {
     });
     if (inside || obstacles_.index.bounds().isEmpty()) return {};
     return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
-  }
-
-  // Fine for who wants it so, but more often another axis is up in the scene.
-  [[nodiscard]] std::string note_of_tilt() const {
-    const correction::OrientationPolicy& policy = request_.options.orientation;
-    if (policy.rule != correction::OrientationRule::kLevel) return {};
-    for (std::size_t i = 0; i < request_.keyframes.size(); ++i) {
-      const geometry::Vec3 across_W =
-          request_.keyframes[i].pose.orientation.normalized() * geometry::Vec3::UnitX();
-      const double tilt_rad =
-          std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
-      if (tilt_rad < kNotableTilt_rad) continue;
-      return fmt::format("; note: keyframe {} is tilted by {:.0f} degrees, check {}", i,
-                         tilt_rad * 180.0 / std::numbers::pi,
-                         request_.name_of("options.orientation.up"));
-    }
-    return {};
   }
 
   [[nodiscard]] std::size_t inserted_keyframes() const {
@@ -413,8 +404,9 @@ class Planner {
     if (remaining == 0) {
       result_.status = Status::kOk;
       result_.message =
-          fmt::format("{}; the path is proved free of collision, {} m or more from the scene",
-                      what_was_done(), rounded_down(result_.certificate.clearance_lower_bound_m)) +
+          fmt::format("{}; the path is proved free of collision, {} m or more from the scene{}",
+                      what_was_done(), rounded_down(result_.certificate.clearance_lower_bound_m),
+                      obstacles_.bounds.any() ? ", and within bounds" : "") +
           note_of_times() + note();
       return;
     }
@@ -525,9 +517,6 @@ class Planner {
   // A body that is fewer tolerances large is told so.
   static constexpr double kLeastTolerances = 10.0;
 
-  // Cameras are seldom rolled by so much: 30 degrees.
-  static constexpr double kNotableTilt_rad = 0.5236;
-
   // Of what is left: what comes after these has to be done by the deadline, too.
   static constexpr double kShareOfCorrection = 0.95;
   static constexpr double kShareOfWholeSearch = 0.7;
@@ -565,16 +554,27 @@ class Planner {
   PlanResult result_;
 };
 
+PlanResult plan_among(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+                      const PlanRequest& request, const Deadline& deadline) {
+  const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
+    return Planner(snapshot, obstacles, asked, until).run();
+  };
+  return may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
+                             : plan_at_size(request, deadline);
+}
+
 }  // namespace
 
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const Deadline& deadline) {
   try {
-    const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
-      return Planner(snapshot, asked, until).run();
-    };
-    PlanResult result = may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
-                                            : plan_at_size(request, deadline);
+    const collision::Obstacles scene(snapshot);
+    PlanResult result =
+        plan_among(snapshot, scene.within(request.options.bounds), request, deadline);
+    if (may_have_way_beyond(request, result)) {
+      add_way_beyond(plan_among(snapshot, scene.without_bounds(), request, deadline), request,
+                     result);
+    }
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {
       result.message += "; the deadline came before it was improved to the end";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "daemon/correction/constraints.h"
+#include "daemon/geometry/bounds.h"
 #include "daemon/motion/body.h"
 #include "daemon/motion/keyframe.h"
 
@@ -38,6 +39,9 @@ struct PlanOptions {
   /// How far the body has to stay from the scene; nearer is a collision.
   /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
   double clearance_m = 0.0;
+  /// What no point of the body may leave, beside the bounds of the scene. `clearance_m` is about
+  /// the scene alone. [Limit: finite ones are below kMaxCoordinate_m; min < max]
+  geometry::Bounds bounds = {};
   /// Cut-off of the correction, per request. With 0 nothing is corrected: neither the path nor, by
   /// `max_shrink`, the camera. Keyframes are repaired and times moved all the same, if that was
   /// asked for. [Limit: 0 <= value]

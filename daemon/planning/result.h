@@ -11,6 +11,7 @@
 #include "daemon/correction/cage_box.h"
 #include "daemon/correction/correction.h"
 #include "daemon/correction/shut_in.h"
+#include "daemon/geometry/bounds.h"
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/measures.h"
 #include "daemon/motion/path.h"
@@ -56,11 +57,12 @@ struct WitnessNames {
   bool operator==(const WitnessNames&) const = default;
 };
 
-/// A given keyframe that collides, or is nearer to the scene than required.
+/// A given keyframe that collides, is nearer to the scene than required, or beyond the bounds.
 struct KeyframeFault {
   std::size_t keyframe = 0;
   double depth_m = 0.0;                   ///< estimate of how far it would have to move to be free
   std::optional<motion::Pose> free_pose;  ///< the nearest that was found, if any
+  bool leaves_bounds = false;  ///< it is the bounds that it is deepest in; not on the wire
 };
 
 /// A stretch of the path that was made slower to meet limits.
@@ -112,6 +114,8 @@ struct PlanResult {
   /// The near distance that the proof is for, as a share of the one asked for; below 1 only if
   /// `PlanOptions::max_shrink` allowed it.
   double near_scale = 1.0;
+  /// What the body had to stay within: the bounds of the request and those of the scene together.
+  geometry::Bounds bounds;
   /// How many times as long `path` takes as was asked for, to meet limits. It is slower where it
   /// has to be, or all the way (`planning/limits.h`); every time of the result is a new one.
   double time_scale = 1.0;

@@ -17,6 +17,7 @@ namespace {
 using motion::Keyframe;
 
 static_assert(motion::kMaxBodyCoordinate_m == kMaxCoordinate_m);
+static_assert(geometry::kMaxBound_m == kMaxCoordinate_m);
 
 InvalidRequest invalid(std::string field, std::string_view reason,
                        std::optional<std::size_t> keyframe = std::nullopt) {
@@ -217,6 +218,8 @@ std::optional<InvalidRequest> check_options(const PlanOptions& options) {
     return invalid("options.clearance", fmt::format("is {}; it must be at most {:g}",
                                                     options.clearance_m, kMaxCoordinate_m));
   }
+  if (const auto fault = geometry::fault_in(options.bounds))
+    return invalid("options.bounds." + fault->field, fault->reason);
   if (options.max_inserted_keyframes < 0) {
     return invalid("options.max_inserted_keyframes",
                    fmt::format("is {}; it must be at least 0", options.max_inserted_keyframes));

@@ -43,8 +43,8 @@ bool meets_added(const Box& swept, const scene::SceneDifference& change) {
 }  // namespace
 
 WatchedPath::WatchedPath(motion::Path path, motion::Body body,
-                         const collision::DetectOptions& detect)
-    : path_(std::move(path)), body_(std::move(body)), detect_(detect) {
+                         const collision::DetectOptions& detect, const geometry::Bounds& bounds)
+    : path_(std::move(path)), body_(std::move(body)), detect_(detect), bounds_(bounds) {
   const double margin_m =
       (body_.radius_m() + body_.ball_radius_m() + body_.slack_m() + detect_.clearance_m) * kRoundUp;
   swept_.reserve(path_.segments().size());
@@ -61,17 +61,19 @@ std::optional<WatchedPath> WatchedPath::of(const PlanRequest& request, const Pla
   std::string fault;
   std::optional<motion::Body> body = motion::Body::make(request.body.value_or(camera), fault);
   if (!body) return std::nullopt;
-  return WatchedPath(result.path, std::move(*body), detect_options(request.options));
+  return WatchedPath(result.path, std::move(*body), detect_options(request.options),
+                     request.options.bounds);
 }
 
 bool WatchedPath::may_meet(const scene::SceneDifference& change) const {
-  return meets_added(all_swept_, change) ||
+  return change.other_bounds || meets_added(all_swept_, change) ||
          std::ranges::any_of(change.removed,
                              [&](const Box& box) { return all_swept_.intersects(box); });
 }
 
 bool WatchedPath::stays_free(const scene::SceneDifference& change,
                              const collision::Deadline& deadline) const {
+  if (change.other_bounds) return false;
   if (!meets_added(all_swept_, change)) return true;
   collision::Obstacles added(change.index);
   added.solids = change.solids.get();
@@ -94,8 +96,8 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
 
 std::vector<collision::CollisionInterval> WatchedPath::collisions(
     const collision::Obstacles& obstacles, const collision::Deadline& deadline) const {
-  auto found = collision::detect_collisions(obstacles, path_, body_, path_.begin_s(), path_.end_s(),
-                                            detect_, deadline);
+  auto found = collision::detect_collisions(obstacles.within(bounds_), path_, body_,
+                                            path_.begin_s(), path_.end_s(), detect_, deadline);
   return found ? std::move(*found) : std::vector{everywhere()};
 }
 

@@ -26,11 +26,13 @@ namespace camway::planning {
 /// within `Body::radius_m` and the ball's radius of the eye: so the body stays in the box of the
 /// control points, grown by these, by `Body::slack_m` and the required clearance, all rounded up. A
 /// segment whose grown box does not meet the box of an added object is free of it; of all other
-/// segments `collision::detect_collisions` has to prove it against what was added alone.
+/// segments `collision::detect_collisions` has to prove it against what was added alone. Within the
+/// bounds it stays while these are the same; where those of the scene are others, nothing is known.
 class WatchedPath {
  public:
   /// Precondition: segments with increasing times.
-  WatchedPath(motion::Path path, motion::Body body, const collision::DetectOptions& detect);
+  WatchedPath(motion::Path path, motion::Body body, const collision::DetectOptions& detect,
+              const geometry::Bounds& bounds = {});
 
   /// What `result` proves for the body that `request` asked for; nothing if it proves nothing.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
@@ -44,8 +46,8 @@ class WatchedPath {
   [[nodiscard]] bool stays_free(const scene::SceneDifference& change,
                                 const collision::Deadline& deadline) const;
 
-  /// Where it collides, from scratch, as `collision::detect_collisions` says. All of it where the
-  /// deadline struck.
+  /// Where it collides, or leaves the bounds of its request or of `obstacles`, from scratch, as
+  /// `collision::detect_collisions` says. All of it where the deadline struck.
   [[nodiscard]] std::vector<collision::CollisionInterval> collisions(
       const collision::Obstacles& obstacles, const collision::Deadline& deadline) const;
 
@@ -60,6 +62,7 @@ class WatchedPath {
   motion::Path path_;
   motion::Body body_;
   collision::DetectOptions detect_;
+  geometry::Bounds bounds_;           ///< of the request
   std::vector<geometry::Box> swept_;  ///< of each segment: nothing outside can be too near
   geometry::Box all_swept_;
 };

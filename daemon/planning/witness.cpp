@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/planning/witness.h"
 
+#include <string>
+
+#include "daemon/collision/obstacles.h"
+
 namespace camway::planning {
 namespace {
 
@@ -21,7 +25,11 @@ std::vector<WitnessNames> names_of(const scene::WholeMesh& mesh, const motion::B
 
 WitnessNames describe_witness(const scene::WholeMesh& mesh, const motion::Body& body,
                               const collision::Witness& witness) {
-  return {mesh.object_name(witness.triangle), body.feature_name(witness.feature)};
+  using collision::Obstacles;
+  const std::string feature = body.feature_name(witness.feature);
+  if (!Obstacles::is_side(witness.triangle)) return {mesh.object_name(witness.triangle), feature};
+  const std::size_t side = Obstacles::side_of(witness.triangle);
+  return {"bounds." + std::string(geometry::Bounds::kSideNames[side]), feature};
 }
 
 void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, PlanResult& result) {

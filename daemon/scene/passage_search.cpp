@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A way that strays more than this share of its reach from a straight one tells nothing of a
-/// shorter one but that it is shorter.
-constexpr double kStraight = 0.3;
-
 }  // namespace
 
 PassageSearch::PassageSearch(const MovingBody& body, const geometry::Box& ends_box, double error_m)
@@ -53,30 +49,27 @@ bool PassageSearch::passes(std::span<const Triangle> ends, const Triangle& trian
   const double first_m = geometry::slab_width_m(ends[0], triangle, direction);
   const double last_m = geometry::slab_width_m(ends[1], triangle, direction);
   if (!(std::min(first_m, last_m) > body_.bend_m + body_.keep_m)) return false;
-  ahead_ = std::min(ahead_, way_ahead(last_m, last_m - first_m));
+  ahead_ = std::min(ahead_, way_ahead(last_m - body_.keep_m, last_m - first_m, body_.bend_m));
   return true;
 }
 
 void PassageSearch::stop_before(std::span<const Triangle> ends, const Triangle& triangle) {
   ahead_ = 0.5;
-  if (body_.bend_m > kStraight * body_.reach_m) return;
+  if (body_.bend_m > kStraightWay * body_.reach_m) return;
   const TriangleGap gap = geometry::triangle_gap(ends[0], triangle, kInfinity);
   ahead_ = 0.0;
   if (!(gap.distance_m > 0.0)) return;
   const double last_m = geometry::slab_width_m(ends[1], triangle, gap.direction);
-  ahead_ = way_ahead(gap.distance_m, last_m - gap.distance_m);
+  ahead_ = way_ahead(gap.distance_m - body_.keep_m, last_m - gap.distance_m, body_.bend_m);
 }
 
-// How many times as long a way may be that begins `gap_m` away, if that changes by `change_m` on
-// this one: all of the way, from its beginning on, is to be clear across one direction, and the
-// part of the room that bends take grows with the square of the length. So f is sought with
-//     gap + min(0, f·change) = f²·bend + keep.
-double PassageSearch::way_ahead(double gap_m, double change_m) const {
-  const double room_m = gap_m - body_.keep_m;
+// All of the way, from its beginning on, is to be clear across one direction, and the part of the
+// room that bends take grows with the square of the length. So f is sought with
+//     room + min(0, f·change) = f²·bend.
+double way_ahead(double room_m, double change_m, double bend_m) {
   if (!(room_m > 0.0)) return 0.0;
   const double closing_m = std::max(0.0, -change_m);
-  return 2.0 * room_m /
-         (closing_m + std::sqrt(closing_m * closing_m + 4.0 * body_.bend_m * room_m));
+  return 2.0 * room_m / (closing_m + std::sqrt(closing_m * closing_m + 4.0 * bend_m * room_m));
 }
 
 }  // namespace camway::scene

@@ -5,6 +5,13 @@
 
 namespace camway::scene {
 
+/// How many times as long a way may be that begins with `room_m`, if that changes by `change_m` on
+/// this one, and bend takes `bend_m` of it: an estimate.
+double way_ahead(double room_m, double change_m, double bend_m);
+/// A way that strays more than this share of its reach from a straight one tells nothing of a
+/// shorter one but that it is shorter.
+inline constexpr double kStraightWay = 0.3;
+
 /// Asks what is near the way of a body whether the body keeps away from it; see
 /// `SceneIndex::passage`.
 class PassageSearch : public BodySearch {
@@ -23,7 +30,6 @@ class PassageSearch : public BodySearch {
   bool passes(std::span<const geometry::Triangle> ends, const geometry::Triangle& triangle,
               const geometry::Vec3& direction);
   void stop_before(std::span<const geometry::Triangle> ends, const geometry::Triangle& triangle);
-  [[nodiscard]] double way_ahead(double gap_m, double change_m) const;
 
   const MovingBody& body_;
   int passed_ = 0;

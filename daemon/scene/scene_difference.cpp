@@ -134,7 +134,9 @@ SceneDifference difference(const Snapshot& before, const Snapshot& after) {
       ++now;
     }
   }
-  return collector.take();
+  SceneDifference sum = collector.take();
+  sum.other_bounds = !(before.options.bounds == after.options.bounds);
+  return sum;
 }
 
 }  // namespace camway::scene

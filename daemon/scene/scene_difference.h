@@ -20,7 +20,9 @@ struct SceneDifference {
   /// Boxes of what the earlier one has and the later one has not, or has elsewhere.
   std::vector<geometry::Box> removed;
 
-  [[nodiscard]] bool empty() const { return added.empty() && removed.empty(); }
+  bool other_bounds = false;  ///< whether what bodies must not leave is another
+
+  [[nodiscard]] bool empty() const { return added.empty() && removed.empty() && !other_bounds; }
 };
 
 /// Objects, and the parts of an occupancy map that stayed where it was, count as the same where the

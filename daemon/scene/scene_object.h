@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/geometry/bounds.h"
 #include "daemon/scene/distance_field.h"
 #include "daemon/scene/import.h"
 #include "daemon/scene/index_tree.h"
@@ -26,6 +27,9 @@ struct ObjectOptions {
   std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: not wanted
   std::optional<double> occupancy_resolution_m;                        ///< no mirror without it
   std::uint64_t mirror_voxels = OccupancyMap::kUsualMostVoxels;        ///< of an object, at most
+  /// Of the scene: what no body may leave, whatever a request says. No object, and no digest,
+  /// depends on it.
+  geometry::Bounds bounds = {};
 };
 
 enum class ObjectKind : std::uint8_t { kMesh, kBox, kSphere, kCylinder, kPointCloud, kMap };

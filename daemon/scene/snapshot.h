@@ -36,7 +36,7 @@ struct Snapshot {
   /// single object it is that object's; of several a digest of theirs.
   std::string digest;
   SceneObjects objects;
-  ObjectOptions options;  ///< what objects are built with
+  ObjectOptions options;  ///< what objects are built with, and its bounds
   WholeMesh mesh;         ///< numbered as `index` is
   SceneIndex index;
   std::shared_ptr<const SceneSolids> solids;         ///< null if nothing has an inside

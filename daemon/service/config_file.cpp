@@ -19,13 +19,14 @@
 #include <toml++/toml.h>
 
 #include "daemon/scene/voxel_grid.h"
+#include "daemon/service/bounds_text.h"
 #include "daemon/service/daemon_settings.h"
 
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 7> kSceneKeys{
-    "name", "file", "scale", "up", "unknown", "occupancy_resolution_m", "watch"};
+constexpr std::array<std::string_view, 8> kSceneKeys{
+    "name", "file", "scale", "up", "unknown", "occupancy_resolution_m", "watch", "bounds"};
 
 constexpr double kMaxSceneNumber = 1e9;
 
@@ -136,6 +137,11 @@ std::string apply_to_scene(std::string_view key, const toml::node& node, SceneAr
   if (key == "name") {
     scene.name = text->get();
     return is_scene_name(scene.name) ? std::string() : kSceneNameRule;
+  }
+  if (key == "bounds") {
+    const ParsedBounds parsed = parse_bounds(text->get());
+    if (parsed.bounds) scene.options.bounds = *parsed.bounds;
+    return parsed.error;
   }
   if (key == "file") {
     scene.file = text->get();

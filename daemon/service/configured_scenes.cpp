@@ -49,7 +49,8 @@ bool same(const SceneArgument& a, const SceneArgument& b) {
   return a.name == b.name && a.file == b.file && a.options.import.scale == b.options.import.scale &&
          a.options.import.up == b.options.import.up &&
          a.options.import.unknown == b.options.import.unknown &&
-         a.options.occupancy_resolution_m == b.options.occupancy_resolution_m;
+         a.options.occupancy_resolution_m == b.options.occupancy_resolution_m &&
+         a.options.bounds == b.options.bounds;
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
                  "A scene to hold; may be given several times, beside those of the configuration "
                  "file or in the place of one of the same name. scale: file units to metres; up: "
                  "turns axes; occupancy: edge of a voxel of the occupancy map in metres, no map "
-                 "without it")
+                 "without it; bounds: what no body may leave, metres, a number left out is no "
+                 "limit")
       ->type_name(kSceneArgumentForm)
       ->take_all();
   declare_setting(app, "--scene-roots", "scenes.roots",
@@ -124,8 +125,7 @@ ParsedOptions failed(std::vector<std::string> faults) {
 }
 
 /// `fault` with where its setting was said; nothing if there is none.
-std::string fault_at(std::string_view key, const std::string& fault,
-                     const DaemonOptions& options) {
+std::string fault_at(std::string_view key, const std::string& fault, const DaemonOptions& options) {
   return fault.empty() ? fault : options.where(key) + ": " + fault;
 }
 
@@ -192,8 +192,8 @@ std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   }
   // Of file and flags it was looked at when it was read; the environment's counts only here.
   add(fault_at("lcm.url", parse_lcm_url(options.lcm_url).fault, options));
-  add(fault_at("scenes.roots",
-               open_roots(options.scene_roots, options.service.scene_rules.roots), options));
+  add(fault_at("scenes.roots", open_roots(options.scene_roots, options.service.scene_rules.roots),
+               options));
   return faults;
 }
 

@@ -9,12 +9,13 @@
 
 #include "daemon/scene/import_words.h"
 #include "daemon/scene/voxel_grid.h"
+#include "daemon/service/bounds_text.h"
 
 namespace camway::service {
 namespace {
 
-constexpr std::array<std::string_view, 5> kOptionNames{"scale", "up", "unknown", "occupancy",
-                                                       "watch"};
+constexpr std::array<std::string_view, 6> kOptionNames{"scale",     "up",    "unknown",
+                                                       "occupancy", "watch", "bounds"};
 
 std::optional<double> positive_number(std::string_view text) {
   double value = 0.0;
@@ -45,6 +46,11 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
     scene.options.import.unknown = *unknown;
     return {};
   }
+  if (key == "bounds") {
+    const ParsedBounds parsed = parse_bounds(value);
+    if (parsed.bounds) scene.options.bounds = *parsed.bounds;
+    return parsed.error;
+  }
   const std::optional<double> number = positive_number(value);
   if (!number) {
     return std::string(key) + "=" + std::string(value) + ": must be a number above 0";
@@ -69,7 +75,7 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
     const std::string_view key = last.substr(0, equals);
     if (std::find(kOptionNames.begin(), kOptionNames.end(), key) == kOptionNames.end()) {
       return "'" + std::string(key) +
-             "' is no option of a scene (scale, up, unknown, occupancy, watch are)";
+             "' is no option of a scene (scale, up, unknown, occupancy, watch, bounds are)";
     }
     if (std::string error = apply_option(key, last.substr(equals + 1), scene); !error.empty()) {
       return error;

@@ -45,7 +45,7 @@ struct ParsedSceneArgument {
 /// One line for `--help`.
 inline constexpr char kSceneArgumentForm[] =
     "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]"
-    "[,watch=yes|no]";
+    "[,watch=yes|no][,bounds=X0..X1/Y0..Y1/Z0..Z1]";
 
 /// Reads `text` of the form above. Options are taken off the end, so a FILE may hold commas unless
 /// what follows one looks like an option. NAME is of [A-Za-z0-9_.-], at most

@@ -14,6 +14,7 @@
 #include "daemon/scene/map_scan.h"
 #include "daemon/service/scene_argument.h"
 #include "daemon/service/scene_content.h"
+#include "daemon/service/wire_bounds.h"
 #include "daemon/service/wire_convert.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/checksum.h"
@@ -176,6 +177,9 @@ class Work {
     if (!is_scene_name(request_.scene)) return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
     scene::ObjectOptions options;
     options.mirror_voxels = rules_.mirror_voxels;
+    options.bounds = bounds_of(request_.body_bounds);
+    if (const auto fault = geometry::fault_in(options.bounds))
+      return invalid("body_bounds." + fault->field + ": " + fault->reason);
     if (request_.occupancy_resolution_m != 0.0) {
       options.occupancy_resolution_m = request_.occupancy_resolution_m;
     }
@@ -358,6 +362,7 @@ scene_info_t scene_info_of(const scene::Snapshot& snapshot) {
     std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
     std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);
   }
+  info.body_bounds = wire_bounds(snapshot.options.bounds);
   if (snapshot.occupancy) info.occupancy_resolution_m = snapshot.occupancy->resolution_m();
   return info;
 }

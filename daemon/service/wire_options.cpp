@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "daemon/service/wire_bounds.h"
+
 namespace camway::service {
 namespace {
 
@@ -132,6 +134,7 @@ void put_correction_options(const planning::PlanOptions& options, plan_request_t
   wire.objective = wire_objective(options.objective);
   wire.orientation = wire_orientation(options.orientation);
   wire.limits = wire_limits(options.limits);
+  wire.bounds = wire_bounds(options.bounds);
   wire.max_shrink = options.max_shrink;
   wire.repair_keyframes = options.repair_keyframes ? 1 : 0;
   wire.seed = static_cast<std::int64_t>(options.seed);
@@ -148,6 +151,7 @@ std::string read_correction_options(const plan_request_t& wire, planning::PlanOp
   options.objective = *objective;
   options.orientation = orientation_of(wire.orientation, *rule);
   options.limits = limits_of(wire.limits);
+  options.bounds = bounds_of(wire.bounds);
   options.max_shrink = wire.max_shrink;
   options.repair_keyframes = wire.repair_keyframes != 0;
   if (wire.seed != 0) options.seed = static_cast<std::uint64_t>(wire.seed);

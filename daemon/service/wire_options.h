@@ -10,7 +10,7 @@
 /// The part of a request that says what corrections are asked for.
 namespace camway::service {
 
-/// Writes objective, orientation, limits, shrink, repair and seed of `options` into `wire`.
+/// Writes objective, orientation, limits, bounds, shrink, repair and seed of `options` into `wire`.
 void put_correction_options(const planning::PlanOptions& options, plan_request_t& wire);
 
 /// Reads them back; zeros become defaults. Returns why there are none, e.g. "objective: 9 is

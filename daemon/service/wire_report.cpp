@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "daemon/service/wire_bounds.h"
+
 namespace camway::service {
 namespace {
 
@@ -208,6 +210,7 @@ void put_report(const PlanResult& result, plan_response_t& wire) {
   if (result.measures_before) wire.measures_before = wire_measures(*result.measures_before);
   wire.has_measures = result.measures ? 1 : 0;
   if (result.measures) wire.measures = wire_measures(*result.measures);
+  wire.bounds = wire_bounds(result.bounds);
   wire.near_scale = result.near_scale;
   wire.time_scale = result.time_scale;
   wire.deadline_reached = result.deadline_reached ? 1 : 0;
@@ -225,6 +228,7 @@ void put_report(const PlanResult& result, plan_response_t& wire) {
 std::string read_report(const plan_response_t& wire, PlanResult& result) {
   if (wire.has_measures_before != 0) result.measures_before = measures_of(wire.measures_before);
   if (wire.has_measures != 0) result.measures = measures_of(wire.measures);
+  result.bounds = bounds_of(wire.bounds);
   result.near_scale = wire.near_scale;
   result.time_scale = wire.time_scale;
   result.deadline_reached = wire.deadline_reached != 0;

@@ -134,6 +134,7 @@ TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
   request.orientation.max_turn_rad = 0.0;
   request.limits.acceleration_m_per_s2 = 2.5;
   request.limits.may_retime = true;
+  request.bounds.min_m[1] = -0.5;
   request.max_shrink = 0.25;
   request.repair_keyframes = true;
   request.seed = 99;
@@ -151,6 +152,9 @@ TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
     EXPECT_EQ(page->limits.acceleration_m_per_s2, 2.5);
     EXPECT_EQ(page->limits.speed_m_per_s, 0.0);
     EXPECT_EQ(page->limits.may_retime, 1);
+    EXPECT_EQ(page->bounds.has_min[1], 1);
+    EXPECT_EQ(page->bounds.min_m[1], -0.5);
+    EXPECT_EQ(page->bounds.has_min[0] + page->bounds.has_max[1], 0);
     EXPECT_EQ(page->max_shrink, 0.25);
     EXPECT_EQ(page->repair_keyframes, 1);
     EXPECT_EQ(page->seed, 99);

@@ -217,5 +217,38 @@ TEST(Contacts, AskForNoTurnWhereNoneIsAllowed) {
   }
 }
 
+// A side of the bounds keeps each vertex inside by the ball's radius alone.
+TEST(Contacts, OfASideAreOfEveryVertex) {
+  Draw draw(4306);
+  for (int run = 0; run < 100; ++run) {
+    Case c = random_case(draw);
+    if (run % 2 == 0) c.body = made(motion::SphereShape{draw.vector(0.3), 0.15});
+    geometry::Bounds bounds;
+    bounds.min_W.y() = -4.0;
+    bounds.max_W.z() = 3.0;
+    FreeSpace space(collision::Obstacles(c.index).within(bounds), c.body, c.detect, c.policy);
+    const std::vector<std::uint32_t> sides = {collision::Obstacles::number_of_side(1),
+                                              collision::Obstacles::number_of_side(5)};
+    std::vector<ContactRow> rows;
+    add_contact_rows(space, true, c.reference, kLever_m, c.point, sides, kAll_m, rows);
+    ASSERT_EQ(rows.size(), 2 * 3 * c.body.triangles_C().size());
+    for (const ContactRow& row : rows) {
+      const std::size_t side = collision::Obstacles::side_of(row.triangle);
+      const Vec3 away_W = geometry::Bounds::inward(side);
+      EXPECT_EQ(Vec3(row.direction.head<3>()), away_W);
+      const Vec3 vertex_W = c.vertex_W(c.point, row.vertex);
+      EXPECT_NEAR(row.room_m, bounds.depth_m(side, vertex_W) - c.body.ball_radius_m(), kRounding_m);
+      for (Eigen::Index i = 0; i < 7; ++i) {
+        constexpr double kStep_m = 1e-4;
+        const StackedPoint step = kStep_m * StackedPoint::Unit(i);
+        const Vec3 moved =
+            c.vertex_W(c.point + step, row.vertex) - c.vertex_W(c.point - step, row.vertex);
+        EXPECT_NEAR(row.direction[i], away_W.dot(moved) / (2.0 * kStep_m),
+                    kThird_per_m2 / 6.0 * kStep_m * kStep_m + kRounding_m / kStep_m);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace camway::correction

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/correction/search_scene.h"
 
 namespace camway::correction {
@@ -204,6 +206,32 @@ TEST(NearestFreePose, IsFreeWhateverTheScene) {
     expect_free(scene, pose, *found);
   }
   EXPECT_GT(colliding, 30);
+}
+
+// However far beyond its bounds a pose is, it is brought back straight, and then out of the scene.
+TEST(NearestFreePose, BackWithinBounds) {
+  const SearchScene empty({}, sphere(kRadius_m));
+  geometry::Bounds bounds;
+  bounds.max_W = {1.0, 1.0, std::numeric_limits<double>::infinity()};
+  FreeSpace space(collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect);
+  const auto found = nearest_free_pose(space, at({31, 41, 0}), kMargin_m, kAny);
+  ASSERT_TRUE(found);
+  const double inset_m = kRadius_m + kMargin_m;
+  const double least_m = std::hypot(30.0 + inset_m, 40.0 + inset_m);
+  EXPECT_GE(found->moved_m, least_m);
+  // On each of two axes the margin, to within the precision.
+  EXPECT_LE(found->moved_m, least_m + 2.0 * kFreePosePrecision * kMargin_m);
+  EXPECT_EQ(found->pose.position.z(), 0.0);
+
+  scene::Mesh mesh;
+  testing::add_cuboid(mesh, {0.5, 0.5, -0.1}, {1.5, 1.5, 0.1});
+  const SearchScene scene(std::move(mesh), sphere(kRadius_m));
+  FreeSpace blocked(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+  const auto beside = nearest_free_pose(blocked, at({31, 41, 0}), kMargin_m, kAny);
+  ASSERT_TRUE(beside);
+  EXPECT_GE(scene.distance_m(beside->pose), kMargin_m);
+  EXPECT_GE(bounds.depth_m(beside->pose.position), inset_m);
+  EXPECT_LT((beside->pose.position - found->pose.position).norm(), 0.5);
 }
 
 }  // namespace

@@ -163,5 +163,94 @@ TEST(FreeSpace, DistancesOfPosesCountMovingAndTurning) {
               space.ball_radius_m() * 2.0 * std::numbers::pi, 1e-12);
 }
 
+// Bounds are asked for together with the scene: the nearer one counts.
+TEST(FreeSpace, MindsBoundsLikeTheScene) {
+  const geometry::Bounds bounds{Vec3(-1, -0.9, -1.1), Vec3(1, 1.2, 0.8)};
+  std::mt19937_64 random = testing::seeded(19);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (const motion::Body& body : {motion::Body(testing::small_camera()), sphere(0.2)}) {
+    const SearchScene scene(scattered_cuboids(random, 4, 0.4), body);
+    collision::Obstacles obstacles(scene.index);
+    const FreeSpace alone = scene.space();
+    FreeSpace space(obstacles.within(bounds), scene.body, scene.detect);
+    const auto depth_m = [&](const motion::Pose& pose) {
+      double least_m = std::numeric_limits<double>::infinity();
+      for (const Triangle& part : body.triangles_C()) {
+        for (const Vec3& vertex_C : part)
+          least_m = std::min(least_m, bounds.depth_m(pose.position + pose.orientation * vertex_C));
+      }
+      return least_m - body.ball_radius_m();
+    };
+    for (int run = 0; run < 300; ++run) {
+      const motion::Pose pose = any_pose(random);
+      const double margin_m = 0.1 * share(random);
+      const double truth_m = std::min(scene.distance_m(pose), depth_m(pose));
+      EXPECT_EQ(space.is_free(pose, margin_m), truth_m > margin_m) << truth_m - margin_m;
+      EXPECT_EQ(space.gap_m(pose, 0.3) > 0.0, truth_m > 0.0) << truth_m;
+      if (truth_m > 0.0) {
+        EXPECT_NEAR(space.gap_m(pose, 0.3), std::min(truth_m, 0.3), kRounding_m);
+      }
+      const auto nearest = space.nearest(pose, 0.5);
+      if (depth_m(pose) < 0.5 && depth_m(pose) < 0.8 * scene.distance_m(pose)) {
+        ASSERT_TRUE(nearest);
+        EXPECT_TRUE(collision::Obstacles::is_side(nearest->triangle));
+        EXPECT_NEAR(nearest->distance_m, depth_m(pose), kRounding_m);
+      }
+      EXPECT_LE(space.at_least_m(pose), truth_m + kRounding_m);
+      const double ball_m = 0.1;
+      const Vec3 other_W = anywhere(random, 1.2);
+      EXPECT_EQ(space.ball_gap_m(other_W, ball_m, 0.3) > 0.0,
+                alone.ball_gap_m(other_W, ball_m, 0.3) > 0.0 && bounds.depth_m(other_W) > ball_m);
+      EXPECT_EQ(space.ball_passes(pose.position, other_W, ball_m),
+                alone.ball_passes(pose.position, other_W, ball_m) &&
+                    std::min(bounds.depth_m(pose.position), bounds.depth_m(other_W)) > ball_m);
+      EXPECT_LE(space.way_gap_m(pose.position, other_W, 1.0), bounds.depth_m(other_W));
+      EXPECT_LE(space.way_gap_m(pose.position, other_W, 1.0),
+                alone.way_gap_m(pose.position, other_W, 1.0));
+    }
+  }
+}
+
+// As little as it takes: on no axis further than the body is beyond, and at once within.
+TEST(FreeSpace, BringsPosesWithinBounds) {
+  const geometry::Bounds bounds{Vec3(-1, -0.9, -1.1), Vec3(1, 1.2, 0.8)};
+  std::mt19937_64 random = testing::seeded(20);
+  constexpr double kMargin_m = 0.05;
+  int moved = 0;
+  for (const motion::Body& body : {motion::Body(testing::small_camera()), sphere(0.2)}) {
+    const SearchScene scene({}, body);
+    FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+    for (int run = 0; run < 300; ++run) {
+      const motion::Pose pose = {anywhere(random, 4.0), testing::random_rotation(random)};
+      const motion::Pose inside = space.within_bounds(pose, kMargin_m);
+      EXPECT_TRUE(space.is_free(inside, 0.99 * kMargin_m));
+      if (inside.position == pose.position) continue;
+      ++moved;
+      EXPECT_FALSE(space.is_free(pose, kMargin_m));
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        if (inside.position[axis] == pose.position[axis]) continue;
+        motion::Pose less = inside;
+        less.position[axis] += 0.01 * (pose.position[axis] < less.position[axis] ? -1.0 : 1.0);
+        EXPECT_FALSE(space.is_free(less, kMargin_m));
+      }
+    }
+  }
+  EXPECT_GT(moved, 300);
+}
+
+// A straight motion may not end nearer to the bounds than the margin, nor leave them on its way.
+TEST(FreeSpace, FindsWhereAMotionLeavesTheBounds) {
+  const SearchScene scene({}, sphere(0.2));
+  geometry::Bounds bounds;
+  bounds.max_W.x() = 1.0;
+  FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+  const auto at = [](double x) { return motion::signed_pose({Vec3(x, 0, 0), Quat::Identity()}); };
+  EXPECT_FALSE(space.first_hit(at(-1.0), at(0.7), 0.05));
+  const std::optional<double> hit = space.first_hit(at(-1.0), at(1.0), 0.05);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 1.75 / 2.0, 0.05);
+  EXPECT_LE(*hit, 1.75 / 2.0);
+}
+
 }  // namespace
 }  // namespace camway::correction

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/config_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include <toml++/toml.h>
 
+#include "daemon/service/bounds_text.h"
 #include "daemon/service/daemon_settings.h"
 #include "tests/support/temporary_folder.h"
 
@@ -71,10 +73,14 @@ TEST_F(ConfigFile, TheSceneOfTheSampleIsRight) {
   EXPECT_EQ(options_.scenes[0].options.import.scale, 1.0);
   EXPECT_EQ(options_.scenes[0].options.import.up, scene::UpAxis::kAsInFile);
   EXPECT_EQ(options_.scenes[0].options.occupancy_resolution_m, 0.1);
+  EXPECT_EQ(bounds_text(options_.scenes[0].options.bounds), "../0..2.6/..");
   EXPECT_FALSE(options_.scenes[0].watch);
   ASSERT_EQ(read("[[scene]]\nname = \"a\"\nfile = \"f\"\nwatch = true\n"),
             std::vector<std::string>{});
   EXPECT_TRUE(options_.scenes.back().watch);
+  EXPECT_FALSE(options_.scenes.back().options.bounds.any());
+  EXPECT_THAT(read("[[scene]]\nname = \"a\"\nfile = \"f\"\nbounds = \"2..1/../..\"\n"),
+              ::testing::ElementsAre(::testing::HasSubstr("bounds '2..1/../..': min[0]")));
 }
 
 TEST_F(ConfigFile, EverySettingIsNamedWhereItsValueIsWrong) {

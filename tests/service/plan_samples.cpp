@@ -86,6 +86,7 @@ void add_report(planning::PlanResult& result, Random& random) {
   }
   if (below(random, 2) == 0) result.measures_before = measures(random);
   if (below(random, 2) == 0) result.measures = measures(random);
+  result.bounds.max_W.y() = 2.5;
   result.near_scale = 0.75;
   result.time_scale = 1.25;
   result.deadline_reached = true;
@@ -126,6 +127,8 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   request.options.objective = static_cast<correction::Objective>(below(random, 4));
   request.options.orientation = orientation(random);
   request.options.limits = limits(random);
+  if (below(random, 2) == 0) request.options.bounds.min_W = {-1.5, 0.0, -2.5};
+  if (below(random, 2) == 0) request.options.bounds.max_W.y() = 3.25;
   request.options.max_shrink = 0.375;
   request.options.repair_keyframes = below(random, 2) == 0;
   request.options.seed = 1 + random();

@@ -96,6 +96,17 @@ motion_limits_t limits(Random& random) {
   return limits;
 }
 
+bounds_t bounds(Random& random) {
+  bounds_t bounds{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds.has_min[axis] = static_cast<std::int8_t>(random());
+    bounds.has_max[axis] = static_cast<std::int8_t>(random());
+  }
+  fill(bounds.min_m, random);
+  fill(bounds.max_m, random);
+  return bounds;
+}
+
 path_measures_t measures(Random& random) {
   path_measures_t measures{};
   for (double* value :
@@ -186,6 +197,7 @@ scene_info_t scene_info(Random& random) {
   info.num_triangles = integer(random);
   fill(info.bounds_min_m, random);
   fill(info.bounds_max_m, random);
+  info.body_bounds = bounds(random);
   info.occupancy_resolution_m = number(random);
   return info;
 }
@@ -244,6 +256,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.objective = static_cast<std::int8_t>(below(random, 6));
   message.orientation = orientation(random);
   message.limits = limits(random);
+  message.bounds = bounds(random);
   message.max_shrink = number(random);
   message.repair_keyframes = static_cast<std::int8_t>(random());
   message.seed = integer(random);
@@ -338,6 +351,7 @@ plan_response_t random_message<plan_response_t>(Random& random) {
       fill_list(message.collisions, length(random, 100), [&] { return interval(random); });
   message.num_remaining =
       fill_list(message.remaining, length(random, 100), [&] { return interval(random); });
+  message.bounds = bounds(random);
   message.near_scale = number(random);
   message.time_scale = number(random);
   message.deadline_reached = static_cast<std::int8_t>(random());
@@ -416,6 +430,7 @@ scene_request_t random_message<scene_request_t>(Random& random) {
   message.scale = number(random);
   message.up = static_cast<std::int8_t>(below(random, 4));
   message.unknown = static_cast<std::int8_t>(below(random, 3));
+  message.body_bounds = bounds(random);
   message.occupancy_resolution_m = number(random);
   message.kind = static_cast<std::int8_t>(below(random, 7));
   fill(message.size_m, random);

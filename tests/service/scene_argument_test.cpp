@@ -34,6 +34,10 @@ TEST(SceneArgument, OptionsInAnyOrder) {
   EXPECT_FALSE(parsed("a=b,watch=no").watch);
   EXPECT_TRUE(parsed("a=b,watch=yes,scale=2").watch);
   EXPECT_EQ(parsed("a=b,up=y-to-z").options.import.up, scene::UpAxis::kYToZ);
+  const geometry::Bounds bounds = parsed("a=b,bounds=-3..3.5/0../..,scale=2").options.bounds;
+  EXPECT_EQ(bounds.min_W.head<2>(), Eigen::Vector2d(-3, 0));
+  EXPECT_EQ(bounds.max_W.x(), 3.5);
+  EXPECT_FALSE(bounds.max_W.tail<2>().allFinite());
 }
 
 TEST(SceneArgument, FilesMayHoldCommasAndEqualSigns) {
@@ -57,6 +61,7 @@ TEST(SceneArgument, ErrorsQuoteTheTextAndSayWhatIsWrong) {
       {"a=b,occupancy=1e10", "occupancy=1e10: must be from 1e-9 to 1e9 m"},
       {"a=b,up=x-to-y", "up=x-to-y: must be as-in-file, z-to-y or y-to-z"},
       {"a=b,watch=maybe", "watch=maybe: must be yes or no"},
+      {"a=b,bounds=0..1", "bounds '0..1': must be X0..X1/Y0..Y1/Z0..Z1"},
       {"a=b,ocupancy=0.1", "'ocupancy' is no option"},
   };
   for (const auto& [text, reason] : table) {

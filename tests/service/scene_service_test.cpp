@@ -362,6 +362,34 @@ TEST_F(SceneServiceTest, ListsAndRestoresRevisions) {
             scene_response_t::STATUS_UNKNOWN_SCENE);
 }
 
+// For its life, whatever changes in it or is restored of it.
+TEST_F(SceneServiceTest, KeepsTheBoundsOfAScene) {
+  scene_request_t load = request_for(1, scene_request_t::LOAD, "s");
+  load.body_bounds.has_min[1] = 1;
+  load.body_bounds.min_m[1] = -0.5;
+  const auto has_bounds = [](const scene_info_t& scene) {
+    return scene.body_bounds.has_min[1] == 1 && scene.body_bounds.min_m[1] == -0.5 &&
+           scene.body_bounds.has_max[1] == 0;
+  };
+  const scene_response_t loaded = ask(load);
+  ASSERT_EQ(loaded.status, scene_response_t::STATUS_OK) << loaded.message;
+  EXPECT_TRUE(has_bounds(loaded.scene));
+  EXPECT_TRUE(has_bounds(ask(put_box(2, "s", "crate")).scene));
+  scene_request_t restore = request_for(3, scene_request_t::RESTORE, "s");
+  restore.revision = 1;
+  EXPECT_TRUE(has_bounds(ask(restore).scene));
+  restore.request_id = 4;
+  restore.restore_as = "copy";
+  EXPECT_TRUE(has_bounds(ask(restore).scene));
+  EXPECT_TRUE(has_bounds(ask(request_for(5, scene_request_t::DESCRIBE, "copy")).scene));
+  EXPECT_EQ(ask(request_for(6, scene_request_t::LOAD, "s")).scene.body_bounds.has_min[1], 0)
+      << "a new scene of that name has its own";
+  load.request_id = 7;
+  load.body_bounds.has_max[1] = 1;
+  load.body_bounds.max_m[1] = -1.0;
+  EXPECT_THAT(ask(load).message, HasSubstr("body_bounds.min[1]: is not below max[1]"));
+}
+
 TEST_F(SceneServiceTest, AnswersWhatItCannotRead) {
   Bytes bytes = wire::encode(put_box(5, "s", "crate"));
   bytes.pop_back();

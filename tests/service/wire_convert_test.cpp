@@ -63,6 +63,8 @@ TEST(WireConvert, OptionsHaveTheirNumbersWhereTheTypesSayTheyAre) {
   options.orientation.max_turn_rad = 0.25;
   options.limits.turn_rate_rad_per_s = 1.5;
   options.limits.may_retime = true;
+  options.bounds.min_W.y() = -0.5;
+  options.bounds.max_W.z() = 0.0;
   options.seed = 99;
   const plan_request_t wire = to_wire(request, kIds);
   EXPECT_EQ(wire.objective, 3);
@@ -73,6 +75,14 @@ TEST(WireConvert, OptionsHaveTheirNumbersWhereTheTypesSayTheyAre) {
   EXPECT_EQ(wire.orientation.max_turn_rad, 0.25);
   EXPECT_EQ(wire.limits.turn_rate_rad_per_s, 1.5);
   EXPECT_EQ(wire.limits.may_retime, 1);
+  EXPECT_EQ(wire.bounds.has_min[1], 1);
+  EXPECT_EQ(wire.bounds.min_m[1], -0.5);
+  EXPECT_EQ(wire.bounds.has_max[2], 1);
+  EXPECT_EQ(wire.bounds.has_min[0] + wire.bounds.has_min[2] + wire.bounds.has_max[0] +
+                wire.bounds.has_max[1],
+            0);
+  EXPECT_EQ(from_wire(wire).request->options.bounds, options.bounds);
+  EXPECT_FALSE(from_wire(minimal_request()).request->options.bounds.any());
   EXPECT_EQ(wire.seed, 99);
 }
 

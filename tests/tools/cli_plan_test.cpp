@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -190,6 +191,28 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
   EXPECT_TRUE(response.value->measures);
   EXPECT_THAT(run.err, HasSubstr("\n  0."));
   EXPECT_THAT(run.err, HasSubstr(" s: collides with fin; moved up to "));
+}
+
+// The response says what it kept to, and `check` proves that again.
+TEST_F(CliPlan, KeepsWithinBounds) {
+  std::string text = request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)});
+  text.replace(text.find("\"camera\""), 0,
+               R"("options": {"bounds": {"min": [null, -1.5, null], "max": [3, 1.5, null]}}, )");
+  const std::string request = folder_.write("R.json", text);
+  const std::string response = (folder_.path() / "P.json").string();
+  const CliRun run = run_camway({"plan", "--request", request, "--response", response});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto read = read_plan_response(response);
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->bounds.min_W.y(), -1.5);
+  EXPECT_EQ(read.value->bounds.max_W.head<2>(), Eigen::Vector2d(3.0, 1.5));
+  EXPECT_FALSE(std::isfinite(read.value->bounds.max_W.z()));
+
+  // A request with bounds that the path leaves.
+  text.replace(text.find("[3, 1.5, null]"), 14, "[2.05, 1.5, null]");
+  const CliRun refused = run_camway({"plan", "--request", folder_.write("S.json", text)});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("keyframes[0]: the near quadrilateral leaves the bounds"));
 }
 
 TEST_F(CliPlan, FlagsGoBeforeTheRequestsOptions) {

@@ -155,6 +155,7 @@ TEST(Compare, SeesWhatCorrectionDid) {
   EXPECT_EQ(difference_after([](Result& b) { b.measures->length_m = 1.0; }), "measures");
   EXPECT_EQ(difference_after([](Result& b) { b.measures_before.reset(); }),
             "measures before correction");
+  EXPECT_EQ(difference_after([](Result& b) { b.bounds.min_W.y() = 0.5; }), "bounds");
   EXPECT_EQ(difference_after([](Result& b) { b.near_scale = 0.5; }), "near scale");
   EXPECT_EQ(difference_after([](Result& b) { b.time_scale = 2.0; }), "time scale");
   EXPECT_EQ(difference_after([](Result& b) { b.slowed.resize(1); }), "slowed stretches 0 -> 1");

@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/collision/obstacles.h"
 #include "tools/camway/compare.h"
 #include "tools/json_angle.h"
 
@@ -461,6 +462,23 @@ TEST(JsonResponse, WitnessesStandInTheirIntervals) {
   EXPECT_EQ(read.value->collision_names, result.collision_names);
   EXPECT_EQ(read.value->collisions[0].witness->triangle, 12U);
   EXPECT_FALSE(read.value->collisions[1].witness);
+}
+
+TEST(JsonResponse, SaysWhichBoundsThereWereAndWhereTheyWereLeft) {
+  planning::PlanResult result;
+  EXPECT_THAT(*write_plan_response(result).value, ::testing::Not(HasSubstr("bounds\"")));
+  result.bounds.min_W.y() = -0.5;
+  const std::uint32_t min_y = collision::Obstacles::number_of_side(1);
+  result.collisions = {{0.5, 1.5, collision::Witness{1.25, min_y, 5, 0.0625, {1, -0.5, 0.5}}}};
+  result.collision_names = {{"bounds.min.y", "corner 0"}};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text,
+              HasSubstr(R"("bounds": {"min": [null, -0.5, null], "max": [null, null, null]})"));
+  EXPECT_THAT(text, HasSubstr(R"("object": "bounds.min.y", "triangle": -2, )"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->bounds, result.bounds);
+  EXPECT_EQ(read.value->collisions[0].witness->triangle, min_y);
 }
 
 TEST(JsonResponse, SaysWhatCorrectionDid) {

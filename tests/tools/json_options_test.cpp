@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -31,6 +32,7 @@ TEST(JsonOptions, ReadsEveryField) {
     "method": "ladder", "objective": "smoothest",
     "orientation": {"policy": "target", "target": [1, 2, 3], "cone_deg": 30, "max_turn_deg": 90},
     "limits": {"speed": 1.5, "acceleration": 2.5, "turn_rate_deg": 180, "retime": true},
+    "bounds": {"min": [null, -0.5, 0], "max": [3, null, null]},
     "max_shrink": 0.25, "repair_keyframes": true, "seed": 42})");
   ASSERT_TRUE(parsed.value) << parsed.error;
   const PlanOptions& options = *parsed.value;
@@ -44,6 +46,10 @@ TEST(JsonOptions, ReadsEveryField) {
   EXPECT_EQ(options.limits.acceleration_m_per_s2, 2.5);
   EXPECT_EQ(options.limits.turn_rate_rad_per_s, std::numbers::pi);
   EXPECT_TRUE(options.limits.may_retime);
+  EXPECT_EQ(options.bounds.min_W.tail<2>(), Eigen::Vector2d(-0.5, 0.0));
+  EXPECT_EQ(options.bounds.max_W.x(), 3.0);
+  EXPECT_TRUE(std::isinf(options.bounds.min_W.x()));
+  EXPECT_TRUE(std::isinf(options.bounds.max_W.y()) && std::isinf(options.bounds.max_W.z()));
   EXPECT_EQ(options.max_shrink, 0.25);
   EXPECT_TRUE(options.repair_keyframes);
   EXPECT_EQ(options.seed, 42U);
@@ -52,6 +58,7 @@ TEST(JsonOptions, ReadsEveryField) {
 TEST(JsonOptions, HasDefaultsForAllThatMayBeMissing) {
   EXPECT_EQ(options_of("{}").value, PlanOptions{});
   EXPECT_EQ(options_of(R"({"orientation": {}})").value, planning::PlanOptions{});
+  EXPECT_EQ(options_of(R"({"bounds": {}})").value, planning::PlanOptions{});
   const auto parsed = options_of(R"({"orientation": {"max_turn_deg": 90}})");
   ASSERT_TRUE(parsed.value) << parsed.error;
   EXPECT_EQ(parsed.value->orientation.rule, correction::OrientationRule::kFree);
@@ -100,6 +107,11 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
       {R"({"limits": {"speed_m": 1}})", "limits.speed_m: is unknown"},
       {R"({"limits": {"speed": null}})", "limits.speed: must be a number"},
       {R"({"limits": {"retime": 1}})", "limits.retime: must be true or false"},
+      {R"({"bounds": [1, 2, 3]})", "bounds: must be an object"},
+      {R"({"bounds": {"low": [1, 2, 3]}})", "bounds.low: is unknown"},
+      {R"({"bounds": {"min": [1, 2]}})", "bounds.min: must be an array of 3"},
+      {R"({"bounds": {"min": [1, 2, 3, 4]}})", "bounds.min: must be an array of 3"},
+      {R"({"bounds": {"max": [1, "2", 3]}})", "bounds.max[1]: must be a number"},
       {R"({"max_shrink": "much"})", "max_shrink: must be a number"},
       {R"({"repair_keyframes": 1})", "repair_keyframes: must be true or false"},
       {R"({"seed": 0})", "seed: must be a whole number from 1"},

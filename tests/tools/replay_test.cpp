@@ -284,6 +284,24 @@ TEST_F(ReplayTest, CarriesBodiesAndClearance) {
   EXPECT_EQ(run(recorded)[0].verdict, Verdict::kAgrees);
 }
 
+// The daemon's scene had bounds, which no digest and no request tells.
+TEST_F(ReplayTest, PlansWithinTheBoundsOfTheAnswer) {
+  const auto without = scenes_["wall"];
+  auto bounded = std::make_shared<scene::Snapshot>(*without);
+  bounded->options.bounds.max_W.y() = 0.9;
+  scenes_["wall"] = bounded;
+  record(simple_request({{1, 0, 1}, {0.5, 0.75, 0.5}, {-0.5, 0.75, 0.5}, {-1, 0, 1}}), 1);
+  record(simple_request({{1, 2, 1}, {1, 0, 1}}), 2);
+  scenes_["wall"] = without;
+  const auto replayed = run(session());
+  ASSERT_EQ(replayed.size(), 2U);
+  for (const ReplayedRequest& item : replayed) {
+    EXPECT_EQ(item.verdict, Verdict::kAgrees) << item.difference.what;
+    EXPECT_EQ(item.result.bounds, bounded->options.bounds);
+  }
+  EXPECT_EQ(replayed[1].result.status, planning::Status::kInvalid);
+}
+
 TEST_F(ReplayTest, TellsALogOfAnotherVersionFromADamagedOne) {
   std::vector<std::uint8_t> older =
       wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0}));

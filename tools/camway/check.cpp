@@ -54,10 +54,12 @@ Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>
   std::string fault;
   auto body = motion::Body::make(request.value->body.value_or(camera), fault);
   if (!body) return failed(flags.request + ": body: " + fault);
+  // Those of the scene that it was planned in are told by the response alone.
+  const geometry::Bounds bounds = request.value->options.bounds.within(response.value->bounds);
   return {
       CheckInput{*request.value, response.value->path, flags.response,
                  timed_keyframes(*request.value, response.value->keyframe_times_s), std::move(body),
-                 nullptr, response.value->scene_digest, response.value->near_scale},
+                 nullptr, response.value->scene_digest, response.value->near_scale, bounds},
       {}};
 }
 
@@ -81,8 +83,8 @@ Parsed<CheckInput> read_input(const CheckFlags& flags) {
 }
 
 PathSearch search(const CheckInput& input) {
-  return search_path(*input.snapshot, input.path, *input.body,
-                     planning::detect_options(input.request.options),
+  return search_path(collision::Obstacles(*input.snapshot).within(input.bounds), input.path,
+                     *input.body, planning::detect_options(input.request.options),
                      collision::Deadline::after_s(input.request.options.deadline_s));
 }
 
@@ -129,7 +131,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "them\n"
       "it passes within options.interval_tolerance_m (0.001 m), at the times of the request or, if "
       "it\n"
-      "gives none, of the response. Missed keyframes do not change the exit code, nor does a "
+      "gives none, of the response. The body must stay within options.bounds and the response's\n"
+      "bounds, too. Missed keyframes do not change the exit code, nor does a "
       "warning\n"
       "that the response's scene_digest is not that of the scene. Times, numbers or joins that "
       "make "
@@ -137,8 +140,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "path are refused as invalid input, and so are unknown fields of segments, but for comment "
       "and\n"
       "those that begin with '_'. Of the rest of the response only keyframes[].time, "
-      "keyframes[].origin\n"
-      "and scene_digest are read, if they are there.\n" +
+      "keyframes[].origin,\n"
+      "bounds and scene_digest are read, if they are there.\n" +
       exit_code_help("the path collides, or the deadline came first") +
       "\nExample: camway check --request "
       "scenes/requests/office-graze-door.json --response out.json");

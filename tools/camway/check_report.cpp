@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "daemon/collision/obstacles.h"
 #include "daemon/planning/path_faults.h"
 #include "daemon/planning/witness.h"
 #include "daemon/scene/import_warnings.h"
@@ -39,6 +40,10 @@ std::string culprit(const CheckInput& input, const CollisionInterval& interval) 
   if (!interval.witness) return "what could not be told apart";
   const collision::Witness& witness = *interval.witness;
   const planning::WitnessNames names = names_of(input, witness);
+  if (collision::Obstacles::is_side(witness.triangle)) {
+    return fmt::format("{} {}, {:.3g} m beyond it at {:.6f} s", names.object,
+                       at_feature(names.feature), witness.depth_m, witness.time_s);
+  }
   return fmt::format("{} (triangle {}) {}, {:.3g} m deep at {:.6f} s",
                      names.object.empty() ? "an unnamed object" : names.object, witness.triangle,
                      at_feature(names.feature), witness.depth_m, witness.time_s);
@@ -51,7 +56,7 @@ nlohmann::ordered_json interval_json(const CheckInput& input, const CollisionInt
   const planning::WitnessNames names = names_of(input, witness);
   json["witness"] = {{"time", witness.time_s},
                      {"object", names.object},
-                     {"triangle", witness.triangle},
+                     {"triangle", collision::Obstacles::signed_number(witness.triangle)},
                      {"feature", names.feature},
                      {"depth", witness.depth_m},
                      {"point", {witness.point_W.x(), witness.point_W.y(), witness.point_W.z()}}};

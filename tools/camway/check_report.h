@@ -25,6 +25,7 @@ struct CheckInput {
   std::shared_ptr<const scene::Snapshot> snapshot;
   std::string made_for_digest;  ///< of the scene that the path was made for; empty if not known
   double near_scale = 1.0;      ///< near distance that it was made for, as a share of the request's
+  geometry::Bounds bounds;      ///< that the body must not leave
 };
 
 /// What the user should know beside the verdict, a sentence each: that the path was made for

@@ -167,6 +167,7 @@ std::string report_difference(const planning::PlanResult& a, const planning::Pla
   if (!text.empty()) return text;
   if (!same_measures(a.measures_before, b.measures_before)) return "measures before correction";
   if (!same_measures(a.measures, b.measures)) return "measures";
+  if (!(a.bounds == b.bounds)) return "bounds";
   if (!same(a.near_scale, b.near_scale)) return "near scale";
   if (!same(a.time_scale, b.time_scale)) return "time scale";
   const std::string slowed = differing("slowed stretches", a.slowed, b.slowed, same_slowed);

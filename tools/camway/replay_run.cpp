@@ -36,8 +36,12 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
     result.message = "no scene '" + recorded.scene + "'";
     return result;
   }
-  result = planning::plan(*scene->second, *recorded.request);
-  planning::name_witnesses(scene->second->mesh, *recorded.request, result);
+  planning::PlanRequest request = *recorded.request;
+  // Those of the scene then are told by the answer alone.
+  if (recorded.answer && recorded.answer->result)
+    request.options.bounds = request.options.bounds.within(recorded.answer->result->bounds);
+  result = planning::plan(*scene->second, request);
+  planning::name_witnesses(scene->second->mesh, request, result);
   return result;
 }
 

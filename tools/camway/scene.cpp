@@ -18,11 +18,13 @@
 #include <utility>
 
 #include "client/camway/client.h"
+#include "daemon/service/bounds_text.h"
 #include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/daemon_failure.h"
 #include "tools/camway/interruption.h"
 #include "tools/camway/key_file.h"
+#include "tools/client_request.h"
 #include "tools/output_file.h"
 
 namespace camway::tools {
@@ -50,6 +52,7 @@ struct SceneCommandFlags {
   SceneMesh::Up up = SceneMesh::Up::kAsInFile;
   SceneMesh::Unknown unknown = SceneMesh::Unknown::kFree;
   double occupancy_m = 0.0;
+  std::string bounds;
   std::vector<double> box_m;
   std::vector<double> cylinder_m;
   std::optional<double> sphere_m;
@@ -64,16 +67,22 @@ struct SceneCommandFlags {
 
 using Flags = std::shared_ptr<SceneCommandFlags>;
 
+/// What no body may leave in it.
+std::string bounds_note(const SceneInfo& scene) {
+  const geometry::Bounds bounds = from_client_bounds(scene.body_bounds);
+  return bounds.any() ? ", bodies within " + service::bounds_text(bounds) : std::string();
+}
+
 void print_scene(const SceneInfo& scene) {
   fmt::print(
       "{} revision {}: {} triangles, [{:.3f}, {:.3f}, {:.3f}] to [{:.3f}, {:.3f}, {:.3f}] "
-      "m, {}, digest {}\n",
+      "m, {}{}, digest {}\n",
       scene.name, scene.revision, scene.num_triangles, scene.bounds_min_m[0], scene.bounds_min_m[1],
       scene.bounds_min_m[2], scene.bounds_max_m[0], scene.bounds_max_m[1], scene.bounds_max_m[2],
       scene.occupancy_resolution_m > 0.0
           ? fmt::format("voxels of {} m", scene.occupancy_resolution_m)
           : "no occupancy map",
-      scene.digest);
+      bounds_note(scene), scene.digest);
 }
 
 void print_object(const SceneObject& object) {
@@ -222,8 +231,17 @@ ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
 ExitCode run_load(const SceneCommandFlags& flags) {
   const std::optional<SceneMesh> mesh = mesh_of(flags);
   if (!mesh) return ExitCode::kInvalidInput;
+  Bounds bounds;
+  if (!flags.bounds.empty()) {
+    const service::ParsedBounds parsed = service::parse_bounds(flags.bounds);
+    if (!parsed.bounds) {
+      print_error("--bounds: " + parsed.error);
+      return ExitCode::kInvalidInput;
+    }
+    bounds = to_client_bounds(*parsed.bounds);
+  }
   return with_client(flags, [&](Client& client) {
-    return client.load_scene(flags.scene, *mesh, flags.occupancy_m);
+    return client.load_scene(flags.scene, *mesh, flags.occupancy_m, bounds);
   });
 }
 
@@ -437,6 +455,11 @@ void add_load(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   add_mesh_flags(*command, flags);
   command->add_option("--occupancy", flags->occupancy_m,
                       "Edge of a voxel of its occupancy map, metres [no map]");
+  command
+      ->add_option("--bounds", flags->bounds,
+                   "What no body may leave in it, whatever a request says, metres; a number that "
+                   "is left out is no limit, as in -3..3/0..2.6/.. [no limits]")
+      ->type_name(service::kBoundsForm);
   command->callback([flags, &exit_code] { exit_code = run_load(*flags); });
 }
 

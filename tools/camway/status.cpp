@@ -16,10 +16,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "daemon/service/bounds_text.h"
 #include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
+#include "tools/client_request.h"
 
 namespace camway::tools {
 namespace {
@@ -53,6 +55,7 @@ OrderedJson scene_json(const SceneInfo& scene) {
           {"triangles", scene.num_triangles},
           {"bounds_min_m", scene.bounds_min_m},
           {"bounds_max_m", scene.bounds_max_m},
+          {"body_bounds", service::bounds_text(from_client_bounds(scene.body_bounds))},
           {"occupancy_resolution_m", scene.occupancy_resolution_m}};
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/bounds_t.hpp>
+
+#include "daemon/geometry/bounds.h"
+
+namespace camway::service {
+
+bounds_t wire_bounds(const geometry::Bounds& bounds);
+
+/// Form only: `geometry::fault_in` judges the numbers.
+geometry::Bounds bounds_of(const bounds_t& wire);
+
+}  // namespace camway::service
