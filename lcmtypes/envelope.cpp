@@ -5,6 +5,12 @@
 
 namespace camway::wire {
 
+// A message of the largest size fits an envelope: beside it stand the fingerprint, key id, sender,
+// counter, time, tag and the count of the payload.
+constexpr std::size_t kEnvelopeHeadBytes =
+    8 + sizeof(std::int32_t) + 3 * sizeof(std::int64_t) + sizeof(envelope_t::tag) + 4;
+static_assert(kMaxMessageBytes + kEnvelopeHeadBytes <= kMaxEnvelopeBytes);
+
 bool is_envelope(std::span<const std::uint8_t> message) {
   const auto fingerprint = static_cast<std::uint64_t>(envelope_t::getHash());
   if (message.size() < sizeof fingerprint) return false;

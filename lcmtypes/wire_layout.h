@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include <camway/max_bytes.h>
+
 namespace camway {
 class cancel_t;
 class claim_t;
@@ -35,22 +37,21 @@ inline constexpr std::size_t kMaxEnvelopeBytes = 60'000;
 /// A message, so that it fits an envelope whether it gets one or not.
 inline constexpr std::size_t kMaxMessageBytes = 59'900;
 
-/// Limits of strings, in bytes without the final NUL.
-inline constexpr std::size_t kMaxSceneNameBytes = 128;
-inline constexpr std::size_t kMaxMethodBytes = 64;
-inline constexpr std::size_t kMaxObjectNameBytes = 128;
-inline constexpr std::size_t kMaxFeatureBytes = 32;
-inline constexpr std::size_t kMaxTextBytes = 1024;
-inline constexpr std::size_t kMaxDigestBytes = 128;
-inline constexpr std::size_t kMaxVersionBytes = 256;
-inline constexpr std::size_t kMaxHostBytes = 64;
+/// Limits of strings, in bytes without the final NUL: those of the .lcm files.
+inline constexpr std::size_t kMaxSceneNameBytes = max_bytes::plan_request_scene;
+inline constexpr std::size_t kMaxMethodBytes = max_bytes::plan_request_method;
+inline constexpr std::size_t kMaxObjectNameBytes = max_bytes::scene_object_name;
+inline constexpr std::size_t kMaxFeatureBytes = max_bytes::collision_interval_witness_feature;
+inline constexpr std::size_t kMaxTextBytes = max_bytes::plan_response_message;
+inline constexpr std::size_t kMaxDigestBytes = max_bytes::plan_response_scene_digest;
+inline constexpr std::size_t kMaxVersionBytes = max_bytes::status_version;
+inline constexpr std::size_t kMaxHostBytes = max_bytes::claim_host;
+inline constexpr std::size_t kMaxFileNameBytes = max_bytes::scene_request_file;
+inline constexpr std::size_t kMaxFormatBytes = max_bytes::scene_request_upload_format;
+inline constexpr std::size_t kMaxKindBytes = max_bytes::scene_object_kind;
+inline constexpr std::size_t kMaxOperationBytes = max_bytes::scene_change_operation;
 
-/// Limits of requests about scenes.
 inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< of an object that is put into a scene
-inline constexpr std::size_t kMaxFileNameBytes = 512;
-inline constexpr std::size_t kMaxFormatBytes = 8;
-inline constexpr std::size_t kMaxKindBytes = 32;
-inline constexpr std::size_t kMaxOperationBytes = 32;
 /// Every page of an upload has so many bytes but the last.
 inline constexpr std::size_t kUploadPageBytes = 48'000;
 inline constexpr std::size_t kMaxMissingPages = 4096;
@@ -88,7 +89,8 @@ struct Layout {
   std::size_t max_bytes = kMaxMessageBytes;
 };
 
-/// The layout of a message type; defined for the types that have a channel. Safe from any thread.
+/// Returns the layout of a message type. Defined for the types that have a channel, in a source that
+/// `generate_layout.py` writes from the .lcm files. Thread-safe.
 template <class Message>
 Layout layout_of();
 template <>

@@ -10,7 +10,7 @@ set -euo pipefail
 
 readonly kPackages=(
   # to build
-  g++ cmake ninja-build ccache git pkg-config
+  g++ cmake ninja-build ccache git pkg-config python3
   # the wire
   liblcm-dev liblcm-bin
   # what confines the process that reads scene files
