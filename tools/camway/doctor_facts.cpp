@@ -168,22 +168,21 @@ class StatusListener {
 
 /// Opens LCM and listens for a status; both outcomes go into `facts`.
 void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
-  const wire::LocalTraffic local(questions.url);
-  lcm::LCM lcm(questions.url);
+  const wire::OpenedLcm opened = wire::open_lcm(questions.url);
   StatusListener listener(questions.authentication);
   const wire::Channels channels{questions.prefix};
-  if (!lcm.good() ||
-      lcm.subscribe(channels.status(), &StatusListener::on_message, &listener) == nullptr) {
+  if (!opened.lcm ||
+      opened.lcm->subscribe(channels.status(), &StatusListener::on_message, &listener) == nullptr) {
     facts.lcm_error = "LCM cannot be opened at '" + questions.url + "'";
     return;
   }
-  facts.unguarded = local.guard();
+  facts.unguarded = opened.unguarded;
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(questions.timeout_s));
   while (!listener.is_done() && Clock::now() < end) {
     constexpr int kLook_ms = 50;
-    if (lcm.handleTimeout(kLook_ms) < 0) {
+    if (opened.lcm->handleTimeout(kLook_ms) < 0) {
       facts.lcm_error = "LCM failed at '" + questions.url + "'";
       return;
     }

@@ -1,8 +1,9 @@
 # What `cmake --install` puts where: the client for find_package(camway), the wire types for other
-# languages, and the daemon with its sample configuration and systemd unit (other programs are installed where they are defined).
+# languages, and the programs with a sample configuration and a systemd unit.
 include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
 
-install(TARGETS camwayd)
+install(TARGETS camwayd camway-import camway)
 install(FILES ${PROJECT_SOURCE_DIR}/daemon/camwayd.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/camway)
 configure_file(${PROJECT_SOURCE_DIR}/daemon/camwayd.service.in ${PROJECT_BINARY_DIR}/camwayd.service
