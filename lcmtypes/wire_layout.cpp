@@ -317,6 +317,10 @@ constexpr std::array kStatus{
     fixed("watched_paths", kInt32),
     fixed("broken_paths", kInt64),
     fixed("signed_only", kByte),
+    fixed("failed_reloads", kInt64),
+    fixed("failed_reload_utime", kInt64),
+    text("failed_reload", kMaxReloadFaultBytes),
+    fixed("reload_failed", kByte),
     fixed("total_scenes", kInt32),
     list_of("scenes", kSceneInfo),
 };

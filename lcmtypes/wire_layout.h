@@ -42,6 +42,7 @@ inline constexpr std::size_t kMaxFeatureBytes = 32;
 inline constexpr std::size_t kMaxTextBytes = 1024;
 inline constexpr std::size_t kMaxDigestBytes = 128;
 inline constexpr std::size_t kMaxVersionBytes = 256;
+inline constexpr std::size_t kMaxReloadFaultBytes = 1000;
 
 /// Limits of requests about scenes.
 inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< of an object that is put into a scene

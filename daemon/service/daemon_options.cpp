@@ -79,7 +79,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
       ->take_all();
   declare_setting(app, "--scene-roots", "scenes.roots",
                   "Folders, with ':' between them, below which clients may have scene files read; "
-                  "without them they can upload only",
+                  "without them they can upload only; relative to the folder that this is started "
+                  "in",
                   options, "none");
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_setting(app, "--url", "lcm.url", "LCM provider; ttl=0 keeps the traffic on this host",
@@ -105,8 +106,7 @@ ParsedOptions failed(std::vector<std::string> faults) {
 }
 
 /// `fault` with where its setting was said; nothing if there is none.
-std::string fault_at(std::string_view key, const std::string& fault,
-                     const DaemonOptions& options) {
+std::string fault_at(std::string_view key, const std::string& fault, const DaemonOptions& options) {
   return fault.empty() ? fault : options.where(key) + ": " + fault;
 }
 
@@ -173,8 +173,8 @@ std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   }
   // Of file and flags it was looked at when it was read; the environment's counts only here.
   add(fault_at("lcm.url", parse_lcm_url(options.lcm_url).fault, options));
-  add(fault_at("scenes.roots",
-               open_roots(options.scene_roots, options.service.scene_rules.roots), options));
+  add(fault_at("scenes.roots", open_roots(options.scene_roots, options.service.scene_rules.roots),
+               options));
   return faults;
 }
 

@@ -128,18 +128,20 @@ class StatusListener {
     if (!message) return;
     const wire::Decoded<status_t> decoded = wire::decode<status_t>(*message);
     if (!decoded.message) return;
-    note(*decoded.message, signature_of(channel, bytes));
+    note(*decoded.message, signature_of(channel, bytes, decoded.message->signed_only != 0));
   }
   [[nodiscard]] const std::optional<DaemonFact>& fact() const { return fact_; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
   [[nodiscard]] Signature signature_of(const std::string& channel,
-                                       std::span<const std::uint8_t> bytes) const {
+                                       std::span<const std::uint8_t> bytes,
+                                       bool signed_only) const {
     if (session_) {
       return session_->open(channel, bytes.data(), bytes.size()) ? Signature::kOurs
                                                                  : Signature::kDistrusted;
     }
+    if (signed_only) return Signature::kNeeded;
     return wire::is_envelope(bytes) ? Signature::kUnchecked : Signature::kNone;
   }
 

@@ -4,11 +4,13 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 install(TARGETS camwayd camway-import camway)
-install(FILES ${PROJECT_SOURCE_DIR}/daemon/camwayd.toml
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway)
-configure_file(${PROJECT_SOURCE_DIR}/daemon/camwayd.service.in ${PROJECT_BINARY_DIR}/camwayd.service
-               @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/camwayd.service DESTINATION lib/systemd/system)
+install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
+               ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake @ONLY)
+install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake)
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE SECURITY.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.
