@@ -48,14 +48,10 @@ Link::~Link() {
 std::string Link::open(const std::string& url) {
   url_ = url_or_default(url);
   if (wake_.read_end < 0) return "this process has no file descriptors left";
-  const wire::LocalTraffic local(url_);
-  lcm_ = std::make_unique<lcm::LCM>(url_);
-  // getFileno makes the receiving half set itself up and test itself, which is when LCM finds out.
-  if (lcm_->good() && lcm_->getFileno() >= 0) {
-    warning_ = local.guard();
-    return {};
-  }
-  lcm_.reset();
+  wire::OpenedLcm opened = wire::open_lcm(url_);
+  lcm_ = std::move(opened.lcm);
+  warning_ = std::move(opened.unguarded);
+  if (lcm_) return {};
   return "LCM cannot use " + url_ +
          ". For udpm, check that multicast has a route: ip link set lo up; ip link set lo "
          "multicast on; ip route add 224.0.0.0/4 dev lo";

@@ -8,6 +8,7 @@
 #include <camway/status_t.hpp>
 
 #include "client/scene_wire.h"
+#include "lcmtypes/channels.h"
 #include "lcmtypes/latency_buckets.h"
 #include "lcmtypes/wire_check.h"
 
@@ -65,6 +66,10 @@ DaemonStatus from_wire(const status_t& wire) {
   status.watched_paths = wire.watched_paths;
   status.broken_paths = wire.broken_paths;
   status.signed_only = wire.signed_only != 0;
+  status.failed_reloads = wire.failed_reloads;
+  status.failed_reload_utime = wire.failed_reload_utime;
+  status.failed_reload = wire::printable(wire.failed_reload);
+  status.reload_failed = wire.reload_failed != 0;
   status.total_scenes = wire.total_scenes;
   for (const scene_info_t& scene : wire.scenes) status.scenes.push_back(from_wire(scene));
   return status;

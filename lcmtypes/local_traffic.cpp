@@ -6,7 +6,6 @@
 #include <net/if_arp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +13,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <system_error>
+#include <vector>
+
+#include <lcm/lcm-cpp.hpp>
 
 namespace camway::wire {
 namespace {
@@ -53,13 +56,21 @@ bool is_bound_to(int socket, int port) {
          ::getsockopt(socket, SOL_SOCKET, SO_TYPE, &type, &type_size) == 0 && type == SOCK_DGRAM;
 }
 
-std::set<std::pair<int, ino_t>> sockets_bound_to(int port, std::error_code& failed) {
-  std::set<std::pair<int, ino_t>> sockets;
+struct Socket {
+  int descriptor = -1;
+  std::uint64_t cookie = 0;  ///< of this socket alone, for as long as the machine runs
+};
+
+/// Every descriptor that stands for a socket bound to `port` for as long as this looks, and maybe
+/// some that are opened, closed or used again meanwhile. Only reads.
+std::vector<Socket> sockets_bound_to(int port, std::error_code& failed) {
+  std::vector<Socket> sockets;
   for (const fs::directory_entry& entry : fs::directory_iterator(kDescriptors, failed)) {
-    const int descriptor = std::atoi(entry.path().filename().c_str());
-    struct stat what {};
-    if (is_bound_to(descriptor, port) && ::fstat(descriptor, &what) == 0) {
-      sockets.emplace(descriptor, what.st_ino);
+    Socket socket{std::atoi(entry.path().filename().c_str())};
+    socklen_t size = sizeof socket.cookie;
+    if (is_bound_to(socket.descriptor, port) &&
+        ::getsockopt(socket.descriptor, SOL_SOCKET, SO_COOKIE, &socket.cookie, &size) == 0) {
+      sockets.push_back(socket);
     }
   }
   return sockets;
@@ -99,21 +110,47 @@ std::optional<int> port_of_local_network(std::string_view url) {
 
 LocalTraffic::LocalTraffic(std::string_view url) : port_(port_of_local_network(as_lcm_has(url))) {
   if (!port_) return;
-  std::error_code unseen;  // then `guard` says so
-  others_ = sockets_bound_to(*port_, unseen);
+  std::error_code unseen;  // then `guard` finds too many, or says so itself
+  for (const Socket& socket : sockets_bound_to(*port_, unseen)) others_.insert(socket.cookie);
 }
 
-std::string LocalTraffic::guard() const {
+LocalTraffic::Guarded LocalTraffic::guard() const {
   if (!port_) return {};
   std::error_code failed;
-  int guarded = 0;
-  for (const auto& socket : sockets_bound_to(*port_, failed)) {
-    if (others_.contains(socket)) continue;
-    if (!attach_filter(socket.first)) return std::generic_category().message(errno);
-    ++guarded;
+  std::vector<Socket> found = sockets_bound_to(*port_, failed);
+  // A look that was cut short may have missed LCM's.
+  if (failed) return {std::string(kDescriptors) + ": " + failed.message()};
+  std::erase_if(found, [this](const Socket& socket) { return others_.contains(socket.cookie); });
+  const std::string port = "UDP port " + std::to_string(*port_);
+  if (found.empty()) return {"no new socket is bound to " + port};
+  if (found.size() > 1) {
+    return {"another socket was bound to " + port + " at the same time", /*try_again=*/true};
   }
-  if (failed) return std::string(kDescriptors) + ": " + failed.message();
-  return guarded > 0 ? "" : "no new socket is bound to UDP port " + std::to_string(*port_);
+  if (!attach_filter(found.front().descriptor)) return {std::generic_category().message(errno)};
+  return {};
+}
+
+OpenedLcm open_lcm(const std::string& url) {
+  // Descriptors are the process's, so what keeps our own LCMs from opening theirs at the same time
+  // is, too.
+  static std::mutex one_at_a_time;
+  // What else opens such sockets is rare: LCMs of the program that uses ours.
+  constexpr int kMostTries = 5;
+  std::unique_lock lock(one_at_a_time, std::defer_lock);
+  if (port_of_local_network(as_lcm_has(url))) lock.lock();
+  OpenedLcm opened;
+  for (int i = 0; i < kMostTries; ++i) {
+    opened = {};
+    const LocalTraffic local(url);
+    opened.lcm = std::make_unique<lcm::LCM>(url);
+    // getFileno makes the receiving half set itself up and test itself, which is when LCM finds
+    // out.
+    if (!opened.lcm->good() || opened.lcm->getFileno() < 0) return {};
+    const LocalTraffic::Guarded guarded = local.guard();
+    opened.unguarded = guarded.fault;
+    if (!guarded.try_again) break;
+  }
+  return opened;
 }
 
 }  // namespace camway::wire

@@ -41,7 +41,7 @@ Verified verified(const MessageKeys& keys, std::string_view channel,
 
 std::string_view to_string(Distrust why) {
   constexpr std::array<std::string_view, kDistrusts> kNames{
-      "unsigned", "broken", "unknown_key", "altered", "stale", "replayed", "crowded"};
+      "unsigned", "broken", "unknown_key", "wrong_key_or_altered", "stale", "replayed", "crowded"};
   return kNames.at(static_cast<std::size_t>(why));
 }
 

@@ -21,14 +21,15 @@ enum class Distrust : std::uint8_t {
   kUnsigned,    ///< no envelope
   kBroken,      ///< an envelope that cannot be read
   kUnknownKey,  ///< signed with a key that we do not have
-  kAltered,     ///< payload, channel, time or whatever else is not what was signed
+  kAltered,     ///< the tag is not that of our key of that id: the sender has another key under it,
+                ///< or payload, channel, time or whatever else is not what was signed
   kStale,       ///< too old, or from the future
   kReplayed,    ///< came before
   kCrowded,     ///< more senders than can be remembered
 };
 inline constexpr std::size_t kDistrusts = 7;
 
-/// E.g. "unsigned", "unknown_key".
+/// E.g. "unsigned", "wrong_key_or_altered".
 std::string_view to_string(Distrust why);
 
 /// Signs what one program sends and checks what it receives. From any thread.

@@ -45,6 +45,7 @@ inline constexpr std::size_t kMaxFeatureBytes = max_bytes::collision_interval_wi
 inline constexpr std::size_t kMaxTextBytes = max_bytes::plan_response_message;
 inline constexpr std::size_t kMaxDigestBytes = max_bytes::plan_response_scene_digest;
 inline constexpr std::size_t kMaxVersionBytes = max_bytes::status_version;
+inline constexpr std::size_t kMaxReloadFaultBytes = max_bytes::status_failed_reload;
 inline constexpr std::size_t kMaxHostBytes = max_bytes::claim_host;
 inline constexpr std::size_t kMaxFileNameBytes = max_bytes::scene_request_file;
 inline constexpr std::size_t kMaxFormatBytes = max_bytes::scene_request_upload_format;

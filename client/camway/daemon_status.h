@@ -75,6 +75,11 @@ struct DaemonStatus {
 
   bool signed_only = false;  ///< whether the daemon drops what is not signed with its keys
 
+  std::int64_t failed_reloads = 0;       ///< of the configuration, since the daemon's start
+  std::int64_t failed_reload_utime = 0;  ///< of the last: microseconds since 1970; 0 if none failed
+  std::string failed_reload;             ///< why the last one failed; empty if none did
+  bool reload_failed = false;            ///< whether no reload has succeeded since then
+
   std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
   std::vector<SceneInfo> scenes;  ///< in order of name
 };

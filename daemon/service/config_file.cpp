@@ -54,11 +54,13 @@ class Faults {
   std::multimap<toml::source_index, std::string> faults_;
 };
 
-/// Sets one setting; returns what is wrong with the value.
-std::string apply(const Setting& setting, const toml::node& node) {
+/// Sets one setting, of a file in `folder`; returns what is wrong with the value.
+std::string apply(const Setting& setting, const toml::node& node,
+                  const std::filesystem::path& folder) {
   if (setting.is_text()) {
     const auto* const text = node.as_string();
-    return text == nullptr ? "must be a text in quotes" : setting.set(text->get());
+    if (text == nullptr) return "must be a text in quotes";
+    return setting.set(setting.below(folder, text->get()));
   }
   if (setting.is_switch()) {
     const auto* const on = node.as_boolean();
@@ -93,7 +95,8 @@ std::string keys_beside(const std::vector<Setting>& settings, std::string_view t
 }
 
 void read_table(const toml::table& table, std::string_view name,
-                const std::vector<Setting>& settings, DaemonOptions& options, Faults& faults) {
+                const std::vector<Setting>& settings, const std::filesystem::path& folder,
+                DaemonOptions& options, Faults& faults) {
   for (const auto& [key, node] : table) {
     const std::string path = fmt::format("{}.{}", name, key.str());
     const auto found = std::find_if(settings.begin(), settings.end(),
@@ -101,7 +104,7 @@ void read_table(const toml::table& table, std::string_view name,
     if (found == settings.end()) {
       faults.add(key.source(),
                  fmt::format("'{}' is no setting; {}", path, keys_beside(settings, name)));
-    } else if (const std::string fault = apply(*found, node); !fault.empty()) {
+    } else if (const std::string fault = apply(*found, node, folder); !fault.empty()) {
       faults.add(node.source(), fmt::format("{}: {}", path, fault));
     } else {
       options.said_at[path] = fmt::format("{}: {}", faults.place(node.source()), path);
@@ -220,7 +223,7 @@ void read_root(const toml::table& root, const std::filesystem::path& folder, Dae
       faults.add(key.source(),
                  fmt::format("'{}' is no setting; {}", key.str(), keys_beside(settings, "")));
     } else if (const toml::table* const table = node.as_table()) {
-      read_table(*table, key.str(), settings, options, faults);
+      read_table(*table, key.str(), settings, folder, options, faults);
     } else {
       faults.add(node.source(), fmt::format("'{}' must be a table: [{}]", key.str(), key.str()));
     }

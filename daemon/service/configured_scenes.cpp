@@ -57,6 +57,7 @@ bool same(const SceneArgument& a, const SceneArgument& b) {
 
 bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
                               const std::stop_token& stop) {
+  fault_.clear();
   std::vector<Held> next;
   std::vector<std::shared_ptr<const scene::Snapshot>> loaded;
   for (const SceneArgument& scene : wanted) {
@@ -74,8 +75,9 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     const std::string name = snapshot->name;
     const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
     if (put.snapshot) continue;
-    log_->error("scene cannot be held",
-                {{"scene", name}, {"reason", with_setting(put.error, put.limit)}});
+    const std::string reason = with_setting(put.error, put.limit);
+    log_->error("scene cannot be held", {{"scene", name}, {"reason", reason}});
+    note_fault(name, reason);
     // Tried again the next time. An older one of that name goes when it is not wanted any more.
     for (Held& held : held_) {
       if (held.scene.name == name) held.stamp = {};
@@ -83,6 +85,10 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     all = false;
   }
   return all;
+}
+
+void ConfiguredScenes::note_fault(const std::string& scene, const std::string& reason) {
+  if (fault_.empty()) fault_ = fmt::format("scene '{}': {}", scene, reason);
 }
 
 void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) {
@@ -180,14 +186,15 @@ bool ConfiguredScenes::holds(const Held& wanted) const {
 }
 
 std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,
-                                                              const std::stop_token& stop) const {
+                                                              const std::stop_token& stop) {
   log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
   scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
   if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
-    log_->error("scene cannot be read", {{"scene", scene.name},
-                                         {"said_at", scene.said_at},
-                                         {"reason", with_setting(result.error, result.limit)}});
+    const std::string reason = with_setting(result.error, result.limit);
+    log_->error("scene cannot be read",
+                {{"scene", scene.name}, {"said_at", scene.said_at}, {"reason", reason}});
+    note_fault(scene.name, reason);
   } else {
     log_scene(*result.snapshot, scene, *log_);
   }

@@ -28,6 +28,10 @@ class ConfiguredScenes {
   /// is if the store has no room for one, which then is the only one left out.
   bool update(const std::vector<SceneArgument>& wanted, const std::stop_token& stop = {});
 
+  /// Why the last `update` was false: the first scene that could not be loaded or held, and the
+  /// reason. Empty where it was true or a stop ended it.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
   /// Whether any scene asks to be read again when its file changes.
   [[nodiscard]] bool watches_files() const;
 
@@ -59,12 +63,14 @@ class ConfiguredScenes {
   bool read_again(const SceneArgument& scene, const std::stop_token& stop);
   [[nodiscard]] bool holds(const Held& wanted) const;
   [[nodiscard]] std::shared_ptr<const scene::Snapshot> load(const SceneArgument& scene,
-                                                            const std::stop_token& stop) const;
+                                                            const std::stop_token& stop);
+  void note_fault(const std::string& scene, const std::string& reason);
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;
   std::shared_ptr<Log> log_;
   std::vector<Held> held_;
+  std::string fault_;
 };
 
 }  // namespace camway::service

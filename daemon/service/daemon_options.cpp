@@ -95,7 +95,8 @@ void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
       ->take_all();
   declare_setting(app, "--scene-roots", "scenes.roots",
                   "Folders, with ':' between them, below which clients may have scene files read; "
-                  "without them they can upload only",
+                  "without them they can upload only; relative to the folder that this is started "
+                  "in",
                   options, "none");
   declare_setting(app, "--prefix", "lcm.prefix", "Channels begin with this", options);
   declare_switch(app, "--share-prefix", "lcm.share_prefix",

@@ -144,6 +144,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     return kExitMetrics;
   }
   const ServiceManager manager = ServiceManager::from_environment();
+  ReloadRecord reloads;
   ServiceHooks hooks;
   hooks.ready = [&] { manager.ready("serving"); };
   hooks.stopping = [&] { manager.stopping(); };
@@ -157,6 +158,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
       signing->tell_left_out();
     }
     status.signed_only = signing && options.auth.required ? 1 : 0;
+    reloads.add_to(status);
     if (metrics.page) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();
@@ -176,7 +178,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
                         {"scene_workers", options.service.scene_workers},
                         {"queue", options.service.queue.jobs},
                         {"client_queue", options.service.queue.jobs_of_a_client}});
-  Reloader reloader(options, std::move(read_again), configured, manager, log, auth);
+  Reloader reloader(options, std::move(read_again), configured, reloads, manager, log, auth);
   const SignalWaiter signals(
       [&](int signal) {
         log->info("signal", {{"number", signal}});

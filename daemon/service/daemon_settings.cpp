@@ -115,6 +115,20 @@ bool Setting::is_text() const {
          std::holds_alternative<LogLevel*>(target) || std::holds_alternative<LogFormat*>(target);
 }
 
+std::string Setting::below(const std::filesystem::path& folder, std::string_view value) const {
+  if (path == Path::kNone || value.empty()) return std::string(value);
+  if (path == Path::kFile) return (folder / value).string();
+  std::string paths;
+  while (!value.empty()) {
+    const std::string_view one = value.substr(0, value.find(':'));
+    value.remove_prefix(std::min(value.size(), one.size() + 1));
+    if (one.empty()) continue;
+    if (!paths.empty()) paths += ':';
+    paths += (folder / one).string();
+  }
+  return paths;
+}
+
 bool Setting::is_whole_number() const {
   return std::holds_alternative<int*>(target) || std::holds_alternative<std::size_t*>(target);
 }
@@ -149,7 +163,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"memory.remembered_answer_bytes", &service.cache.max_bytes, 0, kManyBytes},
       {"memory.half_received_requests", &service.assembly.max_messages, 1, 1e6},
       {"memory.half_received_bytes", &service.assembly.max_bytes, 1, kManyBytes},
-      {"scenes.roots", &options.scene_roots},
+      {"scenes.roots", &options.scene_roots, 0, 0, false, nullptr, Setting::Path::kFolders},
       {"scenes.write_maps", &service.scene_rules.write_maps},
       {"scenes.workers", &service.scene_workers, 1, kMaxWorkers},
       {"scenes.deadline_s", &service.change_deadline.default_s, 1e-3, kDayS},
@@ -178,7 +192,7 @@ std::vector<Setting> settings_of(DaemonOptions& options) {
       {"watch.bytes", &service.watches.bytes, 0, kManyBytes},
       {"watch.longest_lease_s", &service.watches.longest_lease, 1, kDayS},
       {"status.period_s", &service.heartbeat_period, 0.01, 3600},
-      {"auth.key_file", &options.auth.key_file},
+      {"auth.key_file", &options.auth.key_file, 0, 0, false, nullptr, Setting::Path::kFile},
       {"auth.required", &options.auth.required},
       {"auth.window_s", &options.auth.window, 0.001, kDayS},
       {"auth.senders", &options.auth.senders, 1, 1e7},

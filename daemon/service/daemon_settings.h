@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -26,6 +27,10 @@ struct Setting {
   bool reloads = false;  ///< whether SIGHUP takes it over; else it needs a restart
   /// Of a text: what is wrong with it, or nothing. Null if any text will do.
   std::string (*fault_of_text)(const std::string&) = nullptr;
+  /// Of a text: whether it names a file, or folders with ':' between them. A relative one in a
+  /// configuration file is relative to that file's folder, one of a flag to the folder that the
+  /// daemon is started in.
+  enum class Path { kNone, kFile, kFolders } path = Path::kNone;
 
   /// The value as the file says it.
   [[nodiscard]] std::string text() const;
@@ -38,6 +43,9 @@ struct Setting {
   void turn(bool on) const;
   /// The kind of value that `set` takes.
   [[nodiscard]] bool is_text() const;
+  /// `value` with every relative path in it below `folder`, where it has paths; else `value`.
+  [[nodiscard]] std::string below(const std::filesystem::path& folder,
+                                  std::string_view value) const;
   [[nodiscard]] bool is_whole_number() const;
   [[nodiscard]] bool is_switch() const;
 };

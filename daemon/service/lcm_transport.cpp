@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <lcm/lcm-cpp.hpp>
+
 #include "lcmtypes/local_traffic.h"
 
 namespace camway::service {
@@ -35,33 +37,27 @@ class EventFd {
   int fd_;
 };
 
-struct LcmDestroy {
-  void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
-};
-
 class LcmTransport final : public Transport {
  public:
-  LcmTransport(const std::string& url, std::function<void(const std::string&)> warn)
-      : local_(url), lcm_(lcm_create(url.c_str())), warn_(std::move(warn)) {}
+  explicit LcmTransport(std::unique_ptr<lcm::LCM> lcm) : lcm_(std::move(lcm)) {}
 
-  [[nodiscard]] bool good() const { return lcm_ != nullptr && wake_.get() >= 0; }
+  [[nodiscard]] bool good() const { return wake_.get() >= 0; }
 
   bool subscribe(const std::string& channel, int queue_capacity, Handler handler) override {
     handlers_.push_back(std::make_unique<Handler>(std::move(handler)));
-    lcm_subscription_t* subscription = lcm_subscribe(
-        lcm_.get(), channel.c_str(), &LcmTransport::on_message, handlers_.back().get());
-    if (subscription == nullptr) return false;
-    stay_local();
-    return lcm_subscription_set_queue_capacity(subscription, queue_capacity) == 0;
+    lcm_subscription_t* subscription =
+        lcm_subscribe(c_lcm(), channel.c_str(), &LcmTransport::on_message, handlers_.back().get());
+    return subscription != nullptr &&
+           lcm_subscription_set_queue_capacity(subscription, queue_capacity) == 0;
   }
 
   bool publish(const std::string& channel, std::span<const std::uint8_t> message) override {
-    return lcm_publish(lcm_.get(), channel.c_str(), message.data(),
+    return lcm_publish(c_lcm(), channel.c_str(), message.data(),
                        static_cast<unsigned int>(message.size())) == 0;
   }
 
   bool poll(std::chrono::milliseconds timeout) override {
-    std::array<pollfd, 2> fds{pollfd{lcm_get_fileno(lcm_.get()), POLLIN, 0},
+    std::array<pollfd, 2> fds{pollfd{lcm_get_fileno(c_lcm()), POLLIN, 0},
                               pollfd{wake_.get(), POLLIN, 0}};
     const int ready = ::poll(fds.data(), fds.size(), static_cast<int>(timeout.count()));
     if (ready < 0) return errno == EINTR;
@@ -69,7 +65,7 @@ class LcmTransport final : public Transport {
     if ((fds[0].revents & (POLLERR | POLLNVAL)) != 0) return false;
     if ((fds[0].revents & POLLIN) == 0) return true;
     for (int i = 0; i < kMaxMessagesPerPoll; ++i) {
-      const int handled = lcm_handle_timeout(lcm_.get(), 0);
+      const int handled = lcm_handle_timeout(c_lcm(), 0);
       if (handled < 0) return false;
       if (handled == 0) break;
     }
@@ -93,31 +89,27 @@ class LcmTransport final : public Transport {
     }
   }
 
-  /// LCM makes the socket that it hears with at the first subscription.
-  void stay_local() {
-    if (handlers_.size() > 1) return;
-    const std::string fault = local_.guard();
-    if (!fault.empty() && warn_) warn_(fault);
-  }
+  [[nodiscard]] lcm_t* c_lcm() const { return lcm_->getUnderlyingLCM(); }
 
   void clear_wake() const {
     std::uint64_t count = 0;
     [[maybe_unused]] const ssize_t got = read(wake_.get(), &count, sizeof count);
   }
 
-  const wire::LocalTraffic local_;  ///< made before LCM is
-  std::unique_ptr<lcm_t, LcmDestroy> lcm_;
+  std::unique_ptr<lcm::LCM> lcm_;
   EventFd wake_;
-  std::function<void(const std::string&)> warn_;
   std::vector<std::unique_ptr<Handler>> handlers_;  ///< LCM holds their addresses
 };
 
 }  // namespace
 
 OpenedTransport open_lcm_transport(const std::string& url,
-                                   std::function<void(const std::string&)> warn) {
-  auto transport = std::make_unique<LcmTransport>(url, std::move(warn));
-  if (!transport->good()) return {nullptr, "LCM cannot open '" + url + "'. " + multicast_hint()};
+                                   const std::function<void(const std::string&)>& warn) {
+  wire::OpenedLcm opened = wire::open_lcm(url);
+  if (!opened.lcm) return {nullptr, "LCM cannot open '" + url + "'. " + multicast_hint()};
+  if (!opened.unguarded.empty() && warn) warn(opened.unguarded);
+  auto transport = std::make_unique<LcmTransport>(std::move(opened.lcm));
+  if (!transport->good()) return {nullptr, "this process has no file descriptors left"};
   return {std::move(transport), {}};
 }
 

@@ -16,10 +16,10 @@ struct OpenedTransport {
 };
 
 /// Opens LCM at `url`, e.g. "udpm://239.255.76.67:7667?ttl=0". Every provider of LCM works that can
-/// send and receive. Most trouble of a UDP multicast network shows only at the first subscription.
-/// With a ttl of 0 it hears only this host; where that cannot be had, `warn` is told why, once.
+/// send and receive. With a ttl of 0 it hears only this host; where that cannot be had, `warn` is
+/// told why, once.
 OpenedTransport open_lcm_transport(const std::string& url,
-                                   std::function<void(const std::string&)> warn = {});
+                                   const std::function<void(const std::string&)>& warn = {});
 
 /// What to try when LCM cannot use the network.
 std::string multicast_hint();

@@ -120,7 +120,7 @@ void add_distrusted(const status_t& status, Page& page) {
   sample("unsigned", status.unsigned_messages);
   sample("broken", status.broken_envelopes);
   sample("unknown_key", status.unknown_key_messages);
-  sample("altered", status.altered_messages);
+  sample("wrong_key_or_altered", status.altered_messages);
   sample("stale", status.stale_messages);
   sample("replayed", status.replayed_messages);
   sample("crowded", status.crowded_messages);
@@ -132,6 +132,20 @@ void add_traffic(const status_t& status, Page& page) {
   page.counter("sent_messages_total", status.sent_messages, "Messages that went out.");
   page.counter("sent_bytes_total", status.sent_bytes, "Bytes of them.");
   page.counter("unsent_messages_total", status.unsent_messages, "Messages that LCM did not take.");
+}
+
+void add_reloads(const status_t& status, Page& page) {
+  constexpr double kMicrosecond_s = 1e-6;
+  page.counter("failed_reloads_total", status.failed_reloads,
+               "Reloads of the configuration that failed.");
+  page.gauge(
+      "reload_failed", status.reload_failed != 0 ? 1 : 0,
+      "1 if the last reload failed, so that what serves is not what the configuration says.");
+  page.head("failed_reload_timestamp_seconds", "gauge",
+            "When a reload last failed, and why; 0: none did.");
+  page.sample("failed_reload_timestamp_seconds",
+              fmt::format("reason=\"{}\"", escaped(status.failed_reload)),
+              static_cast<double>(status.failed_reload_utime) * kMicrosecond_s);
 }
 
 void add_scenes(const status_t& status, Page& page) {
@@ -166,6 +180,7 @@ std::string metrics_text(const status_t& status) {
   add_requests(status, page);
   add_distrusted(status, page);
   add_traffic(status, page);
+  add_reloads(status, page);
   add_scenes(status, page);
   return page.take();
 }

@@ -6,10 +6,13 @@
 #include <exception>
 #include <utility>
 
+#include "daemon/service/core.h"
 #include "daemon/service/daemon_settings.h"
 
 namespace camway::service {
 namespace {
+
+constexpr std::string_view kFailed = "reload failed, all stays as it was";
 
 /// A value without the quotes that a text has in the file: the log puts its own.
 std::string_view unquoted(std::string_view value) {
@@ -19,12 +22,13 @@ std::string_view unquoted(std::string_view value) {
 
 }  // namespace
 
-Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
+Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes, ReloadRecord& record,
                    const ServiceManager& manager, std::shared_ptr<Log> log,
                    std::shared_ptr<wire::MessageAuth> auth, std::chrono::milliseconds look_every)
     : running_(std::move(running)),
       read_(std::move(read)),
       scenes_(scenes),
+      record_(record),
       manager_(manager),
       log_(std::move(log)),
       auth_(std::move(auth)),
@@ -52,7 +56,8 @@ void Reloader::serve(const std::stop_token& stop) {
     try {
       reload(work);
     } catch (const std::exception& error) {
-      log_->error("reload failed, all stays as it was", {{"reason", error.what()}});
+      log_->error(kFailed, {{"reason", error.what()}});
+      record_.failed(utime_now(), error.what());
     }
     if (stop.stop_requested()) return;  // the manager is told that we stop
     was_called_off = work.stop_requested();
@@ -96,15 +101,17 @@ void Reloader::look_at_files(const std::stop_token& stop) {
 
 void Reloader::reload(const std::stop_token& stop) {
   ParsedOptions parsed = read_();
-  for (const std::string& fault : parsed.faults) {
-    log_->error("reload failed, all stays as it was", {{"reason", fault}});
+  for (const std::string& fault : parsed.faults) log_->error(kFailed, {{"reason", fault}});
+  if (!parsed.options) {
+    record_.failed(utime_now(), fmt::format("{}", fmt::join(parsed.faults, "; ")));
+    return;
   }
-  if (!parsed.options) return;
   wire::MessageKeys::Read keys;
   if (auth_) keys = wire::MessageKeys::from_file(running_.auth.key_file);
   if (!keys.error.empty()) {
-    log_->error("reload failed, all stays as it was",
-                {{"setting", running_.where("auth.key_file")}, {"reason", keys.error}});
+    const std::string setting = running_.where("auth.key_file");
+    log_->error(kFailed, {{"setting", setting}, {"reason", keys.error}});
+    record_.failed(utime_now(), setting + ": " + keys.error);
     return;
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
@@ -112,7 +119,9 @@ void Reloader::reload(const std::stop_token& stop) {
       log_->info("reload called off, all stays as it was");
       return;
     }
-    log_->error("reload failed, not all scenes could be taken over, so no setting is");
+    log_->error("reload failed, not all scenes could be taken over, so no setting is",
+                {{"reason", scenes_.fault()}});
+    record_.failed(utime_now(), scenes_.fault());
     return;
   }
   if (keys.keys) {
@@ -121,6 +130,7 @@ void Reloader::reload(const std::stop_token& stop) {
     auth_->set_keys(std::move(keys.keys));
   }
   take_over(*parsed.options);
+  record_.succeeded();
 }
 
 void Reloader::take_over(const DaemonOptions& next) {

@@ -12,6 +12,7 @@
 #include "daemon/service/configured_scenes.h"
 #include "daemon/service/daemon_options.h"
 #include "daemon/service/log.h"
+#include "daemon/service/reload_record.h"
 #include "daemon/service/service_manager.h"
 #include "lcmtypes/message_auth.h"
 
@@ -25,10 +26,10 @@ class Reloader {
  public:
   using Read = std::function<ParsedOptions()>;
 
-  /// `running`: what the daemon was started with. `read` gives what holds now. `scenes` and
-  /// `manager` must outlive this; nobody else may use `scenes` meanwhile.
+  /// `running`: what the daemon was started with. `read` gives what holds now. `scenes`, `record`
+  /// and `manager` must outlive this; nobody else may use `scenes` meanwhile.
   /// Files of scenes that are to be watched are looked at every `look_every`.
-  Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes,
+  Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes, ReloadRecord& record,
            const ServiceManager& manager, std::shared_ptr<Log> log,
            std::shared_ptr<wire::MessageAuth> auth = nullptr,
            std::chrono::milliseconds look_every = std::chrono::seconds(1));
@@ -56,6 +57,7 @@ class Reloader {
   DaemonOptions running_;
   Read read_;
   ConfiguredScenes& scenes_;
+  ReloadRecord& record_;
   const ServiceManager& manager_;
   std::shared_ptr<Log> log_;
   std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
@@ -65,7 +67,7 @@ class Reloader {
   bool requested_ = false;
   std::stop_source work_;
   bool may_call_off_ = true;  ///< whether a request ends the work
-  std::jthread thread_;  ///< last: uses all above
+  std::jthread thread_;       ///< last: uses all above
 };
 
 }  // namespace camway::service

@@ -36,8 +36,9 @@ class AuthTest : public IntegrationTest {
     return file(name);
   }
   void start_daemon_with_keys(const std::string& text, const std::string& more = {}) {
+    write_keys("keys", text);
     std::ofstream(file("camwayd.toml"))
-        << "[auth]\nkey_file = \"" << write_keys("keys", text) << "\"\n"
+        << "[auth]\nkey_file = \"keys\"\n"  // beside it, wherever the daemon is started
         << more << "[[scene]]\nname = \"office\"\nfile = \"" << scene_file("office") << "\"\n";
     start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
   }
@@ -83,6 +84,7 @@ TEST_F(AuthTest, ListensToThoseWithItsKeysOnly) {
   EXPECT_EQ(plan_with(impatient(with_keys("forged", "1 " + std::string(64, '3')))),
             Status::kNoDaemon);
   EXPECT_TRUE(eventually_counted(&DaemonStatus::altered_messages, 1));
+  EXPECT_THAT(daemon().output(), HasSubstr("reason=wrong_key_or_altered"));
 
   std::string said;
   EXPECT_EQ(camway({"status", "--key-file", file("mine")}, said), 0) << said;
@@ -92,8 +94,9 @@ TEST_F(AuthTest, ListensToThoseWithItsKeysOnly) {
   EXPECT_EQ(camway({"scene", "list"}, said), 4) << said;
   EXPECT_THAT(said, HasSubstr("the daemon has keys (auth.key_file) and drops what is not signed"));
   EXPECT_THAT(said, HasSubstr("--key-file"));
-  EXPECT_EQ(camway({"doctor"}, said), 0) << said;
-  EXPECT_THAT(said, HasSubstr("the daemon signs with keys"));
+  EXPECT_EQ(camway({"doctor"}, said), 3) << said;
+  EXPECT_THAT(said, HasSubstr("drops in silence what is not signed"));
+  EXPECT_THAT(said, HasSubstr("Camway does not work here yet."));
   EXPECT_EQ(camway({"doctor", "--key-file", file("mine")}, said), 0) << said;
   EXPECT_EQ(camway({"doctor", "--key-file", file("other")}, said), 3) << said;
   EXPECT_THAT(said, HasSubstr("not signed with a key of --key-file"));
@@ -133,6 +136,9 @@ TEST_F(AuthTest, WhatWasHeardIsNotTakenAgain) {
 TEST_F(AuthTest, UnsignedMessagesPassWhereTheConfigurationSaysSo) {
   start_daemon_with_keys(kOld, "required = false\n");
   EXPECT_EQ(plan_with(patient()), Status::kOk);
+  std::string said;
+  EXPECT_EQ(camway({"doctor"}, said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("takes what is not signed as well"));
   EXPECT_EQ(plan_with(with_keys("mine", kOld)), Status::kOk);
 }
 
@@ -151,6 +157,15 @@ TEST_F(AuthTest, KeysAreChangedWithoutAStop) {
   EXPECT_EQ(plan_with(with_keys("both", kOld + kNew)), Status::kOk) << "signs with the old one";
   reload("nonsense", "all stays as it was");
   EXPECT_EQ(plan_with(new_client), Status::kOk);
+  Client watcher(new_client);
+  EXPECT_TRUE(eventually([&] { return watcher.status().reload_failed; }));
+  std::string said;
+  EXPECT_EQ(camway({"status", "--key-file", file("new")}, said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("reload       FAILED at "));
+  EXPECT_THAT(said, HasSubstr(":2: auth.key_file: "));
+  reload(kNew, "ids=2\n");
+  EXPECT_TRUE(eventually([&] { return !watcher.status().reload_failed; }));
+  EXPECT_EQ(watcher.status().failed_reloads, 1);
 }
 
 TEST_F(AuthTest, ABadKeyFileEndsTheStart) {

@@ -38,7 +38,9 @@ class ClockTest : public IntegrationTest {
     run_daemons_by({"/usr/bin/env", std::string("LD_PRELOAD=") + CAMWAY_JUMPING_CLOCK,
                     "CAMWAY_CLOCK_OFFSET=" + file("offset")});
 #else
-    GTEST_SKIP() << "nothing can be loaded before a sanitizer";
+    GTEST_SKIP()
+        << "the clock of these tests is a library that is loaded before all others, where a "
+           "sanitizer's has to be";
 #endif
   }
 

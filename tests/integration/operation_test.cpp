@@ -189,7 +189,7 @@ TEST_F(OperationTest, ItsUnitLetsItMakeTheSystemCallsThatItNeeds) {
       [&] { return daemon().output().find("reloaded configured_scenes=1") != std::string::npos; }));
   EXPECT_NE(testing::http_request(kMetricsPort, "GET", "/metrics"), "");
 #else
-  GTEST_SKIP() << "a sanitizer makes system calls of its own";
+  GTEST_SKIP() << "a sanitizer makes system calls of its own, which the unit forbids";
 #endif
 }
 

@@ -37,7 +37,9 @@ class ImportConfinement : public ::testing::Test {
  protected:
   void SetUp() override {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "sanitizers need more of the system than is left";
+    GTEST_SKIP()
+        << "a sanitizer's runtime makes system calls that the confinement ends a process for "
+           "(clone, mmap of its shadow memory)";
 #endif
     std::filesystem::create_directories(folder_.path() / "scenes");
     for (const char* const name : {"scenes/a.obj", "secret"}) {

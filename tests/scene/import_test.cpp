@@ -352,7 +352,7 @@ TEST_F(Import, RefusesAFileThatPromisesBillions) {
 
 TEST_F(Import, EndsAReaderThatTakesTooMuchMemory) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers reserve more address space than any limit";
+  GTEST_SKIP() << "a sanitizer's shadow memory takes more address space than any limit";
 #endif
   std::string text;
   for (int i = 0; i < 1'500'000; ++i) text += "v 1.5 2.5 3.5\n";
@@ -403,7 +403,7 @@ std::string status_of_child(const std::string& name) {
 
 TEST_F(Import, TheReaderIsConfinedBeforeItReads) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need more of the system than is left";
+  GTEST_SKIP() << "with a sanitizer the reader is not confined, see import_child.cpp";
 #endif
   const fs::path file = write("a.obj", endless_comb());
   std::atomic<bool> done = false;

@@ -21,6 +21,9 @@ TEST(MetricsText, IsWhatPrometheusReads) {
   status.scene_answers[11] = 1;
   status.occupancy_answers[15] = 2;
   status.sent_bytes = 1'234'567'890'123;
+  status.reload_failed = 1;
+  status.failed_reload_utime = 1'500'000;
+  status.failed_reload = "c.toml:3: 'a\"b'";
   LatencyHistogram latency;
   for (const double seconds : {1e-6, 2e-3, 2e-3, 1.5, 1e4}) latency.add(seconds);
   status.receipt_to_answer = latency.to_wire();
@@ -34,6 +37,9 @@ TEST(MetricsText, IsWhatPrometheusReads) {
   EXPECT_EQ(page.value(R"(camway_answers_total{kind="plan",status="ok"})"), 3);
   EXPECT_EQ(page.value(R"(camway_answers_total{kind="scene",status="limit"})"), 1);
   EXPECT_EQ(page.value(R"(camway_answers_total{kind="occupancy",status="15"})"), 2);
+  EXPECT_EQ(page.value("camway_reload_failed"), 1);
+  EXPECT_EQ(page.value(R"(camway_failed_reload_timestamp_seconds{reason="c.toml:3: 'a\"b'"})"),
+            1.5);
   EXPECT_EQ(page.value("camway_sent_bytes_total"), 1'234'567'890'123);
   EXPECT_EQ(page.value(R"(camway_scene_revision{scene="office"})"), 7);
   EXPECT_EQ(page.value(R"(camway_receipt_to_answer_seconds_bucket{le="1e-05"})"), 1);
@@ -65,7 +71,8 @@ TEST(MetricsText, EachCounterStandsUnderItsOwnName) {
                                 &status.sent_bytes,
                                 &status.unsent_messages,
                                 &status.scene_changes,
-                                &status.broken_paths}) {
+                                &status.broken_paths,
+                                &status.failed_reloads}) {
     *counter = next++;
   }
   const PrometheusChecker page(metrics_text(status));
@@ -80,7 +87,7 @@ TEST(MetricsText, EachCounterStandsUnderItsOwnName) {
                            R"(distrusted_messages_total{cause="unsigned"})",
                            R"(distrusted_messages_total{cause="broken"})",
                            R"(distrusted_messages_total{cause="unknown_key"})",
-                           R"(distrusted_messages_total{cause="altered"})",
+                           R"(distrusted_messages_total{cause="wrong_key_or_altered"})",
                            R"(distrusted_messages_total{cause="stale"})",
                            R"(distrusted_messages_total{cause="replayed"})",
                            R"(distrusted_messages_total{cause="crowded"})",
@@ -90,7 +97,8 @@ TEST(MetricsText, EachCounterStandsUnderItsOwnName) {
                            "sent_bytes_total",
                            "unsent_messages_total",
                            "scene_changes_total",
-                           "broken_paths_total"}) {
+                           "broken_paths_total",
+                           "failed_reloads_total"}) {
     EXPECT_EQ(page.value(std::string("camway_") + name), next++) << name;
   }
 }

@@ -581,7 +581,9 @@ status_t random_message<status_t>(Random& random) {
                                       &message.received_bytes,
                                       &message.sent_messages,
                                       &message.sent_bytes,
-                                      &message.broken_paths}) {
+                                      &message.broken_paths,
+                                      &message.failed_reloads,
+                                      &message.failed_reload_utime}) {
     *counter = integer(random);
   }
   for (auto* const answers :
@@ -596,6 +598,8 @@ status_t random_message<status_t>(Random& random) {
         fill_list(latency->buckets, length(random, 96), [&] { return integer(random); });
   }
   message.signed_only = static_cast<std::int8_t>(below(random, 2));
+  message.failed_reload = text(random, wire::kMaxReloadFaultBytes);
+  message.reload_failed = static_cast<std::int8_t>(below(random, 2));
   message.total_scenes = small(random);
   message.num_scenes =
       fill_list(message.scenes, length(random, 100), [&] { return scene_info(random); });

@@ -29,7 +29,7 @@ class ReloaderTest : public ::testing::Test {
     running_.scenes.push_back(scene_of("room"));
     EXPECT_TRUE(scenes_.update(running_.scenes)) << log_.text();
     reloader_.emplace(
-        running_, [this] { return read_(); }, scenes_, manager_, log_.log());
+        running_, [this] { return read_(); }, scenes_, record_, manager_, log_.log());
   }
 
   SceneArgument scene_of(const std::string& name) const {
@@ -37,6 +37,13 @@ class ReloaderTest : public ::testing::Test {
     scene.name = name;
     scene.file = folder_.write(name + ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     return scene;
+  }
+
+  /// What the status says of reloads.
+  [[nodiscard]] status_t status() const {
+    status_t status{};
+    record_.add_to(status);
+    return status;
   }
 
   /// Reloads what `read` gives, and returns all that was logged.
@@ -54,6 +61,7 @@ class ReloaderTest : public ::testing::Test {
   testing::CapturedLog log_;
   scene::SceneStore store_;
   ConfiguredScenes scenes_{store_, log_.log()};
+  ReloadRecord record_;
   DaemonOptions running_ = default_options();
   Reloader::Read read_;
   std::optional<Reloader> reloader_;
@@ -75,7 +83,7 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
   running_.scenes.front().watch = true;
   ASSERT_TRUE(scenes_.update(running_.scenes));
   reloader_.emplace(
-      running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
+      running_, [this] { return read_(); }, scenes_, record_, manager_, log_.log(), nullptr,
       std::chrono::milliseconds(5));
   folder_.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -111,7 +119,7 @@ TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
   testing::write_slow_mesh(next.scenes.front().file);
   read_ = [&] { return ParsedOptions{next, {}, {}}; };
   reloader_.emplace(
-      running_, [this] { return read_(); }, scenes_, manager_, log_.log(), nullptr,
+      running_, [this] { return read_(); }, scenes_, record_, manager_, log_.log(), nullptr,
       std::chrono::milliseconds(5));
   testing::write_slow_mesh(running_.scenes.front().file);
   ASSERT_TRUE(is_reading("room")) << "because it changed";
@@ -155,6 +163,8 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
   const std::string said = reload([] {
     return ParsedOptions{std::nullopt, {}, {"c.toml:3: no", "c.toml:5: nor this"}};
   });
+  EXPECT_EQ(status().failed_reloads, 1);
+  EXPECT_EQ(status().failed_reload, "c.toml:3: no; c.toml:5: nor this");
   EXPECT_THAT(said, HasSubstr("all stays as it was reason=\"c.toml:3: no\"\n"));
   EXPECT_THAT(said, HasSubstr("all stays as it was reason=\"c.toml:5: nor this\"\n"));
   EXPECT_NE(store_.find("room"), nullptr);
@@ -167,11 +177,22 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
                 return ParsedOptions{next, {}, {}};
               }),
               HasSubstr("not all scenes could be taken over"));
+  EXPECT_EQ(status().failed_reloads, 2);
+  EXPECT_THAT(status().failed_reload, HasSubstr("scene 'hall': "));
   EXPECT_EQ(log_.log()->level(), LogLevel::kInfo);
   EXPECT_NE(store_.find("room"), nullptr);
 
   EXPECT_THAT(reload([]() -> ParsedOptions { throw std::runtime_error("boo"); }),
               HasSubstr("error reload failed, all stays as it was reason=boo"));
+  EXPECT_EQ(status().failed_reloads, 3);
+  EXPECT_EQ(status().failed_reload, "boo");
+  EXPECT_GT(status().failed_reload_utime, 0);
+  EXPECT_EQ(status().reload_failed, 1);
+
+  reload([&] { return ParsedOptions{running_, {}, {}}; });
+  EXPECT_EQ(status().reload_failed, 0);
+  EXPECT_EQ(status().failed_reloads, 3) << "the last failure stays to be read";
+  EXPECT_EQ(status().failed_reload, "boo");
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ struct SceneFileFact {
 /// How a daemon's messages and our keys go together.
 enum class Signature {
   kNone,       ///< not signed, and we have no keys
-  kUnchecked,  ///< signed, and we have no keys
+  kUnchecked,  ///< signed, and we have no keys; the daemon takes unsigned messages, too
+  kNeeded,     ///< the same, but it drops what is not signed
   kOurs,       ///< signed with one of ours
   kDistrusted  ///< we have keys, and clients with them drop it
 };

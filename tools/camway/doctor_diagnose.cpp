@@ -156,15 +156,21 @@ Finding judge_daemon(const HostFacts& facts) {
 
 Finding judge_signature(const DaemonFact& daemon) {
   constexpr std::string_view kCheck = "signatures";
+  constexpr const char* kGiveKeys = "give the commands and this one --key-file";
   switch (daemon.signature) {
     case Signature::kNone:
       return {kCheck, Severity::kGood, "the daemon signs nothing, and no --key-file was given"};
     case Signature::kUnchecked:
+      return {kCheck, Severity::kNote,
+              "the daemon signs with keys, and takes what is not signed as well (auth.required is "
+              "false); nobody checks that what is heard here is the daemon's",
+              kGiveKeys};
+    case Signature::kNeeded:
       return {
-          kCheck, Severity::kNote,
-          "the daemon signs with keys; what is not signed with one of them it drops in silence, "
-          "unless its auth.required is false",
-          "give the commands and this one --key-file"};
+          kCheck, Severity::kProblem,
+          "the daemon has keys (auth.key_file) and drops in silence what is not signed with one "
+          "of them, and no --key-file was given",
+          kGiveKeys};
     case Signature::kOurs:
       return {kCheck, Severity::kGood, "the daemon signs with a key of --key-file"};
     case Signature::kDistrusted:

@@ -128,18 +128,20 @@ class StatusListener {
     if (!message) return;
     const wire::Decoded<status_t> decoded = wire::decode<status_t>(*message);
     if (!decoded.message) return;
-    note(*decoded.message, signature_of(channel, bytes));
+    note(*decoded.message, signature_of(channel, bytes, decoded.message->signed_only != 0));
   }
   [[nodiscard]] const std::optional<DaemonFact>& fact() const { return fact_; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
  private:
   [[nodiscard]] Signature signature_of(const std::string& channel,
-                                       std::span<const std::uint8_t> bytes) const {
+                                       std::span<const std::uint8_t> bytes,
+                                       bool signed_only) const {
     if (session_) {
       return session_->open(channel, bytes.data(), bytes.size()) ? Signature::kOurs
                                                                  : Signature::kDistrusted;
     }
+    if (signed_only) return Signature::kNeeded;
     return wire::is_envelope(bytes) ? Signature::kUnchecked : Signature::kNone;
   }
 
@@ -168,22 +170,21 @@ class StatusListener {
 
 /// Opens LCM and listens for a status; both outcomes go into `facts`.
 void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
-  const wire::LocalTraffic local(questions.url);
-  lcm::LCM lcm(questions.url);
+  const wire::OpenedLcm opened = wire::open_lcm(questions.url);
   StatusListener listener(questions.authentication);
   const wire::Channels channels{questions.prefix};
-  if (!lcm.good() ||
-      lcm.subscribe(channels.status(), &StatusListener::on_message, &listener) == nullptr) {
+  if (!opened.lcm ||
+      opened.lcm->subscribe(channels.status(), &StatusListener::on_message, &listener) == nullptr) {
     facts.lcm_error = "LCM cannot be opened at '" + questions.url + "'";
     return;
   }
-  facts.unguarded = local.guard();
+  facts.unguarded = opened.unguarded;
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(questions.timeout_s));
   while (!listener.is_done() && Clock::now() < end) {
     constexpr int kLook_ms = 50;
-    if (lcm.handleTimeout(kLook_ms) < 0) {
+    if (opened.lcm->handleTimeout(kLook_ms) < 0) {
       facts.lcm_error = "LCM failed at '" + questions.url + "'";
       return;
     }

@@ -115,9 +115,8 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
                      std::shared_ptr<const wire::MessageKeys> keys) {
   std::vector<LogEvent> requests;
   const wire::Channels channels{options.prefix};
-  const wire::LocalTraffic local(options.url);
-  lcm::LCM lcm(options.url);
-  if (!lcm.good()) {
+  const wire::OpenedLcm opened = wire::open_lcm(options.url);
+  if (!opened.lcm) {
     print_error(
         "LCM cannot use the network: is there a multicast route? "
         "(ip route add 224.0.0.0/4 dev lo)");
@@ -127,9 +126,9 @@ ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& opt
   wire::ReplayGuard::Limits limits;
   limits.only_since_start = false;  // this lives for moments, and the daemon's clock may be behind
   if (keys) auth.emplace(keys, limits);
-  Publisher publisher(lcm, channels, auth ? &*auth : nullptr);
-  if (const std::string fault = local.guard(); !fault.empty()) {
-    print_error("other hosts of the network can be heard: " + fault);
+  Publisher publisher(*opened.lcm, channels, auth ? &*auth : nullptr);
+  if (!opened.unguarded.empty()) {
+    print_error("other hosts of the network can be heard: " + opened.unguarded);
   }
   std::uint64_t distrusted = 0;
   const LogSummary summary = read_event_log(log, [&](LogEvent&& event) {

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -118,6 +119,10 @@ OrderedJson status_json(const DaemonStatus& status) {
                    {"watched_paths", status.watched_paths},
                    {"broken_paths", status.broken_paths},
                    {"signed_only", status.signed_only},
+                   {"failed_reloads", status.failed_reloads},
+                   {"failed_reload_utime", status.failed_reload_utime},
+                   {"failed_reload", status.failed_reload},
+                   {"reload_failed", status.reload_failed},
                    {"total_scenes", status.total_scenes}};
   json["scenes"] = OrderedJson::array();
   for (const SceneInfo& scene : status.scenes) json["scenes"].push_back(scene_json(scene));
@@ -159,11 +164,27 @@ void print_traffic(const DaemonStatus& status) {
       status.request_pages_asked_again, status.answer_pages_asked_again, status.dropped_answers);
   fmt::print("malformed    {} messages\n", status.malformed_messages);
   fmt::print(
-      "distrusted   {} unsigned{}, {} broken, {} of unknown keys, {} altered, {} stale, {} "
+      "distrusted   {} unsigned{}, {} broken, {} of unknown keys, {} of a wrong key or "
+      "altered, {} stale, {} "
       "replayed, {} of too many senders\n",
       status.unsigned_messages, status.signed_only ? " (all are dropped)" : "",
       status.broken_envelopes, status.unknown_key_messages, status.altered_messages,
       status.stale_messages, status.replayed_messages, status.crowded_messages);
+}
+
+/// What became of reloads, where one failed.
+void print_reloads(const DaemonStatus& status) {
+  if (status.failed_reloads == 0) return;
+  constexpr std::int64_t kMicroseconds = 1'000'000;
+  constexpr std::int64_t kYear10000_s = 253'402'300'800;  // no calendar goes on for ever
+  const std::int64_t time_s =
+      std::clamp(status.failed_reload_utime / kMicroseconds, std::int64_t{0}, kYear10000_s);
+  fmt::print(
+      "reload       {} at {:%Y-%m-%d %H:%M:%S}{}: {}\n",
+      status.reload_failed ? "FAILED" : "one failed",
+      fmt::localtime(static_cast<std::time_t>(time_s)),
+      status.reload_failed ? ", the daemon serves what it had before" : ", a later one was done",
+      status.failed_reload);
 }
 
 void print_text(const DaemonStatus& status) {
@@ -182,6 +203,7 @@ void print_text(const DaemonStatus& status) {
   fmt::print("waiting      {}\n", quantiles_text(status.waiting));
   fmt::print("planning     {}\n", quantiles_text(status.planning));
   print_traffic(status);
+  print_reloads(status);
   fmt::print("watched      {} paths; {} times one was broken by a change\n", status.watched_paths,
              status.broken_paths);
   fmt::print("scenes       {}, changed {} times\n", status.total_scenes, status.scene_changes);

@@ -1,13 +1,16 @@
 # What `cmake --install` puts where: the client for find_package(camway), the wire types for other
-# languages, and the daemon with its sample configuration and systemd unit (other programs are installed where they are defined).
+# languages, and the programs with a sample configuration and a systemd unit.
 include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
 
-install(TARGETS camwayd)
-install(FILES ${PROJECT_SOURCE_DIR}/daemon/camwayd.toml
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway)
-configure_file(${PROJECT_SOURCE_DIR}/daemon/camwayd.service.in ${PROJECT_BINARY_DIR}/camwayd.service
-               @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/camwayd.service DESTINATION lib/systemd/system)
+install(TARGETS camwayd camway-import camway)
+install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/scenes)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
+               ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake @ONLY)
+install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake)
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE SECURITY.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.

@@ -14,13 +14,17 @@ if(CAMWAY_SANITIZE)
   target_link_options(camway_flags INTERFACE -fsanitize=${CAMWAY_SANITIZE})
 endif()
 
-# Warnings are errors in our own code only: dependencies are included as system headers. Clang, which
-# builds the fuzzers, has others, and is not asked for them.
+# In our own code only: dependencies are included as system headers. Warnings are errors in the presets,
+# so in CI, and nowhere else: another compiler, or another level of optimisation, may warn of what is right.
 add_library(camway_warnings INTERFACE)
 target_compile_options(camway_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough
-  $<IF:$<CXX_COMPILER_ID:GNU>,-Werror,-w>)
+  # GCC 12 warns of std::string's operator+ when it inlines it at -O3 (GCC bug 105651).
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+
+# Where GCC 12 takes for uninitialized what is not; each use says why. Other compilers do not know the flag.
+set(CAMWAY_NO_MAYBE_UNINITIALIZED $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 
 # camway_library(NAME SOURCES ... DEPENDS ... [PRIVATE_DEPENDS ...])
 function(camway_library name)
@@ -55,7 +59,7 @@ function(camway_test name)
                     GTest::gmock GTest::gtest_main)
   if(CAMWAY_SANITIZE)
     # GCC warns of std::regex, which tests use, as soon as it is built with a sanitizer.
-    target_compile_options(${name} PRIVATE -Wno-maybe-uninitialized)
+    target_compile_options(${name} PRIVATE ${CAMWAY_NO_MAYBE_UNINITIALIZED})
   endif()
   if(arg_NETWORK)
     # The emulator is CMake's word for "what runs the program"; gtest_discover_tests heeds it.

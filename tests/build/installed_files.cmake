@@ -1,0 +1,44 @@
+# Installs BUILD_DIR into a prefix that its configuration does not know, and looks at what is there.
+# cmake -DBUILD_DIR= -DWORK_DIR= -P installed_files.cmake
+file(REMOVE_RECURSE ${WORK_DIR})
+set(prefix ${WORK_DIR}/prefix)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix}
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+
+foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
+             share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/README.md
+             share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
+             include/camway/client.h)
+  if(NOT EXISTS ${prefix}/${file})
+    message(SEND_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+file(READ ${prefix}/lib/systemd/system/camwayd.service unit)
+foreach(line "ExecStart=${prefix}/bin/camwayd --config /etc/camway/camwayd.toml\n"
+             "${prefix}/share/camway/camwayd.toml")
+  string(FIND "${unit}" "${line}" place)
+  if(place EQUAL -1)
+    message(SEND_ERROR "the unit does not say ${line}")
+  endif()
+endforeach()
+if(unit MATCHES "@[a-zA-Z_]+@")
+  message(SEND_ERROR "${CMAKE_MATCH_0} in the unit was not replaced")
+endif()
+
+# The sample is right where it is installed, and copied elsewhere, by whomever, from wherever.
+file(COPY ${prefix}/share/camway/camwayd.toml DESTINATION ${WORK_DIR}/etc)
+foreach(sample ${prefix}/share/camway/camwayd.toml ${WORK_DIR}/etc/camwayd.toml)
+  execute_process(COMMAND ${prefix}/bin/camwayd --config ${sample} --check-config
+                  WORKING_DIRECTORY / COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
+# For packagers: the files go below DESTDIR, the paths in them do not.
+set(ENV{DESTDIR} ${WORK_DIR}/staged)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix /opt/camway
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(STRINGS ${WORK_DIR}/staged/opt/camway/lib/systemd/system/camwayd.service start
+     REGEX "^ExecStart=/opt/camway/bin/camwayd ")
+if(NOT start)
+  message(SEND_ERROR "with DESTDIR the unit does not start /opt/camway/bin/camwayd")
+endif()
