@@ -24,7 +24,7 @@ readonly kPackages=(
   # the page for Prometheus
   libmicrohttpd-dev
   # tests
-  libgtest-dev libgmock-dev python3
+  libgtest-dev libgmock-dev
   # the private network namespace, and one that loses packets
   iproute2 util-linux iptables
 )
