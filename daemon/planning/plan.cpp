@@ -569,9 +569,11 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const Deadline& deadline) {
   try {
     const collision::Obstacles scene(snapshot);
+    const collision::Obstacles bounded = scene.within(request.options.bounds);
     PlanResult result =
-        plan_among(snapshot, scene.within(request.options.bounds), request, deadline);
-    if (may_have_way_beyond(request, result)) {
+        plan_among(snapshot, bounded, request,
+                   bounded.bounds.any() ? deadline.share_of_rest(kShareWithinBounds) : deadline);
+    if (may_have_way_beyond(request, result) && !deadline.passed()) {
       add_way_beyond(plan_among(snapshot, scene.without_bounds(), request, deadline), request,
                      result);
     }

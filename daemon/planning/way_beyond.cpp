@@ -46,8 +46,8 @@ Excess largest_excess(const motion::Path& path, const motion::Body& body, const 
 bool may_have_way_beyond(const PlanRequest& request, const PlanResult& result) {
   if (request.options.method != Method::kLadder || request.options.max_inserted_keyframes == 0)
     return false;
-  return result.bounds.any() && result.status == Status::kPartial &&
-         !result.remaining_collisions.empty();
+  const bool is_open = result.status == Status::kPartial || result.status == Status::kTimeout;
+  return result.bounds.any() && is_open && !result.remaining_collisions.empty();
 }
 
 void add_way_beyond(const PlanResult& unbounded, const PlanRequest& request, PlanResult& result) {

@@ -112,10 +112,17 @@ TEST(PlanWithinBounds, SaysWhereTheOnlyWayLeadsBeyondThem) {
   Bounds shut = inside_the_house();
   shut.max_W.z() = 1.9;  // the wall ends beyond
   request.options.bounds = shut;
+  request.options.orientation.rule = correction::OrientationRule::kKeep;  // fails sooner
   const PlanResult result = planned(*snapshot_of(house()), request);
   EXPECT_EQ(result.status, Status::kPartial);
   EXPECT_FALSE(result.certificate.certified);
   EXPECT_THAT(result.message, HasSubstr("a way was found only beyond the bounds, by up to"));
+  EXPECT_THAT(result.message, HasSubstr("at min.y")) << "under the floor";
+  // What is proved without bounds is told though the deadline came within them.
+  EXPECT_TRUE(may_have_way_beyond(request, result));
+  PlanResult late = result;
+  late.status = Status::kTimeout;
+  EXPECT_TRUE(may_have_way_beyond(request, late));
   // Where nothing was corrected nobody looked for a way within.
   request.options.max_inserted_keyframes = 0;
   EXPECT_THAT(planned(*snapshot_of(house()), request).message, Not(HasSubstr("beyond the bounds")));

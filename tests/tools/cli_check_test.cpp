@@ -64,6 +64,27 @@ TEST_F(CliCheck, ListsWhereAndWithWhatAPathCollides) {
   EXPECT_THAT(run.out, HasSubstr("barrier"));
 }
 
+// Of the request, or of the response, which tells those of the scene that it was planned in.
+TEST_F(CliCheck, ListsWhereAPathLeavesItsBounds) {
+  const std::string file = planned("free", 1);
+  auto response = read_plan_response(file);
+  ASSERT_TRUE(response.value) << response.error;
+  response.value->bounds.max_W.x() = 1.0;
+  const std::string bounded = folder_.write("P.json", *write_plan_response(*response.value).value);
+  const CliRun run = check(bounded);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("bounds.max.x"));
+  EXPECT_THAT(run.out, HasSubstr("beyond it at"));
+
+  std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+  text.replace(text.find("\"camera\""), 0, R"("options": {"bounds": {"max": [1, null, null]}}, )");
+  request_ = folder_.write("R.json", text);
+  EXPECT_THAT(check(file).out, HasSubstr("bounds.max.x"));
+  text.replace(text.find("[1, null"), 2, "[9");
+  request_ = folder_.write("S.json", text);
+  EXPECT_EQ(check(file).exit_code, 0);
+}
+
 TEST_F(CliCheck, RefusesAPathThatJumps) {
   const std::string file = planned("free", 1);
   auto response = read_plan_response(file);

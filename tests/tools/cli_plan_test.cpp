@@ -199,7 +199,7 @@ TEST_F(CliPlan, KeepsWithinBounds) {
   text.replace(text.find("\"camera\""), 0,
                R"("options": {"bounds": {"min": [null, -1.5, null], "max": [3, 1.5, null]}}, )");
   const std::string request = folder_.write("R.json", text);
-  const std::string response = (folder_.path() / "P.json").string();
+  const std::string response = folder_.file("P.json");
   const CliRun run = run_camway({"plan", "--request", request, "--response", response});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto read = read_plan_response(response);
