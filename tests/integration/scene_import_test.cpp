@@ -76,7 +76,7 @@ TEST_F(SceneImportTest, OthersMoveMeanwhileAndAStopDoesNotWait) {
 
   daemon().signal(SIGTERM);
   EXPECT_EQ(daemon().wait(), 0) << daemon().output();
-  EXPECT_THAT(daemon().output(), HasSubstr("reason=\"the daemon is stopping\""));
+  EXPECT_THAT(daemon().output(), HasSubstr("reason=\"the daemon is stopping; nothing was changed\""));
   EXPECT_THAT(daemon().output(), Not(HasSubstr("stopped while planning"))) << "the drain limit";
 
   // Who was refused asks the next daemon by himself.
