@@ -416,7 +416,7 @@ TEST(Plan, MakesNothingSmallerWhereNothingIsToBeCorrected) {
   EXPECT_EQ(result.near_scale, 1.0);
   EXPECT_EQ(result.message, asked.message);
   EXPECT_EQ(numbers_of(result), numbers_of(asked));
-  EXPECT_THAT(result.message, ::testing::HasSubstr("options.max_inserted_keyframes is 0"));
+  EXPECT_THAT(result.message, ::testing::HasSubstr("nothing was corrected, as options.max_inserted_keyframes asks"));
 }
 
 // Two skins of a wall, and its rims, which stand 2 mm off them: there is a way for what is flat

@@ -193,8 +193,8 @@ TEST(PlanService, PassesOnWhatPlanningFoundInvalid) {
   plan_request_t negative = request_with(3);
   negative.clearance_m = -1.0;
   daemon.send(negative);
-  EXPECT_EQ(daemon.answer_to(negative)->message.find("clearance: is -1"), 0U)
-      << "the wire has no group of options: " << daemon.answer_to(negative)->message;
+  EXPECT_EQ(daemon.answer_to(negative)->message.find("clearance_m: is -1"), 0U)
+      << "the wire has no group of options, and its own names: " << daemon.answer_to(negative)->message;
 }
 
 TEST(PlanService, RefusesWhatMakesNoSenseOfItsHandling) {

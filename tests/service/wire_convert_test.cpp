@@ -296,6 +296,7 @@ TEST(WireConvert, BodiesThatCannotBeAreErrorsThatNameTheField) {
             "body.piece_sizes[1]: is -1, and 0 points are left");
   const auto mesh = [](body_t& b) {
     b.type = body_t::MESH;
+    b.piece_sizes = {};
     b.triangles = {{0, 1, 2}, {0, -2, 1}};
   };
   EXPECT_EQ(error_of(mesh), "body.triangles[1][1]: is -2, which is below 0");
