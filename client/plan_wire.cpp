@@ -23,17 +23,15 @@ constexpr std::size_t kMaxKeyframes = 100'000;  // as in plan_request_t.lcm
 
 keyframe_t to_wire(const Keyframe& keyframe) {
   keyframe_t wire{};
-  wire.time_s = keyframe.time_s;
+  wire.time_s = keyframe.time_s.value_or(0.0);
   std::copy(keyframe.position_m.begin(), keyframe.position_m.end(), wire.position_m);
   std::copy(keyframe.orientation_wxyz.begin(), keyframe.orientation_wxyz.end(),
             wire.orientation_wxyz);
-  wire.origin = keyframe.inserted ? keyframe_t::ORIGIN_INSERTED : keyframe_t::ORIGIN_GIVEN;
-  wire.repaired = keyframe.repaired ? 1 : 0;
   return wire;
 }
 
-Keyframe from_wire(const keyframe_t& wire) {
-  Keyframe keyframe;
+PathKeyframe from_wire(const keyframe_t& wire) {
+  PathKeyframe keyframe;
   keyframe.time_s = wire.time_s;
   std::copy(std::begin(wire.position_m), std::end(wire.position_m), keyframe.position_m.begin());
   std::copy(std::begin(wire.orientation_wxyz), std::end(wire.orientation_wxyz),
@@ -69,6 +67,10 @@ CollisionInterval from_wire(const collision_interval_t& wire) {
   return interval;
 }
 
+bool has_times(const PlanRequest& request) {
+  return !request.keyframes.empty() && request.keyframes.front().time_s.has_value();
+}
+
 /// The request without keyframes and body.
 plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
                        std::int64_t request_id) {
@@ -88,14 +90,16 @@ plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
   wire.chord_error_m = request.chord_error_m;
   wire.interval_tolerance_m = request.interval_tolerance_m;
   wire.clearance_m = request.clearance_m;
-  wire.max_inserted_keyframes = request.max_inserted_keyframes;
+  wire.max_inserted_keyframes = request.max_inserted_keyframes.value_or(0);
+  wire.correct_nothing = request.max_inserted_keyframes == 0 ? 1 : 0;
   wire.objective = to_wire(request.objective);
   wire.orientation = to_wire(request.orientation);
   wire.limits = to_wire(request.limits);
   wire.max_shrink = request.max_shrink;
   wire.repair_keyframes = request.repair_keyframes ? 1 : 0;
   wire.seed = request.seed;
-  wire.has_times = request.has_times ? 1 : 0;
+  wire.has_times = has_times(request) ? 1 : 0;
+  wire.default_speed_m_per_s = request.default_speed_m_per_s;
   return wire;
 }
 
@@ -186,6 +190,13 @@ std::optional<std::string> fault_in_form(const PlanRequest& request) {
   if (request.keyframes.size() > kMaxKeyframes) {
     return "keyframes: there are " + std::to_string(request.keyframes.size()) + ", at most " +
            std::to_string(kMaxKeyframes) + " are allowed";
+  }
+  for (std::size_t i = 0; i < request.keyframes.size(); ++i) {
+    if (request.keyframes[i].time_s.has_value() == has_times(request)) continue;
+    return "keyframes[" + std::to_string(i) + "].time_s: " +
+           (has_times(request) ? "is not set, that of keyframe 0 is"
+                               : "is set, that of keyframe 0 is not") +
+           "; all keyframes have a time, or none has";
   }
   return std::nullopt;
 }

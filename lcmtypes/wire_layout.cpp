@@ -82,6 +82,7 @@ constexpr std::array kPlanRequest{
     fixed("interval_tolerance_m", kDouble),
     fixed("clearance_m", kDouble),
     fixed("max_inserted_keyframes", kInt32),
+    fixed("correct_nothing", kByte),
     fixed("objective", kByte),
     fixed("orientation", kOrientation),
     fixed("limits", kMotionLimits),
@@ -89,6 +90,7 @@ constexpr std::array kPlanRequest{
     fixed("repair_keyframes", kByte),
     fixed("seed", kInt64),
     fixed("has_times", kByte),
+    fixed("default_speed_m_per_s", kDouble),
     list("keyframes", kKeyframe),
 };
 

@@ -63,11 +63,22 @@ Orientation::Policy sent_policy(correction::OrientationRule rule) {
   return Orientation::Policy::kFree;
 }
 
+/// Only what counts with the policy: the daemon refuses the rest.
+Orientation sent_orientation(const correction::OrientationPolicy& policy) {
+  Orientation sent;
+  sent.policy = sent_policy(policy.rule);
+  sent.max_turn_rad = policy.max_turn_rad;
+  if (policy.rule == correction::OrientationRule::kLevel) sent.up = point(policy.up_W);
+  if (policy.rule == correction::OrientationRule::kTarget) {
+    sent.target_m = point(policy.target_W);
+    sent.cone_rad = policy.cone_rad;
+  }
+  return sent;
+}
+
 void add_correction_options(const planning::PlanOptions& options, PlanRequest& sent) {
   sent.objective = sent_objective(options.objective);
-  sent.orientation = {sent_policy(options.orientation.rule), point(options.orientation.up_W),
-                      point(options.orientation.target_W), options.orientation.cone_rad,
-                      options.orientation.max_turn_rad};
+  sent.orientation = sent_orientation(options.orientation);
   sent.limits = {options.limits.speed_m_per_s, options.limits.acceleration_m_per_s2,
                  options.limits.turn_rate_rad_per_s, options.limits.may_retime};
   sent.max_shrink = options.max_shrink;
@@ -88,12 +99,12 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
       sent.camera = {own->fov_x_rad, own->fov_y_rad, own->near_m};
     }
   }
-  sent.has_times = request.has_times;
   for (const motion::Keyframe& keyframe : request.keyframes) {
     const geometry::Vec3& p = keyframe.pose.position;
     const geometry::Quat& q = keyframe.pose.orientation;
-    sent.keyframes.push_back(
-        {keyframe.time_s, {p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}, false});
+    sent.keyframes.push_back({request.has_times ? std::optional(keyframe.time_s) : std::nullopt,
+                              {p.x(), p.y(), p.z()},
+                              {q.w(), q.x(), q.y(), q.z()}});
   }
   sent.method = std::string(to_string(request.options.method));
   sent.deadline_s = request.options.deadline_s;
@@ -101,6 +112,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
   sent.interval_tolerance_m = request.options.interval_tolerance_m;
   sent.clearance_m = request.options.clearance_m;
   sent.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  sent.default_speed_m_per_s = request.options.default_speed_m_per_s.value_or(0.0);
   add_correction_options(request.options, sent);
   return sent;
 }

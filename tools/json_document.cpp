@@ -2,9 +2,11 @@
 #include "tools/json_document.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -160,8 +162,11 @@ Parsed<std::string> read_text(const std::string& file) {
   std::ifstream stream;
   const bool from_stdin = file == "-";
   if (!from_stdin) {
+    errno = 0;
     stream.open(file, std::ios::binary);
-    if (!stream) return {{}, file + ": cannot be opened"};
+    if (!stream) {
+      return {{}, file + ": cannot be opened: " + std::generic_category().message(errno)};
+    }
   }
   std::istream& input = from_stdin ? std::cin : stream;
   std::string text;

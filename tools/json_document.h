@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -86,6 +87,21 @@ class Field {
   std::size_t index_ = 0;
   std::string* error_;
 };
+
+/// Returns the value that the field's text names; else an error that lists the names, and the
+/// first value.
+template <typename Value, std::size_t kCount>
+Value named(const Field& field,
+            const std::array<std::pair<std::string_view, Value>, kCount>& names) {
+  const std::string text = field.text();
+  std::string list;
+  for (const auto& [name, value] : names) {
+    if (name == text) return value;
+    list.append(list.empty() ? "" : ", ").append(name);
+  }
+  field.fail("'" + text + "' is unknown; there are " + list);
+  return names.front().second;
+}
 
 /// Parses `text` and lets `read` make something of the document: the value, or the first error that
 /// either met.

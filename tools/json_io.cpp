@@ -5,8 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "daemon/scene/import_words.h"
 #include "tools/json_angle.h"
 #include "tools/json_body.h"
+#include "tools/json_names.h"
 #include "tools/json_options.h"
 #include "tools/json_path.h"
 #include "tools/json_report.h"
@@ -16,7 +18,6 @@ namespace {
 
 using collision::CollisionInterval;
 using motion::Keyframe;
-using planning::PlanRequest;
 using planning::PlanResult;
 
 motion::Camera read_camera(const Field& field) {
@@ -48,7 +49,33 @@ geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
   return geometry::from_wxyz(scaled / scaled.norm());
 }
 
-void read_keyframes(const Field& list, PlanRequest& request) {
+/// The time of keyframe `index`, where the first has one, and none where it has none.
+void read_time(const Field& item, std::size_t index, RequestFile& request, Keyframe& keyframe) {
+  const std::optional<Field> time = item.optional_member("time");
+  if (time) keyframe.time_s = time->number();
+  if (index == 0) request.has_times = time.has_value();
+  if (time.has_value() == request.has_times) return;
+  item.fail(std::string(time ? "has a time and keyframe 0 has none"
+                             : "has no time and keyframe 0 has one") +
+            ": time stands in all keyframes or in none");
+}
+
+/// The quaternion, in either order of its numbers.
+geometry::Quat read_orientation(const Field& item, RequestFile& request) {
+  const std::optional<Field> xyzw_field = item.optional_member("orientation_xyzw");
+  if (!xyzw_field) {
+    const Field orientation = item.member("orientation");
+    return unit_quaternion(orientation, read_vector<geometry::Vec4>(orientation));
+  }
+  if (item.optional_member("orientation")) {
+    item.fail("has both orientation and orientation_xyzw; leave one out");
+  }
+  request.says_xyzw = true;
+  const auto xyzw = read_vector<geometry::Vec4>(*xyzw_field);
+  return unit_quaternion(*xyzw_field, {xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
+}
+
+void read_keyframes(const Field& list, RequestFile& request) {
   const std::size_t count = list.size();
   if (count > planning::kMaxKeyframes) {
     list.fail("has " + std::to_string(count) + " keyframes, more than the " +
@@ -59,22 +86,26 @@ void read_keyframes(const Field& list, PlanRequest& request) {
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
     // Keyframes copied from a response have an origin, which is then "given".
-    item.allow_only({"time", "position", "orientation", "origin", "repaired"});
+    item.allow_only({"time", "position", "orientation", "orientation_xyzw", "origin", "repaired"});
     Keyframe keyframe;
-    const std::optional<Field> time = item.optional_member("time");
-    if (time) keyframe.time_s = time->number();
-    if (i == 0) request.has_times = time.has_value();
-    if (time.has_value() != request.has_times) {
-      item.fail(std::string(time ? "has a time and keyframe 0 has none"
-                                 : "has no time and keyframe 0 has one") +
-                ": time stands in all keyframes or in none");
-    }
+    read_time(item, i, request, keyframe);
     keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
-    const Field orientation = item.member("orientation");
-    const auto wxyz = read_vector<geometry::Vec4>(orientation);
-    keyframe.pose.orientation = unit_quaternion(orientation, wxyz);
+    keyframe.pose.orientation = read_orientation(item, request);
     request.keyframes.push_back(keyframe);
   }
+}
+
+SceneReading read_reading(const Field& root) {
+  SceneReading reading;
+  if (const auto scale = root.optional_member("scale")) {
+    reading.scale = scale->number();
+    if (!(*reading.scale > 0.0)) scale->fail("must be above 0");
+  }
+  if (const auto up = root.optional_member("up")) reading.up = named(*up, scene::kUpAxes);
+  if (const auto unknown = root.optional_member("unknown")) {
+    reading.unknown = named(*unknown, scene::kUnknownSpaces);
+  }
+  return reading;
 }
 
 collision::Witness read_witness(const Field& field, planning::WitnessNames& names) {
@@ -165,10 +196,12 @@ PlanResult read_result(const Field& root) {
   return result;
 }
 
-PlanRequest read_request(const Field& root) {
-  root.allow_only({"scene", "camera", "body", "keyframes", "options"});
-  PlanRequest request;
+RequestFile read_request(const Field& root) {
+  root.allow_only({"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "options"});
+  RequestFile request;
+  request.spelling = json_spelling();
   if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
+  request.reading = read_reading(root);
   if (const auto body = root.optional_member("body")) request.body = read_body(*body);
   if (!request.body || root.optional_member("camera")) {
     request.camera = read_camera(root.member("camera"));
@@ -182,11 +215,11 @@ PlanRequest read_request(const Field& root) {
 
 }  // namespace
 
-Parsed<PlanRequest> parse_plan_request(std::string_view text, std::string_view source) {
+Parsed<RequestFile> parse_plan_request(std::string_view text, std::string_view source) {
   return parse_as(read_request, text, source);
 }
 
-Parsed<PlanRequest> read_plan_request(const std::string& file) {
+Parsed<RequestFile> read_plan_request(const std::string& file) {
   return read_as(read_request, file);
 }
 
@@ -196,11 +229,6 @@ Parsed<PlanResult> parse_plan_response(std::string_view text, std::string_view s
 
 Parsed<PlanResult> read_plan_response(const std::string& file) {
   return read_as(read_result, file);
-}
-
-std::string describe(const planning::InvalidRequest& invalid) {
-  if (invalid.field.empty() || invalid.message.starts_with(invalid.field)) return invalid.message;
-  return invalid.field + ": " + invalid.message;
 }
 
 }  // namespace camway::tools

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
+#include "daemon/scene/import.h"
 #include "tools/json_document.h"
 
 /// The files of planning: requests and responses as JSON. Angles are degrees there and radians
@@ -18,20 +21,31 @@ namespace camway::tools {
 /// normalised.
 inline constexpr double kUnitQuaternionError = 5 * 2.220446049250313e-16;
 
+/// How to read the scene's file. What is not set has the default of `scene::ImportOptions`.
+struct SceneReading {
+  std::optional<double> scale;  ///< metres per unit of the file [Limit: 0 < value]
+  std::optional<scene::UpAxis> up;
+  std::optional<scene::UnknownSpace> unknown;
+};
+
+/// A request as a file says it: what to plan, and how to read its scene.
+struct RequestFile : planning::PlanRequest {
+  SceneReading reading;
+  /// Whether a keyframe has its quaternion as `orientation_xyzw`: then the order is no oversight.
+  bool says_xyzw = false;
+};
+
 /// Reads a request. Checked here: the form (types, lengths, missing fields), a quaternion that is
-/// not zero, time in all keyframes or in none, and that no field is unknown, remarks apart
+/// not zero, one of `orientation` and `orientation_xyzw`, time in all keyframes or in none, and
+/// that no field is unknown, remarks apart
 /// (`Field::allow_only`): to ignore one that a later version knows, or that is spelled wrongly,
 /// could drop a required clearance. The camera may be left out where another body is given. Ranges
 /// and order of times are `planning::validate`'s. `source` heads the error, e.g. `R.json:
 /// keyframes[3].orientation: has length zero`. Keyframes count from 0.
-Parsed<planning::PlanRequest> parse_plan_request(std::string_view text, std::string_view source);
+Parsed<RequestFile> parse_plan_request(std::string_view text, std::string_view source);
 
 /// The same from a file; "-" is standard input.
-Parsed<planning::PlanRequest> read_plan_request(const std::string& file);
-
-/// The form of `invalid` that every message of ours has: `field: message`, the field not repeated
-/// if the message begins with it.
-std::string describe(const planning::InvalidRequest& invalid);
+Parsed<RequestFile> read_plan_request(const std::string& file);
 
 enum class TimingField {
   kWritten,

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "tools/json_angle.h"
@@ -12,17 +14,9 @@ namespace camway::tools {
 namespace {
 
 using correction::MotionLimits;
-using correction::Objective;
 using correction::OrientationPolicy;
 using correction::OrientationRule;
 using planning::PlanOptions;
-
-constexpr std::array<std::pair<std::string_view, Objective>, 4> kObjectives{{
-    {"closest", Objective::kClosest},
-    {"shortest", Objective::kShortest},
-    {"smoothest", Objective::kSmoothest},
-    {"safest", Objective::kSafest},
-}};
 
 constexpr std::array<std::pair<std::string_view, OrientationRule>, 4> kPolicies{{
     {"free", OrientationRule::kFree},
@@ -30,20 +24,6 @@ constexpr std::array<std::pair<std::string_view, OrientationRule>, 4> kPolicies{
     {"level", OrientationRule::kLevel},
     {"target", OrientationRule::kTarget},
 }};
-
-/// The value that the field's text names, or an error that lists the names there are.
-template <typename Value, std::size_t kCount>
-Value named(const Field& field,
-            const std::array<std::pair<std::string_view, Value>, kCount>& names) {
-  const std::string text = field.text();
-  std::string list;
-  for (const auto& [name, value] : names) {
-    if (name == text) return value;
-    list.append(list.empty() ? "" : ", ").append(name);
-  }
-  field.fail("'" + text + "' is unknown; there are " + list);
-  return names.front().second;
-}
 
 planning::Method read_method(const Field& field) {
   const std::string name = field.text();
@@ -105,23 +85,10 @@ MotionLimits read_limits(const Field& field) {
 
 }  // namespace
 
-std::optional<Objective> objective_from_string(std::string_view text) {
-  for (const auto& [name, objective] : kObjectives) {
-    if (name == text) return objective;
-  }
-  return std::nullopt;
-}
-
-std::vector<std::string> objective_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, objective] : kObjectives) names.emplace_back(name);
-  return names;
-}
-
 PlanOptions read_options(const Field& field) {
   field.allow_only({"method", "deadline_s", "clearance", "chord_error_m", "interval_tolerance_m",
                     "max_inserted_keyframes", "objective", "orientation", "limits", "max_shrink",
-                    "repair_keyframes", "seed"});
+                    "repair_keyframes", "seed", "default_speed_m_per_s"});
   PlanOptions options;
   if (const auto option = field.optional_member("method")) options.method = read_method(*option);
   read_number(field, "deadline_s", options.deadline_s);
@@ -146,6 +113,9 @@ PlanOptions read_options(const Field& field) {
   if (const auto option = field.optional_member("seed")) {
     options.seed =
         static_cast<std::uint64_t>(option->integer(1, std::numeric_limits<std::int64_t>::max()));
+  }
+  if (const auto option = field.optional_member("default_speed_m_per_s")) {
+    options.default_speed_m_per_s = option->number();
   }
   return options;
 }

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
-#include <string>
+#include <array>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "daemon/planning/request.h"
 #include "tools/json_document.h"
 
 namespace camway::tools {
 
-/// Names of objectives, as requests and the command line spell them: "closest", "shortest",
-/// "smoothest", "safest".
-std::optional<correction::Objective> objective_from_string(std::string_view text);
-std::vector<std::string> objective_names();
+/// Objectives, as requests and the command line spell them.
+inline constexpr std::array<std::pair<std::string_view, correction::Objective>, 4> kObjectives{{
+    {"closest", correction::Objective::kClosest},
+    {"shortest", correction::Objective::kShortest},
+    {"smoothest", correction::Objective::kSmoothest},
+    {"safest", correction::Objective::kSafest},
+}};
 
 /// Reads the `options` of a request; whatever is missing has its default.
 ///
@@ -25,7 +27,7 @@ std::vector<std::string> objective_names();
 ///                     {"policy": "level", "up": [x, y, z]}    of any length, or
 ///                     {"policy": "target", "target": [x, y, z], "cone_deg": a},
 ///      "limits": {"speed": m/s, "acceleration": m/s², "turn_rate_deg": degrees/s, "retime": true},
-///      "max_shrink": share, "repair_keyframes": true, "seed": n}
+///      "max_shrink": share, "repair_keyframes": true, "seed": n, "default_speed_m_per_s": m/s}
 ///
 /// Members that do not count with the policy at hand are refused: a wish must not be dropped.
 /// Ranges are `planning::validate`'s.

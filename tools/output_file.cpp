@@ -24,8 +24,10 @@ int write_as_it_comes(const fs::path& file, std::string_view bytes, bool to_disk
   return why;
 }
 
+fs::path unfinished_file(const fs::path& file) { return file.string() + ".unfinished"; }
+
 int write_whole(const fs::path& file, std::string_view bytes) {
-  const fs::path unfinished = file.string() + ".unfinished";
+  const fs::path unfinished = unfinished_file(file);
   int why = write_as_it_comes(unfinished, bytes, /*to_disk=*/true);
   if (why == 0 && std::rename(unfinished.c_str(), file.c_str()) != 0) why = errno;
   if (why != 0) {
@@ -35,16 +37,37 @@ int write_whole(const fs::path& file, std::string_view bytes) {
   return why;
 }
 
+/// A file that may be replaced by another; what is else is written as it comes.
+bool is_ordinary(const fs::path& file) {
+  std::error_code failed;
+  const fs::file_type type = fs::symlink_status(file, failed).type();
+  return type == fs::file_type::regular || type == fs::file_type::not_found;
+}
+
+std::string fault(const fs::path& file, int why) {
+  if (why == 0) return {};
+  return file.string() + ": cannot be written: " + std::generic_category().message(why);
+}
+
 }  // namespace
 
 std::string write_file(const fs::path& file, std::string_view bytes) {
-  std::error_code failed;
-  const fs::file_type type = fs::symlink_status(file, failed).type();
-  const bool is_ordinary = type == fs::file_type::regular || type == fs::file_type::not_found;
-  const int why =
-      is_ordinary ? write_whole(file, bytes) : write_as_it_comes(file, bytes, /*to_disk=*/false);
-  if (why == 0) return {};
-  return file.string() + ": cannot be written: " + std::generic_category().message(why);
+  return fault(file, is_ordinary(file) ? write_whole(file, bytes)
+                                       : write_as_it_comes(file, bytes, /*to_disk=*/false));
+}
+
+std::string why_unwritable(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) return fault(file, EISDIR);
+  if (!is_ordinary(file)) {
+    // Opening a pipe would wait for its reader. A link to nothing makes the file that it names.
+    const bool may = ::access(file.c_str(), W_OK) == 0 || errno == ENOENT;
+    return fault(file, may ? 0 : errno);
+  }
+  const fs::path unfinished = unfinished_file(file);
+  const int why = write_as_it_comes(unfinished, {}, /*to_disk=*/false);
+  fs::remove(unfinished, ignored);
+  return fault(file, why);
 }
 
 }  // namespace camway::tools

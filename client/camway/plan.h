@@ -26,13 +26,20 @@ struct Camera {
   double near_m = 0.1;                    ///< from the eye to the near plane
 };
 
-/// A pose that the path passes through at a time.
+/// A pose that the path is to pass through.
 struct Keyframe {
-  double time_s = 0.0;  ///< does not count in a request without times
+  std::optional<double> time_s;  ///< when; all keyframes of a request have a time, or none has
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
-  bool inserted = false;  ///< in answers: put in by the daemon to avoid a collision
-  bool repaired = false;  ///< in answers: a given one that was moved because it collided
+};
+
+/// A pose that the path of an answer passes through.
+struct PathKeyframe {
+  double time_s = 0.0;
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
+  bool inserted = false;  ///< put in by the daemon to avoid a collision
+  bool repaired = false;  ///< a given one that was moved because it collided
 };
 
 /// Which of the requests that wait goes first. A client's time counts four times for requests of
@@ -47,7 +54,10 @@ struct PlanRequest {
   Body body;  ///< what must not collide; the camera's near quadrilateral unless set
   /// [Limit: 2 to 100,000, free of collision unless `repair_keyframes`]
   std::vector<Keyframe> keyframes;
-  bool has_times = false;  ///< whether `keyframes[i].time_s` count; else they are derived
+  /// Of keyframes without times: from one to the next takes √(t² + r²) seconds, where t is their
+  /// distance divided by this and r the angle between them in radians, but no less than a hundredth
+  /// of the mean of all these. 0: 1 m/s, as in a request with times. [Limit: 1e-6 to 1e6]
+  double default_speed_m_per_s = 0.0;
 
   std::string method;  ///< "ladder", "keyframe_insertion" or empty
   Priority priority = Priority::kNormal;
@@ -60,7 +70,8 @@ struct PlanRequest {
   double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
   double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
   double clearance_m = 0.0;  ///< how far the body has to stay from the scene [Limit: 0 <= value]
-  std::int32_t max_inserted_keyframes = -1;  ///< negative: the daemon's default
+  /// Cut-off of the correction; 0: correct nothing. The daemon's default if not set.
+  std::optional<std::int32_t> max_inserted_keyframes;
   Objective objective = Objective::kClosest;
   Orientation orientation;
   MotionLimits limits;
@@ -132,7 +143,7 @@ struct PlanResponse {
 
   std::int32_t keyframe = -1;                 ///< index of the given keyframe at fault, -1 if none
   Path path;                                  ///< empty unless ok, partial or timeout
-  std::vector<Keyframe> keyframes;            ///< given and inserted ones, with their times
+  std::vector<PathKeyframe> keyframes;        ///< given and inserted ones, with their times
   std::vector<CollisionInterval> collisions;  ///< of the interpolated path, before correction
   std::vector<CollisionInterval> remaining;   ///< of `path`; none when `ok()`
 

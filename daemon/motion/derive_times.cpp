@@ -14,20 +14,20 @@ double turning_angle_rad(const geometry::Quat& from, const geometry::Quat& to) {
   return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
-double nominal_duration_s(const Pose& from, const Pose& to) {
+double nominal_duration_s(const Pose& from, const Pose& to, double speed_m_per_s) {
   return std::hypot(
-      (to.position - from.position).norm() / kNominalSpeed_m_per_s,
+      (to.position - from.position).norm() / speed_m_per_s,
       turning_angle_rad(from.orientation, to.orientation) / kNominalTurnRate_rad_per_s);
 }
 
 }  // namespace
 
-std::vector<double> derive_times_s(std::span<const Pose> poses) {
-  assert(poses.size() >= 2);
+std::vector<double> derive_times_s(std::span<const Pose> poses, double speed_m_per_s) {
+  assert(poses.size() >= 2 && speed_m_per_s > 0.0);
   std::vector<double> durations_s;
   double sum_s = 0.0;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    durations_s.push_back(nominal_duration_s(poses[i], poses[i + 1]));
+    durations_s.push_back(nominal_duration_s(poses[i], poses[i + 1], speed_m_per_s));
     sum_s += durations_s.back();
   }
   const double mean_s = sum_s / static_cast<double>(durations_s.size());

@@ -10,8 +10,8 @@
 
 namespace camway::motion {
 
-/// Nominal rates of derived times: a step takes as long as its chord at this speed and its turning
-/// angle at this rate, combined as the two legs of a right triangle.
+/// Nominal rates of derived times: a step takes as long as its chord at this speed, unless another
+/// is asked for, and its turning angle at this rate, combined as the two legs of a right triangle.
 inline constexpr double kNominalSpeed_m_per_s = 1.0;
 inline constexpr double kNominalTurnRate_rad_per_s = 1.0;
 
@@ -24,8 +24,10 @@ inline constexpr double kStepWithoutMotion_s = 1.0;
 /// Times for poses that came without: chord length (Farin 2002, section 9.6) blended with the
 /// turning angle, so that turning on the spot takes time and so do repeated poses. Starts at 0,
 /// strictly increasing. Deviation from chord length alone: the turning angle and the floor
-/// `kShortestStep`. Precondition: at least two poses.
-std::vector<double> derive_times_s(std::span<const Pose> poses);
+/// `kShortestStep`. `speed_m_per_s` is that of the chords. Preconditions: at least two poses,
+/// 0 < speed_m_per_s.
+std::vector<double> derive_times_s(std::span<const Pose> poses,
+                                   double speed_m_per_s = kNominalSpeed_m_per_s);
 
 /// The C² path through `keyframes`: a cubic interpolating spline with natural ends for the position
 /// (two keyframes give a straight line) and a rational interpolating quaternion spline for the

@@ -48,9 +48,10 @@ std::string note_of_method(const PlanRequest& request) {
   if (request.options.method != Method::kKeyframeInsertion) return {};
   const PlanOptions usual;
   std::string unused;
-  if (request.options.objective != usual.objective) add(unused, "options.objective");
-  if (!(request.options.orientation == usual.orientation)) add(unused, "options.orientation");
-  if (request.options.seed != usual.seed) add(unused, "options.seed");
+  const auto add_name = [&](std::string_view path) { add(unused, request.name_of(path)); };
+  if (request.options.objective != usual.objective) add_name("options.objective");
+  if (!(request.options.orientation == usual.orientation)) add_name("options.orientation");
+  if (request.options.seed != usual.seed) add_name("options.seed");
   std::string note;
   if (!unused.empty()) note = "; note: keyframe_insertion does not look at " + unused;
   if (request.body) note += "; note: keyframe_insertion corrects paths of cameras alone";

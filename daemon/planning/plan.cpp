@@ -43,7 +43,8 @@ std::vector<Keyframe> prepared_keyframes(const PlanRequest& request) {
     poses.push_back(keyframe.pose);
   }
   if (request.has_times) return keyframes;
-  const std::vector<double> times_s = motion::derive_times_s(poses);
+  const std::vector<double> times_s = motion::derive_times_s(
+      poses, request.options.default_speed_m_per_s.value_or(motion::kNominalSpeed_m_per_s));
   for (std::size_t i = 0; i < keyframes.size(); ++i) keyframes[i].time_s = times_s[i];
   return keyframes;
 }
@@ -370,11 +371,9 @@ class Planner {
   [[nodiscard]] std::string note_of_tolerance() const {
     const double size_m = 2.0 * correction::FreeSpace(obstacles_, *body_, detect_).ball_radius_m();
     if (!(size_m < kLeastTolerances * detect_.tolerance_m)) return {};
-    return fmt::format(
-        "; note: the body is {:.2g} m large, and options.interval_tolerance_m of {:.2g} m is "
-        "coarse "
-        "for that",
-        size_m, detect_.tolerance_m);
+    return fmt::format("; note: the body is {:.2g} m large, and {} of {:.2g} m is coarse for that",
+                       size_m, request_.name_of("options.interval_tolerance_m"),
+                       detect_.tolerance_m);
   }
 
   [[nodiscard]] std::string note_of_bounds() const {
@@ -395,9 +394,9 @@ class Planner {
       const double tilt_rad =
           std::atan2(std::abs(policy.up_W.dot(across_W)), policy.up_W.cross(across_W).norm());
       if (tilt_rad < kNotableTilt_rad) continue;
-      return fmt::format(
-          "; note: keyframe {} is tilted by {:.0f} degrees, check options.orientation.up", i,
-          tilt_rad * 180.0 / std::numbers::pi);
+      return fmt::format("; note: keyframe {} is tilted by {:.0f} degrees, check {}", i,
+                         tilt_rad * 180.0 / std::numbers::pi,
+                         request_.name_of("options.orientation.up"));
     }
     return {};
   }
@@ -418,9 +417,9 @@ class Planner {
     }
     if (remaining == 0 && is_too_fast_) {
       result_.status = Status::kTimeout;
-      result_.message =
-          "options.limits: the path is free, but too fast, and the deadline came before it was "
-          "slowed";
+      result_.message = request_.name_of("options.limits") +
+                        ": the path is free, but too fast, and the deadline came before it was "
+                        "slowed";
       return;
     }
     if (remaining == 0) {
@@ -455,20 +454,20 @@ class Planner {
 
   // What the deadline left undone.
   [[nodiscard]] std::string note_of_haste() const {
-    return is_too_fast_ ? "; it was not slowed to meet options.limits" : "";
+    return is_too_fast_ ? "; it was not slowed to meet " + request_.name_of("options.limits") : "";
   }
 
   [[nodiscard]] std::string note_of_keyframe_limit() const {
     const std::int32_t most = request_.options.max_inserted_keyframes;
     if (result_.collisions.empty()) return {};
-    if (most == 0) return "; nothing was corrected, as options.max_inserted_keyframes is 0";
+    const std::string field = request_.name_of("options.max_inserted_keyframes");
+    if (most == 0) return fmt::format("; nothing was corrected, as {} asks for", field);
     // The seed's method does not say what it would need.
     const bool is_used_up = std::cmp_greater_equal(inserted_keyframes(), most);
     if (!needed_keyframes_ && !is_used_up) return {};
-    if (!needed_keyframes_) return fmt::format("; options.max_inserted_keyframes allows {}", most);
-    return fmt::format(
-        "; options.max_inserted_keyframes allows {}, the corrections that were found need {}", most,
-        *needed_keyframes_);
+    if (!needed_keyframes_) return fmt::format("; {} allows {}", field, most);
+    return fmt::format("; {} allows {}, the corrections that were found need {}", field, most,
+                       *needed_keyframes_);
   }
 
   [[nodiscard]] std::string repaired() const {
@@ -478,13 +477,13 @@ class Planner {
 
   [[nodiscard]] std::string why_too_fast() const {
     return fmt::format(
-        "options.limits: the path is free, but too fast from {:.5g} s to {:.5g} s{}: {}; allow "
-        "limits.retime, or give later times",
-        breach_->t_begin_s, breach_->t_end_s,
+        "{}: the path is free, but too fast from {:.5g} s to {:.5g} s{}: {}; allow {}, or give "
+        "later times",
+        request_.name_of("options.limits"), breach_->t_begin_s, breach_->t_end_s,
         breach_->stretches > 1
             ? fmt::format(" and at {}", counted(breach_->stretches - 1, "other time"))
             : "",
-        breach_->rate);
+        breach_->rate, request_.name_of("options.limits.retime"));
   }
 
   [[nodiscard]] std::string note_of_times() const {

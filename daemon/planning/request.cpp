@@ -28,6 +28,10 @@ std::optional<Method> method_from_string(std::string_view text) {
   return std::nullopt;
 }
 
+std::string PlanRequest::name_of(std::string_view path) const {
+  return spelling ? spelling(path) : std::string(path);
+}
+
 geometry::Vec3 direction_of(const geometry::Vec3& vector) {
   // Scaled first, so that squares neither overflow nor vanish.
   const double largest = vector.cwiseAbs().maxCoeff();

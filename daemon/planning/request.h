@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,9 +49,17 @@ struct PlanOptions {
   /// Given keyframes that collide are moved to the nearest free pose instead of being refused.
   bool repair_keyframes = false;
   std::uint64_t seed = 1;  ///< of the searches for ways round [Limit: 1 <= value]
+  /// Speed of the chords where times are derived; without it motion::kNominalSpeed_m_per_s. Refused
+  /// where keyframes have times. [Limit: kLeastDefaultSpeed_m_per_s <= value <=
+  /// kMostDefaultSpeed_m_per_s]
+  std::optional<double> default_speed_m_per_s;
 
   bool operator==(const PlanOptions&) const = default;
 };
+
+/// Returns how the sender of a request spells the member at a path in it. Paths have the names of
+/// the structs here, without units: "camera.fov_x", "keyframes[3].time", "options.limits.speed".
+using FieldSpelling = std::function<std::string(std::string_view path)>;
 
 /// The input of planning, whoever asked: daemon, command line or replay.
 struct PlanRequest {
@@ -61,6 +70,11 @@ struct PlanRequest {
   std::vector<motion::Keyframe> keyframes;
   bool has_times = false;  ///< false: `keyframes[i].time_s` mean nothing yet and are derived
   PlanOptions options;
+  /// For messages about the request. Empty: paths stay as they are.
+  FieldSpelling spelling = {};
+
+  /// The member at `path` as the sender spells it.
+  [[nodiscard]] std::string name_of(std::string_view path) const;
 };
 
 /// The unit vector in the direction of `vector`, of any length. A unit vector, as far as doubles
@@ -75,9 +89,10 @@ inline constexpr double kUnitLengthError = 5 * 2.220446049250313e-16;
 
 /// Why a request cannot be planned at all.
 struct InvalidRequest {
-  std::string field;                    ///< e.g. "keyframes[3].orientation"
+  std::string field;                    ///< its path (`FieldSpelling`), "keyframes[3].orientation"
   std::optional<std::size_t> keyframe;  ///< index from 0, where one keyframe is at fault
-  std::string message;                  ///< complete sentence that names the field
+  std::string reason;                   ///< what is wrong with the field
+  std::string message;                  ///< the field as the sender spells it, and the reason
 };
 
 /// Checks everything that can be checked without the scene: counts, finiteness, quaternion length,
@@ -100,6 +115,9 @@ inline constexpr double kLeastTimeStepOfPath = 1e-9;
 /// And times closer than this for rates, and their squares, beyond the range of numbers.
 /// [Units: seconds]
 inline constexpr double kLeastTimeStep_s = 1e-9;
+/// Speeds at which times may be derived. Slower or faster ones are mistakes of units.
+inline constexpr double kLeastDefaultSpeed_m_per_s = 1e-6;
+inline constexpr double kMostDefaultSpeed_m_per_s = 1e6;
 /// A shorter quaternion is meant to be zero, and its square would lose digits to underflow.
 inline constexpr double kLeastQuaternionLength = 1e-100;
 

@@ -20,8 +20,7 @@ static_assert(motion::kMaxBodyCoordinate_m == kMaxCoordinate_m);
 
 InvalidRequest invalid(std::string field, std::string_view reason,
                        std::optional<std::size_t> keyframe = std::nullopt) {
-  std::string message = fmt::format("{}: {}", field, reason);
-  return {std::move(field), keyframe, std::move(message)};
+  return {std::move(field), keyframe, std::string(reason), {}};
 }
 
 std::optional<InvalidRequest> check_angle(std::string_view field, double angle_rad) {
@@ -180,6 +179,20 @@ std::optional<InvalidRequest> check_correction(const PlanRequest& request) {
   return std::nullopt;
 }
 
+/// How times are derived.
+std::optional<InvalidRequest> check_speed(const PlanRequest& request) {
+  constexpr char kField[] = "options.default_speed";
+  const std::optional<double>& speed_m_per_s = request.options.default_speed_m_per_s;
+  if (!speed_m_per_s) return std::nullopt;
+  if (!(*speed_m_per_s >= kLeastDefaultSpeed_m_per_s &&
+        *speed_m_per_s <= kMostDefaultSpeed_m_per_s)) {
+    return invalid(kField, fmt::format("is {} m/s; it must be from {:g} to {:g}", *speed_m_per_s,
+                                       kLeastDefaultSpeed_m_per_s, kMostDefaultSpeed_m_per_s));
+  }
+  if (!request.has_times) return std::nullopt;
+  return invalid(kField, "counts only where keyframes have no times, and these have");
+}
+
 std::optional<InvalidRequest> check_options(const PlanOptions& options) {
   const auto at_least = [](std::string_view field, double value,
                            double least) -> std::optional<InvalidRequest> {
@@ -211,9 +224,7 @@ std::optional<InvalidRequest> check_options(const PlanOptions& options) {
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<InvalidRequest> validate(const PlanRequest& request) {
+std::optional<InvalidRequest> find_fault(const PlanRequest& request) {
   if (auto fault = check_body(request)) return fault;
   const std::size_t count = request.keyframes.size();
   if (count < 2 || count > kMaxKeyframes) {
@@ -227,7 +238,16 @@ std::optional<InvalidRequest> validate(const PlanRequest& request) {
     if (auto fault = check_times(request.keyframes)) return fault;
   }
   if (auto fault = check_options(request.options)) return fault;
+  if (auto fault = check_speed(request)) return fault;
   return check_correction(request);
+}
+
+}  // namespace
+
+std::optional<InvalidRequest> validate(const PlanRequest& request) {
+  std::optional<InvalidRequest> fault = find_fault(request);
+  if (fault) fault->message = fmt::format("{}: {}", request.name_of(fault->field), fault->reason);
+  return fault;
 }
 
 }  // namespace camway::planning

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <toml++/toml.h>
@@ -222,12 +225,17 @@ void read_root(const toml::table& root, const std::filesystem::path& folder, Dae
 
 std::vector<std::string> read_config_file(const std::filesystem::path& file,
                                           DaemonOptions& options) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) return {file.string() + ": is a folder"};
+  errno = 0;
   const std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();  // sets a bit where there is nothing, as in a folder
-  if (!stream.is_open() || text.str().empty()) {
-    return {file.string() + ": cannot be read, or is empty"};
+  if (!stream.is_open()) {
+    return {fmt::format("{}: cannot be opened: {}", file.string(),
+                        std::generic_category().message(errno))};
   }
+  std::ostringstream text;
+  text << stream.rdbuf();  // sets a bit where there is nothing
+  if (text.str().empty()) return {file.string() + ": is empty"};
   Faults faults(file.string());
   try {
     read_root(toml::parse(text.str(), file.string()), file.parent_path(), options, faults);

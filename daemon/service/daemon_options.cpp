@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/service/build_info.h"
+#include "daemon/service/command_line.h"
 #include "daemon/service/config_file.h"
 #include "daemon/service/daemon_faults.h"
 #include "daemon/service/daemon_settings.h"
@@ -121,7 +122,7 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
     if (app.exit(error, text, text) == 0) return ParsedOptions{std::nullopt, text.str(), {}};
-    return failed({fmt::format("{} (see camwayd --help)", error.what())});
+    return failed({command_line_fault(app, error)});
   }
 }
 

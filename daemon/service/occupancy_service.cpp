@@ -171,12 +171,13 @@ void OccupancyService::finish(const Request& request, Response answer) {
 void OccupancyService::send(occupancy_response_t answer) {
   answer.utime = utime_now();
   core_.counters.occupancy_answers.add(answer.status);
-  core_.limited_log.occupancy.write("answered occupancy request", {{"client", answer.client_id},
-                                                                   {"request", answer.request_id},
-                                                                   {"scene", answer.scene},
-                                                                   {"status", answer.status},
-                                                                   {"queries", queries_of(answer)},
-                                                                   {"message", answer.message}});
+  core_.limited_log.occupancy.write("answered occupancy request",
+                                    {{"client", answer.client_id},
+                                     {"request", answer.request_id},
+                                     {"scene", answer.scene},
+                                     {"status", status_name(answer.status)},
+                                     {"queries", queries_of(answer)},
+                                     {"message", answer.message}});
   const bool was_asked_of_a_map = answer.status == occupancy_response_t::STATUS_OK;
   if (core_.outbox.add(core_.channels.occupancy_response(answer.client_id),
                        std::make_shared<const std::vector<Bytes>>(1, wire::encode(answer)), {},

@@ -8,28 +8,28 @@
 #include <string>
 #include <utility>
 
+#include "daemon/planning/quaternion_order.h"
 #include "daemon/planning/witness.h"
 #include "daemon/scene/import_warnings.h"
 
 namespace camway::service {
 namespace {
 
-/// What an answer does not hold for, where it is read: behind its message.
-void append_warnings(const scene::ImportReport& report, const planning::PlanOptions& options,
+/// What the sender should know beside the answer: behind its message, where it is read.
+void append_warnings(const scene::ImportReport& report, const planning::PlanRequest& request,
                      planning::PlanResult& result) {
-  if (result.status == planning::Status::kInvalid) return;
-  const double resolution_m =
-      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m);
-  for (const std::string& warning : scene::import_warnings(report, resolution_m)) {
+  const auto append = [&](const std::string& warning) {
     result.message += "; warning: " + warning;
+  };
+  const bool is_planned = result.status != planning::Status::kInvalid;
+  // Cameras that are turned wrongly often collide where they are.
+  if (is_planned || !result.keyframe_faults.empty()) {
+    if (const auto warning = planning::quaternion_order_warning(request)) append(*warning);
   }
-}
-
-/// On the wire the options have no group of their own.
-void name_fields_as_wire_does(planning::PlanResult& result) {
-  constexpr std::string_view kGroup = "options.";
-  if (result.status != planning::Status::kInvalid || !result.message.starts_with(kGroup)) return;
-  result.message.erase(0, kGroup.size());
+  if (!is_planned) return;
+  const double resolution_m =
+      scene::finest_length_m(request.options.interval_tolerance_m, request.options.clearance_m);
+  for (const std::string& warning : scene::import_warnings(report, resolution_m)) append(warning);
 }
 
 }  // namespace
@@ -56,9 +56,8 @@ plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapsho
                           header_of(wire, &snapshot));
     }
     planning::PlanResult result = planner(snapshot, *converted.request, deadline);
-    name_fields_as_wire_does(result);
     planning::name_witnesses(snapshot.mesh, *converted.request, result);
-    append_warnings(snapshot.report, converted.request->options, result);
+    append_warnings(snapshot.report, *converted.request, result);
     return to_wire(result, header_of(wire, &snapshot));
   } catch (const std::exception& exception) {
     error = exception.what();

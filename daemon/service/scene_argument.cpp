@@ -7,6 +7,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "daemon/scene/import_words.h"
 #include "daemon/scene/voxel_grid.h"
 
 namespace camway::service {
@@ -89,15 +90,16 @@ bool is_scene_name(std::string_view name) {
 }
 
 std::optional<scene::UpAxis> up_axis_named(std::string_view word) {
-  if (word == "as-in-file") return scene::UpAxis::kAsInFile;
-  if (word == "z-to-y") return scene::UpAxis::kZToY;
-  if (word == "y-to-z") return scene::UpAxis::kYToZ;
+  for (const auto& [name, up] : scene::kUpAxes) {
+    if (name == word) return up;
+  }
   return std::nullopt;
 }
 
 std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word) {
-  if (word == "free") return scene::UnknownSpace::kFree;
-  if (word == "occupied") return scene::UnknownSpace::kOccupied;
+  for (const auto& [name, unknown] : scene::kUnknownSpaces) {
+    if (name == word) return unknown;
+  }
   return std::nullopt;
 }
 

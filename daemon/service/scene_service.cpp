@@ -13,6 +13,7 @@
 #include <camway/cancel_t.hpp>
 #include <camway/missing_pages_t.hpp>
 
+#include "daemon/service/scene_idle.h"
 #include "lcmtypes/wire_check.h"
 
 namespace camway::service {
@@ -106,7 +107,9 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   decoded->object = wire::printable(decoded->object);
   decoded->restore_as = wire::printable(decoded->restore_as);
   const auto request = std::make_shared<const scene_request_t>(std::move(*decoded));
-  if (only_looks(*request)) {
+  if (const std::string idle = idle_member(*request); !idle.empty()) {
+    send(plain_scene_answer(*request, scene_response_t::STATUS_INVALID, idle));
+  } else if (only_looks(*request)) {
     finish(*request, answer_of(*request, nullptr, context({})).answer);
   } else if (!(request->deadline_s >= 0.0)) {
     send(plain_scene_answer(
@@ -229,7 +232,7 @@ void SceneService::finish(const scene_request_t& request, scene_response_t answe
                                                             {"operation", operation_name(request)},
                                                             {"scene", request.scene},
                                                             {"object", request.object},
-                                                            {"status", answer.status},
+                                                            {"status", status_name(answer.status)},
                                                             {"revision", answer.scene.revision},
                                                             {"message", answer.message}});
   const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;

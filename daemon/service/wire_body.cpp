@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -94,6 +96,26 @@ ConvertedBody mesh_of(const body_t& wire) {
   return {std::move(mesh), {}};
 }
 
+bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
+
+/// The first member that is not zero or empty though the type does not name it: it was meant.
+std::string idle_member(const body_t& wire) {
+  const bool is_box = wire.type == body_t::BOX;
+  const bool is_sphere = wire.type == body_t::SPHERE;
+  const bool is_convex = wire.type == body_t::CONVEX;
+  const bool is_mesh = wire.type == body_t::MESH;
+  std::string_view idle;
+  if (!is_box && !is_sphere && !is_zero(wire.center_m)) idle = "center_m";
+  if (!is_box && !is_zero(wire.size_m)) idle = "size_m";
+  if (!is_sphere && wire.radius_m != 0.0) idle = "radius_m";
+  if (!is_convex && !wire.piece_sizes.empty()) idle = "piece_sizes";
+  if (!is_convex && !is_mesh && !wire.points_m.empty()) idle = "points_m";
+  if (!is_mesh && !wire.triangles.empty()) idle = "triangles";
+  if (idle.empty()) return {};
+  return "body." + std::string(idle) + ": does not count with this body.type; leave it " +
+         "zero or empty, or set the type that it belongs to";
+}
+
 }  // namespace
 
 body_t wire_body(const motion::BodyShape& shape) {
@@ -103,6 +125,10 @@ body_t wire_body(const motion::BodyShape& shape) {
 }
 
 ConvertedBody body_of(const body_t& wire) {
+  const bool is_known = wire.type >= body_t::CAMERA && wire.type <= body_t::MESH;
+  if (std::string error = is_known ? idle_member(wire) : ""; !error.empty()) {
+    return {std::nullopt, std::move(error)};
+  }
   switch (wire.type) {
     case body_t::CAMERA:
       return {};

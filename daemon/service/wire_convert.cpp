@@ -6,7 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include <camway/occupancy_response_t.hpp>
+
 #include "daemon/service/wire_body.h"
+#include "daemon/service/wire_names.h"
 #include "daemon/service/wire_options.h"
 #include "daemon/service/wire_report.h"
 #include "lcmtypes/wire_layout.h"
@@ -184,6 +187,22 @@ std::string path_fault(const std::vector<segment_t>& segments) {
   return {};
 }
 
+/// What is said and would not count is refused by name: it was meant.
+std::string idle_member(const plan_request_t& wire) {
+  if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {
+    return "max_inserted_keyframes: is " + std::to_string(wire.max_inserted_keyframes) +
+           ", which does not count beside correct_nothing; leave it 0";
+  }
+  for (std::size_t i = 0; wire.has_times == 0 && i < wire.keyframes.size(); ++i) {
+    if (wire.keyframes[i].time_s != 0.0) {
+      return "keyframes[" + std::to_string(i) +
+             "].time_s: is not 0, and does not count without has_times; set that, or leave all "
+             "times 0";
+    }
+  }
+  return {};
+}
+
 template <class List>
 std::int32_t count(const List& list) {
   return static_cast<std::int32_t>(list.size());
@@ -214,13 +233,21 @@ ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& lim
   options.interval_tolerance_m =
       or_default(wire.interval_tolerance_m, options.interval_tolerance_m);
   options.clearance_m = wire.clearance_m;
-  if (wire.max_inserted_keyframes >= 0) {
+  if (wire.max_inserted_keyframes != 0) {
     options.max_inserted_keyframes = wire.max_inserted_keyframes;
+  }
+  if (wire.correct_nothing != 0) options.max_inserted_keyframes = 0;
+  if (wire.default_speed_m_per_s != 0.0) {
+    options.default_speed_m_per_s = wire.default_speed_m_per_s;
+  }
+  if (std::string error = idle_member(wire); !error.empty()) {
+    return {std::nullopt, std::move(error)};
   }
   if (std::string error = read_correction_options(wire, options); !error.empty()) {
     return {std::nullopt, std::move(error)};
   }
   request.has_times = wire.has_times != 0;
+  request.spelling = wire_spelling(wire);
   request.keyframes.reserve(wire.keyframes.size());
   for (const keyframe_t& keyframe : wire.keyframes) {
     request.keyframes.push_back(keyframe_of(keyframe));
@@ -251,11 +278,14 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   wire.interval_tolerance_m = request.options.interval_tolerance_m;
   wire.clearance_m = request.options.clearance_m;
   wire.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  wire.correct_nothing = request.options.max_inserted_keyframes == 0 ? 1 : 0;
+  wire.default_speed_m_per_s = request.options.default_speed_m_per_s.value_or(0.0);
   put_correction_options(request.options, wire);
   wire.has_times = request.has_times ? 1 : 0;
   wire.keyframes.reserve(request.keyframes.size());
   for (const motion::Keyframe& keyframe : request.keyframes) {
     wire.keyframes.push_back(wire_keyframe(keyframe));
+    if (!request.has_times) wire.keyframes.back().time_s = 0.0;
   }
   wire.num_keyframes = count(wire.keyframes);
   return wire;
@@ -347,6 +377,7 @@ std::string_view status_name(std::int32_t wire_status) {
   if (wire_status == plan_response_t::STATUS_MALFORMED) return "malformed";
   if (wire_status == plan_response_t::STATUS_CANCELLED) return "cancelled";
   if (wire_status == plan_response_t::STATUS_LIMIT) return "limit";
+  if (wire_status == occupancy_response_t::STATUS_NO_MAP) return "no_map";
   return "unknown status";
 }
 

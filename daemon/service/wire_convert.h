@@ -32,8 +32,9 @@ struct ConvertedRequest {
   std::string error;
 };
 
-/// `wire` holds the keyframes of all pages. Its zeros and negative counts become the defaults of
-/// `planning::PlanOptions`.
+/// `wire` holds the keyframes of all pages. Its zeros become the defaults of
+/// `planning::PlanOptions`. What is not zero though it does not count (a time without `has_times`,
+/// a target without its policy) is an error: it was meant.
 ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits = {});
 
 /// Who asked for what.
@@ -73,7 +74,7 @@ plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& 
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header);
 
-/// The name of a status of `plan_response_t`, for logs: "ok", "partial", ..., "limit".
+/// The name of a status of any answer, for logs: "ok", "partial", ..., "limit", "no_map".
 std::string_view status_name(std::int32_t wire_status);
 
 /// `text` as a message may carry it: without NUL, at most `max_bytes`, cut between characters of

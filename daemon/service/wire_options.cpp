@@ -87,12 +87,32 @@ MotionLimits limits_of(const motion_limits_t& wire) {
 orientation_t wire_orientation(const OrientationPolicy& policy) {
   orientation_t wire{};
   wire.policy = wire_rule(policy.rule);
-  std::copy_n(policy.up_W.data(), 3, wire.up);
-  std::copy_n(policy.target_W.data(), 3, wire.target_m);
-  wire.cone_rad = policy.cone_rad;
+  if (policy.rule == OrientationRule::kLevel) std::copy_n(policy.up_W.data(), 3, wire.up);
+  if (policy.rule == OrientationRule::kTarget) {
+    std::copy_n(policy.target_W.data(), 3, wire.target_m);
+    wire.cone_rad = policy.cone_rad;
+  }
   wire.has_max_turn = 1;
   wire.max_turn_rad = policy.max_turn_rad;
   return wire;
+}
+
+/// What is said and would not count with this rule is refused by name: it was meant.
+std::string idle_member(const orientation_t& wire, OrientationRule rule) {
+  const Vec3 zero = Vec3::Zero();
+  if (rule != OrientationRule::kLevel && vec3(wire.up) != zero) {
+    return "orientation.up: counts only with the policy LEVEL; leave it zero";
+  }
+  if (rule != OrientationRule::kTarget && vec3(wire.target_m) != zero) {
+    return "orientation.target_m: counts only with the policy TARGET; leave it zero";
+  }
+  if (rule != OrientationRule::kTarget && wire.cone_rad != 0.0) {
+    return "orientation.cone_rad: counts only with the policy TARGET; leave it 0";
+  }
+  if (wire.has_max_turn == 0 && wire.max_turn_rad != 0.0) {
+    return "orientation.max_turn_rad: counts only with has_max_turn; set that, or leave it 0";
+  }
+  return {};
 }
 
 OrientationPolicy orientation_of(const orientation_t& wire, OrientationRule rule) {
@@ -124,6 +144,7 @@ std::string read_correction_options(const plan_request_t& wire, planning::PlanOp
   if (!rule) {
     return "orientation.policy: " + std::to_string(wire.orientation.policy) + " is unknown";
   }
+  if (std::string error = idle_member(wire.orientation, *rule); !error.empty()) return error;
   options.objective = *objective;
   options.orientation = orientation_of(wire.orientation, *rule);
   options.limits = limits_of(wire.limits);

@@ -78,10 +78,10 @@ std::shared_ptr<const scene::Mesh> load_mesh(const std::string& file, double sca
 std::vector<BenchScene> load_requests(const RequestSource& source) {
   std::map<std::string, BenchScene> scenes;
   for (const fs::path& file : request_files(source.requests, source.only)) {
-    tools::Parsed<planning::PlanRequest> parsed = tools::read_plan_request(file.string());
+    tools::Parsed<tools::RequestFile> parsed = tools::read_plan_request(file.string());
     if (!parsed.value) give_up(parsed.error);
     if (const auto invalid = planning::validate(*parsed.value)) {
-      give_up(file.string() + ": " + tools::describe(*invalid));
+      give_up(file.string() + ": " + invalid->message);
     }
     const fs::path named = file.parent_path() / parsed.value->scene;
     const std::string scene_file =

@@ -52,8 +52,8 @@ TEST_F(ClientTest, PlansAndEvaluatesThePath) {
   Client client(quick());
   PlanRequest request = small_request();
   request.method = "keyframe_insertion";
-  request.has_times = true;
-  request.keyframes[1] = {4.5, {1, 2, 3}, {0, 1, 0, 0}, false};
+  request.keyframes[0].time_s = 0.0;
+  request.keyframes[1] = {4.5, {1, 2, 3}, {0, 1, 0, 0}};
   const PlanResponse response = client.plan(request);
   ASSERT_TRUE(response.ok()) << response.error;
   EXPECT_EQ(response.error, "");

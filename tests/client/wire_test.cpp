@@ -157,6 +157,39 @@ TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
   }
 }
 
+// What is not set is the daemon's default, 0 means 0: on the wire these are two members.
+TEST(PlanPages, NothingIsCorrectedOnlyWhereItIsAskedFor) {
+  const auto sent = [](std::optional<std::int32_t> most) {
+    PlanRequest request = request_with(2);
+    request.max_inserted_keyframes = most;
+    return *wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+  };
+  EXPECT_EQ(sent(std::nullopt).max_inserted_keyframes, 0);
+  EXPECT_EQ(sent(std::nullopt).correct_nothing, 0);
+  EXPECT_EQ(sent(0).max_inserted_keyframes, 0);
+  EXPECT_EQ(sent(0).correct_nothing, 1);
+  EXPECT_EQ(sent(17).max_inserted_keyframes, 17);
+  EXPECT_EQ(sent(17).correct_nothing, 0);
+}
+
+TEST(PlanPages, TimesCountWhereTheyAreSet) {
+  PlanRequest request = request_with(3);
+  request.default_speed_m_per_s = 2.5;
+  auto page = wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+  EXPECT_EQ(page->has_times, 1);
+  EXPECT_EQ(page->default_speed_m_per_s, 2.5);
+  for (Keyframe& keyframe : request.keyframes) keyframe.time_s.reset();
+  EXPECT_EQ(fault_in_form(request), std::nullopt);
+  page = wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+  EXPECT_EQ(page->has_times, 0);
+  for (const keyframe_t& keyframe : page->keyframes) EXPECT_EQ(keyframe.time_s, 0.0);
+  request.keyframes[2].time_s = 0.0;
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("keyframes[2].time_s: is set"));
+  request = request_with(3);
+  request.keyframes[1].time_s.reset();
+  EXPECT_THAT(*fault_in_form(request), HasSubstr("keyframes[1].time_s: is not set"));
+}
+
 TEST(PlanPages, EveryOrientationHasItsForm) {
   const auto sent = [](const Orientation& orientation) {
     PlanRequest request = request_with(2);

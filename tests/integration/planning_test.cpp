@@ -99,7 +99,7 @@ TEST_F(PlanningTest, PathPassesThroughEveryGivenKeyframe) {
   const PlanResponse response = client.plan(request);
   ASSERT_TRUE(response.ok()) << response.error;
   std::size_t given = 0;
-  for (const Keyframe& keyframe : response.keyframes) {
+  for (const PathKeyframe& keyframe : response.keyframes) {
     if (keyframe.inserted) continue;
     ASSERT_LT(given, request.keyframes.size());
     EXPECT_EQ(keyframe.time_s, request.keyframes[given].time_s);
@@ -138,7 +138,6 @@ TEST_F(PlanningTest, LongRequestsAndAnswersTravelInPages) {
     keyframe.time_s = i;
     request.keyframes.push_back(keyframe);
   }
-  request.has_times = true;
   request.deadline_s = 30.0;
   Client client(patient());
   const PlanResponse response = client.plan(request);

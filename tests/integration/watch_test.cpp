@@ -26,8 +26,8 @@ SceneShape crate() { return SceneBox{{0.5, 0.5, 0.5}}; }
 PlanRequest walk() {
   PlanRequest request;
   request.scene = "yard";
-  request.has_times = true;
   request.keyframes.resize(2);
+  request.keyframes[0].time_s = 0.0;
   request.keyframes[1].time_s = 4.0;
   request.keyframes[1].position_m = {4.0, 0.0, 0.0};
   return request;

@@ -24,6 +24,15 @@ TEST(DeriveTimes, AStraightMoveTakesItsLength) {
   EXPECT_DOUBLE_EQ(derive_times_s(poses)[1], 5.0 / kNominalSpeed_m_per_s);
 }
 
+TEST(DeriveTimes, AnotherSpeedIsThatOfTheChordsAlone) {
+  const std::vector<Pose> poses = {{Vec3(0, 0, 0), kLevel},
+                                   {Vec3(3, 4, 0), kLevel},
+                                   {Vec3(3, 4, 0), test::turned(Vec3(1, 2, 3), 1.5)}};
+  const std::vector<double> times_s = derive_times_s(poses, 2.5);
+  EXPECT_DOUBLE_EQ(times_s[1], 5.0 / 2.5);
+  EXPECT_NEAR(times_s[2] - times_s[1], 1.5 / kNominalTurnRate_rad_per_s, 8.0 * test::kEpsilon);
+}
+
 TEST(DeriveTimes, TurningOnTheSpotTakesItsAngle) {
   const std::vector<Pose> poses = {
       {Vec3(1, 1, 1), kLevel},

@@ -152,6 +152,16 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
          r.options.max_shrink = 0.5;
        }},
       {"options.seed", {}, [](PlanRequest& r) { r.options.seed = 0; }},
+      {"options.default_speed",
+       {},
+       [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = 0.0; }},
+      {"options.default_speed",
+       {},
+       [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = kNaN; }},
+      {"options.default_speed",
+       {},
+       [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = 2e6; }},
+      {"options.default_speed", {}, [](PlanRequest& r) { r.options.default_speed_m_per_s = 1.0; }},
   };
   for (const Fault& fault : faults) {
     PlanRequest request = good_request();
@@ -160,7 +170,9 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
     ASSERT_TRUE(found) << fault.field;
     EXPECT_EQ(found->field, fault.field);
     EXPECT_EQ(found->keyframe, fault.keyframe) << fault.field;
-    EXPECT_THAT(found->message, ::testing::StartsWith(std::string(fault.field) + ": "));
+    EXPECT_EQ(found->message, std::string(fault.field) + ": " + found->reason);
+    request.spelling = [](std::string_view path) { return "<" + std::string(path) + ">"; };
+    EXPECT_EQ(validate(request)->message, "<" + found->field + ">: " + found->reason);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include <toml++/toml.h>
 
@@ -174,11 +175,16 @@ TEST_F(ConfigFile, AllFaultsComeInTheOrderOfTheirLines) {
   EXPECT_NE(faults[2].find(":6: "), std::string::npos);
 }
 
-TEST_F(ConfigFile, WhatCannotBeReadIsAFault) {
-  for (const std::filesystem::path& file : {folder_ / "missing.toml", folder_}) {
+TEST_F(ConfigFile, WhatCannotBeReadIsAFaultThatSaysWhy) {
+  { const std::ofstream empty(folder_ / "empty.toml"); }
+  const std::pair<std::filesystem::path, const char*> kFiles[] = {
+      {folder_ / "missing.toml", ": cannot be opened: No such file or directory"},
+      {folder_ / "empty.toml", ": is empty"},
+      {folder_, ": is a folder"}};
+  for (const auto& [file, reason] : kFiles) {
     const std::vector<std::string> faults = read_config_file(file, options_);
     ASSERT_EQ(faults.size(), 1U) << file;
-    EXPECT_EQ(faults[0], file.string() + ": cannot be read, or is empty");
+    EXPECT_EQ(faults[0], file.string() + reason);
   }
 }
 

@@ -164,6 +164,7 @@ TEST(OccupancyService, AnswersOverTheWire) {
   EXPECT_EQ(answer.request_id, 4);
   EXPECT_GT(answer.utime, 0);
   expect_mixed_answers(answer);
+  EXPECT_NE(daemon.log_text().find("status=ok "), std::string::npos) << daemon.log_text();
 }
 
 TEST(OccupancyService, EveryFaultHasItsStatus) {

@@ -42,9 +42,13 @@ collision::Witness witness(double time_s, Random& random) {
 correction::OrientationPolicy orientation(Random& random) {
   correction::OrientationPolicy policy;
   policy.rule = static_cast<correction::OrientationRule>(below(random, 4));
-  policy.up_W = planning::direction_of(point(random));
-  policy.target_W = point(random);
-  policy.cone_rad = 0.25;
+  // Only what counts with the policy is sent.
+  const geometry::Vec3 any = point(random);
+  if (policy.rule == correction::OrientationRule::kLevel) policy.up_W = planning::direction_of(any);
+  if (policy.rule == correction::OrientationRule::kTarget) {
+    policy.target_W = any;
+    policy.cone_rad = 0.25;
+  }
   policy.max_turn_rad = static_cast<double>(below(random, 4));
   return policy;
 }
@@ -118,13 +122,14 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   request.options.chord_error_m = 0.0078125;
   request.options.interval_tolerance_m = 1e-5;
   request.options.clearance_m = 0.0625;
-  request.options.max_inserted_keyframes = 17;
+  request.options.max_inserted_keyframes = below(random, 2) == 0 ? 17 : 0;
   request.options.objective = static_cast<correction::Objective>(below(random, 4));
   request.options.orientation = orientation(random);
   request.options.limits = limits(random);
   request.options.max_shrink = 0.375;
   request.options.repair_keyframes = below(random, 2) == 0;
   request.options.seed = 1 + random();
+  if (!request.has_times && below(random, 2) == 0) request.options.default_speed_m_per_s = 2.5;
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
   }

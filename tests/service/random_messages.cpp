@@ -240,6 +240,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.interval_tolerance_m = number(random);
   message.clearance_m = number(random);
   message.max_inserted_keyframes = small(random);
+  message.correct_nothing = static_cast<std::int8_t>(random());
   message.objective = static_cast<std::int8_t>(below(random, 6));
   message.orientation = orientation(random);
   message.limits = limits(random);
@@ -247,6 +248,7 @@ plan_request_t random_message<plan_request_t>(Random& random) {
   message.repair_keyframes = static_cast<std::int8_t>(random());
   message.seed = integer(random);
   message.has_times = static_cast<std::int8_t>(random());
+  message.default_speed_m_per_s = number(random);
   message.num_keyframes =
       fill_list(message.keyframes, length(random, 700), [&] { return keyframe(random); });
   return message;

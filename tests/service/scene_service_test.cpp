@@ -292,7 +292,19 @@ TEST_F(SceneServiceTest, SaysWhatIsWrongWithARequest) {
   request = request_for(0, scene_request_t::PUT, "s", "ball");
   request.kind = scene_request_t::SPHERE;
   EXPECT_THAT(refusal(request), HasSubstr("radius_m"));
+  request = put_box(0, "s", "crate");
+  request.radius_m = 2.0;
+  EXPECT_THAT(refusal(request), HasSubstr("radius_m: does not count"));
   EXPECT_EQ(running_.scenes.find("s")->revision, 1U);
+}
+
+TEST_F(SceneServiceTest, TheLogSaysStatusesAsWords) {
+  static_cast<void>(ask(request_for(1, scene_request_t::LOAD, "s")));
+  static_cast<void>(ask(request_for(2, scene_request_t::MOVE, "none", "chair")));
+  static_cast<void>(ask(request_for(3, scene_request_t::EXPORT, "s")));
+  EXPECT_THAT(running_.log_text(), HasSubstr("status=ok "));
+  EXPECT_THAT(running_.log_text(), HasSubstr("status=unknown_scene "));
+  EXPECT_THAT(running_.log_text(), HasSubstr("status=no_map "));
 }
 
 TEST_F(SceneServiceTest, ListsAndRestoresRevisions) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/service/wire_convert.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "lcmtypes/wire_check.h"
 #include "tests/service/plan_samples.h"
@@ -15,6 +17,7 @@ using testing::kSeed;
 using testing::Random;
 using testing::sample_request;
 using testing::sample_result;
+using ::testing::StartsWith;
 
 const RequestIds kIds{"tester", -3, 1'000'000};
 
@@ -22,7 +25,6 @@ plan_request_t minimal_request() {
   plan_request_t wire{};
   wire.client_id = "tester";
   wire.num_pages = 1;
-  wire.max_inserted_keyframes = -1;
   return wire;
 }
 
@@ -93,6 +95,121 @@ TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
   wire = minimal_request();
   wire.orientation.policy = -1;
   EXPECT_EQ(from_wire(wire).error, "orientation.policy: -1 is unknown");
+}
+
+// A program that knows nothing of the options leaves them zero.
+TEST(WireConvert, AZeroMessageAsksForEveryDefault) {
+  const ConvertedRequest read = from_wire(minimal_request());
+  ASSERT_TRUE(read.request) << read.error;
+  planning::PlanOptions defaults;
+  defaults.deadline_s = DeadlineLimits{}.default_s;
+  EXPECT_EQ(read.request->options, defaults);
+  EXPECT_FALSE(read.request->body);
+  EXPECT_FALSE(read.request->has_times);
+}
+
+TEST(WireConvert, NothingIsCorrectedOnlyWhereItIsAskedFor) {
+  plan_request_t wire = minimal_request();
+  wire.correct_nothing = 1;
+  EXPECT_EQ(from_wire(wire).request->options.max_inserted_keyframes, 0);
+  wire.max_inserted_keyframes = 7;
+  EXPECT_THAT(from_wire(wire).error,
+              StartsWith("max_inserted_keyframes: is 7, which does not count"));
+  wire.correct_nothing = 0;
+  EXPECT_EQ(from_wire(wire).request->options.max_inserted_keyframes, 7);
+  planning::PlanRequest none;
+  none.options.max_inserted_keyframes = 0;
+  EXPECT_EQ(to_wire(none, kIds).correct_nothing, 1);
+}
+
+TEST(WireConvert, WhatWouldNotCountIsRefusedByName) {
+  using Change = void (*)(plan_request_t&);
+  const std::pair<const char*, Change> kIdle[] = {
+      {"keyframes[1].time_s: ", [](plan_request_t& r) { r.keyframes[1].time_s = 0.5; }},
+      {"keyframes[0].time_s: ",
+       [](plan_request_t& r) { r.keyframes[0].time_s = std::numeric_limits<double>::quiet_NaN(); }},
+      {"orientation.up: ", [](plan_request_t& r) { r.orientation.up[2] = 1.0; }},
+      {"orientation.up: ",
+       [](plan_request_t& r) {
+         r.orientation.policy = orientation_t::TARGET;
+         r.orientation.up[2] = 1.0;
+       }},
+      {"orientation.target_m: ", [](plan_request_t& r) { r.orientation.target_m[0] = 1.0; }},
+      {"orientation.cone_rad: ", [](plan_request_t& r) { r.orientation.cone_rad = 0.25; }},
+      {"orientation.max_turn_rad: ", [](plan_request_t& r) { r.orientation.max_turn_rad = 0.25; }},
+      {"body.size_m: ", [](plan_request_t& r) { r.body.size_m[1] = 1.0; }},
+      {"body.center_m: ", [](plan_request_t& r) { r.body.center_m[1] = 1.0; }},
+      {"body.radius_m: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::BOX;
+         r.body.radius_m = 0.5;
+       }},
+      {"body.points_m: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::SPHERE;
+         r.body.points_m = {{0, 0, 0}};
+       }},
+      {"body.triangles: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::CONVEX;
+         r.body.triangles = {{0, 1, 2}};
+       }},
+      {"body.piece_sizes: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::MESH;
+         r.body.piece_sizes = {3};
+       }},
+  };
+  plan_request_t good = minimal_request();
+  good.keyframes.resize(2);
+  ASSERT_TRUE(from_wire(good).request);
+  for (const auto& [field, change] : kIdle) {
+    plan_request_t wire = good;
+    change(wire);
+    const ConvertedRequest read = from_wire(wire);
+    EXPECT_FALSE(read.request) << field;
+    EXPECT_THAT(read.error, StartsWith(field));
+  }
+}
+
+// Every member that `planning::validate` can name is one that lcm-gen's users see.
+TEST(WireConvert, MessagesNameMembersAsTheWireDoes) {
+  const std::pair<const char*, const char*> kNames[] = {
+      {"camera.fov_x", "camera.fov_x_rad"},
+      {"camera.fov_y", "camera.fov_y_rad"},
+      {"camera.near", "camera.near_m"},
+      {"camera", "camera"},
+      {"keyframes", "keyframes"},
+      {"keyframes[3].time", "keyframes[3].time_s"},
+      {"keyframes[12].position", "keyframes[12].position_m"},
+      {"keyframes[0].orientation", "keyframes[0].orientation_wxyz"},
+      {"body.size[2]", "body.size_m[2]"},
+      {"body.center", "body.center_m"},
+      {"body.radius", "body.radius_m"},
+      {"body.points[5]", "body.points_m[5]"},
+      {"body.pieces[2]", "body.piece_sizes[2]"},
+      {"body.pieces[2][7]", "body.points_m (point 7 of piece 2)"},
+      {"body.vertices[4]", "body.points_m[4]"},
+      {"body.triangles[1][2]", "body.triangles[1][2]"},
+      {"options.deadline_s", "deadline_s"},
+      {"options.clearance", "clearance_m"},
+      {"options.max_inserted_keyframes", "max_inserted_keyframes"},
+      {"options.default_speed", "default_speed_m_per_s"},
+      {"options.orientation.up", "orientation.up"},
+      {"options.orientation.target", "orientation.target_m"},
+      {"options.orientation.cone", "orientation.cone_rad"},
+      {"options.orientation.max_turn", "orientation.max_turn_rad"},
+      {"options.limits", "limits"},
+      {"options.limits.speed", "limits.speed_m_per_s"},
+      {"options.limits.acceleration", "limits.acceleration_m_per_s2"},
+      {"options.limits.turn_rate", "limits.turn_rate_rad_per_s"},
+      {"options.limits.retime", "limits.may_retime"},
+  };
+  plan_request_t wire = minimal_request();
+  const planning::PlanRequest request = *from_wire(wire).request;
+  for (const auto& [path, name] : kNames) EXPECT_EQ(request.name_of(path), name);
+  wire.correct_nothing = 1;
+  EXPECT_EQ(from_wire(wire).request->name_of("options.max_inserted_keyframes"), "correct_nothing");
 }
 
 TEST(WireConvert, EveryBodySurvivesTheWayThereAndBack) {

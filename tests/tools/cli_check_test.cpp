@@ -287,6 +287,25 @@ TEST_F(CliCheck, SaysOnceWhereOnTheBodyAContactIs) {
   EXPECT_THAT(run.out, HasSubstr("with rod (triangle 0) inside the near quadrilateral, "));
 }
 
+TEST_F(CliCheck, TakesTheSceneOfTheRequest) {
+  const std::string response = planned("free", 1);
+  const CliRun run = run_camway({"check", "--request", request_, "--response", response});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, check(response).out);
+  // As the request says to read it: ten times as large the wall is in the way.
+  std::string text = read_all(request_);
+  text.replace(text.find("\"camera\""), 0, R"("scale": 10, )");
+  const std::string larger = folder_.write("larger.json", text);
+  const CliRun other = run_camway({"check", "--request", larger, "--response", response});
+  EXPECT_EQ(other.exit_code, 3) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("was made for another scene"));
+  const std::string nowhere = folder_.write(
+      "nowhere.json", request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)}, ""));
+  const CliRun none = run_camway({"check", "--request", nowhere, "--response", response});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("nowhere.json: scene: is missing, and there is no --scene"));
+}
+
 TEST_F(CliCheck, NamesTheFileAtFault) {
   const std::string response = planned("free", 1);
   const CliRun missing = run_camway(

@@ -60,6 +60,23 @@ TEST_F(CliDraw, RefusesOtherPicturesAndAnswersWithoutAPath) {
   EXPECT_THAT(none.err, HasSubstr("answer.json"));
 }
 
+TEST_F(CliDraw, TakesTheSceneOfTheRequestAndWarnsOfAnother) {
+  plan(0.5);
+  const std::string picture = folder_.file("answer.svg");
+  const std::vector<std::string> arguments{"draw",    "--request", request_, "--response",
+                                           response_, "--picture", picture};
+  const CliRun run = run_camway(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const std::string own = read(picture);
+  draw(picture);
+  EXPECT_EQ(read(picture), own);
+  folder_.write("wall.obj", wall_obj() + "v 9 9 9\nv 9 9 8\nv 9 8 8\nf -1 -2 -3\n");
+  const CliRun other = run_camway(arguments);
+  EXPECT_EQ(other.exit_code, 0);
+  EXPECT_THAT(other.err, HasSubstr("answer.json: was made for another scene"));
+}
+
 TEST_F(CliDraw, NamesTheFileThatCannotBeWritten) {
   plan(0.5);
   const CliRun run = draw(folder_.file("no/such/folder.svg"));

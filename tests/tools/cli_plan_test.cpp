@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "tests/tools/cli_runner.h"
 #include "tools/json_io.h"
+#include "tools/json_path.h"
 
 namespace camway::tools {
 namespace {
@@ -201,7 +203,7 @@ TEST_F(CliPlan, FlagsGoBeforeTheRequestsOptions) {
   EXPECT_EQ(run_camway({"plan", "--request", request, "--method", "ladder"}).exit_code, 0);
   const CliRun run = run_camway({"plan", "--request", request, "--max-shrink", "0.5"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("R.json: options.max_shrink: is 0.5, but the body is no camera"));
+  EXPECT_THAT(run.err, HasSubstr("R.json: --max-shrink: is 0.5, but the body is no camera"));
 }
 
 TEST_F(CliPlan, NamesTheOptionAtFault) {
@@ -217,10 +219,63 @@ TEST_F(CliPlan, NamesTheOptionAtFault) {
   EXPECT_THAT(error_of(R"({"orientation": {"policy": "target"}})"),
               HasSubstr("R.json: options.orientation.target: is missing"));
   EXPECT_THAT(error_of(R"({"limits": {"turn_rate_deg": 0}})"),
-              HasSubstr("R.json: options.limits.turn_rate: is 0; it must be above 0"));
+              HasSubstr("R.json: options.limits.turn_rate_deg: is 0; it must be above 0"));
   EXPECT_THAT(error_of(R"({"max_shrink": 1})"),
               HasSubstr("R.json: options.max_shrink: is 1; it must be at least 0 and below 1"));
   EXPECT_THAT(error_of(R"({"objectiv": "closest"})"), HasSubstr("options.objectiv: is unknown"));
+}
+
+TEST_F(CliPlan, NamesTheAngleAsItWasWritten) {
+  std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+  text.replace(text.find("\"fov_x_deg\": 70"), 15, "\"fov_x_deg\": 180");
+  const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("R.json: camera.fov_x_deg: is 180 degrees"));
+}
+
+// Upright cameras, written x, y, z, w: read w, x, y, z they hang upside down.
+TEST_F(CliPlan, WarnsOfQuaternionsThatLookXyzw) {
+  const auto keyframe = [](double z, const char* orientation) {
+    return "{\"position\": [1, 0, " + std::to_string(z) + "], " + orientation + "}";
+  };
+  const auto run_with = [&](const char* orientation) {
+    const std::string request = folder_.write(
+        "R.json", request_json({keyframe(1, orientation), keyframe(-1, orientation)}));
+    return run_camway({"plan", "--request", request, "--response", folder_.file("P.json")});
+  };
+  const CliRun wrong = run_with(R"("orientation": [0, 0, 0, 1])");
+  EXPECT_EQ(wrong.exit_code, 0);
+  EXPECT_THAT(wrong.err, HasSubstr("R.json: keyframes[].orientation: all cameras look rolled"));
+  EXPECT_THAT(read_all(folder_.file("P.json")),
+              HasSubstr("orientation_xyzw takes the other order"));
+  const CliRun right = run_with(R"("orientation_xyzw": [0, 0, 0, 1])");
+  EXPECT_EQ(right.exit_code, 0);
+  EXPECT_THAT(right.err, Not(HasSubstr("warning")));
+  const CliRun meant = run_with(R"("orientation_xyzw": [0, 0, 1, 0])");
+  EXPECT_THAT(meant.err, Not(HasSubstr("warning"))) << "the order was said";
+}
+
+// What was planned for nothing would be lost.
+TEST_F(CliPlan, NoticesBeforePlanningThatTheResponseCannotBeWritten) {
+  for (const std::vector<std::string>& flags :
+       {std::vector<std::string>{"--response", "/nonexistent/P.json"},
+        {"--response", folder_.file("")},
+        {"--response-dir", scene_}}) {
+    std::vector<std::string> arguments{"plan", "--request", free_};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 2) << flags[1];
+    EXPECT_THAT(run.err, HasSubstr(flags[1]));
+    EXPECT_THAT(run.err, Not(HasSubstr("ok: ")));
+    EXPECT_EQ(run.out, "");
+  }
+}
+
+TEST_F(CliPlan, TimesAreDerivedAtTheSpeedThatIsAskedFor) {
+  std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+  text.replace(text.find("\"camera\""), 0, R"("options": {"default_speed_m_per_s": 0.5}, )");
+  const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
+  EXPECT_EQ(parse_plan_response(run.out, "stdout").value->keyframes[1].time_s, 4.0) << run.err;
 }
 
 TEST_F(CliPlan, HelpNamesBodyAndClearance) {
@@ -263,6 +318,27 @@ TEST_F(CliPlan, ScalesAndTurnsTheScene) {
   EXPECT_TRUE(parse_plan_response(run.out, "stdout").value->collisions.empty());
 }
 
+TEST_F(CliPlan, TheRequestSaysHowToReadItsSceneAndFlagsGoBefore) {
+  const auto digest_with = [&](const std::string& reading, std::vector<std::string> flags) {
+    std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+    text.replace(text.find("\"camera\""), 0, reading);
+    std::vector<std::string> arguments{"plan", "--deadline-s", "5", "--request",
+                                       folder_.write("R.json", text)};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const CliRun run = run_camway(arguments);
+    const auto path = parse_path_file(run.out, "stdout");
+    EXPECT_TRUE(path.value) << run.err;
+    return path.value ? path.value->scene_digest : "";
+  };
+  const std::string large = digest_with("", {"--scale", "10"});
+  EXPECT_EQ(digest_with(R"("scale": 10, )", {}), large);
+  EXPECT_NE(digest_with("", {}), large);
+  EXPECT_EQ(digest_with(R"("scale": 7, )", {"--scale", "10"}), large);
+  const std::string turned = digest_with("", {"--up", "z-to-y"});
+  EXPECT_EQ(digest_with(R"("up": "z-to-y", )", {}), turned);
+  EXPECT_EQ(digest_with(R"("up": "y-to-z", )", {"--up", "z-to-y"}), turned);
+}
+
 TEST_F(CliPlan, PlansASetWithATable) {
   const std::string bad = folder_.write("bad.json", "{");
   const std::string dir = folder_.file("answers");
@@ -286,6 +362,23 @@ TEST_F(CliPlan, DoesNotOverwriteARequestWithItsResponse) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("would overwrite the request"));
   EXPECT_EQ(read_all(free_), before);
+}
+
+TEST_F(CliPlan, SaysWhatAFlagMustBeInWords) {
+  const std::pair<std::vector<std::string>, const char*> kCases[] = {
+      {{"--up", "zup"}, "--up: must be one of as-in-file, z-to-y, y-to-z, not 'zup'"},
+      {{"--deadline-s", "-1"}, "--deadline-s: must be a number above 0, not '-1'"},
+      {{"--objective", "savest"}, "did you mean safest? (see camway plan --help)"},
+      {{"--respons", "P.json"}, "'--respons' is no flag of camway plan; did you mean --response?"},
+  };
+  for (const auto& [flags, expected] : kCases) {
+    std::vector<std::string> arguments{"plan", "--request", free_};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr(expected));
+    EXPECT_LT(run.err.size(), 200U) << "no number of 309 digits";
+  }
 }
 
 TEST_F(CliPlan, RefusesBadFlags) {

@@ -24,7 +24,7 @@ std::string request_with(const std::string& body, bool with_camera = false) {
 planning::PlanRequest read(const std::string& body, bool with_camera = false) {
   const auto parsed = parse_plan_request(request_with(body, with_camera), "R.json");
   EXPECT_TRUE(parsed.value) << parsed.error;
-  return parsed.value.value_or(planning::PlanRequest{});
+  return parsed.value.value_or(RequestFile{});
 }
 
 TEST(JsonBody, ReadsABox) {
@@ -109,7 +109,7 @@ TEST(JsonBody, NamesTheFieldAtFault) {
 TEST(JsonBody, LeavesRangesToValidation) {
   const auto fault_of = [](const std::string& body) {
     const auto fault = planning::validate(read(body));
-    return fault ? describe(*fault) : std::string();
+    return fault ? fault->message : std::string();
   };
   EXPECT_THAT(fault_of(R"({"type": "box", "size": [1, 0, 3]})"),
               StartsWith("body.size[1]: is 0 m; it must be above 0"));

@@ -5,12 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "tools/camway/compare.h"
 #include "tools/json_angle.h"
@@ -84,13 +88,15 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("camera": {)", R"("_camera": {)", "camera: is missing"},
       {R"("near": 0.1)", R"("_near": 0.1)", "camera.near: is missing"},
       {R"("camera": {)", R"("kamera": {)",
-       "kamera: is unknown; a request has scene, camera, body, keyframes, options, and for remarks "
+       "kamera: is unknown; a request has scene, scale, up, unknown, camera, body, keyframes, "
+       "options, and for "
+       "remarks "
        "comment or _..."},
       {R"("near": 0.1)", R"("near": 0.1, "far": 9)",
        "camera.far: is unknown; camera has fov_x_deg, fov_y_deg, near"},
       {R"("_name": "door")", R"("name": "door")",
-       "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, origin, "
-       "repaired"},
+       "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, "
+       "orientation_xyzw, origin, repaired"},
       {R"("fov_x_deg": 90)", R"("fov_x_deg": "90")",
        "camera.fov_x_deg: must be a number, not a string"},
       {R"("keyframes": [)", R"("keyframes": 5, "_old": [)",
@@ -102,6 +108,18 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {"[0, 3, 0, 4]", "[0, 0, 0, 0]", "keyframes[1].orientation: has length zero"},
       {"[0, 3, 0, 4]", "[0, -0.0, 0, 0e5]", "keyframes[1].orientation: has length zero"},
       {"[0, 3, 0, 4]", "[0, 3, 0, 4, 5]", "keyframes[1].orientation: must be an array of 4"},
+      {R"("orientation": [0, 3, 0, 4])",
+       R"("orientation": [0, 3, 0, 4], "orientation_xyzw": [3, 0, 4, 0])",
+       "keyframes[1]: has both orientation and orientation_xyzw"},
+      {R"("orientation": [0, 3, 0, 4])", R"("orientation_xyzw": [0, 0, 0, 0])",
+       "keyframes[1].orientation_xyzw: has length zero"},
+      {R"("orientation": [0, 3, 0, 4])", R"("_orientation": [0, 3, 0, 4])",
+       "keyframes[1].orientation: is missing"},
+      {R"("scene": "office.obj")", R"("scale": 0)", "scale: must be above 0"},
+      {R"("scene": "office.obj")", R"("scale": "inch")", "scale: must be a number"},
+      {R"("scene": "office.obj")", R"("up": "zup")",
+       "up: 'zup' is unknown; there are as-in-file, z-to-y, y-to-z"},
+      {R"("scene": "office.obj")", R"("unknown": true)", "unknown: must be a string"},
       {R"("time": 2.5, )", "", "keyframes[1]: has no time and keyframe 0 has one"},
       {R"("time": 1.5, )", "", "keyframes[1]: has a time and keyframe 0 has none"},
       {R"("time": 2.5)", R"("time": null)", "keyframes[1].time: must be a number, not null"},
@@ -133,19 +151,76 @@ TEST(JsonRequest, LeavesRangesToValidationWhoseMessagesNameTheField) {
     EXPECT_TRUE(parsed.value) << parsed.error;
     if (!parsed.value) return std::string();
     const auto fault = planning::validate(*parsed.value);
-    return fault ? describe(*fault) : std::string();
+    return fault ? fault->message : std::string();
   };
   EXPECT_THAT(fault_of(edited(R"("time": 2.5)", R"("time": 1.5)")), HasSubstr("keyframes[1].time"));
   EXPECT_THAT(fault_of(edited(R"("near": 0.1)", R"("near": -0.1)")), HasSubstr("camera.near"));
   EXPECT_THAT(fault_of(edited(R"("fov_x_deg": 90)", R"("fov_x_deg": 180)")),
-              HasSubstr("camera.fov_x"));
+              StartsWith("camera.fov_x_deg: "));
   EXPECT_THAT(fault_of(edited(R"("deadline_s": 2.5)", R"("deadline_s": 0)")),
               HasSubstr("options.deadline_s"));
 }
 
-TEST(JsonRequest, DescribesAFaultWithTheFieldOnce) {
-  EXPECT_EQ(describe({"camera", {}, "is odd"}), "camera: is odd");
-  EXPECT_EQ(describe({"camera", {}, "camera: is odd"}), "camera: is odd");
+// Every field that validation names is one that the request has: it is there, as written.
+TEST(JsonRequest, ValidationNamesFieldsAsTheFileDoes) {
+  const std::pair<const char*, const char*> kFaults[] = {
+      {R"("fov_y_deg": 60)", R"("fov_y_deg": 0)"},
+      {R"("near": 0.1)", R"("near": 1e300)"},
+      {R"("time": 2.5)", R"("time": 1)"},
+      {"[4, 5, 6.25]", "[4, 5, 6e25]"},
+      {R"("clearance": 0.25)", R"("clearance": -1)"},
+      {R"("clearance": 0.25)", R"("default_speed_m_per_s": 0)"},
+      {R"("clearance": 0.25)", R"("default_speed_m_per_s": 1)"},
+      {R"("clearance": 0.25)", R"("max_shrink": 2)"},
+      {R"("clearance": 0.25)", R"("limits": {"speed": -1})"},
+      {R"("clearance": 0.25)", R"("limits": {"acceleration": -1})"},
+      {R"("clearance": 0.25)", R"("limits": {"turn_rate_deg": -1})"},
+      {R"("clearance": 0.25)", R"("orientation": {"max_turn_deg": -1})"},
+      {R"("clearance": 0.25)", R"("orientation": {"policy": "level", "up": [0, 0, 0]})"},
+      {R"("clearance": 0.25)",
+       R"("orientation": {"policy": "target", "target": [0, 0, 1], "cone_deg": 0})"},
+      {R"("clearance": 0.25)", R"("orientation": {"policy": "target", "target": [0, 0, 1e20]})"},
+      {R"("camera": {)", R"("body": {"type": "sphere", "radius": -1}, "camera": {)"},
+      {R"("camera": {)", R"("body": {"type": "box", "size": [1, 1e20, 1]}, "camera": {)"},
+  };
+  for (const auto& [from, to] : kFaults) {
+    const std::string text = edited(from, to);
+    const auto parsed = parse_plan_request(text, "R.json");
+    ASSERT_TRUE(parsed.value) << parsed.error;
+    const auto fault = planning::validate(*parsed.value);
+    ASSERT_TRUE(fault) << to;
+    std::string pointer = "/" + fault->message.substr(0, fault->message.find(": "));
+    std::ranges::replace(pointer, '.', '/');
+    std::ranges::replace(pointer, '[', '/');
+    std::erase(pointer, ']');
+    EXPECT_TRUE(nlohmann::json::parse(text).contains(nlohmann::json::json_pointer(pointer)))
+        << fault->message;
+  }
+}
+
+TEST(JsonRequest, QuaternionsMayBeWrittenXyzw) {
+  const auto wxyz = parse_plan_request(kGoodRequest, "R.json");
+  const auto xyzw = parse_plan_request(
+      edited(R"("orientation": [0, 3, 0, 4])", R"("orientation_xyzw": [3, 0, 4, 0])"), "R.json");
+  ASSERT_TRUE(xyzw.value) << xyzw.error;
+  EXPECT_EQ(xyzw.value->keyframes[1].pose.orientation.coeffs(),
+            wxyz.value->keyframes[1].pose.orientation.coeffs());
+  EXPECT_TRUE(xyzw.value->says_xyzw);
+  EXPECT_FALSE(wxyz.value->says_xyzw);
+}
+
+TEST(JsonRequest, SaysHowToReadTheScene) {
+  const auto said = parse_plan_request(
+      edited(R"("scene": "office.obj")",
+             R"("scene": "office.obj", "scale": 0.0254, "up": "z-to-y", "unknown": "occupied")"),
+      "R.json");
+  ASSERT_TRUE(said.value) << said.error;
+  EXPECT_EQ(said.value->reading.scale, 0.0254);
+  EXPECT_EQ(said.value->reading.up, scene::UpAxis::kZToY);
+  EXPECT_EQ(said.value->reading.unknown, scene::UnknownSpace::kOccupied);
+  const auto silent = parse_plan_request(kGoodRequest, "R.json");
+  EXPECT_FALSE(silent.value->reading.scale || silent.value->reading.up ||
+               silent.value->reading.unknown);
 }
 
 TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {

@@ -91,5 +91,23 @@ TEST(OutputFile, ALinkStaysOne) {
   EXPECT_THAT(write_file("/dev/full", "x"), HasSubstr("/dev/full: cannot be written: No space"));
 }
 
+TEST(OutputFile, WhatCouldNotBeWrittenIsToldBeforeAndNothingIsLeft) {
+  const camway::testing::TemporaryFolder folder;
+  const fs::path file = folder.path() / "answer.json";
+  EXPECT_EQ(why_unwritable(file), "");
+  EXPECT_EQ(files_in(folder.path()), 0U);
+  EXPECT_EQ(write_file(file, "before"), "");
+  EXPECT_EQ(why_unwritable(file), "");
+  EXPECT_EQ(content(file), "before");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+  EXPECT_EQ(why_unwritable("/dev/null"), "");
+  for (const fs::path& bad :
+       {folder.path() / "no" / "answer.json", folder.path(), file / "answer.json"}) {
+    EXPECT_THAT(why_unwritable(bad),
+                AllOf(HasSubstr(bad.string()), HasSubstr("cannot be written")));
+    EXPECT_NE(write_file(bad, "x"), "") << "both say so";
+  }
+}
+
 }  // namespace
 }  // namespace camway::tools

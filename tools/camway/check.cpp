@@ -42,11 +42,10 @@ std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& reque
 }
 
 /// Request and response, each judged by itself.
-Parsed<CheckInput> read_files(const CheckFlags& flags) {
-  const Parsed<planning::PlanRequest> request = read_plan_request(flags.request);
+Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>& request) {
   if (!request.value) return failed(request.error);
   if (const auto fault = planning::validate(*request.value)) {
-    return failed(flags.request + ": " + describe(*fault));
+    return failed(flags.request + ": " + fault->message);
   }
   const Parsed<PathFile> response = read_path_file(flags.response);
   if (!response.value) return failed(response.error);
@@ -63,15 +62,19 @@ Parsed<CheckInput> read_files(const CheckFlags& flags) {
 }
 
 Parsed<CheckInput> read_input(const CheckFlags& flags) {
-  Parsed<CheckInput> input = read_files(flags);
+  const Parsed<RequestFile> request = read_plan_request(flags.request);
+  Parsed<CheckInput> input = read_files(flags, request);
   if (!input.value) return input;
   std::optional<std::string> fault = planning::find_fault(input.value->path.segments());
   if (!fault) fault = planning::find_jump(input.value->path, input.value->body->radius_m());
   if (fault) return failed(flags.response + ": " + *fault);
+  const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
+  if (scene_file.empty()) {
+    return failed(flags.request + ": scene: is missing, and there is no --scene");
+  }
   scene::SnapshotOptions options;
-  options.import = flags.scene.import_options();
-  const scene::SnapshotResult loaded =
-      scene::load_snapshot(flags.scene.file, flags.scene.file, options);
+  options.import = flags.scene.import_options(request.value->reading);
+  const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
   if (!loaded.snapshot) return failed(loaded.error);
   input.value->snapshot = loaded.snapshot;
   return input;
@@ -108,8 +111,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<CheckFlags>();
   CLI::App* command = app.add_subcommand(
       "check", "Prove a path free of collision, whoever made it, or list where it collides");
-  add_scene_flags(*command, flags->scene)->required()->description("Scene file");
-  command->add_option("--request", flags->request, "Request file: camera and options")
+  add_request_scene_flags(*command, flags->scene);
+  command->add_option("--request", flags->request, "Request file: scene, camera and options")
       ->required()
       ->type_name("FILE");
   command
@@ -137,7 +140,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "keyframes[].origin\n"
       "and scene_digest are read, if they are there.\n" +
       exit_code_help("the path collides, or the deadline came first") +
-      "\nExample: camway check --scene office.obj --request R.json --response P.json");
+      "\nExample: camway check --request R.json --response P.json");
   command->callback([flags, &exit_code] { exit_code = run_check(*flags); });
 }
 

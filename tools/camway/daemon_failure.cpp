@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "daemon/service/command_line.h"
+
 namespace camway::tools {
 namespace {
 
@@ -37,7 +39,7 @@ CLI::Option* add_timeout(CLI::App& command, std::optional<double>& timeout_s) {
                   fmt::format("How long to wait for the daemon's answer, seconds [{:g}; some 10 "
                               "where no daemon is heard]",
                               ClientOptions{}.deadline_s))
-      ->check(CLI::Range(0.01, 86'400.0));
+      ->check(service::between(0.01, 86'400.0));
 }
 
 void use_timeout(const std::optional<double>& timeout_s, ClientOptions& options) {

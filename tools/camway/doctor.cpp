@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "daemon/service/command_line.h"
 #include "daemon/service/daemon_options.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
@@ -92,7 +93,7 @@ void add_doctor_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--timeout-s", flags->questions.timeout_s,
                    "How long to listen for a daemon, seconds")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(service::between(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer("Changes nothing. Notes and warnings are no problems.\n" +

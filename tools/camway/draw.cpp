@@ -2,18 +2,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "daemon/motion/interpolate.h"
-#include "daemon/scene/import.h"
+#include "daemon/scene/snapshot.h"
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/scene_flags.h"
 #include "tools/floor_plan.h"
 #include "tools/json_io.h"
+#include "tools/json_path.h"
+#include "tools/output_file.h"
 
 namespace camway::tools {
 namespace {
@@ -57,21 +62,41 @@ ExitCode invalid(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
+/// The path may be of another scene than the one that is drawn; the picture would not show it.
+void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapshot) {
+  const Parsed<PathFile> response = read_path_file(flags.response);
+  if (!response.value || response.value->scene_digest.empty()) return;
+  if (response.value->scene_digest == snapshot.digest) return;
+  print_error(fmt::format(
+      "warning: {}: was made for another scene: its scene_digest is {}, that of {} is {}",
+      flags.response, response.value->scene_digest, snapshot.name, snapshot.digest));
+}
+
 ExitCode run_draw(const DrawFlags& flags) {
-  const Parsed<planning::PlanRequest> request = read_plan_request(flags.request);
+  if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
+    return invalid(fault);
+  }
+  const Parsed<RequestFile> request = read_plan_request(flags.request);
   if (!request.value) return invalid(request.error);
   const Parsed<planning::PlanResult> result = read_plan_response(flags.response);
   if (!result.value) return invalid(result.error);
   if (result.value->path.empty())
     return invalid(flags.response + ": segments: has no path to draw");
-  const scene::ImportResult scene =
-      scene::import_mesh(flags.scene.file, flags.scene.import_options());
-  if (!scene.mesh) return invalid(scene.error);
+  const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
+  if (scene_file.empty()) {
+    return invalid(flags.request + ": scene: is missing, and there is no --scene");
+  }
+  scene::SnapshotOptions options;
+  options.import = flags.scene.import_options(request.value->reading);
+  const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
+  if (!loaded.snapshot) return invalid(loaded.error);
+  warn_of_another_scene(flags, *loaded.snapshot);
   const std::filesystem::path picture(flags.picture);
   draw::PictureFiles files;
   (picture.extension() == ".svg" ? files.svg : files.png) = picture;
+  const std::shared_ptr<const scene::Mesh> mesh = loaded.snapshot->mesh.share();
   const std::string error =
-      draw_floor_plan(floor_plan(flags, *request.value, *result.value, *scene.mesh), files);
+      draw_floor_plan(floor_plan(flags, *request.value, *result.value, *mesh), files);
   return error.empty() ? ExitCode::kSuccess : invalid(error);
 }
 
@@ -81,7 +106,7 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "draw", "Draw a response as a floor plan: scene, path before and after, collisions");
   const auto flags = std::make_shared<DrawFlags>();
-  add_scene_flags(*command, flags->scene)->required();
+  add_request_scene_flags(*command, flags->scene);
   command->add_option("--request", flags->request, "Request file")->required()->type_name("FILE");
   command->add_option("--response", flags->response, "Response file of that request")
       ->required()
@@ -94,15 +119,13 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
         return extension == ".svg" || extension == ".png" ? std::string()
                                                           : file + ": is neither .svg nor .png";
       });
-  command
-      ->add_option("--vertical", flags->vertical,
-                   "Axis that points up in the scene as read, --up included [y]")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, draw::SceneUp>{
-                                              {"y", draw::SceneUp::kY}, {"z", draw::SceneUp::kZ}})
-                      .description("y|z"))
+  static constexpr std::array<std::pair<std::string_view, draw::SceneUp>, 2> kVerticals{
+      {{"y", draw::SceneUp::kY}, {"z", draw::SceneUp::kZ}}};
+  service::add_choice(*command, "--vertical", flags->vertical, kVerticals,
+                      "Axis that points up in the scene as read, --up included [y]")
       ->type_name("AXIS");
   command->footer(exit_code_help("") +
-                  "\nExample: camway draw --scene office.obj --request office-graze-1.json "
+                  "\nExample: camway draw --request office-graze-1.json "
                   "--response out.json --picture out.svg");
   command->callback([flags, &exit_code] { exit_code = run_draw(*flags); });
 }

@@ -10,6 +10,7 @@
 
 #include "daemon/planning/request.h"
 #include "daemon/scene/import_warnings.h"
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/scene_flags.h"
 
@@ -207,12 +208,12 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--octree-threshold", flags->octree_threshold,
                    "A leaf of the octree with more triangles than this splits")
-      ->check(CLI::Range(1u, 1'000'000'000u))
+      ->check(service::whole_number(1, 1'000'000'000))
       ->capture_default_str();
   command
       ->add_option("--occupancy", flags->occupancy_m,
                    "Build the OctoMap mirror with voxels of this many metres too")
-      ->check(CLI::PositiveNumber)
+      ->check(service::above_0())
       ->type_name("METRES");
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer(exit_code_help("") +

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/planning/plan.h"
+#include "daemon/service/command_line.h"
 #include "daemon/service/scene_argument.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
@@ -66,11 +67,12 @@ LoadPlan make_questions(const LoadFlags& flags) {
   }
   LoadPlan plan{{parsed.scene->name, scene.result.snapshot->digest}, {}};
   for (const std::string& file : flags.requests) {
-    const Parsed<planning::PlanRequest> request = read_plan_request(file);
+    const Parsed<RequestFile> request = read_plan_request(file);
     if (!request.value) {
       print_error(request.error);
       return {};
     }
+    warn_of_reading(file, *request.value);
     plan.questions.push_back({file, to_client_request(*request.value, parsed.scene->name),
                               planning::plan(*scene.result.snapshot, *request.value)});
   }
@@ -175,6 +177,10 @@ ExitCode run_command(LoadFlags flags) {
   if (flags.requests.empty()) {
     return invalid_input("either --request or --occupancy says what is asked");
   }
+  if (!flags.json_file.empty()) {
+    const std::string fault = why_unwritable(flags.json_file);
+    if (!fault.empty()) return invalid_input(fault);
+  }
   const LoadPlan plan = make_questions(flags);
   if (plan.questions.empty()) return ExitCode::kInvalidInput;
   const LoadResult result = run_load(plan.scene, plan.questions, flags.run);
@@ -194,15 +200,15 @@ ExitCode run_command(LoadFlags flags) {
 
 void add_run_flags(CLI::App& command, LoadFlags& flags) {
   command.add_option("--clients", flags.run.clients, "Clients that ask at the same time")
-      ->check(CLI::Range(1, 256))
+      ->check(service::whole_number(1, 256))
       ->capture_default_str();
   command.add_option("--seconds", flags.run.seconds, "How long to begin requests")
-      ->check(CLI::Range(0.1, 1e7))
+      ->check(service::between(0.1, 1e7))
       ->capture_default_str();
   command
       .add_option("--requests", flags.run.requests,
                   "Stop after so many requests of all clients together; 0: only by time")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->capture_default_str();
   add_key_file(command, flags.key_file);
   command.add_option("--url", flags.run.url, "LCM network [LCM_DEFAULT_URL]");
@@ -214,17 +220,17 @@ void add_memory_flags(CLI::App& command, LoadFlags& flags) {
   CLI::Option* pid = command
                          .add_option("--daemon-pid", flags.run.daemon_pid,
                                      "Process of the daemon on this machine: watch its memory")
-                         ->check(CLI::PositiveNumber);
+                         ->check(service::above_0());
   command
       .add_option("--warm-up-s", flags.warm_up_s,
                   "With --daemon-pid: growth counts from then on, when caches are full")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->needs(pid)
       ->capture_default_str();
   command
       .add_option("--max-growth-percent", flags.max_growth_percent,
                   "With --daemon-pid: more growth of its memory is a negative outcome")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->needs(pid);
 }
 
@@ -246,7 +252,7 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--occupancy", flags->occupancy_queries,
                    "Ask the scene's occupancy map instead, in batches of so many queries of all "
                    "kinds")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(service::whole_number(1, 1'000'000))
       ->excludes("--request");
   add_run_flags(*command, *flags);
   add_memory_flags(*command, *flags);

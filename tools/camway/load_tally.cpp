@@ -37,7 +37,7 @@ bool same_interval(const collision::CollisionInterval& expected, const Collision
   return same(expected.t_begin_s, got.t_begin_s) && same(expected.t_end_s, got.t_end_s);
 }
 
-bool same_keyframe(const motion::Keyframe& expected, const Keyframe& got) {
+bool same_keyframe(const motion::Keyframe& expected, const PathKeyframe& got) {
   return same(expected.time_s, got.time_s) &&
          same_numbers(expected.pose.position, got.position_m) &&
          (expected.origin == motion::KeyframeOrigin::kInserted) == got.inserted;

@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "daemon/service/build_info.h"
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 
 namespace {
@@ -39,12 +39,12 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version
     // Else `camway scene uplaod --help` would show the help of `camway scene` as if all were well.
-    const std::vector<std::string> unknown = app.remaining(/*recurse=*/true);
+    const std::string unknown = camway::service::unknown_word(app);
     if (unknown.empty()) return app.exit(success);
-    camway::tools::print_error("'" + unknown.front() + "' is no command (see camway --help)");
+    camway::tools::print_error(unknown);
     return static_cast<int>(ExitCode::kInvalidInput);
   } catch (const CLI::ParseError& error) {
-    camway::tools::print_error(std::string(error.what()) + " (see camway --help)");
+    camway::tools::print_error(camway::service::command_line_fault(app, error));
     return static_cast<int>(ExitCode::kInvalidInput);
   }
   return static_cast<int>(exit_code);

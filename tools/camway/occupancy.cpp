@@ -6,11 +6,13 @@
 #include <optional>
 
 #include "client/camway/client.h"
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/daemon_failure.h"
 #include "tools/camway/key_file.h"
 #include "tools/camway/occupancy_queries.h"
 #include "tools/camway/scene_flags.h"
+#include "tools/output_file.h"
 
 namespace camway::tools {
 namespace {
@@ -81,6 +83,7 @@ ExitCode run_occupancy(const OccupancyFlags& flags) {
   } else if (error.empty() && !flags.scene.file.empty() && !flags.resolution_m) {
     error = "--scene needs --resolution, the edge of a voxel in metres";
   }
+  if (error.empty() && !flags.map_file.empty()) error = why_unwritable(flags.map_file);
   if (!error.empty()) {
     print_error(error);
     return ExitCode::kInvalidInput;
@@ -121,7 +124,7 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   CLI::Option* file = add_scene_flags(*command, flags->scene);
   CLI::Option* resolution =
       command->add_option("--resolution", flags->resolution_m, "Edge of a voxel, with --scene")
-          ->check(CLI::PositiveNumber)
+          ->check(service::above_0())
           ->type_name("METRES");
   CLI::Option* daemon =
       command
@@ -140,7 +143,7 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--deadline-s", flags->deadline_s,
                    "How long the daemon may take for each message of queries, seconds; 0: its own")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->needs(daemon)
       ->capture_default_str();
   add_queries(*command, flags->queries);

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/planning/plan.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "daemon/planning/quaternion_order.h"
 #include "daemon/planning/witness.h"
 #include "daemon/scene/import_warnings.h"
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/plan_summary.h"
 #include "tools/camway/scene_flags.h"
@@ -33,13 +40,13 @@ struct PlanFlags {
   std::vector<std::string> requests;
   std::string response;
   std::string response_dir;
-  std::optional<std::string> method;
+  std::optional<planning::Method> method;
   std::optional<double> deadline_s;
   std::optional<double> clearance_m;
-  std::optional<std::string> objective;
+  std::optional<correction::Objective> objective;
   std::optional<double> max_turn_deg;
   std::optional<double> max_shrink;
-  std::optional<std::int64_t> seed;
+  std::optional<std::uint64_t> seed;
   bool repair_keyframes = false;
   bool no_timing = false;
 };
@@ -49,7 +56,8 @@ struct Answer {
   PlanResult result;
   std::string scene_file;
   std::string scene_digest;
-  std::vector<std::string> warnings;        ///< of the scene's import
+  std::vector<std::string> scene_warnings;    ///< of its import
+  std::vector<std::string> request_warnings;  ///< a sentence each
   std::shared_ptr<const scene::Mesh> mesh;  ///< of the scene; null if it was not loaded
 };
 
@@ -77,45 +85,66 @@ ExitCode exit_code_of(Status status) {
   return ExitCode::kOurFault;
 }
 
-/// The scene of the request: `--scene`, or the request's own, relative to the request's folder.
-std::string scene_file_of(const PlanFlags& flags, const std::string& request_file,
-                          const std::string& requested) {
-  if (!flags.scene.file.empty() || requested.empty()) return flags.scene.file;
-  if (request_file == "-") return requested;
-  return (std::filesystem::path(request_file).parent_path() / requested).string();
+/// Names the flag where it was a flag that said it.
+planning::FieldSpelling spelling_with(std::map<std::string, std::string, std::less<>> flags,
+                                      planning::FieldSpelling otherwise) {
+  return [flags = std::move(flags), otherwise = std::move(otherwise)](std::string_view path) {
+    const auto flag = flags.find(path);
+    return flag == flags.end() ? otherwise(path) : flag->second;
+  };
 }
 
 /// What the command line says goes before what the request says.
-void apply(const PlanFlags& flags, planning::PlanOptions& options) {
-  if (flags.method) options.method = *planning::method_from_string(*flags.method);
-  if (flags.deadline_s) options.deadline_s = *flags.deadline_s;
-  if (flags.clearance_m) options.clearance_m = *flags.clearance_m;
-  if (flags.objective) options.objective = *objective_from_string(*flags.objective);
-  if (flags.max_turn_deg) options.orientation.max_turn_rad = radians(*flags.max_turn_deg);
-  if (flags.max_shrink) options.max_shrink = *flags.max_shrink;
-  if (flags.seed) options.seed = static_cast<std::uint64_t>(*flags.seed);
+void apply(const PlanFlags& flags, planning::PlanRequest& request) {
+  planning::PlanOptions& options = request.options;
+  std::map<std::string, std::string, std::less<>> said;
+  const auto set = [&said](const auto& flag, auto& value, const char* path, const char* name) {
+    if (!flag) return;
+    value = *flag;
+    said[path] = name;
+  };
+  set(flags.method, options.method, "options.method", "--method");
+  set(flags.deadline_s, options.deadline_s, "options.deadline_s", "--deadline-s");
+  set(flags.clearance_m, options.clearance_m, "options.clearance", "--clearance");
+  set(flags.objective, options.objective, "options.objective", "--objective");
+  set(flags.max_shrink, options.max_shrink, "options.max_shrink", "--max-shrink");
+  set(flags.seed, options.seed, "options.seed", "--seed");
+  if (flags.max_turn_deg) {
+    options.orientation.max_turn_rad = radians(*flags.max_turn_deg);
+    said["options.orientation.max_turn"] = "--max-turn-deg";
+  }
   if (flags.repair_keyframes) options.repair_keyframes = true;
+  request.spelling = spelling_with(std::move(said), std::move(request.spelling));
+}
+
+/// What the user should know of the request, a sentence each.
+std::vector<std::string> warnings_of(const RequestFile& request) {
+  if (request.says_xyzw) return {};
+  const auto order = planning::quaternion_order_warning(request);
+  if (!order) return {};
+  return {*order + "; orientation_xyzw takes the other order"};
 }
 
 Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCache& scenes) {
   Answer answer;
-  Parsed<planning::PlanRequest> request = read_plan_request(file);
+  Parsed<RequestFile> request = read_plan_request(file);
   if (!request.value) {
     answer.result = invalid(request.error);
     return answer;
   }
-  apply(flags, request.value->options);
+  apply(flags, *request.value);
   if (const auto fault = planning::validate(*request.value)) {
-    answer.result = invalid(file + ": " + describe(*fault));
+    answer.result = invalid(file + ": " + fault->message);
     answer.result.keyframe = fault->keyframe;
     return answer;
   }
-  answer.scene_file = scene_file_of(flags, file, request.value->scene);
+  answer.scene_file = flags.scene.file_for(file, *request.value);
   if (answer.scene_file.empty()) {
     answer.result = invalid(file + ": scene: is missing, and there is no --scene");
     return answer;
   }
-  const LoadedScene& scene = scenes.load(answer.scene_file);
+  const LoadedScene& scene =
+      scenes.load(answer.scene_file, flags.scene.import_options(request.value->reading));
   if (!scene.result.snapshot) {
     answer.result = invalid(scene.result.error);
     return answer;
@@ -123,9 +152,10 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
   answer.scene_digest = scene.result.snapshot->digest;
   answer.mesh = scene.result.snapshot->mesh.share();
   const planning::PlanOptions& options = request.value->options;
-  answer.warnings = scene::import_warnings(
+  answer.scene_warnings = scene::import_warnings(
       scene.result.snapshot->report,
       scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
+  answer.request_warnings = warnings_of(*request.value);
   answer.result = planning::plan(*scene.result.snapshot, *request.value);
   planning::name_witnesses(scene.result.snapshot->mesh, *request.value, answer.result);
   answer.result.timing.load_scene_ms = scene.load_ms;
@@ -135,10 +165,8 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
   return answer;
 }
 
-void print_warnings(const Answer& answer) {
-  for (const std::string& warning : answer.warnings) {
-    print_error("warning: " + answer.scene_file + ": " + warning);
-  }
+void print_warnings(const std::string& file, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) print_error("warning: " + file + ": " + warning);
 }
 
 /// Writes the response to `file`, or to standard output if it is empty.
@@ -147,7 +175,9 @@ ExitCode write_response(const Answer& answer, const std::string& file, bool no_t
   format.timing = no_timing ? TimingField::kOmitted : TimingField::kWritten;
   format.scene = answer.scene_file;
   format.scene_digest = answer.scene_digest;
-  format.warnings = answer.warnings;
+  format.warnings = answer.scene_warnings;
+  format.warnings.insert(format.warnings.end(), answer.request_warnings.begin(),
+                         answer.request_warnings.end());
   const Parsed<std::string> text = write_plan_response(answer.result, format);
   if (!text.value) {
     print_error("the response cannot be written: " + text.error);
@@ -173,10 +203,23 @@ void print_summary(const std::string& request, const Answer& answer) {
   print_error(answer.result.status == Status::kInvalid ? text : request + ": " + text);
 }
 
+/// Why a response could not go to `file`, or to standard output if it is empty.
+std::string why_unwritable_response(const std::string& file) {
+  if (!file.empty()) return why_unwritable(file);
+  const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
+  const bool is_open = flags != -1 && (flags & O_ACCMODE) != O_RDONLY;
+  return is_open ? "" : "standard output cannot be written";
+}
+
 ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
   const std::string& file = flags.requests.front();
+  if (const std::string fault = why_unwritable_response(flags.response); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
   const Answer answer = answer_request(flags, file, scenes);
-  print_warnings(answer);
+  print_warnings(answer.scene_file, answer.scene_warnings);
+  print_warnings(file, answer.request_warnings);
   print_summary(file, answer);
   const ExitCode outcome = exit_code_of(answer.result.status);
   // Invalid input leaves nothing on standard output, where a path is expected.
@@ -184,7 +227,8 @@ ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
   return worse(outcome, write_response(answer, flags.response, flags.no_timing));
 }
 
-/// Where the response to each request goes; an error if two would go to one file or onto a request.
+/// Where the response to each request goes; an error if one
+/// cannot be written, or two would go to one file or onto a request.
 Parsed<std::vector<std::string>> response_files(const PlanFlags& flags) {
   std::vector<std::string> files;
   std::set<std::string> taken;
@@ -196,6 +240,7 @@ Parsed<std::vector<std::string>> response_files(const PlanFlags& flags) {
     if (std::filesystem::equivalent(file, request, ignored)) {
       return {{}, file + ": the response would overwrite the request"};
     }
+    if (std::string fault = why_unwritable(file); !fault.empty()) return {{}, std::move(fault)};
     files.push_back(file);
   }
   return {std::move(files), {}};
@@ -220,7 +265,10 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
              "remaining", "request");
   for (std::size_t i = 0; i < flags.requests.size(); ++i) {
     const Answer answer = answer_request(flags, flags.requests[i], scenes);
-    if (warned_of.insert(answer.scene_file).second) print_warnings(answer);
+    if (warned_of.insert(answer.scene_file).second) {
+      print_warnings(answer.scene_file, answer.scene_warnings);
+    }
+    print_warnings(flags.requests[i], answer.request_warnings);
     const PlanResult& result = answer.result;
     ok_count += result.status == Status::kOk ? 1 : 0;
     fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),
@@ -240,9 +288,7 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
 }
 
 ExitCode run_plan(const PlanFlags& flags) {
-  scene::SnapshotOptions options;
-  options.import = flags.scene.import_options();
-  SceneCache scenes(options);
+  SceneCache scenes;
   if (!flags.response_dir.empty()) return plan_set(flags, scenes);
   if (flags.requests.size() == 1) return plan_one(flags, scenes);
   print_error("several requests need --response-dir");
@@ -251,31 +297,34 @@ ExitCode run_plan(const PlanFlags& flags) {
 
 /// Flags that go before the request's own options.
 void add_option_flags(CLI::App& command, PlanFlags& flags) {
-  command
-      .add_option(
-          "--method", flags.method,
-          "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
-          "keyframe_insertion (the paper's); these flags go before the request's options")
-      ->check(CLI::IsMember({"ladder", "keyframe_insertion"}));
+  static constexpr std::array<std::pair<std::string_view, planning::Method>, 2> kMethods{
+      {{"ladder", planning::Method::kLadder},
+       {"keyframe_insertion", planning::Method::kKeyframeInsertion}}};
+  service::add_choice(
+      command, "--method", flags.method, kMethods,
+      "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
+      "keyframe_insertion (the paper's); these flags go before the request's options")
+      ->type_name("METHOD");
   command
       .add_option("--deadline-s", flags.deadline_s,
                   "Seconds after which planning stops with what it has")
-      ->check(CLI::PositiveNumber);
+      ->check(service::above_0());
   command
       .add_option("--clearance", flags.clearance_m, "Distance to keep from the scene, in metres")
-      ->check(CLI::NonNegativeNumber);
-  command.add_option("--objective", flags.objective, "What a corrected path is improved for")
-      ->check(CLI::IsMember(objective_names()));
+      ->check(service::at_least_0());
+  service::add_choice(command, "--objective", flags.objective, kObjectives,
+                      "What a corrected path is improved for")
+      ->type_name("OBJECTIVE");
   command
       .add_option("--max-turn-deg", flags.max_turn_deg,
                   "Most degrees that corrections may turn the camera")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(service::between(0.0, 180.0));
   command
       .add_option("--max-shrink", flags.max_shrink,
                   "By what share the near distance may be made smaller where nothing else helps")
-      ->check(CLI::NonNegativeNumber);  // below 1: planning::validate
+      ->check(service::at_least_0());  // below 1: planning::validate
   command.add_option("--seed", flags.seed, "Of the searches for ways round")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()));
+      ->check(service::whole_number(1));
   command.add_flag("--repair-keyframes", flags.repair_keyframes,
                    "Move given keyframes that collide to the nearest free pose instead of refusing "
                    "the request");
@@ -287,11 +336,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<PlanFlags>();
   CLI::App* command = app.add_subcommand(
       "plan", "Plan a path through the keyframes of a request and write the response");
-  add_scene_flags(*command, flags->scene)
-      ->description(
-          "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...); instead of the request's own, "
-          "which is "
-          "relative to the request's folder");
+  add_request_scene_flags(*command, flags->scene);
   command->add_option("--request", flags->requests, "Request file, '-' for standard input")
       ->required()
       ->type_name("FILE");

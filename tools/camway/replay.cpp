@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "daemon/service/command_line.h"
 #include "daemon/service/scene_argument.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/message_keys.h"
@@ -64,9 +65,6 @@ std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
 /// of letters, digits, '-' and '_', so they make file names.
 std::string write_responses(const ReplayFlags& flags, const Session& session, const Scenes& scenes,
                             const std::vector<ReplayedRequest>& replayed) {
-  std::error_code error;
-  std::filesystem::create_directories(flags.responses_dir, error);
-  if (error) return flags.responses_dir + ": cannot be made: " + error.message();
   for (std::size_t i = 0; i < replayed.size(); ++i) {
     const RecordedRequest& recorded = session.requests[i];
     ResponseFormat format;
@@ -93,6 +91,15 @@ ExitCode verdict_code(const Session& session, const std::vector<ReplayedRequest>
   return ExitCode::kSuccess;
 }
 
+/// Makes the folder for responses; an error text if none can be written there.
+std::string make_responses_dir(const std::string& folder) {
+  if (folder.empty()) return {};
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return folder + ": cannot be made: " + error.message();
+  return why_unwritable(std::filesystem::path(folder) / "response.json");
+}
+
 ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys) {
   const std::string& prefix = flags.publishing.prefix;
   const Session session = read_session(flags.log, prefix, keys);
@@ -110,6 +117,9 @@ ExitCode replay_offline(const ReplayFlags& flags, const wire::MessageKeys* keys)
   if (session.requests.empty()) {
     return invalid_input(fmt::format("{}: holds no planning requests on {}", flags.log,
                                      wire::Channels{prefix}.plan_request()));
+  }
+  if (const std::string fault = make_responses_dir(flags.responses_dir); !fault.empty()) {
+    return invalid_input(fault);
   }
   const std::optional<Scenes> scenes = load_scenes(flags.scenes);
   if (!scenes) return ExitCode::kInvalidInput;
@@ -152,13 +162,13 @@ void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
   command
       .add_option("--threads", flags.run.threads,
                   "Requests planned at the same time; the output does not depend on it")
-      ->check(CLI::Range(1u, 256u))
+      ->check(service::whole_number(1, 256))
       ->capture_default_str();
   command
       .add_option("--tolerance-m", flags.run.tolerance_m,
                   "Count paths that stay this many metres from each other as equal; 0: only the "
                   "same bits")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->capture_default_str();
   command.add_option("--responses", flags.responses_dir, "Folder for the response to each request")
       ->type_name("DIR");
@@ -173,13 +183,13 @@ void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
   command
       .add_option("--speed", flags.publishing.speed,
                   "With --publish: times the recorded speed; 0 for as fast as possible")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->needs(publish)
       ->capture_default_str();
   command
       .add_option("--wait-s", flags.publishing.wait_s,
                   "With --publish: seconds to wait for answers after the last request")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(service::between(0.0, 1e6))
       ->needs(publish)
       ->capture_default_str();
   command

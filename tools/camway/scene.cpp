@@ -9,14 +9,16 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <stop_token>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 #include "client/camway/client.h"
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/daemon_failure.h"
 #include "tools/camway/interruption.h"
@@ -337,7 +339,7 @@ CLI::App* add_change(CLI::App& parent, const Flags& flags, const char* name, con
       ->add_option("--deadline-s", flags->deadline_s,
                    "How long the daemon may take; then, and on Ctrl-C, it leaves all as it was. "
                    "Seconds; 0: its own")
-      ->check(CLI::NonNegativeNumber)
+      ->check(service::at_least_0())
       ->capture_default_str();
   return command;
 }
@@ -351,10 +353,6 @@ void add_object_name(CLI::App& command, const Flags& flags) {
 }
 
 void add_mesh_flags(CLI::App& command, const Flags& flags) {
-  static const std::map<std::string, SceneMesh::Up> kUpAxes{
-      {"as-in-file", SceneMesh::Up::kAsInFile},
-      {"z-to-y", SceneMesh::Up::kZToY},
-      {"y-to-z", SceneMesh::Up::kYToZ}};
   CLI::Option* file =
       command
           .add_option("--file", flags->file,
@@ -365,17 +363,19 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
       ->type_name("FILE")
       ->excludes(file);
   command.add_option("--scale", flags->scale, "Metres per unit of the file")
-      ->check(CLI::PositiveNumber)
+      ->check(service::above_0())
       ->capture_default_str();
-  command.add_option("--up", flags->up, "Turn the axes: z-to-y or y-to-z [as-in-file]")
-      ->transform(CLI::CheckedTransformer(kUpAxes).description("as-in-file|z-to-y|y-to-z"))
+  static constexpr std::array<std::pair<std::string_view, SceneMesh::Up>, 3> kUpAxes{
+      {{"as-in-file", SceneMesh::Up::kAsInFile},
+       {"z-to-y", SceneMesh::Up::kZToY},
+       {"y-to-z", SceneMesh::Up::kYToZ}}};
+  service::add_choice(command, "--up", flags->up, kUpAxes,
+                      "Turn the axes: z-to-y or y-to-z [as-in-file]")
       ->type_name("AXES");
-  static const std::map<std::string, SceneMesh::Unknown> kUnknown{
-      {"free", SceneMesh::Unknown::kFree}, {"occupied", SceneMesh::Unknown::kOccupied}};
-  command
-      .add_option("--unknown", flags->unknown,
-                  "What an OctoMap knows nothing of counts as free or occupied [free]")
-      ->transform(CLI::CheckedTransformer(kUnknown).description("free|occupied"))
+  static constexpr std::array<std::pair<std::string_view, SceneMesh::Unknown>, 2> kUnknown{
+      {{"free", SceneMesh::Unknown::kFree}, {"occupied", SceneMesh::Unknown::kOccupied}}};
+  service::add_choice(command, "--unknown", flags->unknown, kUnknown,
+                      "What an OctoMap knows nothing of counts as free or occupied [free]")
       ->type_name("STATE");
 }
 
@@ -419,7 +419,7 @@ void add_shape_flags(CLI::App& command, const Flags& flags) {
       .add_option("--max-range", flags->sensor.max_range_m,
                   "With --map: points further away only say what is free up to there, metres [all "
                   "count]")
-      ->check(CLI::PositiveNumber);
+      ->check(service::above_0());
   command.add_option("--chord-error", flags->chord_error_m,
                      "How far the triangles about a sphere or cylinder may stand out, metres [a "
                      "hundredth of the radius]");
@@ -525,7 +525,7 @@ void add_restore(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
                  "Make a new revision with the objects of an earlier one, which `history` lists");
   add_scene_name(*command, flags);
   command->add_option("--revision", flags->revision, "The earlier one")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->check(service::whole_number(1))
       ->required();
   command
       ->add_option("--as", flags->restore_as,

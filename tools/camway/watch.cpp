@@ -19,9 +19,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/interruption.h"
 #include "tools/camway/key_file.h"
+#include "tools/camway/scene_flags.h"
 #include "tools/client_request.h"
 #include "tools/json_io.h"
 
@@ -173,8 +175,13 @@ ExitCode invalid_input(std::string_view message) {
 }
 
 ExitCode run_watch(WatchFlags flags) {
-  const Parsed<planning::PlanRequest> request = read_plan_request(flags.request);
+  const Parsed<RequestFile> request = read_plan_request(flags.request);
   if (!request.value) return invalid_input(request.error);
+  // The daemon would say so, too, in the names of the wire.
+  if (const auto fault = planning::validate(*request.value)) {
+    return invalid_input(flags.request + ": " + fault->message);
+  }
+  warn_of_reading(flags.request, *request.value);
   if (const std::string fault = use_key_file(flags.key_file, flags.client); !fault.empty()) {
     return invalid_input(fault);
   }
@@ -210,12 +217,12 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--lease-s", flags->client.watch_lease_s,
                    "How long the daemon goes on watching when it hears nothing of us, seconds")
-      ->check(CLI::Range(1.0, 86'400.0))
+      ->check(service::between(1.0, 86'400.0))
       ->capture_default_str();
   command->add_option("--for-s", flags->for_s, "End after so many seconds [when interrupted]")
-      ->check(CLI::Range(0.0, 1e7));
+      ->check(service::between(0.0, 1e7));
   command->add_option("--count", flags->count, "End after so many events")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+      ->check(service::whole_number(1, std::int64_t{1} << 53));
   command->add_flag("--json", flags->json, "Print JSON, for machines: a line for each event");
   command->footer(
       "Events: answer (the first path, or a corrected one), broken (the path collides since a "

@@ -17,7 +17,7 @@ namespace {
 constexpr int kStepsPerInterval = 24;
 constexpr std::size_t kMostNames = 2;
 
-motion::Keyframe to_motion(const Keyframe& keyframe) {
+motion::Keyframe to_motion(const PathKeyframe& keyframe) {
   motion::Keyframe converted;
   converted.time_s = keyframe.time_s;
   const auto& p = keyframe.position_m;
@@ -82,7 +82,7 @@ std::string collided(const PlanResponse& response, const std::vector<std::string
 std::size_t count_inserted(const PlanResponse& response) {
   return static_cast<std::size_t>(
       std::count_if(response.keyframes.begin(), response.keyframes.end(),
-                    [](const Keyframe& keyframe) { return keyframe.inserted; }));
+                    [](const PathKeyframe& keyframe) { return keyframe.inserted; }));
 }
 
 constexpr const char* kRow = "{:<24} {:<44} {:>8} {:>9} {:<10} {:>9} {:>10}";
@@ -91,7 +91,7 @@ constexpr const char* kRow = "{:<24} {:<44} {:>8} {:>9} {:<10} {:>9} {:>10}";
 
 std::vector<motion::Keyframe> all_keyframes(const PlanResponse& response) {
   std::vector<motion::Keyframe> keyframes;
-  for (const Keyframe& keyframe : response.keyframes) keyframes.push_back(to_motion(keyframe));
+  for (const PathKeyframe& keyframe : response.keyframes) keyframes.push_back(to_motion(keyframe));
   return keyframes;
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/plan_request_t.hpp>
+
+#include "daemon/planning/request.h"
+
+namespace camway::service {
+
+/// Returns how `wire` spells the members of the request that it is, for messages about it:
+/// "options.limits.speed" is "limits.speed_m_per_s", "keyframes[3].time" is "keyframes[3].time_s".
+/// Keeps no reference.
+planning::FieldSpelling wire_spelling(const plan_request_t& wire);
+
+}  // namespace camway::service
