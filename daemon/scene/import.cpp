@@ -10,7 +10,6 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/scene/import_process.h"
 #include "daemon/scene/import_record.h"
-#include "daemon/scene/stoppable_load.h"
 
 namespace camway::scene {
 namespace {
@@ -111,10 +110,6 @@ ImportResult import_mesh(const fs::path& file, const ImportOptions& options,
     result.error = file.string() + ": " + reason;
   }
   return result;
-}
-
-ImportResult import_mesh(const fs::path& file, const ImportOptions& options) {
-  return import_mesh(file, options, {});
 }
 
 std::string_view importer_note(std::string_view format) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -77,7 +78,8 @@ struct ImportResult {
 /// with OctoMap and any other format that assimp reads, in a child process with limits of memory
 /// and time, since a hostile file of a few bytes can cost gigabytes or crash the reader; then
 /// checks what came back again (indices, finiteness, counts). Never throws for a bad file. May be
-/// called from any thread.
-ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options);
+/// called from any thread. A requested stop ends the import within milliseconds, and it fails.
+ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options,
+                         const std::stop_token& stop = {});
 
 }  // namespace camway::scene

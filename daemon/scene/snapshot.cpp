@@ -5,8 +5,6 @@
 #include <cassert>
 #include <utility>
 
-#include "daemon/scene/stoppable_load.h"
-
 namespace camway::scene {
 namespace {
 
@@ -137,11 +135,6 @@ SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file
   SnapshotResult result = build(std::move(name), source, options, stop);
   if (!result.snapshot) result.error = file.string() + ": " + result.error;
   return result;
-}
-
-SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options) {
-  return load_snapshot(std::move(name), file, options, {});
 }
 
 }  // namespace camway::scene

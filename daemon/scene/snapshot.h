@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,8 +65,10 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
 /// A scene of one object, of the scene's name, from a mesh that is already there.
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options = {});
 
-/// The same from a file.
+/// The same from a file. A requested stop ends the reading of the file, and the building of an
+/// occupancy mirror, within milliseconds, and it fails.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options = {});
+                             const SnapshotOptions& options = {},
+                             const std::stop_token& stop = {});
 
 }  // namespace camway::scene

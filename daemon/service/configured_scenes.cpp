@@ -10,7 +10,6 @@
 #include "daemon/planning/request.h"
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_mirror.h"
-#include "daemon/scene/stoppable_load.h"
 #include "daemon/service/scene_rules.h"
 
 namespace camway::service {

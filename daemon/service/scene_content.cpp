@@ -13,7 +13,6 @@
 
 #include "daemon/scene/map_scan.h"
 #include "daemon/scene/shape_mesh.h"
-#include "daemon/scene/stoppable_load.h"
 #include "daemon/service/upload_file.h"
 #include "daemon/service/wire_convert.h"
 #include "lcmtypes/channels.h"
