@@ -7,8 +7,10 @@
 #include <span>
 #include <string>
 
-#include "daemon/scene/import.h"
+#include "daemon/scene/import_options.h"
+#include "daemon/scene/import_report.h"
 #include "daemon/scene/limit.h"
+#include "daemon/scene/mesh.h"
 #include "daemon/scene/voxel_map.h"
 
 namespace camway::scene {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/import.h"
+#include "daemon/scene/import_report.h"
 
 namespace camway::scene {
 

@@ -11,7 +11,7 @@
 
 #include "daemon/geometry/bounds.h"
 #include "daemon/scene/distance_field.h"
-#include "daemon/scene/import.h"
+#include "daemon/scene/import_report.h"
 #include "daemon/scene/index_tree.h"
 #include "daemon/scene/limit.h"
 #include "daemon/scene/mesh.h"

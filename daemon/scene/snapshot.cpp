@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "daemon/scene/import.h"
+
 namespace camway::scene {
 namespace {
 

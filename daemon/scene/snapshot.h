@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "daemon/scene/clearance_field.h"
-#include "daemon/scene/import.h"
+#include "daemon/scene/import_options.h"
+#include "daemon/scene/import_report.h"
 #include "daemon/scene/limit.h"
 #include "daemon/scene/occupancy_mirror.h"
 #include "daemon/scene/scene_index.h"

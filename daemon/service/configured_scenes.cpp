@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "daemon/planning/request.h"
+#include "daemon/scene/import.h"
 #include "daemon/scene/import_warnings.h"
 #include "daemon/scene/occupancy_mirror.h"
 #include "daemon/service/scene_rules.h"

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/scene/import.h"
 #include "daemon/scene/map_scan.h"
 #include "daemon/scene/shape_mesh.h"
 #include "daemon/service/upload_file.h"

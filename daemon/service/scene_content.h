@@ -9,7 +9,7 @@
 #include <camway/scene_request_t.hpp>
 
 #include "daemon/geometry/types.h"
-#include "daemon/scene/import.h"
+#include "daemon/scene/import_report.h"
 #include "daemon/scene/limit.h"
 #include "daemon/scene/placement.h"
 #include "daemon/scene/scene_object.h"

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/planning/request.h"
+#include "daemon/scene/import.h"
 #include "daemon/scene/import_warnings.h"
 #include "daemon/service/command_line.h"
 #include "tools/camway/commands.h"
