@@ -14,13 +14,12 @@
 #include "daemon/scene/placement.h"
 #include "daemon/scene/scene_object.h"
 #include "daemon/scene/voxel_map.h"
-#include "daemon/service/scene_work.h"
+#include "daemon/service/scene_context.h"
 #include "daemon/service/uploads.h"
 
 namespace camway::service {
 
 /// What came of reading or making something, or what is wrong, by the name of the request's field.
-/// What came of reading or making something, or what is wrong.
 template <class Value>
 struct Made {
   std::optional<Value> value;

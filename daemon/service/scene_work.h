@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,9 +10,8 @@
 #include <camway/scene_request_t.hpp>
 #include <camway/scene_response_t.hpp>
 
-#include "daemon/scene/scene_store.h"
-#include "daemon/scene/undertaking.h"
-#include "daemon/service/scene_rules.h"
+#include "daemon/scene/snapshot.h"
+#include "daemon/service/scene_context.h"
 #include "daemon/service/uploads.h"
 
 namespace camway::service {
@@ -33,16 +31,6 @@ const std::string& target_of(const scene_request_t& request);
 
 /// One word.
 const char* operation_name(const scene_request_t& request);
-
-/// What a request is carried out on. All references outlive the call.
-struct SceneContext {
-  const SceneRules& rules;
-  scene::SceneStore& scenes;
-  std::mutex& writing;  ///< held by who writes a file below the roots: two might mean the same
-  /// Called off, nothing is changed any more, and the reading of files and the making of mirrors
-  /// ends.
-  scene::Undertaking undertaking;
-};
 
 /// What came of a request.
 struct Performed {
