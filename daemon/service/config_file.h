@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/daemon_options.h"
+#include "daemon/service/options.h"
 
 namespace camway::service {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/daemon_options.h"
+#include "daemon/service/options.h"
 
 /// What is wrong with options of which each value is right by itself: a text for each fault, which
 /// begins with where the value was said.

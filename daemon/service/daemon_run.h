@@ -5,8 +5,8 @@
 
 #include "daemon/scene/scene_store.h"
 #include "daemon/service/configured_scenes.h"
-#include "daemon/service/daemon_options.h"
 #include "daemon/service/log.h"
+#include "daemon/service/options.h"
 #include "daemon/service/reloader.h"
 
 namespace camway::service {

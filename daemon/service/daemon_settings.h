@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/service/daemon_options.h"
+#include "daemon/service/options.h"
 
 namespace camway::service {
 

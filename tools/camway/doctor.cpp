@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/service/command_line.h"
-#include "daemon/service/daemon_options.h"
+#include "daemon/service/options.h"
 #include "lcmtypes/channels.h"
 #include "tools/camway/commands.h"
 #include "tools/camway/key_file.h"
