@@ -2,37 +2,21 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <list>
 #include <map>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include <camway/plan_request_t.hpp>
 
-#include "daemon/service/wire_pages.h"
+#include "daemon/service/answer_pages.h"
 
 namespace camway::service {
-
-/// What makes a request the same request.
-struct RequestKey {
-  std::string client_id;
-  std::int64_t request_id = 0;
-
-  // clang-tidy 14 takes the comparison with 0 that this generates for a null pointer.
-  auto operator<=>(const RequestKey&) const = default;  // NOLINT(modernize-use-nullptr)
-};
 
 /// Digest of a request's content: all but `utime` and how it was cut into pages. XXH3-128: it
 /// guards clients against their own mistakes, not the daemon against forgery.
 using RequestDigest = std::array<std::uint64_t, 2>;
 RequestDigest digest_of(const plan_request_t& whole);
-
-/// The messages of an answer, shared by cache and outbox.
-using Pages = std::shared_ptr<const std::vector<Bytes>>;
 
 /// Remembers which requests are being planned, and the answers to as many of the others as its
 /// limits allow, so that sending a request again is harmless and cheap. For one thread at a time.

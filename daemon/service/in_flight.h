@@ -13,7 +13,7 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "daemon/collision/deadline.h"
-#include "daemon/service/answer_cache.h"
+#include "daemon/service/answer_pages.h"
 
 namespace camway::service {
 

@@ -10,7 +10,7 @@
 
 #include <camway/map_page_t.hpp>
 
-#include "daemon/service/answer_cache.h"
+#include "daemon/service/answer_pages.h"
 
 namespace camway::service {
 

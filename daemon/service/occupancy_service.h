@@ -11,7 +11,7 @@
 #include <camway/occupancy_response_t.hpp>
 
 #include "daemon/collision/deadline.h"
-#include "daemon/service/answer_cache.h"
+#include "daemon/service/answer_pages.h"
 #include "daemon/service/core.h"
 
 namespace camway::service {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/answer_cache.h"
+#include "daemon/service/answer_pages.h"
 #include "daemon/service/transport.h"
 
 namespace camway::service {

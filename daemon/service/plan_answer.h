@@ -9,7 +9,7 @@
 #include "daemon/collision/deadline.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot.h"
-#include "daemon/service/answer_cache.h"
+#include "daemon/service/answer_pages.h"
 #include "daemon/service/core.h"
 #include "daemon/service/wire_convert.h"
 

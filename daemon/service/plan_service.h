@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/service/answer_cache.h"
 #include "daemon/service/core.h"
 #include "daemon/service/in_flight.h"
 #include "daemon/service/watches.h"

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/service/answer_cache.h"
 #include "daemon/service/core.h"
 #include "daemon/service/map_exports.h"
 #include "daemon/service/scene_work.h"

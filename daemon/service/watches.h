@@ -16,7 +16,7 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
-#include "daemon/service/answer_cache.h"
+#include "daemon/service/answer_pages.h"
 #include "daemon/service/answer_quality.h"
 #include "daemon/service/core.h"
 #include "daemon/service/watch_checker.h"
