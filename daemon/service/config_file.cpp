@@ -21,6 +21,7 @@
 #include "daemon/scene/voxel_grid.h"
 #include "daemon/service/bounds_text.h"
 #include "daemon/service/daemon_settings.h"
+#include "daemon/service/scene_names.h"
 
 namespace camway::service {
 namespace {

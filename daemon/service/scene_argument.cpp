@@ -10,6 +10,7 @@
 #include "daemon/scene/import_words.h"
 #include "daemon/scene/voxel_grid.h"
 #include "daemon/service/bounds_text.h"
+#include "daemon/service/scene_names.h"
 
 namespace camway::service {
 namespace {
@@ -85,15 +86,6 @@ std::string take_options(std::string_view& rest, SceneArgument& scene) {
 }
 
 }  // namespace
-
-bool is_scene_name(std::string_view name) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  return !name.empty() && name.size() <= wire::kMaxSceneNameBytes &&
-         std::all_of(name.begin(), name.end(), allowed);
-}
 
 std::optional<scene::UpAxis> up_axis_named(std::string_view word) {
   for (const auto& [name, up] : scene::kUpAxes) {

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "daemon/scene/snapshot.h"
-#include "lcmtypes/wire_layout.h"
 
 namespace camway::service {
 
@@ -20,15 +19,6 @@ struct SceneArgument {
   bool watch = false;   ///< whether the daemon reads the file again when it changes
   std::string said_at;  ///< where its file was named, e.g. "--scene" or "camwayd.toml:7"
 };
-
-/// Whether `name` keeps `kSceneNameRule`.
-bool is_scene_name(std::string_view name);
-inline constexpr char kSceneNameRule[] =
-    "must be of letters, digits, '_', '-' and '.', at most 128";
-static_assert(wire::kMaxSceneNameBytes == 128);
-
-/// What `scene::VoxelGrid::valid_resolution` asks for, in metres.
-inline constexpr char kResolutionRule[] = "must be from 1e-9 to 1e9 m";
 
 /// "as-in-file", "z-to-y" or "y-to-z"; nothing for another word.
 std::optional<scene::UpAxis> up_axis_named(std::string_view word);
