@@ -6,18 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include <camway/scene_info_t.hpp>
 #include <camway/scene_request_t.hpp>
 #include <camway/scene_response_t.hpp>
 
-#include "daemon/scene/snapshot.h"
 #include "daemon/service/scene_context.h"
 #include "daemon/service/uploads.h"
 
 namespace camway::service {
-
-/// What a scene is on the wire.
-scene_info_t scene_info_of(const scene::Snapshot& snapshot);
 
 /// An answer with nothing in it but ids, status and message.
 scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t status,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "daemon/service/scene_work.h"
 #include "daemon/service/version.h"
+#include "daemon/service/wire_scene.h"
 
 namespace camway::service {
 namespace {
