@@ -36,7 +36,7 @@ Box bounds_of(std::span<const Triangle> triangles) {
 }
 
 bool is_inside(const motion::Solid& solid, const Vec3& point_C) {
-  return std::ranges::all_of(solid.faces_C, [&](const motion::HalfSpace& face) {
+  return std::ranges::all_of(solid.faces_C, [&](const geometry::HalfSpace& face) {
     return face.normal.dot(point_C) <= face.offset_m;
   });
 }

@@ -98,7 +98,7 @@ std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stret
     const Vec3 point_C = stretch.R_WC.transpose() * (point_W - stretch.eye_W);
     for (const motion::Solid& solid : probe.body().solids_C()) {
       double depth_m = std::numeric_limits<double>::infinity();
-      for (const motion::HalfSpace& face : solid.faces_C)
+      for (const geometry::HalfSpace& face : solid.faces_C)
         depth_m = std::min(depth_m, face.offset_m - face.normal.dot(point_C));
       if (!(depth_m > 0.0) || (deepest && depth_m <= deepest->depth_m)) continue;
       deepest = Witness{0.0, number, 0, depth_m + probe.keep_m(), point_W};

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "daemon/geometry/half_space.h"
 #include "daemon/motion/camera.h"
 
 namespace camway::motion {
@@ -35,16 +36,10 @@ struct MeshShape {
 };
 using BodyShape = std::variant<Camera, BoxShape, SphereShape, ConvexShape, MeshShape>;
 
-/// A half-space `normal · x <= offset`.
-struct HalfSpace {
-  geometry::Vec3 normal = geometry::Vec3::UnitX();  ///< unit length
-  double offset_m = 0.0;
-};
-
 /// The convex solid that is the intersection of half-spaces; a scene that lies wholly inside it
 /// touches none of the body's triangles and collides all the same.
 struct Solid {
-  std::vector<HalfSpace> faces_C;
+  std::vector<geometry::HalfSpace> faces_C;
 };
 
 /// Sizes of what a body may be made of.

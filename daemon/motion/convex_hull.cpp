@@ -152,11 +152,11 @@ class Quickhull {
 };
 
 /// The half-space below a face, with its offset rounded up until it holds all points.
-HalfSpace half_space(const ExactPoints& points, const Indices& v) {
+geometry::HalfSpace half_space(const ExactPoints& points, const Indices& v) {
   // A scalar product has 3 roundings in sequence, relative to the product of lengths at most; the
   // fourth is that of the sum below, and the rest is for second order.
   constexpr double kRounding = 5.0 * geometry::kUnitRoundoff;
-  HalfSpace face{points.unit_normal(v[0], v[1], v[2]), 0.0};
+  geometry::HalfSpace face{points.unit_normal(v[0], v[1], v[2]), 0.0};
   double highest = face.normal.dot(points[v[0]]);
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "daemon/motion/body.h"
+#include "daemon/geometry/half_space.h"
 
 namespace camway::motion {
 
@@ -18,7 +18,7 @@ struct ConvexHull {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// Its faces, coplanar triangles counted once; none for a set without volume. All points satisfy
   /// each of them, as numbers stand here and without rounding.
-  std::vector<HalfSpace> faces;
+  std::vector<geometry::HalfSpace> faces;
 };
 
 /// The hull, exactly: no point is outside of it by any amount, so whatever touches the set's hull

@@ -92,7 +92,7 @@ TEST(Body, OfABoxIsClosedTurnsOutwardAndHasItsVolume) {
                 64.0 * test::kEpsilon * std::pow(body.radius_m(), 3));
     for (const Vec3& corner : corners(box)) EXPECT_LE(corner.norm(), body.radius_m());
     // The true box, not the rounded one, satisfies the half-spaces.
-    for (const HalfSpace& face : body.solids_C()[0].faces_C) {
+    for (const geometry::HalfSpace& face : body.solids_C()[0].faces_C) {
       Eigen::Index axis = 0;
       face.normal.cwiseAbs().maxCoeff(&axis);
       const Rational sign(face.normal[axis]);
@@ -130,8 +130,8 @@ TEST(Body, OfABoxIsTheHullOfItsCornersAndTheMeshOfItsTriangles) {
     EXPECT_EQ(as_hull.radius_m(), body.radius_m());
     EXPECT_NEAR(signed_volume(as_hull.triangles_C()), signed_volume(body.triangles_C()),
                 64.0 * test::kEpsilon * std::pow(body.radius_m(), 3));
-    for (const HalfSpace& face : body.solids_C()[0].faces_C) {
-      const auto same = [&](const HalfSpace& other) {
+    for (const geometry::HalfSpace& face : body.solids_C()[0].faces_C) {
+      const auto same = [&](const geometry::HalfSpace& other) {
         return (other.normal - face.normal).norm() < 1e-12 &&
                std::abs(other.offset_m - face.offset_m) < 1e-12;
       };

@@ -21,7 +21,7 @@ geometry::Triangle triangle(const PointSet& set, const std::array<std::uint32_t,
   return {set.points[t[0]], set.points[t[1]], set.points[t[2]]};
 }
 
-bool holds(const HalfSpace& face, const Vec3& point) {
+bool holds(const geometry::HalfSpace& face, const Vec3& point) {
   return dot(exact(face.normal), exact(point)) <= Rational(face.offset_m);
 }
 
@@ -56,7 +56,7 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
     ASSERT_GE(hull.faces.size(), 4U);
     double size = 0.0;
     for (const Vec3& point : set.points) size = std::max(size, point.lpNorm<1>());
-    for (const HalfSpace& face : hull.faces) {
+    for (const geometry::HalfSpace& face : hull.faces) {
       for (const Vec3& point : set.points) ASSERT_TRUE(holds(face, point));
       // And touch some: 5 units for the scalar product, 5 that are added, one for the sum here.
       double highest = -std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
       mean /= sum;
       const double rounding =
           (2.0 * static_cast<double>(set.points.size()) + 8.0) * test::kEpsilon * size;
-      for (const HalfSpace& face : hull.faces)
+      for (const geometry::HalfSpace& face : hull.faces)
         ASSERT_LE(face.normal.dot(mean), face.offset_m + rounding);
     }
   }
