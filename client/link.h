@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "camway/authentication.h"
+#include "client/bytes.h"
 
 namespace lcm {
 class LCM;
@@ -20,7 +21,6 @@ struct ReceiveBuffer;
 namespace camway {
 
 using Clock = std::chrono::steady_clock;
-using Bytes = std::vector<std::uint8_t>;
 
 /// A connection to an LCM network: raw bytes in and out. The only place of the client that sees
 /// LCM. For one thread, `wake` apart.

@@ -11,7 +11,7 @@
 #include <camway/occupancy_response_t.hpp>
 
 #include "camway/occupancy.h"
-#include "client/link.h"
+#include "client/bytes.h"
 
 namespace camway {
 

@@ -12,7 +12,7 @@
 #include <camway/plan_response_t.hpp>
 
 #include "camway/plan.h"
-#include "client/link.h"
+#include "client/bytes.h"
 
 namespace camway {
 
