@@ -6,8 +6,14 @@
 #include <limits>
 
 #include "daemon/geometry/bounds.h"
-#include "daemon/scene/clearance_field.h"
-#include "daemon/scene/snapshot.h"
+#include "daemon/geometry/types.h"
+
+namespace camway::scene {
+class ClearanceField;
+class SceneIndex;
+class SceneSolids;
+struct Snapshot;
+}  // namespace camway::scene
 
 namespace camway::collision {
 
@@ -15,11 +21,7 @@ namespace camway::collision {
 struct Obstacles {
   // Implicit on purpose: wherever a scene is asked for, an index or a snapshot will do.
   Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
-  Obstacles(const scene::Snapshot& snapshot)                               // NOLINT
-      : index(snapshot.index),
-        field(snapshot.field.get()),
-        solids(snapshot.solids.get()),
-        bounds(snapshot.options.bounds) {}
+  Obstacles(const scene::Snapshot& snapshot);                              // NOLINT
 
   /// The same, and nothing beyond `limits` either.
   [[nodiscard]] Obstacles within(const geometry::Bounds& limits) const {
@@ -49,11 +51,7 @@ struct Obstacles {
     return is_side(number) ? -1 - static_cast<std::int64_t>(side_of(number)) : number;
   }
   /// Across an obstacle, of any length; 0 for a triangle without area.
-  [[nodiscard]] geometry::Vec3 normal_W(std::uint32_t number) const {
-    if (is_side(number)) return geometry::Bounds::inward(side_of(number));
-    const geometry::Triangle triangle = index.triangle(number);
-    return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-  }
+  [[nodiscard]] geometry::Vec3 normal_W(std::uint32_t number) const;
 
   const scene::SceneIndex& index;
   const scene::ClearanceField* field = nullptr;  ///< may be absent: it spares time, no more

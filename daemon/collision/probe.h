@@ -9,6 +9,7 @@
 #include "daemon/collision/obstacles.h"
 #include "daemon/motion/body.h"
 #include "daemon/motion/stretch.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "daemon/collision/detect.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 

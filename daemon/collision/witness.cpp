@@ -7,6 +7,7 @@
 
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::collision {
 

@@ -8,6 +8,8 @@
 #include "daemon/collision/witness.h"
 #include "daemon/correction/orientation_rule.h"
 #include "daemon/motion/stretch.h"
+#include "daemon/scene/clearance_field.h"
+#include "daemon/scene/voxel_map.h"
 
 namespace camway::correction {
 

@@ -9,6 +9,7 @@
 #include "daemon/collision/probe.h"
 #include "daemon/correction/constraints.h"
 #include "daemon/motion/straight_motion.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::correction {
 

@@ -7,6 +7,7 @@
 #include "daemon/motion/keyframe.h"
 #include "daemon/motion/path.h"
 #include "daemon/motion/time_origin.h"
+#include "daemon/scene/scene_index.h"
 
 namespace camway::correction {
 

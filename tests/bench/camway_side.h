@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "daemon/planning/check.h"
+#include "daemon/scene/clearance_field.h"
 #include "daemon/scene/distance_field.h"
 #include "daemon/scene/scene_index.h"
 #include "tests/collision/crossing_campaign.h"

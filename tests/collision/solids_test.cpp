@@ -7,6 +7,7 @@
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/motion/interpolate.h"
+#include "daemon/scene/snapshot.h"
 #include "tests/support/scenes.h"
 
 /// Scenes with an inside: occupancy maps.

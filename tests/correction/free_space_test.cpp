@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/scene/snapshot.h"
 #include "tests/correction/search_scene.h"
 
 namespace camway::correction {

@@ -12,6 +12,7 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/motion/interpolate.h"
+#include "daemon/scene/scene_index.h"
 #include "tools/make_scenes/catalogue.h"
 #include "tools/make_scenes/office.h"
 

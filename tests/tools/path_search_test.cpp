@@ -9,6 +9,7 @@
 #include "daemon/collision/near_quad.h"
 #include "daemon/geometry/triangle_intersection.h"
 #include "daemon/motion/interpolate.h"
+#include "daemon/scene/snapshot.h"
 #include "tests/tools/log_builder.h"
 
 namespace camway::tools {
