@@ -18,8 +18,8 @@ std::int64_t utime_now() {
 }
 
 Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-           ServiceConfig service_config, std::shared_ptr<Log> service_log)
-    : config(std::move(service_config)),
+           CoreConfig core_config, std::shared_ptr<Log> service_log)
+    : config(std::move(core_config)),
       channels{config.prefix},
       scenes(scene_store),
       log(std::move(service_log)),

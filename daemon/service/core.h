@@ -36,7 +36,7 @@ std::int64_t utime_now();
 /// `workers`, `scenes` and `log` belong to the loop thread.
 struct Core {
   Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-       ServiceConfig service_config, std::shared_ptr<Log> service_log);
+       CoreConfig core_config, std::shared_ptr<Log> service_log);
 
   /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
@@ -54,7 +54,7 @@ struct Core {
   /// Counts and logs a message that could not be read. Whether its sender may be told.
   bool note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
 
-  const ServiceConfig config;
+  const CoreConfig config;
   const wire::Channels channels;
   const scene::SceneStore& scenes;
   const std::shared_ptr<Log> log;

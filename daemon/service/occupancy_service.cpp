@@ -132,7 +132,7 @@ void OccupancyService::begin(const Request& request,
                              std::shared_ptr<const scene::Snapshot> snapshot) {
   const std::stop_source stop;
   flights_.insert_or_assign(key_of(*request), Flight{request, stop});
-  const double deadline_s = deadline_of(request->deadline_s, core_.config.occupancy_deadline);
+  const double deadline_s = deadline_of(request->deadline_s, deadline_);
   const auto deadline = collision::Deadline::after_s(deadline_s).watched(stop.get_token(), nullptr);
   Job work;
   work.client = request->client_id;

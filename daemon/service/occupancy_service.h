@@ -13,6 +13,7 @@
 #include "daemon/collision/deadline.h"
 #include "daemon/service/answer_pages.h"
 #include "daemon/service/core.h"
+#include "daemon/service/wire_convert.h"
 
 namespace camway::service {
 
@@ -22,7 +23,8 @@ namespace camway::service {
 /// waits or is being answered changes nothing.
 class OccupancyService {
  public:
-  explicit OccupancyService(Core& core) : core_(core) {}
+  /// `core` must outlive the service; `deadline`: of batches.
+  OccupancyService(Core& core, const DeadlineLimits& deadline) : core_(core), deadline_(deadline) {}
 
   /// A message on the occupancy request channel. Throws only for want of memory.
   void on_message(std::span<const std::uint8_t> message);
@@ -50,6 +52,7 @@ class OccupancyService {
   void send(occupancy_response_t answer);
 
   Core& core_;
+  const DeadlineLimits deadline_;
   std::map<RequestKey, Flight> flights_;
 };
 

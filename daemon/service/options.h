@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "daemon/scene/scene_store.h"
-#include "daemon/service/config.h"
 #include "daemon/service/http_page.h"
 #include "daemon/service/log.h"
 #include "daemon/service/scene_argument.h"
+#include "daemon/service/service_config.h"
 
 namespace camway::service {
 

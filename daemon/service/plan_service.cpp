@@ -196,11 +196,11 @@ PlanService::Clock::time_point PlanService::next_tick() const {
 
 void PlanService::take(plan_request_t request) {
   const RequestKey key{request.client_id, request.request_id};
-  if (request.keyframes.size() > core_.config.keyframes) {
+  if (request.keyframes.size() > config_.keyframes) {
     answer_uncached(request, plan_response_t::STATUS_LIMIT,
                     fmt::format("keyframes: holds {}; the daemon plans {} at most "
                                 "(planning.keyframes)",
-                                request.keyframes.size(), core_.config.keyframes));
+                                request.keyframes.size(), config_.keyframes));
     return;
   }
   if (const std::string fault = fault_of_handling(request); !fault.empty()) {
@@ -239,14 +239,14 @@ void PlanService::take(plan_request_t request) {
 
 void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
   const auto bytes = static_cast<std::size_t>(request->getEncodedSize());
-  if (bytes_ > 0 && bytes_ + bytes > core_.config.request_bytes) {
+  if (bytes_ > 0 && bytes_ + bytes > config_.request_bytes) {
     refuse(*request, fmt::format("the requests that wait or are planned take {} bytes, {} at most "
                                  "(queue.request_bytes); send it again later",
-                                 bytes_, core_.config.request_bytes));
+                                 bytes_, config_.request_bytes));
     return;
   }
   bytes_ += bytes;
-  const double deadline_s = deadline_of(request->deadline_s, core_.config.deadline);
+  const double deadline_s = deadline_of(request->deadline_s, config_.deadline);
   const Pending pending{
       key,   request,    core_.scenes.find(request->scene),
       bytes, deadline_s, in_flight_.begin(key, deadline_s, request->progress_period_s)};
@@ -277,9 +277,9 @@ void PlanService::run(const Pending& pending) {
   }
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
   auto answer = std::make_shared<plan_response_t>(answer_of(
-      planner_, *pending.snapshot, *pending.request, core_.config.deadline, pending.deadline));
-  auto path = watchable_path(*pending.request, *answer, core_.config.deadline);
-  Pages pages = encode_answer(*answer, core_.config.answer_pages);
+      planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
+  auto path = watchable_path(*pending.request, *answer, config_.deadline);
+  Pages pages = encode_answer(*answer, config_.answer_pages);
   core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
                       path = std::move(path)] {
     core_.counters.waiting.add(waited_s);
@@ -337,7 +337,7 @@ void PlanService::plan_improvable(Clock::time_point now) {
 }
 
 void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
-  const double deadline_s = deadline_of(watched.request->deadline_s, core_.config.deadline);
+  const double deadline_s = deadline_of(watched.request->deadline_s, config_.deadline);
   const Replan replan{watched.key, watched.request, collision::Deadline::after_s(deadline_s),
                       for_offer};
   Job job;
@@ -359,9 +359,9 @@ void PlanService::run_again(const Replan& replan) {
     return;
   }
   done->answer =
-      answer_of(planner_, *done->snapshot, *replan.request, core_.config.deadline, replan.deadline);
-  done->path = watchable_path(*replan.request, done->answer, core_.config.deadline);
-  done->pages = encode_answer(done->answer, core_.config.answer_pages);
+      answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
+  done->path = watchable_path(*replan.request, done->answer, config_.deadline);
+  done->pages = encode_answer(done->answer, config_.answer_pages);
   core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
 }
 
@@ -416,7 +416,7 @@ void PlanService::finish_plainly(const Pending& pending, std::int32_t status,
                                  std::string_view message) {
   plan_response_t answer =
       plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
-  Pages pages = encode_answer(answer, core_.config.answer_pages);
+  Pages pages = encode_answer(answer, config_.answer_pages);
   finish(pending, answer, std::move(pages));
 }
 
@@ -450,7 +450,7 @@ void PlanService::answer_uncached(const plan_request_t& request, std::int32_t st
                                   std::string_view message) {
   plan_response_t answer = plain_answer(status, message, header_of(request, nullptr));
   core_.counters.plan_answers.add(status);
-  send({request.client_id, request.request_id}, encode_answer(answer, core_.config.answer_pages),
+  send({request.client_id, request.request_id}, encode_answer(answer, config_.answer_pages),
        Outbox::Kind::kRefusal);
 }
 

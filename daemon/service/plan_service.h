@@ -11,6 +11,7 @@
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/core.h"
 #include "daemon/service/in_flight.h"
+#include "daemon/service/plan_config.h"
 #include "daemon/service/watches.h"
 
 namespace camway::service {
@@ -26,12 +27,13 @@ class PlanService {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Both must outlive the service.
-  PlanService(Core& core, Watches& watches, Planner planner)
+  /// `core` and `watches` must outlive the service.
+  PlanService(Core& core, Watches& watches, const PlanConfig& config, Planner planner)
       : core_(core),
         watches_(watches),
+        config_(config),
         planner_(std::move(planner)),
-        pages_(core.config.assembly),
+        pages_(config.assembly),
         cache_(core.config.cache) {}
 
   // Messages on the channels for plan requests, for calling them off, for pages of answers that did
@@ -80,6 +82,7 @@ class PlanService {
 
   Core& core_;
   Watches& watches_;
+  const PlanConfig config_;
   Planner planner_;
   PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;

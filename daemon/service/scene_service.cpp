@@ -59,15 +59,14 @@ FairQueue::Limits with_room_for_others(FairQueue::Limits limits, int workers) {
 
 }  // namespace
 
-SceneService::SceneService(Core& core, scene::SceneStore& scenes)
+SceneService::SceneService(Core& core, scene::SceneStore& scenes, const SceneConfig& config)
     : core_(core),
       scenes_(scenes),
-      rules_(core.config.scene_rules),
-      uploads_(core.config.uploads),
-      exports_(core.config.exports),
+      config_(config),
+      uploads_(config.uploads),
+      exports_(config.exports),
       cache_(core.config.cache),
-      workers_(core.config.scene_workers,
-               with_room_for_others(core.config.changes, core.config.scene_workers)) {}
+      workers_(config.scene_workers, with_room_for_others(config.changes, config.scene_workers)) {}
 
 template <class Message>
 std::optional<Message> SceneService::read(const std::string& channel,
@@ -146,7 +145,7 @@ void SceneService::take_change(const Request& request) {
 void SceneService::begin(const Request& request) {
   const RequestKey key = key_of(*request);
   const std::chrono::duration<double> allowed(
-      deadline_of(request->deadline_s, core_.config.change_deadline));
+      deadline_of(request->deadline_s, config_.change_deadline));
   const Pending pending{
       request, {}, Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed)};
   unanswered_.insert_or_assign(key, pending);
@@ -179,7 +178,7 @@ void SceneService::take_done(const Request& request, Performed done, const Pages
         *request, scene_response_t::STATUS_LIMIT,
         fmt::format("the map is larger than all exports may be together, {} bytes "
                     "(scenes.all_exports_bytes)",
-                    core_.config.exports.bytes));
+                    config_.exports.bytes));
   }
   finish(*request, std::move(done.answer));
 }
@@ -336,7 +335,7 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
 }
 
 SceneContext SceneService::context(const scene::Undertaking& undertaking) {
-  return {rules_, scenes_, writing_, undertaking};
+  return {config_.scene_rules, scenes_, writing_, undertaking};
 }
 
 void SceneService::close() {

@@ -15,6 +15,7 @@
 #include "daemon/service/answer_cache.h"
 #include "daemon/service/core.h"
 #include "daemon/service/map_exports.h"
+#include "daemon/service/scene_config.h"
 #include "daemon/service/scene_work.h"
 
 namespace camway::service {
@@ -36,8 +37,8 @@ class SceneService {
  public:
   using Clock = Job::Clock;
 
-  /// Both must outlive the service.
-  SceneService(Core& core, scene::SceneStore& scenes);
+  /// `core` and `scenes` must outlive the service.
+  SceneService(Core& core, scene::SceneStore& scenes, const SceneConfig& config);
 
   /// A message on the scene request channel. Throws only for want of memory.
   void on_request(std::span<const std::uint8_t> message);
@@ -95,7 +96,7 @@ class SceneService {
 
   Core& core_;
   scene::SceneStore& scenes_;
-  const SceneRules rules_;
+  const SceneConfig config_;
   Uploads uploads_;
   MapExports exports_;
   AnswerCache cache_;

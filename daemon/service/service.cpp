@@ -28,15 +28,16 @@ std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration du
 
 }  // namespace
 
-Service::Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config,
+Service::Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
                  Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks)
     : hooks_(std::move(hooks)),
-      core_(transport, scenes, std::move(config), std::move(log)),
+      longest_deadline_s_(config.deadline.max_s),
+      core_(transport, scenes, config, std::move(log)),
       claim_(core_),
-      watches_(core_, scenes),
-      plans_(core_, watches_, std::move(planner)),
-      occupancy_(core_),
-      scenes_(core_, scenes) {}
+      watches_(core_, scenes, config.watches),
+      plans_(core_, watches_, config, std::move(planner)),
+      occupancy_(core_, config.occupancy_deadline),
+      scenes_(core_, scenes, config) {}
 
 // Jobs use the services, which would go before the workers in `core_` if nothing were done.
 Service::~Service() {
@@ -186,7 +187,7 @@ void Service::heartbeat(Clock::time_point now) {
 void Service::tell_alive(Clock::time_point now) {
   next_alive_ = now + hooks_.alive_period;
   const std::chrono::duration<double> stuck_after =
-      std::chrono::duration<double>(core_.config.deadline.max_s) + hooks_.stuck_after;
+      std::chrono::duration<double>(longest_deadline_s_) + hooks_.stuck_after;
   const std::chrono::duration<double> longest = core_.workers.longest_run(now);
   if (longest > stuck_after) {
     core_.limited_log.trouble.write("a worker hangs at one request",

@@ -14,6 +14,7 @@
 #include "daemon/service/plan_service.h"
 #include "daemon/service/prefix_claim.h"
 #include "daemon/service/scene_service.h"
+#include "daemon/service/service_config.h"
 #include "daemon/service/transport.h"
 #include "daemon/service/watches.h"
 
@@ -48,8 +49,8 @@ struct ServiceHooks {
 class Service {
  public:
   /// `transport` and `scenes` must outlive the service. Precondition: `config` keeps its limits.
-  Service(Transport& transport, scene::SceneStore& scenes, ServiceConfig config, Planner planner,
-          std::shared_ptr<Log> log, ServiceHooks hooks = {});
+  Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
+          Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks = {});
   /// Waits for what is still being planned, which it does not answer any more.
   ~Service();
   Service(const Service&) = delete;
@@ -78,6 +79,7 @@ class Service {
       std::function<void(std::span<const std::uint8_t>)> handler, std::string channel);
 
   const ServiceHooks hooks_;
+  const double longest_deadline_s_;  ///< of a plan request
   Core core_;
   PrefixClaim claim_;
   Watches watches_;

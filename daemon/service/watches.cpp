@@ -57,8 +57,9 @@ std::int64_t random_serial() {
 
 }  // namespace
 
-Watches::Watches(Core& core, scene::SceneStore& scenes)
+Watches::Watches(Core& core, scene::SceneStore& scenes, const WatchLimits& limits)
     : core_(core),
+      limits_(limits),
       next_serial_(random_serial() + 1),
       checker_(scenes, [this](WatchChecker::News news) {
         core_.mailbox.post([this, news = std::move(news)] { note(news, Clock::now()); });
@@ -91,8 +92,7 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
   if (is_new) {
     position = watches_.try_emplace(key).first;
     ++of_client_[key.client_id];
-    position->second.lease =
-        lease_of(answer.request->watch_lease_s, core_.config.watches.longest_lease);
+    position->second.lease = lease_of(answer.request->watch_lease_s, limits_.longest_lease);
     position->second.until = now + position->second.lease;
   } else {
     keep_former(position->second, bytes);
@@ -114,17 +114,16 @@ bool Watches::begin(const WatchableAnswer& answer, Clock::time_point now) {
 }
 
 std::string Watches::limit_hit(const RequestKey& key, bool is_new, std::size_t bytes) const {
-  const WatchLimits& limits = core_.config.watches;
-  if (bytes_ + bytes > limits.bytes) {
+  if (bytes_ + bytes > limits_.bytes) {
     return fmt::format("watch.bytes: the paths that are watched take {} bytes, {} at most", bytes_,
-                       limits.bytes);
+                       limits_.bytes);
   }
   if (!is_new) return {};
-  if (watches_.size() >= limits.paths) {
+  if (watches_.size() >= limits_.paths) {
     return fmt::format("watch.paths: {} paths are watched already", watches_.size());
   }
   const auto count = of_client_.find(key.client_id);
-  if (count != of_client_.end() && count->second >= limits.paths_of_a_client) {
+  if (count != of_client_.end() && count->second >= limits_.paths_of_a_client) {
     return fmt::format("watch.paths_of_a_client: {} paths of this client are watched already",
                        count->second);
   }
@@ -174,7 +173,7 @@ void Watches::apply(const watch_t& message, Clock::time_point now) {
     }
     Watch& watch = position->second;
     if (message.lease_s > 0.0) {
-      watch.lease = lease_of(message.lease_s, core_.config.watches.longest_lease);
+      watch.lease = lease_of(message.lease_s, limits_.longest_lease);
     }
     watch.until = now + watch.lease;
     apply_offers(watch, path);
@@ -346,7 +345,7 @@ void Watches::forget_former(Watch& watch, std::size_t which) {
 // What only might lead to a better path goes first.
 void Watches::make_room(Watch& watch, std::size_t bytes) {
   withdraw_offer(watch);
-  if (bytes_ + bytes <= core_.config.watches.bytes) return;
+  if (bytes_ + bytes <= limits_.bytes) return;
   while (!watch.formers.empty()) forget_former(watch, 0);
 }
 
@@ -358,7 +357,7 @@ void Watches::keep_former(Watch& watch, std::size_t next_bytes) {
     if (watch.formers[i].colliding_s == 0.0) forget_former(watch, i);
   }
   const std::size_t bytes = watch.answer.path->memory_bytes();
-  if (watch.collisions.empty() || bytes_ + next_bytes + bytes > core_.config.watches.bytes) {
+  if (watch.collisions.empty() || bytes_ + next_bytes + bytes > limits_.bytes) {
     checker_.forget(watch.id, watch.answer.request->scene);
     keys_.erase(watch.id);
     return;
@@ -400,7 +399,7 @@ void Watches::offer(const WatchableAnswer& answer, Pages pages, Clock::time_poin
   std::size_t bytes = answer.path->memory_bytes();
   for (const Bytes& page : *pages) bytes += page.size();
   if (!is_newer || !is_better(answer.quality, best, answer.request->objective) ||
-      bytes_ + bytes > core_.config.watches.bytes) {
+      bytes_ + bytes > limits_.bytes) {
     return;
   }
   withdraw_offer(watch);

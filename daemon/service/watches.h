@@ -20,6 +20,7 @@
 #include "daemon/service/answer_quality.h"
 #include "daemon/service/core.h"
 #include "daemon/service/watch_checker.h"
+#include "daemon/service/watch_limits.h"
 
 namespace camway::service {
 
@@ -47,8 +48,8 @@ class Watches {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `scenes` must outlive this.
-  Watches(Core& core, scene::SceneStore& scenes);
+  /// `core` and `scenes` must outlive this.
+  Watches(Core& core, scene::SceneStore& scenes, const WatchLimits& limits);
 
   /// Watches the path of a first answer, or another one in the place of what is watched under that
   /// key. False where a limit is in the way, which the client is told.
@@ -165,6 +166,7 @@ class Watches {
   [[nodiscard]] path_state_t state_of(const Watch& watch) const;
 
   Core& core_;
+  const WatchLimits limits_;
   WatchMap watches_;
   std::map<WatchChecker::Id, RequestKey> keys_;
   std::map<std::string, std::size_t> of_client_;

@@ -66,13 +66,13 @@ planning::PlanResult echo_result(const planning::PlanRequest& request) {
   return result;
 }
 
-RunningService::RunningService(service::ServiceConfig config, FakePlanner::Result result,
+RunningService::RunningService(const service::ServiceConfig& config, FakePlanner::Result result,
                                service::ServiceHooks hooks, const scene::SceneStoreLimits& limits)
     : scenes(limits), planner(std::move(result)), channels{config.prefix} {
   scenes.put(empty_scene("room"));
   scenes.put(empty_scene("hall"));
   service_.emplace(
-      transport, scenes, std::move(config),
+      transport, scenes, config,
       [this](const scene::Snapshot&, const planning::PlanRequest& request,
              const collision::Deadline& deadline) { return planner.plan(request, deadline); },
       log_.log(), std::move(hooks));

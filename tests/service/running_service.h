@@ -58,7 +58,7 @@ inline service::ServiceConfig with_workers(int workers, std::size_t queue_capaci
 /// A service on a fake transport, run by a thread of its own, with scenes "room" and "hall".
 class RunningService {
  public:
-  explicit RunningService(service::ServiceConfig config = {},
+  explicit RunningService(const service::ServiceConfig& config = {},
                           FakePlanner::Result result = echo_result,
                           service::ServiceHooks hooks = {},
                           const scene::SceneStoreLimits& limits = {});

@@ -42,7 +42,7 @@ class WatchesTest : public ::testing::Test {
     config.heartbeat_period = std::chrono::milliseconds(20);
     if (!scenes_.find("room")) scenes_.put(scene::assemble("room", 1, {}, {}));
     service_.emplace(
-        transport_, scenes_, std::move(config),
+        transport_, scenes_, config,
         [this](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
                const collision::Deadline& deadline) {
           ++planned_;
