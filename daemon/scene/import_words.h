@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "daemon/scene/import.h"
+#include "daemon/scene/import_options.h"
 
 namespace camway::scene {
 
