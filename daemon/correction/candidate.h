@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "daemon/collision/deadline.h"
-#include "daemon/correction/cell_search.h"
 #include "daemon/correction/correction.h"
 #include "daemon/correction/free_space.h"
+#include "daemon/correction/pocket.h"
 #include "daemon/motion/bump.h"
 
 namespace camway::correction {

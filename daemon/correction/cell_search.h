@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/correction/free_space.h"
+#include "daemon/correction/pocket.h"
 
 namespace camway::correction {
 
@@ -16,12 +17,6 @@ struct CellOptions {
   std::size_t max_cells = 200'000;
   /// From this gap on more room does not make a way better. [Limit: value > 0]
   double comfort_m = 0.1;
-};
-
-/// The end of a way from which less can be reached.
-struct Pocket {
-  bool is_at_end = false;   ///< or at the begin
-  geometry::Box reached_W;  ///< about all places of the ball's middle that were reached from there
 };
 
 struct CellResult {
