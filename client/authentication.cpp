@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "camway/authentication.h"
+#include <camway/authentication.h>
 
 #include <cmath>
 #include <utility>
 
-#include "lcmtypes/message_auth.h"
+#include "lcmtypes/wire/auth/message_auth.h"
 
 namespace camway {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "camway/client.h"
+#include <camway/client.h>
 
 #include <future>
 #include <memory>
 #include <utility>
 
-#include "client/ask_occupancy.h"
-#include "client/ask_scene.h"
-#include "client/constraints_wire.h"
-#include "client/context.h"
-#include "client/engine.h"
-#include "client/plan_call.h"
-#include "client/scene_wire.h"
+#include "client/engine/ask_occupancy.h"
+#include "client/engine/ask_scene.h"
+#include "client/engine/context.h"
+#include "client/engine/engine.h"
+#include "client/engine/plan_call.h"
+#include "client/messages/constraints.h"
+#include "client/messages/scene.h"
 
 namespace camway {
 namespace {

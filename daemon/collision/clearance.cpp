@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "daemon/collision/pace.h"
 #include "daemon/collision/probe.h"
-#include "daemon/motion/stretch.h"
+#include "daemon/collision/step_control.h"
+#include "daemon/motion/path/stretch.h"
 
 namespace camway::collision {
 

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "daemon/collision/deadline.h"
+#include "daemon/base/deadline.h"
 #include "daemon/collision/obstacles.h"
-#include "daemon/motion/body.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/body/body.h"
+#include "daemon/motion/path/path.h"
 
 namespace camway::collision {
 

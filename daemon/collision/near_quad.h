@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "daemon/motion/camera.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/scene/index/scene_index.h"
 
 namespace camway::collision {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/collision/obstacles.h"
 
-#include "daemon/scene/snapshot.h"
+#include "daemon/scene/snapshot/snapshot.h"
 
 namespace camway::collision {
 

@@ -9,9 +9,9 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
-#include "daemon/scene/clearance_field.h"
-#include "daemon/scene/passage_search.h"
-#include "daemon/scene/voxel_map.h"
+#include "daemon/scene/field/clearance_field.h"
+#include "daemon/scene/index/swept_search.h"
+#include "daemon/scene/voxels/voxel_map.h"
 
 namespace camway::collision {
 

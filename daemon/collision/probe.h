@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "daemon/collision/obstacles.h"
-#include "daemon/motion/body.h"
-#include "daemon/motion/stretch.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/motion/body/body.h"
+#include "daemon/motion/path/stretch.h"
+#include "daemon/scene/index/scene_index.h"
 
 namespace camway::collision {
 

@@ -7,7 +7,7 @@
 
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/scene/index/scene_index.h"
 
 namespace camway::collision {
 

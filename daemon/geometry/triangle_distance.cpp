@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "daemon/geometry/every_processor.h"
+#include "daemon/base/cpu_dispatch.h"
 #include "daemon/geometry/lanes.h"
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_intersection.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "daemon/collision/deadline.h"
+#include "daemon/base/deadline.h"
 #include "daemon/collision/detect.h"
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"

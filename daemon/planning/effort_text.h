@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/correction/correction.h"
+#include "daemon/correction/path/correction.h"
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 

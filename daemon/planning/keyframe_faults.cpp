@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "daemon/correction/free_pose.h"
-#include "daemon/correction/surface_sides.h"
+#include "daemon/correction/infeasibility/surface_sides.h"
+#include "daemon/correction/search/free_pose.h"
 
 namespace camway::planning {
 

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "daemon/collision/deadline.h"
+#include "daemon/base/deadline.h"
 #include "daemon/collision/detect.h"
-#include "daemon/motion/keyframe.h"
+#include "daemon/motion/path/keyframe.h"
 #include "daemon/planning/result.h"
-#include "daemon/scene/snapshot.h"
+#include "daemon/scene/snapshot/snapshot.h"
 
 namespace camway::planning {
 
@@ -28,9 +28,10 @@ struct KeyframeFaults {
 /// there: where the free keyframes next before and next after are, if these agree. Else there is no
 /// path whatever becomes of the one between them. Where no keyframe is free, most of the nearest
 /// free poses decide, and outside counts where they are as many. So moving a keyframe there never
-/// is what makes a request infeasible. Closed surfaces are those that `correction/closed_surfaces`
-/// finds. What is not closed has no sides; there a free pose that is seen from one of these
-/// keyframes is preferred, if it is not much further away than the nearest.
+/// is what makes a request infeasible. Closed surfaces are those that
+/// `correction/infeasibility/closed_surfaces` finds. What is not closed has no sides; there a free
+/// pose that is seen from one of these keyframes is preferred, if it is not much further away than
+/// the nearest.
 ///
 /// Once the deadline has passed, no more keyframes are looked at, nor free poses looked for.
 /// `obstacles` are those of the snapshot.

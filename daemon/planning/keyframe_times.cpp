@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 
 namespace camway::planning {
 

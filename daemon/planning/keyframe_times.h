@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/motion/time_origin.h"
+#include "daemon/motion/path/time_origin.h"
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/correction/orientation_rule.h"
-#include "daemon/motion/retimed_path.h"
+#include "daemon/correction/path/orientation_rule.h"
+#include "daemon/motion/timing/retimed_path.h"
 #include "daemon/planning/check.h"
 
 namespace camway::planning {

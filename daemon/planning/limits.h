@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "daemon/collision/deadline.h"
+#include "daemon/base/deadline.h"
 #include "daemon/collision/detect.h"
-#include "daemon/correction/constraints.h"
-#include "daemon/motion/body.h"
-#include "daemon/motion/cubic_path.h"
-#include "daemon/motion/time_law.h"
-#include "daemon/motion/time_origin.h"
+#include "daemon/correction/path/constraints.h"
+#include "daemon/motion/body/body.h"
+#include "daemon/motion/path/time_origin.h"
+#include "daemon/motion/spline/cubic_path.h"
+#include "daemon/motion/timing/time_law.h"
 #include "daemon/planning/check.h"
 #include "daemon/planning/result.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "daemon/motion/corner_rounding.h"
-#include "daemon/motion/straight_motion.h"
+#include "daemon/motion/body/corner_rounding.h"
+#include "daemon/motion/path/straight_motion.h"
 
 namespace camway::planning {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/motion/path.h"
+#include "daemon/motion/path/path.h"
 #include "daemon/planning/request.h"
 
 /// What has to be asked of a path that somebody else made, beside whether its segments collide.

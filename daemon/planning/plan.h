@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/collision/deadline.h"
+#include "daemon/base/deadline.h"
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
-#include "daemon/scene/snapshot.h"
+#include "daemon/scene/snapshot/snapshot.h"
 
 namespace camway::planning {
 

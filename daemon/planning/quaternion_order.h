@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "daemon/motion/keyframe.h"
+#include "daemon/motion/path/keyframe.h"
 #include "daemon/planning/request.h"
 
 namespace camway::planning {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/correction/constraints.h"
+#include "daemon/correction/path/constraints.h"
 #include "daemon/geometry/bounds.h"
-#include "daemon/motion/body.h"
-#include "daemon/motion/keyframe.h"
+#include "daemon/motion/body/body.h"
+#include "daemon/motion/path/keyframe.h"
 
 namespace camway::planning {
 

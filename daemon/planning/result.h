@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "daemon/collision/interval.h"
-#include "daemon/correction/cage_box.h"
-#include "daemon/correction/correction.h"
-#include "daemon/correction/shut_in.h"
+#include "daemon/correction/infeasibility/cage_box.h"
+#include "daemon/correction/path/correction.h"
+#include "daemon/correction/search/shut_in.h"
 #include "daemon/geometry/bounds.h"
-#include "daemon/motion/keyframe.h"
-#include "daemon/motion/measures.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/motion/path/measures.h"
+#include "daemon/motion/path/path.h"
 
 namespace camway::planning {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "daemon/collision/detect.h"
-#include "daemon/motion/cubic_path.h"
+#include "daemon/motion/spline/cubic_path.h"
 
 namespace camway::planning {
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "daemon/collision/deadline.h"
+#include "daemon/base/deadline.h"
 #include "daemon/collision/detect.h"
-#include "daemon/motion/body.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/body/body.h"
+#include "daemon/motion/path/path.h"
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
-#include "daemon/scene/scene_difference.h"
+#include "daemon/scene/snapshot/scene_difference.h"
 
 namespace camway::planning {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <random>
 
-#include "lcmtypes/channels.h"
+#include "lcmtypes/wire/channels.h"
 
 namespace camway::service {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <camway/claim_t.hpp>
 
-#include "daemon/service/core.h"
-#include "daemon/service/token_bucket.h"
+#include "daemon/service/core/core.h"
+#include "daemon/service/log/token_bucket.h"
 
 namespace camway::service {
 

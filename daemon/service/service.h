@@ -9,14 +9,14 @@
 
 #include <camway/status_t.hpp>
 
-#include "daemon/service/core.h"
-#include "daemon/service/occupancy_service.h"
-#include "daemon/service/plan_service.h"
+#include "daemon/service/core/core.h"
+#include "daemon/service/occupancy/occupancy_service.h"
+#include "daemon/service/plans/plan_service.h"
 #include "daemon/service/prefix_claim.h"
-#include "daemon/service/scene_service.h"
+#include "daemon/service/scenes/scene_service.h"
 #include "daemon/service/service_config.h"
-#include "daemon/service/transport.h"
-#include "daemon/service/watches.h"
+#include "daemon/service/transport/transport.h"
+#include "daemon/service/watches/watches.h"
 
 namespace camway::service {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/service/config.h"
-#include "daemon/service/plan_config.h"
-#include "daemon/service/scene_config.h"
-#include "daemon/service/watch_limits.h"
-#include "daemon/service/wire_convert.h"
+#include "daemon/messages/convert.h"
+#include "daemon/service/core/config.h"
+#include "daemon/service/plans/plan_config.h"
+#include "daemon/service/scenes/scene_config.h"
+#include "daemon/service/watches/watch_limits.h"
 
 namespace camway::service {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "daemon/service/version.h"
-#include "daemon/service/wire_scene.h"
+#include "daemon/messages/scene.h"
+#include "daemon/version/version.h"
 
 namespace camway::service {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <camway/status_t.hpp>
 
-#include "daemon/service/core.h"
+#include "daemon/service/core/core.h"
 
 namespace camway::service {
 

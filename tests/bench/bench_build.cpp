@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "daemon/scene/scene_index.h"
+#include "daemon/scene/index/scene_index.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
 #include "tests/bench/embree_peer.h"

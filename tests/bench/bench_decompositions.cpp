@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "daemon/collision/near_quad.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/bench/camway_side.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/bench/camway_side.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"

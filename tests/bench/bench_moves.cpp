@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "daemon/scene/scene_store.h"
-#include "daemon/scene/shape_mesh.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
 #include "tests/bench/tiled_scene.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "daemon/scene/map_scan.h"
-#include "daemon/scene/scene_store.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/scene/voxels/map_scan.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
 #include "tests/collision/crossing_random.h"

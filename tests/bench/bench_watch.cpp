@@ -13,12 +13,12 @@
 #include <random>
 #include <thread>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/check.h"
 #include "daemon/planning/watched_path.h"
-#include "daemon/scene/scene_store.h"
-#include "daemon/scene/shape_mesh.h"
-#include "daemon/service/watch_checker.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
+#include "daemon/service/watches/watch_checker.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
 

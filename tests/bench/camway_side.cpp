@@ -2,7 +2,7 @@
 #include "tests/bench/camway_side.h"
 
 #include "daemon/collision/near_quad.h"
-#include "daemon/motion/body.h"
+#include "daemon/motion/body/body.h"
 #include "tests/bench/measure.h"
 
 namespace camway::bench {

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "daemon/planning/check.h"
-#include "daemon/scene/clearance_field.h"
-#include "daemon/scene/distance_field.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/scene/field/clearance_field.h"
+#include "daemon/scene/field/distance_field.h"
+#include "daemon/scene/index/scene_index.h"
 #include "tests/collision/crossing_campaign.h"
 
 /// Our own side of the comparisons, so that a change of an interface is mended in one place. For

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "daemon/motion/camera.h"
-#include "daemon/scene/mesh.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/scene/mesh/mesh.h"
 
 namespace camway::bench {
 

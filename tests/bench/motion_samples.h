@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/path.h"
 
 namespace camway::bench {
 

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "daemon/motion/straight_motion.h"
+#include "daemon/motion/path/straight_motion.h"
 #include "tests/bench/measure.h"
 
 namespace camway::bench {

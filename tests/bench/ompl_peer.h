@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/keyframe.h"
-#include "daemon/motion/path.h"
-#include "daemon/scene/mesh.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/motion/path/path.h"
+#include "daemon/scene/mesh/mesh.h"
 #include "tests/bench/fcl_peer.h"
 
 namespace camway::bench {

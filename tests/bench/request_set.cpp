@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <map>
 
-#include "daemon/motion/interpolate.h"
-#include "daemon/scene/import.h"
-#include "tools/json_io.h"
+#include "daemon/motion/spline/interpolate.h"
+#include "daemon/scene/import/import.h"
+#include "tools/json/json_io.h"
 
 namespace camway::bench {
 

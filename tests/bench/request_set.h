@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/path.h"
 #include "daemon/planning/request.h"
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/mesh/mesh.h"
 
 namespace camway::bench {
 

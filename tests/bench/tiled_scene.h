@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/mesh/mesh.h"
 
 /// Scenes of any size, made from one that is at hand.
 namespace camway::bench {

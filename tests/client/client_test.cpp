@@ -18,7 +18,7 @@
 
 #include <camway/plan_progress_t.hpp>
 
-#include "lcmtypes/wire_layout.h"
+#include "lcmtypes/wire/layout.h"
 #include "tests/client/client_fixture.h"
 #include "tests/client/fake_daemon.h"
 

@@ -20,8 +20,8 @@
 #include <camway/status_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
-#include "lcmtypes/channels.h"
-#include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/check.h"
 
 namespace camway::testing_support {
 

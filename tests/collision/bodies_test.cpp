@@ -9,7 +9,7 @@
 
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {

@@ -11,7 +11,7 @@
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/collision/probe.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/collision/crossing_paths.h"
 #include "tests/collision/precise_pose.h"
 #include "tests/support/scenes.h"

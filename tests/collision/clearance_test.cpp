@@ -5,7 +5,7 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {

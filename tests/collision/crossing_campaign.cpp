@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "daemon/collision/clearance.h"
-#include "daemon/scene/clearance_field.h"
-#include "daemon/scene/distance_field.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/scene/field/clearance_field.h"
+#include "daemon/scene/field/distance_field.h"
+#include "daemon/scene/index/scene_index.h"
 
 namespace camway::testing {
 

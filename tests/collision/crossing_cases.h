@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/path.h"
-#include "daemon/scene/mesh.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/path.h"
+#include "daemon/scene/mesh/mesh.h"
 
 /// Camera paths and obstacles of which it is known, by construction and in extended precision,
 /// whether and when they collide. Shared by the test and by the benchmark-sized campaign.

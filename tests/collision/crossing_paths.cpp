@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 
 namespace camway::testing {
 

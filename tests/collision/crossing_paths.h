@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/path.h"
 #include "tests/collision/crossing_random.h"
 
 namespace camway::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/mesh/mesh.h"
 #include "tests/collision/crossing_random.h"
 #include "tests/collision/precise_pose.h"
 

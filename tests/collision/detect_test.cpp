@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "daemon/collision/near_quad.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 
 #include "daemon/geometry/types.h"
-#include "daemon/motion/camera.h"
-#include "daemon/motion/path.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/path.h"
 
 /// The oracle of the crossing campaign: poses and corner curves in extended precision, by code that
 /// shares nothing with daemon/motion.

@@ -6,8 +6,8 @@
 
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
-#include "daemon/motion/interpolate.h"
-#include "daemon/scene/snapshot.h"
+#include "daemon/motion/spline/interpolate.h"
+#include "daemon/scene/snapshot/snapshot.h"
 #include "tests/support/scenes.h"
 
 /// Scenes with an inside: occupancy maps.

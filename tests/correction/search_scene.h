@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "daemon/correction/free_space.h"
-#include "daemon/correction/guide.h"
+#include "daemon/correction/path/free_space.h"
+#include "daemon/correction/path/guide.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "tests/support/scenes.h"
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs every code block of the documents, and the examples of the programs' help.
 
-    tools/netns.sh tests/documents/check_documents.py --programs BIN [--source DIR] [FILE.md...]
+    tools/scripts/netns.sh tests/documents/check_documents.py --programs BIN [--source DIR] [FILE.md...]
 
 Commands ("$ ...") have to succeed and to print what is shown below them, where "..." stands for
 anything; a `camwayd` stays until the next one or the document's end. Requests are planned, other

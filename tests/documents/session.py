@@ -10,11 +10,11 @@ import time
 
 PATIENCE_S = 120
 _ENDING_FLAGS = ("--check-config", "--help", "--version")  # of camwayd
-_COPIED = ("scenes", "lcmtypes", "daemon/camwayd.toml")
+_COPIED = ("scenes", "lcmtypes", "daemon/process/camwayd.toml")
 
 
 class Session:
-    """Not for a network that others share: daemons are started in it. Run it in tools/netns.sh."""
+    """Not for a network that others share: daemons are started in it. Run it in tools/scripts/netns.sh."""
 
     def __init__(self, source, programs):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="camway-documents-"))

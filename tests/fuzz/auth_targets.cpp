@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
-#include "lcmtypes/message_auth.h"
-#include "lcmtypes/message_keys.h"
+#include "lcmtypes/wire/auth/message_auth.h"
+#include "lcmtypes/wire/auth/message_keys.h"
 #include "tests/fuzz/targets.h"
 
 namespace camway::testing {

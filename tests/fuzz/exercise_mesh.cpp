@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/exercise_mesh.h"
 
-#include "daemon/scene/mesh_readers/mesh_collector.h"
-#include "daemon/scene/mesh_readers/mesh_reader.h"
+#include "daemon/scene/import/readers/mesh_collector.h"
+#include "daemon/scene/import/readers/mesh_reader.h"
 #include "tests/fuzz/targets.h"
-#include "tests/scene/mesh_readers/mesh_files.h"
+#include "tests/scene/import/readers/mesh_files.h"
 
 namespace camway::testing {
 namespace {

@@ -22,20 +22,20 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
-#include "client/occupancy_wire.h"
-#include "client/plan_wire.h"
-#include "client/status_wire.h"
+#include "client/messages/occupancy.h"
+#include "client/messages/plan.h"
+#include "client/messages/status.h"
+#include "daemon/messages/convert.h"
+#include "daemon/messages/pages.h"
 #include "daemon/planning/request.h"
-#include "daemon/scene/scene_store.h"
-#include "daemon/scene/shape_mesh.h"
-#include "daemon/service/answer_cache.h"
-#include "daemon/service/occupancy_answer.h"
-#include "daemon/service/scene_work.h"
-#include "daemon/service/uploads.h"
-#include "daemon/service/wire_convert.h"
-#include "daemon/service/wire_pages.h"
-#include "lcmtypes/envelope.h"
-#include "lcmtypes/wire_check.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
+#include "daemon/service/core/answer_cache.h"
+#include "daemon/service/occupancy/occupancy_answer.h"
+#include "daemon/service/scenes/scene_work.h"
+#include "daemon/service/scenes/uploads.h"
+#include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/envelope.h"
 #include "tests/fuzz/targets.h"
 
 namespace camway::testing {

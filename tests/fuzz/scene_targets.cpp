@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <sstream>
 
-#include "daemon/scene/import.h"
-#include "daemon/scene/import_format.h"
-#include "daemon/scene/import_record.h"
-#include "daemon/scene/occupancy_mirror.h"
-#include "daemon/scene/shape_mesh.h"
-#include "daemon/scene/snapshot.h"
+#include "daemon/scene/import/import.h"
+#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/import_record.h"
+#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
+#include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/temporary_folder.h"
 

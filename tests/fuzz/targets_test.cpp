@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "tests/service/message_mutation.h"
-#include "tests/service/random_messages.h"
+#include "tests/messages/message_mutation.h"
+#include "tests/messages/random_messages.h"
 
 namespace camway::testing {
 namespace {

@@ -2,15 +2,15 @@
 #include <fstream>
 #include <sstream>
 
+#include "daemon/messages/pages.h"
 #include "daemon/planning/plan.h"
-#include "daemon/scene/snapshot.h"
-#include "daemon/service/config_file.h"
-#include "daemon/service/wire_pages.h"
+#include "daemon/process/config_file.h"
+#include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fuzz/targets.h"
-#include "tests/service/plan_samples.h"
-#include "tools/camway/session.h"
-#include "tools/json_io.h"
-#include "tools/json_path.h"
+#include "tests/messages/plan_samples.h"
+#include "tools/camway/replay/session.h"
+#include "tools/json/json_io.h"
+#include "tools/json/json_path.h"
 
 namespace camway::testing {
 namespace {

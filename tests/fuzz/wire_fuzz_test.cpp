@@ -3,10 +3,10 @@
 // The fuzzer's entry point on mutants of a fixed seed, so that every build runs it.
 #include <gtest/gtest.h>
 
-#include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire/check.h"
 #include "tests/fuzz/exercise_message.h"
-#include "tests/service/message_mutation.h"
-#include "tests/service/random_messages.h"
+#include "tests/messages/message_mutation.h"
+#include "tests/messages/random_messages.h"
 
 namespace camway::testing {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire/check.h"
 #include "tests/fuzz/exercise_message.h"
 #include "tests/fuzz/targets.h"
-#include "tests/service/random_messages.h"
+#include "tests/messages/random_messages.h"
 
 namespace camway::testing {
 namespace {

@@ -14,9 +14,9 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "client/plan_wire.h"
+#include "client/messages/plan.h"
 #include "tests/integration/fixture.h"
-#include "tools/camway/load_tally.h"
+#include "tools/camway/load/load_tally.h"
 
 namespace camway::integration {
 namespace {

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <utility>
 
-#include "tools/client_request.h"
-#include "tools/json_io.h"
+#include "tools/json/json_io.h"
+#include "tools/support/client_request.h"
 
 namespace camway::integration {
 
@@ -61,8 +61,9 @@ std::vector<ClientLine> lines_of(const Process& client) {
 
 void IntegrationTest::SetUp() {
   const char* const network = std::getenv("CAMWAY_NETNS");
-  ASSERT_NE(network, nullptr) << "run this through tools/netns.sh, or its LCM messages go to the "
-                                 "machine's network";
+  ASSERT_NE(network, nullptr)
+      << "run this through tools/scripts/netns.sh, or its LCM messages go to the "
+         "machine's network";
   if (std::string(network) != "private") std::cerr << "no private network: using the machine's\n";
   const Client probe;
   ASSERT_TRUE(probe.good()) << "multicast does not work here, so nothing can be tested: "

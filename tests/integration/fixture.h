@@ -16,8 +16,8 @@
 
 namespace camway::integration {
 
-/// Tests with real processes on the network that tools/netns.sh gave them. Fails, and says so,
-/// where that network does not carry LCM.
+/// Tests with real processes on the network that tools/scripts/netns.sh gave them. Fails, and says
+/// so, where that network does not carry LCM.
 class IntegrationTest : public testing::Test {
  protected:
   void SetUp() override;

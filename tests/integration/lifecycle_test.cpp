@@ -13,7 +13,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "lcmtypes/channels.h"
+#include "lcmtypes/wire/channels.h"
 #include "tests/integration/fixture.h"
 
 namespace camway::integration {

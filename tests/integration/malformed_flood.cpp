@@ -27,13 +27,13 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "lcmtypes/channels.h"
-#include "lcmtypes/envelope.h"
-#include "lcmtypes/message_auth.h"
-#include "lcmtypes/message_keys.h"
-#include "lcmtypes/wire_check.h"
-#include "tests/service/message_mutation.h"
-#include "tests/service/random_messages.h"
+#include "lcmtypes/wire/auth/message_auth.h"
+#include "lcmtypes/wire/auth/message_keys.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/envelope.h"
+#include "tests/messages/message_mutation.h"
+#include "tests/messages/random_messages.h"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <type_traits>
 
-#include "tools/client_request.h"
-#include "tools/json_io.h"
+#include "tools/json/json_io.h"
+#include "tools/support/client_request.h"
 
 namespace {
 

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "daemon/planning/plan.h"
-#include "daemon/scene/scene_change.h"
-#include "daemon/scene/shape_mesh.h"
-#include "daemon/scene/snapshot.h"
+#include "daemon/scene/snapshot/scene_change.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
+#include "daemon/scene/snapshot/snapshot.h"
 #include "tests/integration/fixture.h"
-#include "tools/camway/load_tally.h"
-#include "tools/json_io.h"
+#include "tools/camway/load/load_tally.h"
+#include "tools/json/json_io.h"
 
 namespace camway::integration {
 namespace {

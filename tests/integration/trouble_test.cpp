@@ -16,8 +16,8 @@
 #include <camway/plan_response_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
-#include "lcmtypes/channels.h"
-#include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/check.h"
 #include "tests/integration/fixture.h"
 
 namespace camway::integration {

@@ -6,7 +6,7 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "daemon/motion/segment.h"
+#include "daemon/motion/path/segment.h"
 
 /// The oracle of rounding: the formulas of a segment, with 50 digits on its very numbers.
 namespace camway::motion::test {

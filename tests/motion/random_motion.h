@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "daemon/motion/interpolate.h"
-#include "daemon/motion/quaternion.h"
+#include "daemon/motion/path/quaternion.h"
+#include "daemon/motion/spline/interpolate.h"
 
 namespace camway::motion::test {
 

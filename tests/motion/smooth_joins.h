@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/motion/path.h"
+#include "daemon/motion/path/path.h"
 #include "tests/motion/random_motion.h"
 
 namespace camway::motion::test {

@@ -12,8 +12,8 @@
 #include "daemon/planning/plan.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/planning/way_beyond.h"
-#include "daemon/planning/witness.h"
-#include "daemon/scene/scene_difference.h"
+#include "daemon/planning/witness_names.h"
+#include "daemon/scene/snapshot/scene_difference.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {

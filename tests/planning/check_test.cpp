@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {

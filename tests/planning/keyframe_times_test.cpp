@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "daemon/motion/knot_row.h"
+#include "daemon/motion/spline/knot_row.h"
 #include "daemon/planning/plan.h"
 #include "tests/support/path_continuity.h"
 #include "tests/support/scenes.h"

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "daemon/correction/orientation_rule.h"
-#include "daemon/motion/interpolate.h"
-#include "daemon/motion/retimed_path.h"
+#include "daemon/correction/path/orientation_rule.h"
+#include "daemon/motion/spline/interpolate.h"
+#include "daemon/motion/timing/retimed_path.h"
 #include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
 #include "tests/motion/smooth_joins.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/plan.h"
 #include "tests/support/orientation_oracle.h"
 #include "tests/support/scenes.h"

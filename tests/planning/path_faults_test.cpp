@@ -9,7 +9,7 @@
 #include <functional>
 #include <limits>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/check.h"
 #include "tests/support/scenes.h"
 

@@ -9,8 +9,8 @@
 #include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
 #include "daemon/planning/watched_path.h"
-#include "daemon/scene/map_scan.h"
-#include "daemon/scene/scene_change.h"
+#include "daemon/scene/snapshot/scene_change.h"
+#include "daemon/scene/voxels/map_scan.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"
 

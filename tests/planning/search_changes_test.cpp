@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {

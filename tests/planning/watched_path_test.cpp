@@ -7,8 +7,8 @@
 
 #include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
-#include "daemon/scene/scene_store.h"
-#include "daemon/scene/voxel_map.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/scene/voxels/voxel_map.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"
 

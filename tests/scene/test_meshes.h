@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/mesh/mesh.h"
 
 namespace camway::scene {
 

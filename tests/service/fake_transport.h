@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/service/transport.h"
-#include "daemon/service/wire_pages.h"
+#include "daemon/messages/pages.h"
+#include "daemon/service/transport/transport.h"
 
 namespace camway::testing {
 

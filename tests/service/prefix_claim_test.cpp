@@ -10,7 +10,7 @@
 
 #include <camway/claim_t.hpp>
 
-#include "lcmtypes/wire_check.h"
+#include "lcmtypes/wire/check.h"
 #include "tests/service/running_service.h"
 
 namespace camway::service {

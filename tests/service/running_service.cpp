@@ -5,8 +5,8 @@
 
 #include <chrono>
 
-#include "daemon/service/wire_convert.h"
-#include "tests/service/plan_samples.h"
+#include "daemon/messages/convert.h"
+#include "tests/messages/plan_samples.h"
 
 namespace camway::testing {
 

@@ -12,9 +12,9 @@
 #include <camway/status_t.hpp>
 
 #include "daemon/service/status.h"
-#include "daemon/service/version.h"
-#include "tests/service/message_mutation.h"
-#include "tests/service/plan_samples.h"
+#include "daemon/version/version.h"
+#include "tests/messages/message_mutation.h"
+#include "tests/messages/plan_samples.h"
 #include "tests/service/running_service.h"
 
 namespace camway::service {

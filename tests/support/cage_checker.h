@@ -14,8 +14,8 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "daemon/correction/cage_box.h"
-#include "daemon/scene/mesh.h"
+#include "daemon/correction/infeasibility/cage_box.h"
+#include "daemon/scene/mesh/mesh.h"
 
 /// Whether a box and some triangles of a mesh prove that the centre of a flat body cannot get out.
 /// From those, and where the centre is, alone; shares nothing with the code that finds cages: all

@@ -7,7 +7,7 @@
 #include <streambuf>
 #include <string>
 
-#include "daemon/service/log.h"
+#include "daemon/service/log/log.h"
 
 namespace camway::testing {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/mesh/mesh.h"
 #include "tests/support/scenes.h"
 
 /// Closed surfaces, and what breaks them.

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/correction/candidate.h"
-#include "daemon/correction/smoothing_form.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/correction/path/candidate.h"
+#include "daemon/correction/smoothing/smoothing_form.h"
+#include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
 /// What corrections of one gap are given, made in memory.

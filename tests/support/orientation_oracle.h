@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "daemon/correction/constraints.h"
-#include "daemon/motion/path.h"
+#include "daemon/correction/path/constraints.h"
+#include "daemon/motion/path/path.h"
 
 /// The rules for orientations, said once more in the words of the documentation and without the
 /// code that keeps them: angles in degrees, at samples.

@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-#include "daemon/motion/segment.h"
+#include "daemon/motion/path/segment.h"
 
 /// How smooth a path is for who receives it: by its control points and the differences of its times
 /// as sent, in long double, without the code under test.

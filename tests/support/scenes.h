@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/keyframe.h"
-#include "daemon/scene/scene_index.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/scene/index/scene_index.h"
 
 /// Small scenes and cameras that tests build in memory.
 namespace camway::testing {

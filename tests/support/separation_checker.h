@@ -14,7 +14,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "daemon/scene/mesh.h"
+#include "daemon/scene/mesh/mesh.h"
 
 /// Whether a surface proves that two points are separated, from the mesh's triangles, the indices
 /// and the points alone. Shares nothing with the code that finds such surfaces: straight ways in

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "daemon/planning/request.h"
-#include "daemon/scene/scene_object.h"
-#include "daemon/scene/shape_mesh.h"
+#include "daemon/scene/snapshot/scene_object.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
 #include "tests/support/scenes.h"
 
 namespace camway::testing {

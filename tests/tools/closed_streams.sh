@@ -5,7 +5,7 @@
 # and its files hold what they hold then. A descriptor 0, 1 or 2 that is free would be the next file or
 # socket that is opened, and get what is printed.
 #
-#   tools/netns.sh tests/tools/closed_streams.sh PROGRAMS SCENES
+#   tools/scripts/netns.sh tests/tools/closed_streams.sh PROGRAMS SCENES
 #
 # Exit code: 0, or 1 with a line for each fault.
 set -euo pipefail

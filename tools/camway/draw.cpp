@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/motion/interpolate.h"
-#include "daemon/scene/snapshot.h"
-#include "daemon/service/command_line.h"
-#include "tools/camway/commands.h"
-#include "tools/camway/scene_flags.h"
-#include "tools/floor_plan.h"
-#include "tools/json_io.h"
-#include "tools/json_path.h"
-#include "tools/output_file.h"
+#include "daemon/command_line/command_line.h"
+#include "daemon/motion/spline/interpolate.h"
+#include "daemon/scene/snapshot/snapshot.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/scene_flags.h"
+#include "tools/drawing/floor_plan.h"
+#include "tools/json/json_io.h"
+#include "tools/json/json_path.h"
+#include "tools/support/output_file.h"
 
 namespace camway::tools {
 namespace {

@@ -8,12 +8,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/command_line/command_line.h"
 #include "daemon/planning/request.h"
-#include "daemon/scene/import.h"
-#include "daemon/scene/import_warnings.h"
-#include "daemon/service/command_line.h"
-#include "tools/camway/commands.h"
-#include "tools/camway/scene_flags.h"
+#include "daemon/scene/import/import.h"
+#include "daemon/scene/import/import_warnings.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/scene_flags.h"
 
 namespace camway::tools {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/service/build_info.h"
-#include "daemon/service/command_line.h"
-#include "daemon/service/standard_streams.h"
-#include "tools/camway/commands.h"
+#include "daemon/base/standard_streams.h"
+#include "daemon/command_line/command_line.h"
+#include "daemon/version/build_info.h"
+#include "tools/camway/common/commands.h"
 
 namespace {
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <camway/client.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -17,15 +18,14 @@
 #include <thread>
 #include <utility>
 
-#include "client/camway/client.h"
-#include "daemon/service/bounds_text.h"
-#include "daemon/service/command_line.h"
-#include "tools/camway/commands.h"
-#include "tools/camway/daemon_failure.h"
-#include "tools/camway/interruption.h"
-#include "tools/camway/key_file.h"
-#include "tools/client_request.h"
-#include "tools/output_file.h"
+#include "daemon/command_line/command_line.h"
+#include "daemon/process/bounds_text.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/daemon_failure.h"
+#include "tools/camway/common/interruption.h"
+#include "tools/camway/common/key_file.h"
+#include "tools/support/client_request.h"
+#include "tools/support/output_file.h"
 
 namespace camway::tools {
 namespace {

@@ -17,12 +17,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "daemon/service/bounds_text.h"
-#include "daemon/service/command_line.h"
-#include "tools/camway/commands.h"
-#include "tools/camway/daemon_failure.h"
-#include "tools/camway/key_file.h"
-#include "tools/client_request.h"
+#include "daemon/command_line/command_line.h"
+#include "daemon/process/bounds_text.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/daemon_failure.h"
+#include "tools/camway/common/key_file.h"
+#include "tools/support/client_request.h"
 
 namespace camway::tools {
 namespace {

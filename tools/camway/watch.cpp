@@ -19,14 +19,14 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "daemon/service/command_line.h"
-#include "tools/camway/commands.h"
-#include "tools/camway/daemon_failure.h"
-#include "tools/camway/interruption.h"
-#include "tools/camway/key_file.h"
-#include "tools/camway/scene_flags.h"
-#include "tools/client_request.h"
-#include "tools/json_io.h"
+#include "daemon/command_line/command_line.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/daemon_failure.h"
+#include "tools/camway/common/interruption.h"
+#include "tools/camway/common/key_file.h"
+#include "tools/camway/common/scene_flags.h"
+#include "tools/json/json_io.h"
+#include "tools/support/client_request.h"
 
 namespace camway::tools {
 namespace {

@@ -15,7 +15,9 @@ install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE SECURITY.md
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.
 add_library(camway_client_installed STATIC
-  $<TARGET_OBJECTS:camway_client> $<TARGET_OBJECTS:camway_wire>)
+  $<TARGET_OBJECTS:camway_client> $<TARGET_OBJECTS:camway_client_engine>
+  $<TARGET_OBJECTS:camway_client_messages> $<TARGET_OBJECTS:camway_client_types>
+  $<TARGET_OBJECTS:camway_wire>)
 set_target_properties(camway_client_installed PROPERTIES
   OUTPUT_NAME camway LINKER_LANGUAGE CXX EXPORT_NAME client)
 target_include_directories(camway_client_installed INTERFACE
@@ -25,7 +27,7 @@ target_link_libraries(camway_client_installed INTERFACE LCM::lcm Threads::Thread
 
 # Signing by shared keys, for those who ask for it: COMPONENTS authentication. Its users need libsodium.
 add_library(camway_authentication_installed STATIC
-  $<TARGET_OBJECTS:camway_client_authentication> $<TARGET_OBJECTS:camway_auth>)
+  $<TARGET_OBJECTS:camway_client_authentication> $<TARGET_OBJECTS:camway_wire_auth>)
 set_target_properties(camway_authentication_installed PROPERTIES
   OUTPUT_NAME camway_authentication LINKER_LANGUAGE CXX EXPORT_NAME authentication)
 target_link_libraries(camway_authentication_installed
@@ -40,10 +42,11 @@ install(TARGETS camway_authentication_installed EXPORT camway-authentication-tar
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
 install(EXPORT camway-authentication-targets NAMESPACE camway:: DESTINATION ${camway_package_dir}
         COMPONENT client)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/camway DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/include/camway DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         COMPONENT client FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/lcmtypes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/lcmtypes
-        COMPONENT client FILES_MATCHING PATTERN "*.lcm" PATTERN "README.md")
+        COMPONENT client FILES_MATCHING PATTERN "*.lcm" PATTERN "README.md"
+        PATTERN "wire" EXCLUDE)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/camwayConfig.cmake.in
   ${PROJECT_BINARY_DIR}/camwayConfig.cmake INSTALL_DESTINATION ${camway_package_dir})

@@ -64,7 +64,7 @@ function(camway_test name)
   if(arg_NETWORK)
     # The emulator is CMake's word for "what runs the program"; gtest_discover_tests heeds it.
     set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR
-                                             ${PROJECT_SOURCE_DIR}/tools/netns.sh)
+                                             ${PROJECT_SOURCE_DIR}/tools/scripts/netns.sh)
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/import.h"
-#include "tools/client_request.h"
+#include "daemon/scene/import/import.h"
 #include "tools/demo/report.h"
-#include "tools/floor_plan.h"
-#include "tools/json_io.h"
+#include "tools/drawing/floor_plan.h"
+#include "tools/json/json_io.h"
+#include "tools/support/client_request.h"
 
 namespace camway::demo {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/geometry/triangle_intersection.h"
-#include "daemon/motion/interpolate.h"
+#include "daemon/motion/spline/interpolate.h"
 
 namespace camway::demo {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "daemon/motion/camera.h"
-#include "daemon/motion/path.h"
-#include "daemon/scene/mesh.h"
+#include "daemon/motion/body/camera.h"
+#include "daemon/motion/path/path.h"
+#include "daemon/scene/mesh/mesh.h"
 
 /// What the demo tells about an answer. Everything is worked out from what came over the wire.
 namespace camway::demo {

@@ -65,7 +65,8 @@ std::vector<Entry> make_catalogue() {
 std::string readme(const std::vector<Entry>& entries) {
   std::string text =
       "# Scenes and requests\n\n"
-      "Made by `tools/make_scenes.cpp`; do not edit. `make_scenes --out scenes` writes the same "
+      "Made by `tools/make_scenes/main.cpp`; do not edit. `make_scenes --out scenes` writes the "
+      "same "
       "bytes "
       "everywhere, and a test\ncompares them. Metres, y up, right-handed; every object has a name. "
       "All keyframes keep a clearance of 2 cm or more.\n\n"

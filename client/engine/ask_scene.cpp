@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: MIT
+#include "client/engine/ask_scene.h"
+
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <camway/cancel_t.hpp>
+#include <camway/map_page_t.hpp>
+#include <camway/missing_pages_t.hpp>
+
+#include "client/messages/scene.h"
+#include "client/messages/text.h"
+#include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/checksum.h"
+#include "lcmtypes/wire/layout.h"
+
+namespace camway {
+namespace {
+
+/// Pages of an upload that are sent before the daemon is asked what came: some 3 MB.
+constexpr std::size_t kPagesAtOnce = 64;
+/// A list that changes while it is read, or an upload that is gone when it is to be used, is begun
+/// anew so often.
+constexpr int kMaxRestarts = 3;
+
+std::string explain(std::int32_t status, const std::string& message) {
+  return to_string(static_cast<Status>(status)) + ": " +
+         (message.empty() ? "(no reason given)" : message);
+}
+
+Failure cancelled() { return {Status::kCancelled, "cancelled before anything was changed"}; }
+
+/// What came of one question.
+template <class Response>
+struct Asked {
+  std::optional<Response> response;
+  Failure failure{Status::kOk, {}};
+};
+
+/// A question on its way that one message answers.
+template <class Response>
+class OneAnswer final : public Call {
+ public:
+  OneAnswer(Kind kind, Context& context, std::int64_t request_id, std::vector<Outgoing> question,
+            Clock::time_point deadline)
+      : Call(kind, request_id, std::move(question), context.retry(deadline)), context_(context) {}
+
+  std::future<Asked<Response>> answer() { return promise_.get_future(); }
+
+  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) override {
+    wire::Decoded<Response> decoded = wire::decode<Response>(bytes);
+    if (!decoded.message) {
+      fault_ = decoded.fault.text(Response::getTypeName());
+      return;
+    }
+    if (decoded.message->client_id != context_.options().client_id) return;
+    retry().note_life();
+    const auto status = static_cast<Status>(decoded.message->status);
+    if (status == Status::kOverloaded || status == Status::kStopping) {
+      refusal_ = {status, explain(decoded.message->status, decoded.message->message)};
+      if (status == Status::kStopping) retry().note_stopping(now);
+      return;
+    }
+    response_ = std::move(*decoded.message);
+  }
+  bool answered() const override { return response_.has_value() || ends_; }
+  void cancel() override {
+    // The daemon does nothing for an upload that would have to end.
+    ends_ = kind() != Kind::kScene;
+    if (ends_ || std::exchange(is_cancelled_, true)) return;
+    cancel_t question{};
+    question.client_id = context_.options().client_id;
+    question.request_id = request_id();
+    question.utime = microseconds_since_1970();
+    replace_question({{context_.channels().cancel_scene(), wire::encode(question)}});
+    retry().restart();
+  }
+  void finish(Outcome outcome) override {
+    Asked<Response> asked{std::move(response_), {Status::kOk, {}}};
+    if (outcome == Outcome::kAnswered && !asked.response) {
+      asked.failure = cancelled();
+    } else if (outcome != Outcome::kAnswered) {
+      asked = {std::nullopt,
+               refusal_ && (outcome == Outcome::kDeadline || outcome == Outcome::kSilence)
+                   ? *refusal_
+                   : context_.explain(outcome, retry().ever_heard(), {}, fault_)};
+    }
+    promise_.set_value(std::move(asked));
+  }
+
+ private:
+  Context& context_;
+  std::optional<Response> response_;
+  std::optional<Failure> refusal_;
+  std::string fault_;
+  bool ends_ = false;          ///< nobody wants the answer any more
+  bool is_cancelled_ = false;  ///< so the daemon was told
+  std::promise<Asked<Response>> promise_;
+};
+
+/// What one call about scenes asks with, one question after the other.
+class Asker {
+ public:
+  explicit Asker(const SceneAsker& asker)
+      : context(asker.context),
+        engine(asker.engine),
+        deadline(after(asker.context.options().deadline_s)),
+        cancel_(asker.cancel),
+        cancels_(asker.cancel.count()) {}
+
+  Context& context;
+  Engine& engine;
+  const Clock::time_point deadline;
+
+  template <class Response>
+  Asked<Response> ask(Call::Kind kind, std::int64_t request_id,
+                      std::vector<Outgoing> question) const {
+    if (is_cancelled()) return {std::nullopt, cancelled()};
+    const auto call = std::make_shared<OneAnswer<Response>>(kind, context, request_id,
+                                                            std::move(question), deadline);
+    std::future<Asked<Response>> answer = call->answer();
+    start(call);
+    return answer.get();
+  }
+
+  /// Whether that was asked for since the call began.
+  bool is_cancelled() const { return cancel_.count() != cancels_; }
+
+  /// Starts a question that hears of it, too.
+  void start(const std::shared_ptr<Call>& call) const {
+    engine.start(call);
+    // One that was asked for just before did not find the question.
+    if (is_cancelled()) engine.cancel(call->kind(), call->request_id());
+  }
+
+ private:
+  const SceneCancel& cancel_;
+  const std::uint64_t cancels_;
+};
+
+/// Sends these pages and asks what is missing then.
+Asked<upload_status_t> ask_upload(const Asker& asker, const std::vector<std::uint8_t>& bytes,
+                                  std::int64_t checksum, const std::vector<std::int32_t>& pages) {
+  const std::int64_t request_id = asker.context.new_request_id();
+  std::vector<Outgoing> question;
+  const auto add = [&](std::int32_t page) {
+    upload_page_t message = page_of(bytes, checksum, page);
+    message.client_id = asker.context.options().client_id;
+    message.request_id = request_id;
+    question.push_back({asker.context.channels().upload(), wire::encode(message)});
+  };
+  for (const std::int32_t page : pages) add(page);
+  add(-1);
+  return asker.ask<upload_status_t>(Call::Kind::kUpload, request_id, std::move(question));
+}
+
+/// What came of an upload.
+struct Uploaded {
+  bool was_there = false;  ///< all of it, before anything was sent
+  std::optional<Failure> failure;
+};
+
+/// Sends what the daemon does not have yet, until it has all.
+Uploaded upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
+  const std::int64_t checksum = wire::crc64(bytes.data(), bytes.size());
+  std::vector<std::int32_t> pages;  // none at first: the daemon may have some
+  for (;;) {
+    const Asked<upload_status_t> asked = ask_upload(asker, bytes, checksum, pages);
+    if (!asked.response) return {false, asked.failure};
+    const upload_status_t& status = *asked.response;
+    if (status.status != upload_status_t::STATUS_OK) {
+      return {false, Failure{static_cast<Status>(status.status),
+                             "upload: " + explain(status.status, status.message)}};
+    }
+    if (status.total_missing == 0) return {pages.empty(), std::nullopt};
+    if (Clock::now() >= asker.deadline) {
+      return {false, Failure{Status::kNoAnswer,
+                             "the upload was not complete by the deadline; ask again to "
+                             "go on, or wait longer"}};
+    }
+    pages.assign(status.missing.begin(),
+                 status.missing.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(kPagesAtOnce, status.missing.size())));
+  }
+}
+
+Asked<scene_response_t> ask_once(const Asker& asker, scene_request_t request) {
+  request.client_id = asker.context.options().client_id;
+  request.request_id = asker.context.new_request_id();
+  request.utime = microseconds_since_1970();
+  request.deadline_s = asker.context.options().change_deadline_s;
+  return asker.ask<scene_response_t>(
+      Call::Kind::kScene, request.request_id,
+      {{asker.context.channels().scene_request(), wire::encode(request)}});
+}
+
+SceneAnswer answer_of(const Asked<scene_response_t>& asked) {
+  if (!asked.response) return failed<SceneAnswer>(asked.failure);
+  const scene_response_t& response = *asked.response;
+  SceneAnswer answer;
+  answer.status = static_cast<Status>(response.status);
+  if (!answer.ok()) {
+    answer.error = explain(response.status, response.message);
+    return answer;
+  }
+  answer.message = response.message;
+  answer.scene = from_wire(response.scene);
+  for (const scene_info_t& scene : response.scenes) answer.scenes.push_back(from_wire(scene));
+  for (const scene_object_t& object : response.objects) {
+    answer.objects.push_back(from_wire(object));
+  }
+  for (const scene_change_t& change : response.changes) {
+    answer.revisions.push_back(from_wire(change));
+  }
+  return answer;
+}
+
+/// Why `request` has no form on the wire.
+std::optional<std::string> fault_in_form(const scene_request_t& request) {
+  for (const auto& fault :
+       {fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes),
+        fault_in_text("object", request.object, wire::kMaxObjectNameBytes),
+        fault_in_text("restore_as", request.restore_as, wire::kMaxSceneNameBytes),
+        fault_in_text("file", request.file, wire::kMaxFileNameBytes),
+        fault_in_text("format", request.upload_format, wire::kMaxFormatBytes)}) {
+    if (fault) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void SceneCancel::cancel(Engine& engine) {
+  ++count_;
+  for (const Call::Kind kind : {Call::Kind::kScene, Call::Kind::kUpload, Call::Kind::kMap}) {
+    engine.cancel_all(kind);
+  }
+}
+
+SceneAnswer ask_scene(const SceneAsker& with, scene_request_t request,
+                      const std::vector<std::uint8_t>& bytes) {
+  if (const auto fault = fault_in_form(request)) {
+    return failed<SceneAnswer>({Status::kInvalid, *fault});
+  }
+  const Asker asker(with);
+  if (bytes.empty()) return answer_of(ask_once(asker, std::move(request)));
+  SceneAnswer answer;
+  // Between upload and request the daemon may be started anew, or give its room to others.
+  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
+    Uploaded uploaded = upload(asker, bytes);
+    if (uploaded.failure) return failed<SceneAnswer>(*std::move(uploaded.failure));
+    if (restart > 0 && uploaded.was_there) return answer;
+    answer = answer_of(ask_once(asker, request));
+    if (answer.status != Status::kInvalid) return answer;
+  }
+  return answer;
+}
+
+namespace {
+
+/// Pages of a map on their way.
+class MapPages final : public Call {
+ public:
+  MapPages(Context& context, std::int64_t request_id, std::int32_t num_pages,
+           const std::vector<std::int32_t>& wanted, Clock::time_point deadline)
+      : Call(Kind::kMap, request_id, {}, context.retry(deadline)),
+        context_(context),
+        num_pages_(num_pages),
+        wanted_(wanted.begin(), wanted.end()) {
+    replace_question(missing());
+  }
+
+  /// Those that came, or why not all did.
+  struct Came {
+    std::vector<map_page_t> pages;
+    Failure failure{Status::kOk, {}};
+  };
+  std::future<Came> answer() { return promise_.get_future(); }
+
+  void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) override {
+    wire::Decoded<map_page_t> decoded = wire::decode<map_page_t>(bytes);
+    if (!decoded.message) {
+      fault_ = decoded.fault.text("map_page_t");
+      return;
+    }
+    map_page_t& page = *decoded.message;
+    if (page.client_id != context_.options().client_id) return;
+    retry().note_life();
+    if (page.status != map_page_t::STATUS_OK) {
+      refusal_ = page.message;
+    } else if (page.num_pages != num_pages_ ||
+               wire::crc64(page.bytes.data(), page.bytes.size()) != page.page_checksum) {
+      fault_ = "map_page_t: is damaged";
+    } else if (wanted_.erase(page.page) == 1) {
+      retry().note_part(now);
+      came_.pages.push_back(std::move(page));
+    }
+  }
+  bool answered() const override { return wanted_.empty() || refusal_.has_value() || ends_; }
+  void cancel() override { ends_ = true; }
+  std::vector<Outgoing> missing() const override {
+    missing_pages_t message{};
+    message.client_id = context_.options().client_id;
+    message.request_id = request_id();
+    message.utime = microseconds_since_1970();
+    message.num_pages = num_pages_;
+    message.missing.assign(wanted_.begin(), wanted_.end());
+    message.num_missing = static_cast<std::int32_t>(message.missing.size());
+    return {{context_.channels().missing_map_pages(), wire::encode(message)}};
+  }
+  void finish(Outcome outcome) override {
+    if (outcome != Outcome::kAnswered) {
+      came_.failure = context_.explain(outcome, retry().ever_heard(), {}, fault_);
+    } else if (refusal_) {
+      came_.failure = {Status::kInvalid, *refusal_};
+    } else if (!wanted_.empty()) {
+      came_.failure = cancelled();
+    }
+    promise_.set_value(std::move(came_));
+  }
+
+ private:
+  Context& context_;
+  std::int32_t num_pages_;
+  std::set<std::int32_t> wanted_;
+  Came came_;
+  std::optional<std::string> refusal_;
+  std::string fault_;
+  bool ends_ = false;  ///< nobody wants the pages any more
+  std::promise<Came> promise_;
+};
+
+/// All bytes of the map that `exported` tells of.
+SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
+  SceneMap map;
+  map.scene = from_wire(exported.scene);
+  const auto size = static_cast<std::size_t>(std::max<std::int64_t>(0, exported.map_bytes));
+  const auto num_pages = static_cast<std::int32_t>(
+      std::max<std::size_t>(1, (size + wire::kMapPageBytes - 1) / wire::kMapPageBytes));
+  for (std::int32_t first = 0; first < num_pages;
+       first += static_cast<std::int32_t>(kPagesAtOnce)) {
+    std::vector<std::int32_t> wanted;
+    for (std::int32_t page = first; page < num_pages && wanted.size() < kPagesAtOnce; ++page) {
+      wanted.push_back(page);
+    }
+    const auto call = std::make_shared<MapPages>(asker.context, exported.request_id, num_pages,
+                                                 wanted, asker.deadline);
+    std::future<MapPages::Came> answer = call->answer();
+    asker.start(call);
+    MapPages::Came came = answer.get();
+    if (came.failure.status != Status::kOk) return failed<SceneMap>(came.failure);
+    std::ranges::sort(came.pages, {}, &map_page_t::page);
+    for (const map_page_t& page : came.pages) {
+      map.bytes.insert(map.bytes.end(), page.bytes.begin(), page.bytes.end());
+    }
+  }
+  if (map.bytes.size() != size ||
+      wire::crc64(map.bytes.data(), map.bytes.size()) != exported.map_checksum) {
+    return failed<SceneMap>({Status::kBadAnswer, "the map's checksum is not that of its pages"});
+  }
+  map.status = Status::kOk;
+  return map;
+}
+
+}  // namespace
+
+SceneMap ask_scene_map(const SceneAsker& with, const scene_request_t& request) {
+  if (const auto fault = fault_in_form(request)) {
+    return failed<SceneMap>({Status::kInvalid, *fault});
+  }
+  const Asker asker(with);
+  SceneMap map;
+  // Another client's exports may have taken its room, or the daemon was started anew.
+  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
+    const Asked<scene_response_t> asked = ask_once(asker, request);
+    const SceneAnswer exported = answer_of(asked);
+    if (!exported.ok()) return failed<SceneMap>({exported.status, exported.error});
+    map = fetch_map(asker, *asked.response);
+    if (map.status != Status::kInvalid) return map;
+  }
+  return map;
+}
+
+SceneAnswer ask_scene_list(const SceneAsker& with, scene_request_t request) {
+  if (const auto fault = fault_in_form(request)) {
+    return failed<SceneAnswer>({Status::kInvalid, *fault});
+  }
+  const Asker asker(with);
+  for (int restart = 0; restart <= kMaxRestarts; ++restart) {
+    SceneAnswer all;
+    const auto size = [](const SceneAnswer& answer) {
+      return answer.scenes.size() + answer.objects.size() + answer.revisions.size();
+    };
+    for (;;) {
+      request.first = static_cast<std::int32_t>(size(all));
+      const Asked<scene_response_t> asked = ask_once(asker, request);
+      SceneAnswer part = answer_of(asked);
+      if (!part.ok()) return part;
+      if (request.first > 0 && part.scene.revision != all.scene.revision) break;
+      all.status = part.status;
+      all.scene = part.scene;
+      all.scenes.insert(all.scenes.end(), part.scenes.begin(), part.scenes.end());
+      all.objects.insert(all.objects.end(), part.objects.begin(), part.objects.end());
+      all.revisions.insert(all.revisions.end(), part.revisions.begin(), part.revisions.end());
+      const bool is_last = size(part) == 0;
+      if (is_last || size(all) >= static_cast<std::size_t>(asked.response->total)) return all;
+    }
+  }
+  return failed<SceneAnswer>(
+      {Status::kNoAnswer, "the scene changed each time before all of it was listed"});
+}
+
+}  // namespace camway

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#include "client/engine/engine.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <camway/map_page_t.hpp>
+#include <camway/missing_pages_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+#include <camway/plan_progress_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <camway/scene_response_t.hpp>
+#include <camway/status_t.hpp>
+#include <camway/upload_status_t.hpp>
+
+#include "client/messages/status.h"
+#include "lcmtypes/wire/check.h"
+
+namespace camway {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Answers may come twice at once, and of several requests.
+constexpr int kResponseQueue = 2 * wire::kMaxResponsePages;
+constexpr int kSmallQueue = 256;
+
+/// What leaves without a breath: two messages of full size fit the usual receive buffer of 208 KiB
+/// with room for others.
+constexpr std::size_t kBurstBytes = 120'000;
+constexpr milliseconds kBreath{1};
+
+template <class Message>
+std::optional<std::int64_t> request_of(std::span<const std::uint8_t> bytes) {
+  const auto sender = wire::peek_sender(wire::layout_of<Message>(), bytes);
+  return sender ? std::optional(sender->request_id) : std::nullopt;
+}
+
+}  // namespace
+
+Engine::Engine(Link& link, Context& context)
+    : link_(link),
+      channels_(context.channels()),
+      watches_(context, {[this](Outgoing message) { outgoing_.push_back(std::move(message)); },
+                         [this](std::shared_ptr<Call> call) { start(std::move(call)); }}) {
+  listen(context.options().client_id);
+  thread_ = std::thread([this] { run_thread(); });
+}
+
+Engine::~Engine() {
+  if (!thread_.joinable()) return;
+  closing_ = true;
+  link_.wake();
+  thread_.join();
+}
+
+void Engine::close_from_handler(std::function<void()> release) {
+  closing_ = true;
+  watches_.close();
+  run_tasks();
+  for (const auto& [key, call] : calls_) kept_.push_back(call);
+  end_all(Outcome::kClosed);
+  release_ = std::move(release);
+  thread_.detach();
+}
+
+void Engine::run_thread() {
+  run();
+  // Nothing of this is left once it is called.
+  if (const std::function<void()> release = std::move(release_)) release();
+}
+
+template <class Response>
+void Engine::take_answers(Call::Kind kind, const std::string& channel, int queue) {
+  link_.listen(channel, queue, [this, kind](auto bytes) {
+    const auto id = request_of<Response>(bytes);
+    // A message that cannot be read is for whoever waits: it says so if nothing else comes.
+    if (closing_) return;
+    for (auto& [key, call] : calls_) {
+      if (key.first == kind && (!id || *id == key.second)) call->take_answer(bytes, Clock::now());
+    }
+    if (kind == Call::Kind::kPlan && id) watches_.take_answer(*id, bytes);
+  });
+}
+
+void Engine::listen(const std::string& client_id) {
+  take_answers<plan_response_t>(Call::Kind::kPlan, channels_.plan_response(client_id),
+                                kResponseQueue);
+  link_.listen(channels_.plan_progress(client_id), kSmallQueue, [this](auto bytes) {
+    const auto id = request_of<plan_progress_t>(bytes);
+    Call* const call = id ? find(Call::Kind::kPlan, *id) : nullptr;
+    if (call != nullptr) call->take_progress(bytes);
+  });
+  link_.listen(channels_.plan_offer(client_id), kResponseQueue, [this](auto bytes) {
+    const auto id = request_of<plan_response_t>(bytes);
+    if (id) watches_.take_offer(*id, bytes);
+  });
+  link_.listen(channels_.missing_pages(client_id), kSmallQueue,
+               [this](auto bytes) { take_missing_pages(bytes); });
+  take_answers<occupancy_response_t>(Call::Kind::kOccupancy,
+                                     channels_.occupancy_response(client_id), kSmallQueue);
+  take_answers<scene_response_t>(Call::Kind::kScene, channels_.scene_response(client_id),
+                                 kSmallQueue);
+  take_answers<upload_status_t>(Call::Kind::kUpload, channels_.upload_status(client_id),
+                                kSmallQueue);
+  link_.listen(channels_.watch_report(client_id), kSmallQueue,
+               [this](auto bytes) { watches_.take_report(bytes, Clock::now()); });
+  take_answers<map_page_t>(Call::Kind::kMap, channels_.map_page(client_id), kSmallQueue);
+  link_.listen(channels_.status(), kSmallQueue, [this](auto bytes) { take_heartbeat(bytes); });
+}
+
+void Engine::start(std::shared_ptr<Call> call) {
+  post([this, call = std::move(call)] {
+    if (broken_) {
+      call->finish(Outcome::kBroken);
+      return;
+    }
+    const auto [position, is_new] = calls_.try_emplace({call->kind(), call->request_id()}, call);
+    // The same question again while it is being asked: the later call is the one that is answered.
+    if (!is_new) std::exchange(position->second, call)->finish(Outcome::kClosed);
+  });
+}
+
+void Engine::cancel(Call::Kind kind, std::int64_t request_id) {
+  post([this, kind, request_id] {
+    if (Call* const call = find(kind, request_id)) call->cancel();
+  });
+}
+
+void Engine::cancel_all(Call::Kind kind) {
+  post([this, kind] {
+    for (const auto& [key, call] : calls_) {
+      if (key.first == kind) call->cancel();
+    }
+  });
+}
+
+void Engine::watch(const PlanRequest& request, WatchHandler handler) {
+  post([this, request, handler = std::move(handler)] { watches_.add(request, handler); });
+}
+
+void Engine::unwatch(std::int64_t request_id) {
+  post([this, request_id] { watches_.remove(request_id); });
+}
+
+void Engine::take_better(std::int64_t request_id) {
+  post([this, request_id] { watches_.take_better(request_id); });
+}
+
+std::future<bool> Engine::unwatch(std::int64_t request_id, Clock::time_point until) {
+  auto promise = std::make_shared<std::promise<bool>>();
+  std::future<bool> ended = promise->get_future();
+  post([this, request_id, until, promise] {
+    watches_.remove(request_id);
+    if (Call* const call = find(Call::Kind::kPlan, request_id)) call->cancel();
+    leavers_.push_back({request_id, until, std::move(*promise)});
+  });
+  return ended;
+}
+
+std::future<std::optional<DaemonStatus>> Engine::next_heartbeat(Clock::time_point until) {
+  auto promise = std::make_shared<std::promise<std::optional<DaemonStatus>>>();
+  std::future<std::optional<DaemonStatus>> heartbeat = promise->get_future();
+  post([this, until, promise] { waiters_.push_back({until, std::move(*promise)}); });
+  return heartbeat;
+}
+
+void Engine::post(std::function<void()> task) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  link_.wake();
+}
+
+void Engine::run() {
+  while (!closing_) {
+    run_tasks();
+    const Clock::time_point now = Clock::now();
+    step(now);
+    watches_.step(now);
+    end_waiters(now);
+    end_leavers(now);
+    send_some(now);
+    if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
+    if (broken_) end_all(Outcome::kBroken);
+    // By the next heartbeat it may be another daemon that says so.
+    if (std::exchange(is_unheard_, false)) end_calls(Outcome::kUnsigned);
+  }
+  run_tasks();
+  end_all(Outcome::kClosed);
+}
+
+void Engine::run_tasks() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  // Those that these leave behind have their turn the next time.
+  for (std::size_t left = tasks_.size(); left > 0 && !tasks_.empty(); --left) {
+    const std::function<void()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+void Engine::step(Clock::time_point now) {
+  for (auto position = calls_.begin(); !closing_ && position != calls_.end();) {
+    // A call may be ended and the user's code run by it: it must not be among the calls then.
+    const std::optional<Outcome> outcome = step(*position->second, now);
+    if (!outcome) {
+      ++position;
+      continue;
+    }
+    const std::shared_ptr<Call> call = position->second;
+    position = calls_.erase(position);
+    call->finish(*outcome);
+  }
+}
+
+std::optional<Outcome> Engine::step(Call& call, Clock::time_point now) {
+  if (call.answered()) return Outcome::kAnswered;
+  const auto send = [this](const std::vector<Outgoing>& messages) {
+    outgoing_.insert(outgoing_.end(), messages.begin(), messages.end());
+  };
+  switch (call.retry().next(now)) {
+    case Retry::Action::kSend:
+      send(call.question());
+      break;
+    case Retry::Action::kAskMissing:
+      send(call.missing());
+      break;
+    case Retry::Action::kSilence:
+      return Outcome::kSilence;
+    case Retry::Action::kDeadline:
+      return Outcome::kDeadline;
+    case Retry::Action::kWait:
+      break;
+  }
+  return std::nullopt;
+}
+
+void Engine::send_some(Clock::time_point now) {
+  if (now < send_at_) return;
+  std::size_t room = kBurstBytes;
+  while (!outgoing_.empty() && outgoing_.front().bytes.size() <= room) {
+    room -= outgoing_.front().bytes.size();
+    if (!link_.publish(outgoing_.front().channel, outgoing_.front().bytes)) broken_ = true;
+    outgoing_.pop_front();
+  }
+  if (!outgoing_.empty()) send_at_ = now + kBreath;
+}
+
+Clock::time_point Engine::next_wake() const {
+  Clock::time_point next = std::min(watches_.wake(), Clock::now() + std::chrono::seconds(1));
+  if (!outgoing_.empty()) next = std::min(next, send_at_);
+  for (const auto& [key, call] : calls_) {
+    next = std::min(next, call->answered() ? Clock::time_point{} : call->retry().wake());
+  }
+  for (const Waiter& waiter : waiters_) next = std::min(next, waiter.until);
+  for (const Leaver& leaver : leavers_) next = std::min(next, leaver.until);
+  return next;
+}
+
+void Engine::end_waiters(Clock::time_point now) {
+  const auto over = std::partition(waiters_.begin(), waiters_.end(),
+                                   [now](const Waiter& waiter) { return now < waiter.until; });
+  for (auto waiter = over; waiter != waiters_.end(); ++waiter) {
+    waiter->promise.set_value(std::nullopt);
+  }
+  waiters_.erase(over, waiters_.end());
+}
+
+void Engine::end_leavers(Clock::time_point now) {
+  std::erase_if(leavers_, [&](Leaver& leaver) {
+    // What is being planned would be watched once it is answered.
+    const bool is_over = find(Call::Kind::kPlan, leaver.request_id) == nullptr &&
+                         !watches_.is_ending(leaver.request_id);
+    if (!is_over && now < leaver.until) return false;
+    leaver.promise.set_value(is_over);
+    return true;
+  });
+}
+
+void Engine::end_all(Outcome outcome) {
+  end_calls(outcome);
+  end_waiters(Clock::time_point::max());
+  end_leavers(Clock::time_point::max());
+}
+
+void Engine::end_calls(Outcome outcome) {
+  for (const auto& [key, call] : calls_) ending_.push_back(call);
+  calls_.clear();
+  while (!ending_.empty()) {
+    // A handler may come back here, by closing.
+    const std::shared_ptr<Call> call = std::move(ending_.front());
+    ending_.pop_front();
+    call->finish(outcome);
+  }
+}
+
+Call* Engine::find(Call::Kind kind, std::int64_t request_id) {
+  const auto position = calls_.find({kind, request_id});
+  return position == calls_.end() ? nullptr : position->second.get();
+}
+
+/// The daemon lacks pages of a request.
+void Engine::take_missing_pages(std::span<const std::uint8_t> bytes) {
+  const auto decoded = wire::decode<missing_pages_t>(bytes);
+  if (!decoded.message) return;
+  Call* const call = find(Call::Kind::kPlan, decoded.message->request_id);
+  if (call == nullptr) return;
+  call->retry().note_life();
+  const std::vector<Outgoing>& pages = call->question();
+  std::set<std::int32_t> which(decoded.message->missing.begin(), decoded.message->missing.end());
+  for (const std::int32_t page : which) {
+    if (page >= 0 && static_cast<std::size_t>(page) < pages.size()) {
+      outgoing_.push_back(pages[static_cast<std::size_t>(page)]);
+    }
+  }
+}
+
+void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
+  const std::optional<DaemonStatus> status = read_status(bytes);
+  if (!status) return;
+  const Clock::time_point now = Clock::now();
+  for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
+  is_unheard_ = status->signed_only && !link_.signs();
+  watches_.take_heartbeat(status->uptime_s, now);
+  std::vector<Waiter> waiters;
+  waiters.swap(waiters_);
+  for (Waiter& waiter : waiters) waiter.promise.set_value(status);
+}
+
+}  // namespace camway

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "client/engine/plan_call.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
+#include <camway/plan_progress_t.hpp>
+
+#include "client/messages/text.h"
+#include "lcmtypes/wire/check.h"
+
+namespace camway {
+namespace {
+
+/// The sentence for a person about an answer that is not ok.
+std::string explain(const PlanResponse& response) {
+  const std::string said = response.message.empty() ? "(no reason given)" : response.message;
+  switch (response.status) {
+    case Status::kTimeout:
+      return "planning ran out of time; raise PlanRequest.deadline_s: " + said;
+    case Status::kUnknownScene:
+      return "the daemon does not hold scene \"" + response.scene + "\": " + said;
+    case Status::kCancelled:
+      return "the request was cancelled: " + said;
+    case Status::kOverloaded:
+      return "the daemon's queue stayed full: " + said;
+    default:
+      return to_string(response.status) + ": " + said;
+  }
+}
+
+/// A call ends by then. Not before the request's own deadline, and the answer needs some time to
+/// travel.
+Clock::time_point deadline_of(const PlanRequest& request, const ClientOptions& options) {
+  const double planning_s = std::isfinite(request.deadline_s) ? request.deadline_s : 0.0;
+  return after(std::max(options.deadline_s, planning_s + options.try_timeout_s));
+}
+
+std::vector<Outgoing> question_of(const Context& context, const PlanRequest& request,
+                                  std::int64_t id) {
+  std::vector<Outgoing> question;
+  for (Bytes& page : to_pages(request, context.options().client_id, id)) {
+    question.push_back({context.channels().plan_request(), std::move(page)});
+  }
+  return question;
+}
+
+/// What users do in their handlers must not end our thread.
+template <class Handler, class Argument>
+void call_handler(const Handler& handler, const Argument& argument) {
+  if (!handler) return;
+  try {
+    handler(argument);
+  } catch (...) {
+    // There is nobody to tell: the handler's own affair.
+  }
+}
+
+}  // namespace
+
+PlanCall::PlanCall(Context& context, const PlanRequest& request, std::int64_t id,
+                   PlanHandlers handlers)
+    : Call(Kind::kPlan, id, question_of(context, request, id),
+           context.retry(deadline_of(request, context.options()))),
+      context_(context),
+      handlers_(std::move(handlers)),
+      collector_(context.options().client_id, id) {}
+
+void PlanCall::take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) {
+  const PlanCollector::Taken taken = collector_.take(bytes);
+  if (taken == PlanCollector::Taken::kForeign || taken == PlanCollector::Taken::kBad) return;
+  retry().note_life();
+  if (collector_.complete() && collector_.status() == Status::kOverloaded) {
+    refusal_ = collector_.response();
+    collector_.clear();
+    retry().forget_parts();
+  } else if (taken == PlanCollector::Taken::kNew) {
+    retry().note_part(now);
+  }
+}
+
+void PlanCall::take_progress(std::span<const std::uint8_t> bytes) {
+  const auto decoded = wire::decode<plan_progress_t>(bytes);
+  if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
+  retry().note_life();
+  call_handler(handlers_.on_progress, from_wire(*decoded.message));
+}
+
+std::vector<Outgoing> PlanCall::missing() const {
+  missing_pages_t question{};
+  question.client_id = context_.options().client_id;
+  question.request_id = request_id();
+  question.utime = microseconds_since_1970();
+  question.num_pages = static_cast<std::int32_t>(collector_.pages_expected());
+  question.missing = collector_.missing();
+  question.num_missing = static_cast<std::int32_t>(question.missing.size());
+  return {{context_.channels().missing_pages(), wire::encode(question)}};
+}
+
+void PlanCall::cancel() {
+  cancel_t question{};
+  question.client_id = context_.options().client_id;
+  question.request_id = request_id();
+  question.utime = microseconds_since_1970();
+  replace_question({{context_.channels().cancel(), wire::encode(question)}});
+  retry().restart();
+}
+
+void PlanCall::finish(Outcome outcome) {
+  PlanResponse response = response_of(outcome);
+  if (!response.ok() && response.error.empty()) response.error = explain(response);
+  response.request_id = request_id();
+  response.tries = retry().tries();
+  response.elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  call_handler(handlers_.on_answer, response);
+  promise_.set_value(std::move(response));
+}
+
+PlanResponse PlanCall::response_of(Outcome outcome) const {
+  if (outcome == Outcome::kAnswered) return collector_.response();
+  if (refusal_ && outcome == Outcome::kDeadline) return *refusal_;
+  std::string partly;
+  if (collector_.pages_here() > 0) {
+    partly = std::to_string(collector_.pages_here()) + " of " +
+             std::to_string(collector_.pages_expected()) + " pages";
+  }
+  return failed<PlanResponse>(
+      context_.explain(outcome, retry().ever_heard(), partly, collector_.fault()));
+}
+
+}  // namespace camway

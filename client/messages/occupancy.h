@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/occupancy.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <camway/occupancy_request_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+
+#include "client/messages/bytes.h"
+
+namespace camway {
+
+/// Why `batch` has no form on the wire. Nothing if it has one.
+std::optional<std::string> fault_in_form(const OccupancyBatch& batch);
+
+/// The requests of a batch, in its order, none above `wire::kMaxMessageBytes`; request ids are for
+/// the caller to set. At least one, also for an empty batch: it tells whether there is a map.
+/// Precondition: no `fault_in_form`.
+std::vector<occupancy_request_t> to_requests(const OccupancyBatch& batch,
+                                             const std::string& client_id);
+
+/// Waits for the answer to one request.
+class OccupancyCollector {
+ public:
+  OccupancyCollector(std::string client_id, std::int64_t request_id);
+
+  enum class Taken { kNew, kForeign, kBad };
+  Taken take(std::span<const std::uint8_t> bytes);
+
+  const std::optional<occupancy_response_t>& response() const { return response_; }
+  const std::string& fault() const { return fault_; }
+  void clear() { response_.reset(); }
+
+ private:
+  std::string client_id_;
+  std::int64_t request_id_;
+  std::optional<occupancy_response_t> response_;
+  std::string fault_;
+};
+
+/// Appends the answers of `response` to `answer`. Returns what is wrong with the response as an
+/// answer to `request`; nothing if all is well.
+std::optional<std::string> append(const occupancy_request_t& request,
+                                  const occupancy_response_t& response, OccupancyAnswer& answer);
+
+}  // namespace camway

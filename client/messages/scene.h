@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/scene.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <camway/scene_request_t.hpp>
+#include <camway/scene_response_t.hpp>
+#include <camway/upload_page_t.hpp>
+#include <camway/upload_status_t.hpp>
+
+namespace camway {
+
+SceneInfo from_wire(const scene_info_t& wire);
+SceneObject from_wire(const scene_object_t& wire);
+SceneRevision from_wire(const scene_change_t& wire);
+
+/// Writes what describes `shape` into `request`, but for what has to be uploaded: that is returned.
+std::vector<std::uint8_t> put_shape(const SceneShape& shape, scene_request_t& request);
+
+/// Likewise for a mesh.
+std::vector<std::uint8_t> put_mesh(const SceneMesh& mesh, scene_request_t& request);
+
+/// Names the upload of points that is returned.
+std::vector<std::uint8_t> put_points(const std::vector<std::array<double, 3>>& points,
+                                     scene_request_t& request);
+
+/// Writes a pose into `request`.
+void put_pose(const Pose& pose, scene_request_t& request);
+
+/// A page of an upload; the one without bytes for a negative `page`.
+upload_page_t page_of(const std::vector<std::uint8_t>& bytes, std::int64_t checksum,
+                      std::int32_t page);
+
+}  // namespace camway

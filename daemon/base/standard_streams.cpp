@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/base/standard_streams.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace camway::service {
+
+bool occupy_closed_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (fcntl(stream, F_GETFD) != -1) continue;
+    // For the other direction than the stream's, so that output that is lost is still noticed. The
+    // lowest free number is this stream's, since those below are open.
+    const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (open("/dev/null", mode) != stream) return false;
+  }
+  return true;
+}
+
+}  // namespace camway::service

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/step_control.h"
+
+#include <algorithm>
+
+namespace camway::collision {
+
+namespace {
+
+// Chosen by measurement over furnished and empty scenes.
+constexpr double kTrust = 0.97;         // in the room that was foretold
+constexpr double kFieldTrust = 0.7;     // in the distance field, which knows no direction
+constexpr double kLargestGrowth = 4.0;  // more is not foreseeable
+constexpr double kLargestShare = 0.8;   // of a reach that was too long
+
+}  // namespace
+
+double next_reach_m(const Look& seen) {
+  if (!seen.free) return std::min(kTrust * seen.ahead, kLargestShare) * seen.reach_m;
+  if (seen.is_measured) return std::min(kTrust * seen.ahead, kLargestGrowth) * seen.reach_m;
+  return std::max(kLargestGrowth * seen.reach_m, kFieldTrust * seen.gap_m);
+}
+
+}  // namespace camway::collision

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/infeasibility/surface_sides.h"
+
+#include <algorithm>
+
+#include "daemon/correction/infeasibility/surface_parity.h"
+
+namespace camway::correction {
+
+using geometry::Vec3;
+
+SurfaceSides::SurfaceSides(const scene::Mesh& mesh, const scene::SceneIndex& index)
+    : mesh_(mesh), index_(index), patch_of_(mesh.triangles.size(), kNoIndex) {
+  const ClosedSurfaces closed = find_closed_surfaces(mesh);
+  const Lists& patches = closed.complex.patches;
+  for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+    for (const std::uint32_t t : patches[patch]) patch_of_[t] = patch;
+  }
+  surfaces_of_.resize(patches.size());
+  for (std::uint32_t surface = 0; surface < closed.surfaces.size(); ++surface) {
+    for (const std::uint32_t patch : closed.surfaces[surface]) {
+      surfaces_of_[patch].push_back(surface);
+    }
+  }
+}
+
+std::optional<IndexSet> SurfaceSides::around(const Vec3& point_W) const {
+  // As the ray goes, along x; `ray_hit` moves it by less than any box is wide.
+  const Vec3 far_W(std::max(point_W.x(), index_.bounds().max().x()), point_W.y(), point_W.z());
+  IndexSet met;
+  index_.for_each_touching(geometry::Box(point_W, far_W), [&](std::uint32_t t) {
+    if (patch_of_[t] != kNoIndex) met.push_back(t);
+    return true;
+  });
+  std::ranges::sort(met);
+  const auto repeated = std::ranges::unique(met);
+  met.erase(repeated.begin(), repeated.end());
+  IndexSet inside;
+  for (const std::uint32_t t : met) {
+    const RayHit hit = ray_hit(point_W, mesh_.triangle(t));
+    if (hit == RayHit::kOnTriangle) return std::nullopt;
+    if (hit == RayHit::kHit) inside = sum_mod_2(inside, surfaces_of_[patch_of_[t]]);
+  }
+  return inside;
+}
+
+}  // namespace camway::correction

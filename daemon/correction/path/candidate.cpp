@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/path/candidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "daemon/correction/path/orientation_rule.h"
+
+namespace camway::correction {
+
+using collision::CollisionInterval;
+
+namespace {
+
+// A keyframe is kept if the bumps cancel there but for rounding: that of a few sums, relative to
+// the position there and the largest coefficient of a bump.
+constexpr double kCancelled = 64.0 * std::numeric_limits<double>::epsilon();
+
+struct Span {
+  double begin_s;
+  double end_s;
+};
+
+/// What of the problem's path `rows` change. Nothing if there are none, or if they reach further
+/// than the problem's part of the path does.
+std::optional<Span> span_of(const std::vector<motion::BumpRow>& rows, const Problem& problem) {
+  if (rows.empty()) return std::nullopt;
+  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const motion::BumpRow& row : rows) {
+    span.begin_s = std::min(span.begin_s, row.begin_s());
+    span.end_s = std::max(span.end_s, row.end_s());
+  }
+  const double first_s = problem.path.begin_s();
+  const double last_s = problem.path.end_s();
+  if (span.begin_s < first_s && !problem.has_path_begin) return std::nullopt;
+  if (span.end_s > last_s && !problem.has_path_end) return std::nullopt;
+  return Span{std::max(span.begin_s, first_s), std::min(span.end_s, last_s)};
+}
+
+/// Whether `path` meets the keyframes as the problem's own path does; removes what rounding left.
+bool keeps_keyframes(motion::CubicPath& path, const std::vector<motion::BumpRow>& rows,
+                     const Problem& problem) {
+  motion::CubicPoint largest;
+  for (const motion::BumpRow& row : rows) {
+    for (const motion::CubicPoint& bump : row.bumps) {
+      largest.position = largest.position.cwiseMax(bump.position.cwiseAbs());
+      largest.image = largest.image.cwiseMax(bump.image.cwiseAbs());
+    }
+  }
+  for (const double time_s : problem.keyframes_s) {
+    const motion::CubicPoint kept = problem.path.at(time_s);
+    const motion::CubicPoint now = path.at(time_s);
+    const double size_m = kept.position.norm() + largest.position.norm();
+    const double image_size = kept.image.norm() + largest.image.norm();
+    if (!((now.position - kept.position).norm() <= kCancelled * size_m)) return false;
+    if (!((now.image - kept.image).norm() <= kCancelled * image_size)) return false;
+    for (motion::CubicPiece& piece : path.pieces) {
+      if (piece.t1_s == time_s) {
+        piece.position[3] = kept.position;
+        piece.image[3] = kept.image;
+      } else if (piece.t0_s == time_s) {
+        piece.position[0] = kept.position;
+        piece.image[0] = kept.image;
+      }
+    }
+  }
+  return true;
+}
+
+/// Where the rule for orientations is not met, or not shown to be.
+std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, const Span& changed,
+                                                const Problem& problem, const FreeSpace& space) {
+  if (!space.may_turn()) {
+    for (const motion::BumpRow& row : candidate.rows) {
+      const bool turns = std::ranges::any_of(
+          row.bumps, [](const motion::CubicPoint& bump) { return !bump.image.isZero(0.0); });
+      if (turns) return CollisionInterval{changed.begin_s, changed.end_s};
+    }
+  }
+  return first_breach(space.policy(), candidate.path, problem.original, changed.begin_s,
+                      changed.end_s);
+}
+
+}  // namespace
+
+std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& path,
+                                                     double t_begin_s, double t_end_s,
+                                                     const Problem& problem, const FreeSpace& space,
+                                                     const collision::Deadline& deadline) {
+  const motion::Path segments = path.around(t_begin_s, t_end_s).path();
+  const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
+    if (!(from_s < to_s)) return std::nullopt;
+    const collision::FirstCollision found = collision::first_collision(
+        space.obstacles(), segments, space.body(), from_s, to_s, space.detect(), deadline);
+    if (!found.decided) return CollisionInterval{from_s, to_s};
+    return found.interval;
+  };
+  double from_s = t_begin_s;
+  for (const CollisionInterval& other : problem.others) {
+    if (other.t_end_s <= from_s) continue;
+    if (other.t_begin_s >= t_end_s) break;
+    if (auto found = search(from_s, other.t_begin_s)) return found;
+    from_s = other.t_end_s;
+  }
+  return search(from_s, t_end_s);
+}
+
+Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
+                const collision::Deadline& deadline) {
+  if (problem.effort != nullptr) ++problem.effort->paths;
+  // They change nothing, and end before they begin.
+  std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
+  const std::optional<Span> changed = span_of(rows, problem);
+  const bool all_fit =
+      std::ranges::all_of(rows, [](const motion::BumpRow& row) { return row.knots.fits(); });
+  if (!changed || !all_fit) return {std::nullopt, problem.interval};
+  Candidate candidate{motion::with_bumps(problem.path, rows), std::move(rows)};
+  if (!keeps_keyframes(candidate.path, candidate.rows, problem))
+    return {std::nullopt, problem.interval};
+  if (auto breach = breach_of_rule(candidate, *changed, problem, space))
+    return {std::nullopt, std::move(breach), true};
+  // The collision to be mended is the likeliest to remain.
+  const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
+                                     changed->begin_s, changed->end_s);
+  for (const Span& part : {Span{middle_s, changed->end_s}, Span{changed->begin_s, middle_s}}) {
+    Attempt result;
+    result.collision =
+        first_new_collision(candidate.path, part.begin_s, part.end_s, problem, space, deadline);
+    if (result.collision) return result;
+  }
+  return {std::move(candidate), std::nullopt};
+}
+
+}  // namespace camway::correction

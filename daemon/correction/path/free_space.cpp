@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/path/free_space.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "daemon/collision/witness.h"
+#include "daemon/correction/path/orientation_rule.h"
+#include "daemon/motion/path/stretch.h"
+#include "daemon/scene/field/clearance_field.h"
+#include "daemon/scene/voxels/voxel_map.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Triangle;
+using geometry::Vec3;
+using motion::SignedPose;
+
+constexpr double kNearestShare = 0.8;
+
+}  // namespace
+
+FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
+                     const collision::DetectOptions& detect, const OrientationPolicy& policy)
+    : obstacles_(obstacles),
+      body_(body),
+      detect_(detect),
+      policy_(policy),
+      probe_(obstacles, body, detect.clearance_m) {
+  geometry::Box box;
+  for (const Triangle& triangle : body.triangles_C()) box.extend(geometry::bounds(triangle));
+  center_C_ = box.center();
+  for (const Triangle& triangle : body.triangles_C()) {
+    for (const Vec3& vertex : triangle)
+      ball_radius_m_ = std::max(ball_radius_m_, (vertex - center_C_).norm());
+  }
+  ball_radius_m_ += body.ball_radius_m();
+}
+
+bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
+  return probe_.glance(motion::standing_at(pose), margin_m).free;
+}
+
+double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
+  constexpr double kExact = 1.0;  // who is just nearer than required must not pass for further
+  const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m, kExact);
+  return seen.free ? up_to_m : std::min(seen.gap_m, up_to_m);
+}
+
+std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, double up_to_m) {
+  const motion::Stretch standing = motion::standing_at(pose);
+  if (probe_.at_least_m(standing) >= up_to_m) return std::nullopt;
+  std::optional<scene::Nearest> found = obstacles_.index.near(
+      probe_.place(standing), up_to_m + probe_.keep_m(), /*certain_m=*/0.0, kNearestShare);
+  if (found) found->distance_m -= probe_.keep_m();
+  const std::optional<collision::Probe::Edge> edge = probe_.nearest_edge();
+  if (edge && edge->gap_m < (found ? found->distance_m : up_to_m))
+    return scene::Nearest{edge->gap_m, collision::Obstacles::number_of_side(edge->side)};
+  return found;
+}
+
+std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedPose& to,
+                                           double margin_m) {
+  collision::DetectOptions options = detect_;
+  options.clearance_m += margin_m;
+  // A search need not know to a millimetre where it is stopped.
+  options.tolerance_m = std::max(options.tolerance_m, 0.5 * margin_m);
+  options.gap_m = std::max(options.gap_m, options.tolerance_m);
+  collision::Obstacles obstacles = obstacles_;
+  // What is required of the scene says nothing of the bounds.
+  obstacles.bounds = obstacles.bounds.shrunk_by(margin_m);
+  const motion::Path path({motion::straight_motion(from, to)});
+  const collision::FirstCollision found = collision::first_collision(
+      obstacles, path, body_, 0.0, 1.0, options, collision::Deadline::never());
+  if (!found.interval) return std::nullopt;
+  return found.interval->t_begin_s;
+}
+
+double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
+  const double keep_m = radius_m + detect_.clearance_m;
+  const double inside_m = obstacles_.bounds.depth_m(point_W) - radius_m;
+  if (inside_m <= 0.0) return inside_m;
+  up_to_m = std::min(up_to_m, inside_m);
+  if (obstacles_.solids != nullptr && obstacles_.solids->hold(point_W)) return -keep_m;
+  if (obstacles_.field != nullptr) {
+    const double at_least_m = obstacles_.field->clearance_at_least_m(point_W) - keep_m;
+    if (at_least_m >= up_to_m) return up_to_m;
+  }
+  const std::array<Triangle, 1> point = {Triangle{point_W, point_W, point_W}};
+  const double horizon_m = keep_m + up_to_m;
+  const std::optional<scene::Nearest> nearest =
+      obstacles_.index.near(point, horizon_m, keep_m, kBallShare);
+  if (!nearest) return up_to_m;
+  return std::min(up_to_m, nearest->distance_m - keep_m);
+}
+
+bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_m) const {
+  const double inside_m =
+      std::min(obstacles_.bounds.depth_m(from_W), obstacles_.bounds.depth_m(to_W));
+  if (!(inside_m > radius_m)) return false;
+  const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
+  return !obstacles_.index.any_within(way, radius_m + detect_.clearance_m);
+}
+
+double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m) const {
+  const double inside_m =
+      std::min(obstacles_.bounds.depth_m(from_W), obstacles_.bounds.depth_m(to_W));
+  const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
+  const std::optional<scene::Nearest> nearest =
+      obstacles_.index.nearest(way, up_to_m + detect_.clearance_m);
+  return std::min(inside_m, nearest ? nearest->distance_m - detect_.clearance_m : up_to_m);
+}
+
+motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {
+  const geometry::Bounds inner =
+      obstacles_.bounds.shrunk_by(margin_m).shrunk_by(body_.ball_radius_m());
+  geometry::Box box;
+  for (const Triangle& triangle : placed(pose)) box.extend(geometry::bounds(triangle));
+  const Vec3 below = (inner.min_W - box.min()).cwiseMax(0.0);
+  const Vec3 above = (box.max() - inner.max_W).cwiseMax(0.0);
+  if (below.isZero(0.0) && above.isZero(0.0)) return pose;
+  return {pose.position + below - above, pose.orientation};
+}
+
+std::optional<collision::Witness> FreeSpace::contact(const motion::Pose& pose, double beyond_m) {
+  return collision::deepest_contact(probe_, motion::standing_at(pose), beyond_m);
+}
+
+SignedPose FreeSpace::allowed(const SignedPose& wanted, const motion::Pose& interpolated) const {
+  if (!is_limited(policy_)) return wanted;
+  const motion::Pose pose = motion::unsigned_pose(wanted);
+  const motion::Pose turned = allowed_pose(policy_, pose, interpolated, center_C_);
+  if (turned.orientation.coeffs() == pose.orientation.coeffs()) return wanted;
+  SignedPose result = motion::signed_pose(turned);
+  if (result.orientation.dot(wanted.orientation) < 0.0) result.orientation *= -1.0;
+  return result;
+}
+
+double FreeSpace::distance_m(const SignedPose& a, const SignedPose& b) const {
+  const double half_sine = 0.5 * (a.orientation - b.orientation).norm();
+  const double turn_rad = 4.0 * std::asin(std::min(1.0, half_sine));
+  return (a.position - b.position).norm() + ball_radius_m_ * turn_rad;
+}
+
+}  // namespace camway::correction

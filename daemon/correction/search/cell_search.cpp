@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/search/cell_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include "daemon/correction/search/closed_corner.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec3;
+using Place = std::array<std::int32_t, 3>;
+
+constexpr int kFinestLevel = 30;  // places are numbers of 32 bits
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt3;  // of a cell, in sides
+// Chosen by measurement; none changes what is free.
+constexpr double kMostNear = 8.0;      // times its length that a way without room costs more
+constexpr double kMarginAround = 4.0;  // balls around the scene: ways may lead there too
+constexpr double kRoomInFront = 2.5;   // sides of a cell, from its middle, of a wall that is bare
+constexpr std::size_t kTurnsBetweenLooks = 64;  // at the clock
+
+enum class State : std::uint8_t { kFree, kMixed, kBlocked };
+
+constexpr std::array<std::uint8_t, 2> kEnds = {1, 2};  // bits: of the begin and of the end
+
+struct Cell {
+  Place at{};                      ///< from the corner of the whole, in sides of the cell
+  std::uint32_t children = kNone;  ///< the first of eight
+  float gap_m = 0.0F;              ///< of the ball in the middle, for free cells
+  std::int8_t level = 0;           ///< how often the whole was divided
+  State state = State::kMixed;
+  std::uint8_t reached = 0;  ///< from which ends
+  std::uint8_t waiting = 0;  ///< for which ends
+};
+
+/// The whole, divided as far as somebody asked.
+class CellTree {
+ public:
+  CellTree(const FreeSpace& space, const CellOptions& options, const geometry::Box& around)
+      : space_(space), options_(options) {
+    side_m_ = around.sizes().maxCoeff();
+    low_W_ = around.center().array() - 0.5 * side_m_;
+    cells_.push_back({});
+    classify(cells_[0]);
+  }
+
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
+  Cell& operator[](std::uint32_t index) { return cells_[index]; }
+  const Cell& operator[](std::uint32_t index) const { return cells_[index]; }
+
+  [[nodiscard]] double side_m(int level) const { return std::ldexp(side_m_, -level); }
+  [[nodiscard]] Vec3 center_W(const Cell& cell) const {
+    const Vec3 at(static_cast<double>(cell.at[0]), static_cast<double>(cell.at[1]),
+                  static_cast<double>(cell.at[2]));
+    return low_W_.array() + side_m(cell.level) * (at.array() + 0.5);
+  }
+  [[nodiscard]] bool may_divide(const Cell& cell) const {
+    return cell.level < kFinestLevel && side_m(cell.level + 1) >= options_.smallest_m;
+  }
+
+  /// Whether from the middle of one cell nothing is to be reached in another beside it that is not
+  /// reached through others: there is a closed wall or corner, and room in front of it.
+  [[nodiscard]] bool leads_nowhere(const Cell& cell, const Cell& beside) const {
+    const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
+    const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
+    const Vec3 center_W = this->center_W(cell);
+    const geometry::Box box(center_W.array() - reach_m, center_W.array() + reach_m);
+    const Vec3 from_W = this->center_W(beside).cwiseMax(box.min()).cwiseMin(box.max());
+    return is_closed_corner(space_.obstacles().index, box, from_W, keep_m);
+  }
+
+  /// The first of the new cells.
+  std::uint32_t divide(std::uint32_t index) {
+    const auto first = static_cast<std::uint32_t>(cells_.size());
+    cells_[index].children = first;
+    const Cell parent = cells_[index];
+    for (std::int32_t i = 0; i < 8; ++i) {
+      Cell child;
+      child.level = static_cast<std::int8_t>(parent.level + 1);
+      child.at = {2 * parent.at[0] + (i & 1), 2 * parent.at[1] + (i >> 1 & 1),
+                  2 * parent.at[2] + (i >> 2)};
+      classify(child);
+      cells_.push_back(child);
+    }
+    return first;
+  }
+
+  /// The free cell that holds a point; divides until there is one.
+  std::optional<std::uint32_t> free_cell_at(const Vec3& point_W) {
+    std::uint32_t index = 0;
+    while (true) {
+      if (cells_[index].children == kNone) {
+        if (cells_[index].state == State::kFree) return index;
+        if (cells_[index].state == State::kBlocked || !may_divide(cells_[index]))
+          return std::nullopt;
+        divide(index);
+      }
+      const Vec3 middle_W = center_W(cells_[index]);
+      const std::uint32_t child = (point_W[0] >= middle_W[0] ? 1U : 0U) +
+                                  (point_W[1] >= middle_W[1] ? 2U : 0U) +
+                                  (point_W[2] >= middle_W[2] ? 4U : 0U);
+      index = cells_[index].children + child;
+    }
+  }
+
+  /// Calls `visit(neighbour)` for each undivided cell on the other side of a face.
+  template <class Visit>
+  void for_each_neighbour(std::uint32_t index, const Visit& visit) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const std::int32_t step : {-1, 1}) {
+        Place at = cells_[index].at;
+        at[axis] += step;
+        if (at[axis] < 0 || at[axis] >> cells_[index].level != 0) continue;
+        visit_face(cell_at(at, cells_[index].level), axis, step, visit);
+      }
+    }
+  }
+
+ private:
+  /// The cell there, or an undivided one that holds it.
+  [[nodiscard]] std::uint32_t cell_at(const Place& at, int level) const {
+    std::uint32_t index = 0;
+    for (int above = level - 1; above >= 0 && cells_[index].children != kNone; --above) {
+      const std::int32_t child =
+          (at[0] >> above & 1) | (at[1] >> above & 1) << 1 | (at[2] >> above & 1) << 2;
+      index = cells_[index].children + static_cast<std::uint32_t>(child);
+    }
+    return index;
+  }
+
+  /// What is undivided within a cell, at the face that one sees who steps into it.
+  template <class Visit>
+  void visit_face(std::uint32_t index, std::size_t axis, std::int32_t step,
+                  const Visit& visit) const {
+    if (cells_[index].children == kNone) {
+      visit(index);
+      return;
+    }
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      if ((i >> axis & 1U) == (step > 0 ? 0U : 1U))
+        visit_face(cells_[index].children + i, axis, step, visit);
+    }
+  }
+
+  void classify(Cell& cell) const {
+    const double reach_m = kHalfDiagonal * side_m(cell.level);
+    const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
+    // As far as it takes to prove the cell free, and to tell how much room there is.
+    const double horizon_m =
+        (keep_m + std::max(reach_m, options_.comfort_m)) / FreeSpace::kBallShare;
+    const double distance_m =
+        keep_m + space_.ball_gap_m(center_W(cell), options_.ball_radius_m, horizon_m - keep_m);
+    const double sure_m = FreeSpace::kBallShare * distance_m;
+    cell.gap_m = static_cast<float>(sure_m - keep_m);
+    if (sure_m >= keep_m + reach_m) {
+      cell.state = State::kFree;
+    } else if (distance_m + reach_m <= keep_m) {
+      cell.state = State::kBlocked;
+    }
+  }
+
+  const FreeSpace& space_;
+  const CellOptions& options_;
+  double side_m_;
+  Vec3 low_W_;
+  std::vector<Cell> cells_;
+};
+
+class CellSearch {
+ public:
+  CellSearch(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
+             const CellOptions& options, const collision::Deadline& deadline)
+      : options_(options),
+        deadline_(deadline),
+        from_W_(from_W),
+        to_W_(to_W),
+        apart_m_(std::max((to_W - from_W).norm(), options.comfort_m)),
+        tree_(space, options, whole(space, from_W, to_W, options)) {}
+
+  CellResult run() {
+    CellResult result;
+    result.exhausted = search();
+    if (has_met_) {
+      result.way_W = way();
+    } else if (result.exhausted) {
+      result.pocket = pocket();
+    }
+    result.cells = tree_.size();
+    return result;
+  }
+
+ private:
+  struct Waiting {
+    double worth;
+    std::uint32_t cell;
+    // The priority queue has the largest on top; among equals the one that was met first.
+    bool operator<(const Waiting& other) const {
+      return worth != other.worth ? worth < other.worth : cell > other.cell;
+    }
+  };
+
+  static geometry::Box whole(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
+                             const CellOptions& options) {
+    geometry::Box box = space.obstacles().index.bounds();
+    box.extend(from_W).extend(to_W);
+    const double margin_m =
+        kMarginAround * (options.comfort_m + options.ball_radius_m + space.detect().clearance_m);
+    // What is beyond the bounds need not be looked at.
+    const geometry::Bounds& bounds = space.obstacles().bounds;
+    return {(box.min().array() - margin_m).max(bounds.min_W.array()),
+            (box.max().array() + margin_m).min(bounds.max_W.array())};
+  }
+
+  /// Whether all that is reached from one end was looked at, and the other end is not among it.
+  bool search() {
+    const std::optional<std::uint32_t> from = tree_.free_cell_at(from_W_);
+    const std::optional<std::uint32_t> to = tree_.free_cell_at(to_W_);
+    if (!from || !to) return false;
+    start_ = *from;
+    goal_ = *to;
+    reach(start_, 0);
+    reach(goal_, 1);
+    for (std::size_t turn = 0; !has_met_; ++turn) {
+      if (tree_.size() >= options_.max_cells) return false;
+      if (turn % kTurnsBetweenLooks == 0 && deadline_.passed()) return false;
+      const std::optional<std::uint32_t> cell = next(turn % kEnds.size());
+      if (!cell) return true;
+      divide(*cell);
+    }
+    return false;
+  }
+
+  /// Which to divide for that end; nothing where none is left.
+  std::optional<std::uint32_t> next(std::size_t end) {
+    std::priority_queue<Waiting>& waiting = waiting_[end];
+    while (!waiting.empty()) {
+      const std::uint32_t cell = waiting.top().cell;
+      waiting.pop();
+      // It may have been divided for the other end.
+      if (tree_[cell].children == kNone) return cell;
+    }
+    return std::nullopt;
+  }
+
+  // And all that can be reached from there through free cells.
+  void reach(std::uint32_t first, std::size_t end) {
+    std::vector<std::uint32_t> open;
+    const auto add = [&](std::uint32_t cell) {
+      if ((tree_[cell].reached & kEnds[end]) != 0) return;
+      has_met_ = has_met_ || tree_[cell].reached != 0;
+      tree_[cell].reached |= kEnds[end];
+      open.push_back(cell);
+    };
+    add(first);
+    while (!open.empty()) {
+      const std::uint32_t cell = open.back();
+      open.pop_back();
+      tree_.for_each_neighbour(cell, [&](std::uint32_t next) {
+        if (tree_[next].state == State::kMixed) put_off(next, cell, end);
+        if (tree_[next].state == State::kFree) add(next);
+      });
+    }
+  }
+
+  void put_off(std::uint32_t index, std::uint32_t beside, std::size_t end) {
+    Cell& cell = tree_[index];
+    if ((cell.waiting & kEnds[end]) != 0 || !tree_.may_divide(cell)) return;
+    if (tree_.leads_nowhere(cell, tree_[beside])) return;
+    cell.waiting |= kEnds[end];
+    const Vec3 center_W = tree_.center_W(cell);
+    // A way that leads there is so much longer than the straight one.
+    const double share = apart_m_ / ((center_W - from_W_).norm() + (to_W_ - center_W).norm());
+    waiting_[end].push({tree_.side_m(cell.level) * share * share, index});
+  }
+
+  void divide(std::uint32_t index) {
+    const std::uint32_t first = tree_.divide(index);
+    for (std::uint32_t child = first; child < first + 8; ++child) {
+      if (tree_[child].state == State::kBlocked) continue;
+      tree_.for_each_neighbour(child, [&](std::uint32_t next) {
+        for (std::size_t end = 0; end < kEnds.size(); ++end) {
+          if ((tree_[next].reached & kEnds[end]) == 0) continue;
+          if (tree_[child].state == State::kFree) {
+            reach(child, end);
+          } else {
+            put_off(child, next, end);
+          }
+        }
+      });
+    }
+  }
+
+  /// The end from which less can be reached. Where all was looked at from the other one, there is
+  /// no way out of this one either.
+  [[nodiscard]] Pocket pocket() const {
+    std::array<geometry::Box, 2> boxes;
+    for (std::uint32_t i = 0; i < tree_.size(); ++i) {
+      const Cell& cell = tree_[i];
+      const double half_m = 0.5 * tree_.side_m(cell.level);
+      const Vec3 center_W = tree_.center_W(cell);
+      for (std::size_t end = 0; end < kEnds.size(); ++end) {
+        if (cell.children != kNone || (cell.reached & kEnds[end]) == 0) continue;
+        boxes[end].extend(geometry::Box(center_W.array() - half_m, center_W.array() + half_m));
+      }
+    }
+    const bool is_at_end = boxes[1].diagonal().norm() < boxes[0].diagonal().norm();
+    return {is_at_end, boxes[is_at_end ? 1 : 0]};
+  }
+
+  [[nodiscard]] double step_cost_m(std::uint32_t a, std::uint32_t b) const {
+    const double gap_m = std::min(tree_[a].gap_m, tree_[b].gap_m);
+    const double near = std::clamp(1.0 - gap_m / options_.comfort_m, 0.0, 1.0);
+    const double length_m = (tree_.center_W(tree_[a]) - tree_.center_W(tree_[b])).norm();
+    return length_m * (1.0 + kMostNear * near);
+  }
+
+  /// Dijkstra's algorithm on the free cells that were reached. The straight way between the middles
+  /// of two that have a face, or part of one, in common stays within the two: where it steps
+  /// through it is nearer to the middle of the smaller one than that is wide, by similar triangles.
+  [[nodiscard]] std::vector<Vec3> way() const {
+    struct Step {
+      double cost_m = std::numeric_limits<double>::infinity();
+      std::uint32_t parent = kNone;
+    };
+    std::vector<Step> steps(tree_.size());
+    std::priority_queue<Waiting> open;
+    steps[start_].cost_m = 0.0;
+    open.push({0.0, start_});
+    while (!open.empty()) {
+      const Waiting at = open.top();
+      open.pop();
+      if (at.cell == goal_) break;
+      if (-at.worth > steps[at.cell].cost_m) continue;
+      tree_.for_each_neighbour(at.cell, [&](std::uint32_t next) {
+        if (tree_[next].reached == 0) return;
+        const double cost_m = steps[at.cell].cost_m + step_cost_m(at.cell, next);
+        if (!(cost_m < steps[next].cost_m)) return;
+        steps[next] = {cost_m, at.cell};
+        open.push({-cost_m, next});
+      });
+    }
+    std::vector<Vec3> way_W = {to_W_, tree_.center_W(tree_[goal_])};
+    for (std::uint32_t cell = goal_; cell != start_; cell = steps[cell].parent) {
+      way_W.push_back(tree_.center_W(tree_[steps[cell].parent]));
+    }
+    way_W.push_back(from_W_);
+    std::ranges::reverse(way_W);
+    return way_W;
+  }
+
+  const CellOptions& options_;
+  const collision::Deadline& deadline_;
+  const Vec3 from_W_;
+  const Vec3 to_W_;
+  const double apart_m_;
+  CellTree tree_;
+  std::uint32_t start_ = kNone;
+  std::uint32_t goal_ = kNone;
+  /// Mixed cells next to what was reached, by end.
+  std::array<std::priority_queue<Waiting>, kEnds.size()> waiting_;
+  bool has_met_ = false;
+};
+
+}  // namespace
+
+CellResult cell_way(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
+                    const CellOptions& options, const collision::Deadline& deadline) {
+  return CellSearch(space, from_W, to_W, options, deadline).run();
+}
+
+}  // namespace camway::correction

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/contact_bounds.h"
+
+#include <algorithm>
+
+#include "daemon/correction/smoothing/objective_cost.h"
+
+namespace camway::correction {
+
+namespace {
+
+// Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
+constexpr double kWanted = 0.1;     // gap that is kept where there is room for it
+constexpr double kKeptShare = 0.8;  // of a gap that is less
+constexpr double kEven = 1.0;       // softness: halfway between what is wanted and what is best
+constexpr double kHardReach = 0.5;  // `kSafest` keeps hard only from what is nearer
+constexpr double kUrge = 4.0;  // weight of a squared missing gap to it, by a squared distance's
+
+}  // namespace
+
+ContactBounds::ContactBounds(Objective objective, double ball_radius_m)
+    : is_safest_(objective == Objective::kSafest),
+      wanted_m_((is_safest_ ? kComfort : kWanted) * ball_radius_m),
+      hard_reach_m_(kHardReach * ball_radius_m) {}
+
+void ContactBounds::clear() {
+  bounds_.clear();
+  forces_.clear();
+}
+
+void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double reply,
+                        std::span<Contact> contacts) {
+  if (!is_safest_) {
+    for (Contact& contact : contacts) add_kept(sample, moved, contact);
+    return;
+  }
+  for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
+    std::size_t nearest = begin;
+    for (; end < contacts.size() && contacts[end].row.triangle == contacts[begin].row.triangle;
+         ++end) {
+      Contact& contact = contacts[end];
+      if (contact.row.room_m < contacts[nearest].row.room_m) nearest = end;
+      if (contact.row.room_m > hard_reach_m_) continue;
+      const double kept_m = std::min(contact.row.room_m, least_gap_m_);
+      add_hard(sample, contact.row.direction.dot(moved) - contact.row.room_m + kept_m, contact);
+    }
+    Contact& contact = contacts[nearest];
+    // Room is made by moving: turning away from what is near finds no end.
+    StackedPoint away = contact.row.direction;
+    away.tail<4>().setZero();
+    const double stiffness = reply * away.squaredNorm();
+    if (!(stiffness > 0.0)) continue;
+    add_soft(sample, away, away.dot(moved) - contact.row.room_m + wanted_m_,
+             1.0 / (kUrge * stiffness), contact.soft_force);
+  }
+}
+
+void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, Contact& contact) {
+  const ContactRow& row = contact.row;
+  const double offset_m = row.direction.dot(moved) - row.room_m;
+  const bool has_room = row.room_m >= wanted_m_;
+  add_hard(sample, offset_m + (has_room ? wanted_m_ : kKeptShare * row.room_m), contact);
+  if (has_room) {
+    contact.soft_force = 0.0;
+  } else {
+    add_soft(sample, row.direction, offset_m + wanted_m_, kEven, contact.soft_force);
+  }
+}
+
+void ContactBounds::add_hard(std::size_t sample, double bound_m, Contact& contact) {
+  bounds_.push_back({sample, contact.row.direction, bound_m, 0.0, contact.hard_force});
+  forces_.push_back(&contact.hard_force);
+}
+
+void ContactBounds::add_soft(std::size_t sample, const StackedPoint& direction, double bound_m,
+                             double softness, double& force) {
+  bounds_.push_back({sample, direction, bound_m, softness, force});
+  forces_.push_back(&force);
+}
+
+void ContactBounds::remember() const {
+  for (std::size_t i = 0; i < bounds_.size(); ++i) *forces_[i] = bounds_[i].force;
+}
+
+}  // namespace camway::correction

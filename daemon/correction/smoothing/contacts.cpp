@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "daemon/geometry/triangle_distance.h"
+#include "daemon/motion/path/quaternion.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Triangle;
+using geometry::Vec3;
+using geometry::Vec4;
+using Turns = Eigen::Matrix<double, 3, 4>;
+
+/// Turning vectors (axis times radians) of unit steps of the image, in the world frame.
+Turns turns_of(const Vec4& reference, const Vec4& image) {
+  using motion::quaternion::conjugate;
+  using motion::quaternion::multiply;
+  const Vec4 q = multiply(reference, multiply(image, image)) / image.squaredNorm();
+  Turns turns;
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    const Vec4 unit = Vec4::Unit(k);
+    const Vec4 step = multiply(reference, multiply(image, unit) + multiply(unit, image));
+    // What changes the length of q is real, and no turn.
+    turns.col(k) = 2.0 / image.squaredNorm() * multiply(step, conjugate(q)).tail<3>();
+  }
+  return turns;
+}
+
+/// Of those from `first` on, in the order that they have.
+void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
+  constexpr std::size_t kMost = 48;  // of a triangle: more than those of a box
+  if (rows.size() - first <= kMost) return;
+  std::vector<double> rooms_m;
+  for (std::size_t i = first; i < rows.size(); ++i) rooms_m.push_back(rows[i].room_m);
+  std::ranges::nth_element(rooms_m, rooms_m.begin() + kMost - 1);
+  const double most_m = rooms_m[kMost - 1];
+  std::size_t kept = first;
+  for (std::size_t i = first; i < rows.size() && kept < first + kMost; ++i) {
+    if (rows[i].room_m <= most_m) rows[kept++] = rows[i];
+  }
+  rows.resize(kept);
+}
+
+/// Where the body is, and how it turns.
+struct Place {
+  std::span<const Triangle> parts;
+  motion::Pose pose;
+  Turns turns;
+  double lever_m;
+
+  /// What keeps vertex `i` of part `k` beyond a plane that it is `room_m` from.
+  [[nodiscard]] ContactRow row(std::uint32_t obstacle, std::size_t k, std::size_t i,
+                               const Vec3& away_W, double room_m) const {
+    ContactRow row;
+    row.room_m = room_m;
+    row.triangle = obstacle;
+    row.vertex = 3 * k + i;
+    row.direction.head<3>() = away_W;
+    row.direction.tail<4>() =
+        turns.transpose() * (parts[k][i] - pose.position).cross(away_W) / lever_m;
+    return row;
+  }
+};
+
+void add_rows_of_triangle(std::uint32_t index, const Triangle& obstacle, double keep_m,
+                          double horizon_m, const Place& place, std::vector<ContactRow>& rows) {
+  for (std::size_t k = 0; k < place.parts.size(); ++k) {
+    const Triangle& part = place.parts[k];
+    const geometry::TriangleGap gap =
+        geometry::triangle_gap(obstacle, part, std::numeric_limits<double>::infinity());
+    const double length = gap.direction.norm();
+    if (!(length > 0.0)) continue;
+    const Vec3 away_W = gap.direction / length;
+    double plane_m = -std::numeric_limits<double>::infinity();
+    for (const Vec3& vertex : obstacle) plane_m = std::max(plane_m, away_W.dot(vertex));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double room_m = away_W.dot(part[i]) - plane_m - keep_m;
+      if (room_m <= horizon_m) rows.push_back(place.row(index, k, i, away_W, room_m));
+    }
+  }
+}
+
+void add_rows_of_side(std::uint32_t number, const FreeSpace& space, double horizon_m,
+                      const Place& place, std::vector<ContactRow>& rows) {
+  const std::size_t side = collision::Obstacles::side_of(number);
+  const Vec3 inward_W = geometry::Bounds::inward(side);
+  for (std::size_t k = 0; k < place.parts.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double room_m =
+          space.obstacles().bounds.depth_m(side, place.parts[k][i]) - space.body().ball_radius_m();
+      if (room_m <= horizon_m) rows.push_back(place.row(number, k, i, inward_W, room_m));
+    }
+  }
+}
+
+}  // namespace
+
+void add_contact_rows(FreeSpace& space, bool may_turn, const Vec4& reference, double lever_m,
+                      const StackedPoint& point, std::span<const std::uint32_t> obstacles,
+                      double horizon_m, std::vector<ContactRow>& rows) {
+  const motion::CubicPoint cubic = unstacked(point, lever_m);
+  const motion::Pose pose = motion::pose_of(reference, cubic);
+  const Place place{space.placed(pose), pose,
+                    may_turn ? turns_of(reference, cubic.image) : Turns(Turns::Zero()), lever_m};
+  for (const std::uint32_t number : obstacles) {
+    const std::size_t first_row = rows.size();
+    if (collision::Obstacles::is_side(number)) {
+      add_rows_of_side(number, space, horizon_m, place, rows);
+    } else {
+      add_rows_of_triangle(number, space.obstacles().index.triangle(number), space.keep_m(),
+                           horizon_m, place, rows);
+    }
+    keep_tightest(rows, first_row);
+  }
+}
+
+}  // namespace camway::correction

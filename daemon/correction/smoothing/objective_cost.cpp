@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/objective_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "daemon/collision/clearance.h"
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec3;
+using motion::CubicPiece;
+
+constexpr int kSamplesAPiece = 16;
+constexpr double kSampleStep = 0.25;  // of the ball's radius: how far the body moves between two
+constexpr double kTightStep = 0.05;   // the same
+constexpr double kFewestSamples = 32.0;
+constexpr double kMostSamples = 2000.0;
+constexpr double kTightGap = 0.02;      // in radii of the ball: nobody but `kSafest` asks for more
+constexpr double kSameGap = 0.99;       // of the least gap: samples miss more than the rest of it
+constexpr double kWorthAChange = 1e-3;  // of the cost: less is within what the samples miss
+
+template <class Use>
+void for_each_sample(const motion::CubicPath& path, const Use& use) {
+  for (const CubicPiece& piece : path.pieces) {
+    for (int i = 0; i <= kSamplesAPiece; ++i)
+      use(std::lerp(piece.t0_s, piece.t1_s, static_cast<double>(i) / kSamplesAPiece));
+  }
+}
+
+double largest_deviation_m(const motion::CubicPath& path, const motion::CubicPath& original) {
+  double largest_m = 0.0;
+  for_each_sample(path, [&](double time_s) {
+    const double away_m = (path.at(time_s).position - original.at(time_s).position).norm();
+    largest_m = std::max(largest_m, away_m);
+  });
+  return largest_m;
+}
+
+double length_m(const motion::CubicPath& path) {
+  double length_m = 0.0;
+  Vec3 last = path.pieces.front().position.front();
+  for_each_sample(path, [&](double time_s) {
+    const Vec3 here = path.at(time_s).position;
+    length_m += (here - last).norm();
+    last = here;
+  });
+  return length_m;
+}
+
+// The acceleration of a cubic changes linearly from end to end.
+double bending_energy(const CubicPiece& piece) {
+  const double duration_s = piece.t1_s - piece.t0_s;
+  const auto acceleration = [&](std::size_t i) -> Vec3 {
+    const Vec3 bend = piece.position[i] - 2.0 * piece.position[i + 1] + piece.position[i + 2];
+    return 6.0 / (duration_s * duration_s) * bend;
+  };
+  const Vec3 begin = acceleration(0);
+  const Vec3 end = acceleration(1);
+  return duration_s / 3.0 * (begin.squaredNorm() + begin.dot(end) + end.squaredNorm());
+}
+
+/// Calls `use(gap, way)` with the gap, or `up_to_m`, and how far the eye came since the last time.
+template <class Use>
+void for_each_gap(const motion::CubicPath& path, double step_m, double up_to_m, FreeSpace& space,
+                  const Use& use) {
+  const double samples = length_m(path) / step_m;
+  const int steps = static_cast<int>(std::clamp(samples, kFewestSamples, kMostSamples));
+  Vec3 last = path.pieces.front().position.front();
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const motion::Pose pose = path.pose(std::lerp(path.begin_s(), path.end_s(), share));
+    use(space.gap_m(pose, up_to_m), (pose.position - last).norm());
+    last = pose.position;
+  }
+}
+
+double least_gap_m(const motion::CubicPath& path, FreeSpace& space) {
+  double least_m = kTightGap * space.ball_radius_m();
+  for_each_gap(path, kTightStep * space.ball_radius_m(), least_m, space,
+               [&](double gap_m, double) { least_m = std::min(least_m, gap_m); });
+  return least_m;
+}
+
+// Over the way rather than over time: who lingers where it is safe is in no less danger elsewhere.
+ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
+                     const collision::Deadline& deadline) {
+  const double comfort_m = kComfort * space.ball_radius_m();
+  ObjectiveCost cost{0.0, comfort_m};
+  for_each_gap(path, kSampleStep * space.ball_radius_m(), comfort_m, space,
+               [&](double gap_m, double way_m) {
+                 const double missing = 1.0 - std::clamp(gap_m / comfort_m, 0.0, 1.0);
+                 cost.value += missing * missing * way_m;
+               });
+  // This is what the answer's measure of safety is: not to be missed between samples.
+  const auto clearance =
+      collision::path_clearance(space.obstacles(), path.path(), space.body(), deadline);
+  if (!clearance) return {std::numeric_limits<double>::infinity(), 0.0};
+  cost.least_gap_m = std::min(comfort_m, clearance->lower_bound_m);
+  return cost;
+}
+
+}  // namespace
+
+double bending_energy(const motion::CubicPath& path) {
+  double sum = 0.0;
+  for (const CubicPiece& piece : path.pieces) sum += bending_energy(piece);
+  return sum;
+}
+
+ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
+                             const motion::CubicPath& original, FreeSpace& space,
+                             const collision::Deadline& deadline) {
+  switch (objective) {
+    case Objective::kClosest:
+      return {largest_deviation_m(path, original), 0.0};
+    case Objective::kShortest:
+      return {length_m(path), least_gap_m(path, space)};
+    case Objective::kSmoothest:
+      return {bending_energy(path), least_gap_m(path, space)};
+    case Objective::kSafest:
+      break;
+  }
+  return danger(path, space, deadline);
+}
+
+bool is_better(const ObjectiveCost& now, const ObjectiveCost& before) {
+  return now.value < (1.0 - kWorthAChange) * before.value &&
+         now.least_gap_m >= kSameGap * before.least_gap_m;
+}
+
+}  // namespace camway::correction

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/body/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "daemon/geometry/convex_hull.h"
+#include "daemon/geometry/rounding.h"
+
+namespace camway::motion {
+namespace {
+
+using geometry::kUnitRoundoff;
+using geometry::Triangle;
+using geometry::Vec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Tangent (2 units: the library's is within 1 ulp), product, and a third for second order; from
+/// coordinates to length this bound of each is one of the whole.
+constexpr double kCameraCornerRounding = 4.0 * kUnitRoundoff;
+
+/// One addition (halving a size is exact, or loses less than the smallest normal number).
+constexpr double kBoxCornerRounding = 2.0 * kUnitRoundoff;
+
+/// Length of `v`, never below the true one: three quotients, three squares, two sums, a root and a
+/// product are fewer than 8 roundings in sequence. Scaled, so that squares neither overflow nor
+/// vanish.
+double length_above(const Vec3& v) {
+  const double scale = v.lpNorm<Eigen::Infinity>();
+  if (scale == 0.0) return 0.0;
+  constexpr double kRounding = 8.0 * kUnitRoundoff;
+  return scale * (v / scale).norm() * (1.0 + 2.0 * kRounding) + geometry::kSmallestNormal;
+}
+
+/// The corner of the box on the upper side of the axes whose bits are set.
+Vec3 box_corner(const BoxShape& box, unsigned bits) {
+  Vec3 corner;
+  for (unsigned k = 0; k < 3; ++k) {
+    const Eigen::Index axis = static_cast<Eigen::Index>(k);
+    const double half = 0.5 * box.size_m[axis];
+    corner[axis] = box.center_C[axis] + ((bits >> k & 1U) != 0U ? half : -half);
+  }
+  return corner;
+}
+
+}  // namespace
+
+Body::Body(const Corners& c)
+    : triangles_C_{{c[0], c[1], c[2]}, {c[0], c[2], c[3]}}, is_camera_(true) {
+  measure();
+}
+
+Body::Body(const Camera& camera) : Body(near_corners_C(camera)) {
+  slack_m_ = kCameraCornerRounding * radius_m_;
+}
+
+std::optional<Body> Body::make(const BodyShape& shape, std::string& error) {
+  if (const std::optional<ShapeFault> fault = fault_in(shape)) {
+    error = fault->field.empty() ? fault->reason : fault->field + ": " + fault->reason;
+    return std::nullopt;
+  }
+  if (const Camera* camera = std::get_if<Camera>(&shape)) return Body(*camera);
+  Body body;
+  std::visit(
+      [&]<class Shape>(const Shape& part) {
+        if constexpr (!std::is_same_v<Shape, Camera>) body.add(part);
+      },
+      shape);
+  body.measure();
+  if (std::holds_alternative<BoxShape>(shape))
+    body.slack_m_ = kBoxCornerRounding * body.radius_m_ + geometry::kSmallestNormal;
+  return body;
+}
+
+std::string Body::feature_name(std::size_t feature) const {
+  if (ball_radius_m_ > 0.0) return "surface";
+  if (!is_camera_) return "face " + std::to_string(feature);
+  if (feature == 0) return "inside";
+  return feature <= 4 ? "edge " + std::to_string(feature - 1)
+                      : "corner " + std::to_string(feature - 5);
+}
+
+void Body::add(const BoxShape& box) {
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    // Where `axis`, `next` and `last` are x, y and z or turned, a right-handed frame: the upper
+    // face runs 0, next, next + last, last counter-clockwise, the lower one the other way.
+    const unsigned next = 1U << (axis + 1) % 3;
+    const unsigned last = 1U << (axis + 2) % 3;
+    const unsigned upper = 1U << axis;
+    const auto corner = [&](unsigned bits) { return box_corner(box, bits); };
+    triangles_C_.push_back({corner(0), corner(next + last), corner(next)});
+    triangles_C_.push_back({corner(0), corner(last), corner(next + last)});
+    triangles_C_.push_back({corner(upper), corner(upper + next), corner(upper + next + last)});
+    triangles_C_.push_back({corner(upper), corner(upper + next + last), corner(upper + last)});
+  }
+  Solid solid;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Vec3 normal = Vec3::Unit(axis);
+    solid.faces_C.push_back({-normal, std::nextafter(-box_corner(box, 0)[axis], kInfinity)});
+    solid.faces_C.push_back({normal, std::nextafter(box_corner(box, 7)[axis], kInfinity)});
+  }
+  solids_C_.push_back(std::move(solid));
+}
+
+void Body::add(const SphereShape& sphere) {
+  triangles_C_.push_back({sphere.center_C, sphere.center_C, sphere.center_C});
+  ball_radius_m_ = sphere.radius_m;
+}
+
+void Body::add(const ConvexShape& convex) {
+  for (const std::vector<Vec3>& points : convex.pieces_C) {
+    ConvexHull hull = convex_hull(points);
+    for (const std::array<std::uint32_t, 3>& t : hull.triangles)
+      triangles_C_.push_back({points[t[0]], points[t[1]], points[t[2]]});
+    if (!hull.faces.empty()) solids_C_.push_back({std::move(hull.faces)});
+  }
+}
+
+void Body::add(const MeshShape& mesh) {
+  for (const std::array<std::uint32_t, 3>& t : mesh.triangles)
+    triangles_C_.push_back({mesh.vertices_C[t[0]], mesh.vertices_C[t[1]], mesh.vertices_C[t[2]]});
+}
+
+void Body::measure() {
+  for (const Triangle& triangle : triangles_C_) {
+    for (const Vec3& vertex : triangle) radius_m_ = std::max(radius_m_, length_above(vertex));
+  }
+}
+
+}  // namespace camway::motion

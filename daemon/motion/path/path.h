@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "daemon/motion/path/segment.h"
+
+namespace camway::motion {
+
+/// A camera motion: consecutive segments without gap. A value type; safe to read from any thread.
+class Path {
+ public:
+  Path() = default;
+
+  /// Precondition: `segments` are in order of time and `segments[i].t1_s == segments[i+1].t0_s`.
+  explicit Path(std::vector<Segment> segments);
+
+  [[nodiscard]] bool empty() const { return segments_.empty(); }
+  [[nodiscard]] std::span<const Segment> segments() const& { return segments_; }
+  /// Not of a temporary: the span would outlive it.
+  std::span<const Segment> segments() const&& = delete;
+  /// Precondition of everything below: not empty.
+  [[nodiscard]] double begin_s() const;
+  [[nodiscard]] double end_s() const;
+
+  /// Index of the segment that holds `time_s`; at a join the later one, outside the path the
+  /// nearest.
+  [[nodiscard]] std::size_t segment_index(double time_s) const;
+
+  /// Pose at `time_s`, clamped to the path's time span.
+  [[nodiscard]] Pose pose(double time_s) const;
+
+ private:
+  std::vector<Segment> segments_;
+};
+
+}  // namespace camway::motion

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/spline/bump.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "daemon/motion/path/bezier.h"
+
+namespace camway::motion {
+
+namespace {
+
+using geometry::Vec3;
+using geometry::Vec4;
+
+/// Where `piece` is cut: its ends, and the knots inside.
+std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> rows) {
+  std::vector<double> cuts = {piece.t0_s};
+  for (const BumpRow& row : rows) {
+    const int last = row.first + static_cast<int>(row.bumps.size()) + 1;
+    // Only those between: a step more on either side makes up for knots that are not equidistant.
+    const auto steps_to = [&](double time_s) {
+      return static_cast<int>(std::clamp((time_s - row.knots.begin_s) / row.knots.spacing_s(),
+                                         row.first - 3.0, last + 1.0));
+    };
+    const int from = std::max(row.first - 2, steps_to(piece.t0_s) - 1);
+    const int to = std::min(last, steps_to(piece.t1_s) + 2);
+    for (int k = from; k <= to; ++k) {
+      const double knot_s = row.knots.knot_s(k);
+      if (piece.t0_s < knot_s && knot_s < piece.t1_s) cuts.push_back(knot_s);
+    }
+  }
+  std::ranges::sort(cuts);
+  const auto repeated = std::ranges::unique(cuts);
+  cuts.erase(repeated.begin(), repeated.end());
+  cuts.push_back(piece.t1_s);
+  return cuts;
+}
+
+/// The knot at or before `time_s`, and before the next one.
+int knot_before(const KnotRow& knots, double time_s) {
+  int k = static_cast<int>(std::floor((time_s - knots.begin_s) / knots.spacing_s()));
+  while (knots.knot_s(k) > time_s) --k;
+  while (knots.knot_s(k + 1) <= time_s) ++k;
+  return k;
+}
+
+/// Adds what `row` is on `piece`, which lies between two knots that follow each other.
+void add(CubicPiece& piece, const BumpRow& row) {
+  const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
+  // So far away, in spacings, as no number of a knot can say.
+  if (middle_s <= row.begin_s() || middle_s >= row.end_s()) return;
+  const int before = knot_before(row.knots, middle_s);
+  std::array<double, 8> knots_s;  // of all bumps that reach here
+  for (int i = 0; i < 8; ++i)
+    knots_s[static_cast<std::size_t>(i)] = row.knots.knot_s(before - 3 + i);
+  const double from_s = knots_s[3];
+  const double to_s = knots_s[4];
+  const auto parameter = [&](double time_s) {
+    // Exact at the knots: there the neighbours have to agree, and the ends to be zero.
+    if (time_s == to_s) return 1.0;
+    return std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0);
+  };
+  const double u0 = parameter(piece.t0_s);
+  const double u1 = parameter(piece.t1_s);
+  const int end = row.first + static_cast<int>(row.bumps.size());
+  for (int k = std::max(row.first, before - 1); k < std::min(end, before + 3); ++k) {
+    const CubicPoint& bump = row.bumps[static_cast<std::size_t>(k - row.first)];
+    const auto part = static_cast<std::size_t>(before - (k - 2));
+    const double* support_s = &knots_s[3 - part];
+    const auto pieces =
+        b_spline_pieces({support_s[0], support_s[1], support_s[2], support_s[3], support_s[4]});
+    const std::array<double, 4> weights = bezier::sub_curve(pieces[part], u0, u1);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      piece.position[i] += weights[i] * bump.position;
+      piece.image[i] += weights[i] * bump.image;
+    }
+  }
+}
+
+}  // namespace
+
+double bump_value(double knots) {
+  const double a = std::abs(knots);
+  if (a >= 2.0) return 0.0;
+  if (a >= 1.0) return (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0;
+  return 2.0 / 3.0 - a * a + 0.5 * a * a * a;
+}
+
+CubicPath with_bumps(const CubicPath& path, std::span<const BumpRow> rows) {
+  double begin_s = std::numeric_limits<double>::infinity();
+  double end_s = -begin_s;
+  for (const BumpRow& row : rows) {
+    begin_s = std::min(begin_s, row.begin_s());
+    end_s = std::max(end_s, row.end_s());
+  }
+  CubicPath result{path.reference, {}};
+  for (const CubicPiece& piece : path.pieces) {
+    if (piece.t1_s <= begin_s || piece.t0_s >= end_s) {
+      result.pieces.push_back(piece);
+      continue;
+    }
+    const std::vector<double> cuts = cuts_s(piece, rows);
+    const auto parameter = [&](double time_s) {
+      if (time_s == piece.t1_s) return 1.0;
+      return (time_s - piece.t0_s) / (piece.t1_s - piece.t0_s);
+    };
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      const double u0 = parameter(cuts[i]);
+      const double u1 = parameter(cuts[i + 1]);
+      CubicPiece part{cuts[i], cuts[i + 1], bezier::sub_curve(piece.position, u0, u1),
+                      bezier::sub_curve(piece.image, u0, u1)};
+      for (const BumpRow& row : rows) add(part, row);
+      const bool joins = !result.pieces.empty() && result.pieces.back().t1_s == part.t0_s;
+      if (joins && i > 0) {
+        part.position[0] = result.pieces.back().position[3];
+        part.image[0] = result.pieces.back().image[3];
+      }
+      result.pieces.push_back(part);
+    }
+  }
+  return result;
+}
+
+}  // namespace camway::motion

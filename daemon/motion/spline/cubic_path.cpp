@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/spline/cubic_path.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+
+#include "daemon/motion/path/bezier.h"
+#include "daemon/motion/path/quaternion.h"
+
+namespace camway::motion {
+
+using geometry::Vec4;
+
+Pose pose_of(const Vec4& reference, const CubicPoint& point) {
+  const Vec4 q = quaternion::multiply(reference, quaternion::multiply(point.image, point.image));
+  return {point.position, geometry::from_wxyz(q / q.norm())};
+}
+
+CubicPoint CubicPath::at(double time_s) const {
+  const auto later = std::ranges::upper_bound(pieces, time_s, {}, &CubicPiece::t0_s);
+  const CubicPiece& piece = later == pieces.begin() ? *later : *std::prev(later);
+  const double u = std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
+  return {bezier::value_at(piece.position, u), bezier::value_at(piece.image, u)};
+}
+
+Pose CubicPath::pose(double time_s) const { return pose_of(reference, at(time_s)); }
+
+CubicPath CubicPath::around(double t_begin_s, double t_end_s) const {
+  CubicPath part{reference, {}};
+  for (auto piece = std::ranges::upper_bound(pieces, t_begin_s, {}, &CubicPiece::t1_s);
+       piece != pieces.end() && piece->t0_s < t_end_s; ++piece) {
+    part.pieces.push_back(*piece);
+  }
+  return part;
+}
+
+void CubicPath::replace(const CubicPath& part) {
+  const auto first = std::ranges::lower_bound(pieces, part.begin_s(), {}, &CubicPiece::t0_s);
+  const auto last = std::ranges::lower_bound(pieces, part.end_s(), {}, &CubicPiece::t0_s);
+  assert(first != pieces.end() && first->t0_s == part.begin_s());
+  assert(std::prev(last)->t1_s == part.end_s());
+  // Of a long path, what comes after is moved once at the most.
+  const auto common = std::min(last - first, std::ssize(part.pieces));
+  std::copy_n(part.pieces.begin(), common, first);
+  const auto at = pieces.erase(first + common, last);
+  pieces.insert(at, part.pieces.begin() + common, part.pieces.end());
+}
+
+Path CubicPath::path() const {
+  std::vector<Segment> segments;
+  segments.reserve(pieces.size());
+  for (const CubicPiece& piece : pieces) {
+    segments.push_back(
+        {piece.t0_s, piece.t1_s, piece.position, orientation_of(reference, piece.image)});
+  }
+  return Path(std::move(segments));
+}
+
+}  // namespace camway::motion

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/motion/path/path.h"
+#include "daemon/motion/path/time_origin.h"
+#include "daemon/motion/spline/cubic_path.h"
+
+namespace camway::motion {
+
+/// Nominal rates of derived times: a step takes as long as its chord at this speed, unless another
+/// is asked for, and its turning angle at this rate, combined as the two legs of a right triangle.
+inline constexpr double kNominalSpeed_m_per_s = 1.0;
+inline constexpr double kNominalTurnRate_rad_per_s = 1.0;
+
+/// Least duration of a step, as a part of the mean step: repeated poses get it.
+inline constexpr double kShortestStep = 0.01;
+
+/// Duration of each step if no pose differs from the next.
+inline constexpr double kStepWithoutMotion_s = 1.0;
+
+/// Times for poses that came without: chord length (Farin 2002, section 9.6) blended with the
+/// turning angle, so that turning on the spot takes time and so do repeated poses. Starts at 0,
+/// strictly increasing. Deviation from chord length alone: the turning angle and the floor
+/// `kShortestStep`. `speed_m_per_s` is that of the chords. Preconditions: at least two poses,
+/// 0 < speed_m_per_s.
+std::vector<double> derive_times_s(std::span<const Pose> poses,
+                                   double speed_m_per_s = kNominalSpeed_m_per_s);
+
+/// The C² path through `keyframes`: a cubic interpolating spline with natural ends for the position
+/// (two keyframes give a straight line) and a rational interpolating quaternion spline for the
+/// orientation (quaternion_spline.h has the method, its source and our deviations). One segment per
+/// pair of neighbours, 2 to 64 where neighbours are so far apart on S³ that knots are needed
+/// between them. Consecutive segments share their control point at the join bit for bit; its
+/// position is that of the keyframe bit for bit, its orientation to rounding.
+///
+/// The same motion results from every world frame, for q and -q, and (mirrored in time) for the
+/// reversed keyframes, up to rounding; half turns between neighbours have a sense of their own
+/// (quaternion_spline.h). O(n), deterministic.
+/// Preconditions: at least two keyframes, finite, quaternions of unit length to 1e-3 or so (they
+/// are normalised), times strictly increasing, counted from `origin`.
+Path interpolate(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
+
+/// The same path, as corrections need it.
+CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
+
+}  // namespace camway::motion

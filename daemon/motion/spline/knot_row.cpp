@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/spline/knot_row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "daemon/motion/path/bezier.h"
+
+namespace camway::motion {
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kPointRoundings = 4.0;  // of a control point, in epsilons of its size
+constexpr double kMostMoved = 0.125;     // of a step: how far a knot may be from where it is wanted
+
+std::array<double, 5> support_s(const KnotRow& row, int bump) {
+  return {row.knot_s(bump - 2), row.knot_s(bump - 1), row.knot_s(bump), row.knot_s(bump + 1),
+          row.knot_s(bump + 2)};
+}
+
+}  // namespace
+
+double least_piece_s(double gap_s, double travelled_m, double size_m) {
+  const double noise_m = 24.0 * kPointRoundings * kEpsilon * size_m;
+  const double share = std::sqrt(noise_m / (kAccelerationNoise * travelled_m));
+  return gap_s * (share < 1.0 ? share : 1.0);  // also where nothing moves, and 0/0
+}
+
+double KnotPlaces::place_s(double time_s, double spacing_s) const {
+  const double reach_s = std::min(same_s, kMostMoved * spacing_s);
+  const auto next = std::ranges::lower_bound(taken_s, time_s);
+  const bool has_next = next != taken_s.end();
+  const bool has_last = next != taken_s.begin();
+  const double after_s = has_next ? *next - time_s : std::numeric_limits<double>::infinity();
+  const double before_s =
+      has_last ? time_s - *std::prev(next) : std::numeric_limits<double>::infinity();
+  if (std::min(before_s, after_s) > reach_s) return origin.nearest_s(time_s);
+  return before_s < after_s ? *std::prev(next) : *next;
+}
+
+KnotRow KnotRow::about(double middle_s, double spacing_s,
+                       std::shared_ptr<const KnotPlaces> places) {
+  double begin_s = middle_s - 2.0 * spacing_s;
+  double end_s = middle_s + 2.0 * spacing_s;
+  if (places) {
+    begin_s = places->place_s(begin_s, spacing_s);
+    end_s = places->place_s(end_s, spacing_s);
+  }
+  return {begin_s, end_s, 4, std::move(places)};
+}
+
+double KnotRow::knot_s(int index) const {
+  if (index == 0) return begin_s;
+  if (index == count) return end_s;
+  const double time_s = begin_s + (end_s - begin_s) * (static_cast<double>(index) / count);
+  return places ? places->place_s(time_s, spacing_s()) : time_s;
+}
+
+bool KnotRow::fits() const {
+  const TimeOrigin origin = places ? places->origin : TimeOrigin{};
+  const double finest_s = std::max(origin.resolution_s(begin_s), origin.resolution_s(end_s));
+  return spacing_s() >= kLeastTimesAStep * finest_s;
+}
+
+double KnotRow::bump_value(int bump, double time_s) const {
+  const std::array<double, 5> knots_s = support_s(*this, bump);
+  if (time_s <= knots_s.front() || time_s >= knots_s.back()) return 0.0;
+  const auto next = std::ranges::upper_bound(knots_s, time_s);
+  const auto piece = static_cast<std::size_t>(next - knots_s.begin()) - 1;
+  const double u = (time_s - knots_s[piece]) / (knots_s[piece + 1] - knots_s[piece]);
+  return bezier::value_at(b_spline_pieces(knots_s)[piece], u);
+}
+
+double KnotRow::bump_at_knot(int bump, int knot) const {
+  const int place = knot - bump + 2;
+  if (place <= 0 || place >= 4) return 0.0;
+  return b_spline_pieces(support_s(*this, bump))[static_cast<std::size_t>(place)][0];
+}
+
+// The blossom b of the spline is 1 at the three inner knots, and 0 at the three first and the three
+// last of the five, and at what lies before and after. Each other value is between two of these by
+// the ratio of knots.
+std::array<std::array<double, 4>, 4> b_spline_pieces(const std::array<double, 5>& knots) {
+  const auto [a, b, c, d, e] = knots;
+  const double bbc = (b - a) / (d - a);
+  const double bcc = (c - a) / (d - a);
+  const double ccd = (e - c) / (e - b);
+  const double cdd = (e - d) / (e - b);
+  const double bbb = (b - a) / (c - a) * bbc;
+  const double ccc = ((d - c) * bcc + (c - b) * ccd) / (d - b);
+  const double ddd = (e - d) / (e - c) * cdd;
+  return {{{0.0, 0.0, 0.0, bbb}, {bbb, bbc, bcc, ccc}, {ccc, ccd, cdd, ddd}, {ddd, 0.0, 0.0, 0.0}}};
+}
+
+}  // namespace camway::motion

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/timing/retimed_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "daemon/motion/spline/cubic_spline.h"
+
+namespace camway::motion {
+namespace {
+
+using geometry::Vec3;
+using geometry::Vec4;
+
+/// Slopes of the spline through `points` that begins and ends with the derivative of the given
+/// Bézier curves, slowed by the law.
+template <class Point>
+std::vector<Point> slopes_of(const std::vector<Point>& points, const CubicPath& path,
+                             std::array<Point, 4> CubicPiece::*curve, const TimeLaw& law) {
+  const CubicPiece& first = path.pieces.front();
+  const CubicPiece& last = path.pieces.back();
+  const Point begin = (3.0 * law.rate(path.begin_s()) / (first.t1_s - first.t0_s)) *
+                      ((first.*curve)[1] - (first.*curve)[0]);
+  const Point end = (3.0 * law.rate(path.end_s()) / (last.t1_s - last.t0_s)) *
+                    ((last.*curve)[3] - (last.*curve)[2]);
+  return spline_slopes<Point>(law.new_knots_s(), points, begin, end);
+}
+
+}  // namespace
+
+CubicPath retimed(const CubicPath& path, const TimeLaw& law) {
+  std::vector<Vec3> positions;
+  std::vector<Vec4> images;
+  for (const double knot_s : law.knots_s()) {
+    const CubicPoint point = path.at(knot_s);
+    positions.push_back(point.position);
+    images.push_back(point.image);
+  }
+  const std::vector<Vec3> velocities = slopes_of(positions, path, &CubicPiece::position, law);
+  const std::vector<Vec4> rates = slopes_of(images, path, &CubicPiece::image, law);
+  CubicPath result{path.reference, {}};
+  const std::span<const double> times_s = law.new_knots_s();
+  for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
+    result.pieces.push_back({times_s[i], times_s[i + 1],
+                             spline_piece<Vec3>(times_s, positions, velocities, i),
+                             spline_piece<Vec4>(times_s, images, rates, i)});
+  }
+  return result;
+}
+
+CubicPath stretched(const CubicPath& path, const TimeLaw& law) {
+  CubicPath result = path;
+  for (CubicPiece& piece : result.pieces) {
+    piece.t0_s = law.new_time_s(piece.t0_s);
+    piece.t1_s = law.new_time_s(piece.t1_s);
+  }
+  return result;
+}
+
+bool stretches_alike(const CubicPath& path, const TimeLaw& law) {
+  const double factor = law.stretch();
+  return std::ranges::all_of(path.pieces, [&](const CubicPiece& piece) {
+    const double wanted_s = factor * (piece.t1_s - piece.t0_s);
+    const double duration_s = law.new_time_s(piece.t1_s) - law.new_time_s(piece.t0_s);
+    return std::abs(duration_s - wanted_s) <= kSameRate * wanted_s;
+  });
+}
+
+}  // namespace camway::motion

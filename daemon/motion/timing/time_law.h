@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "daemon/motion/path/time_origin.h"
+#include "daemon/motion/timing/rate_limits.h"
+
+namespace camway::motion {
+
+/// A new time for every time of a path, in order and never sooner: the *rate* of the given time by
+/// the new one, 0 < dt/dτ <= 1, says how much slower the path becomes. Its square is a C¹ piecewise
+/// parabola of the given time, so the rate has a derivative without jumps, and so has the
+/// acceleration of the path no jumps that it had not before. A value type; safe to read from any
+/// thread.
+class TimeLaw {
+ public:
+  /// All times stretched by `factor` alike. Preconditions: two knots or more, increasing, and
+  /// `factor >= 1`.
+  static TimeLaw alike(std::vector<double> knots_s, double factor);
+
+  /// The rate is as large as the limits allow, and nowhere above 1: the path stays as fast as it is
+  /// where it can, and is slowed where and before it has to be.
+  ///
+  /// By reachability analysis (Pham & Pham 2018, "A new approach to time-optimal path
+  /// parameterization based on reachability analysis"). With x the squared rate, dx/dt = 2u, and
+  /// the path P(t), which turns at the rate ω(t), the limits are
+  ///     |P'|² x <= v²,  ω² x <= w²,  |P'' x + P' u| <= a,  x <= 1,
+  /// convex in (u, x). A pass backwards finds the largest x from which the end can be reached at
+  /// each stage, a pass forwards takes the largest that it can. Deviations from the paper:
+  /// - x is not piecewise linear between stages, where u would jump: the stages' x are the control
+  ///   values of a quadratic B-spline, at their Greville abscissae. By de Boor's recursion each
+  ///   (u, x) of the spline is a convex combination of those at the ends of the two stages that act
+  ///   there; each stage meets the limits of all knots that it acts on; so the spline meets the
+  ///   limits at every knot, without a margin. Between knots they hold in the limit of short steps.
+  /// - The acceleration is limited by a circle, so a stage is no linear program. For a given x the
+  ///   admissible u are an interval, in closed form; the x that have one are an interval too, whose
+  ///   end is found by bisection.
+  /// - x is kept above the largest constant that meets all limits. That constant is admissible at
+  ///   each stage, so there is a solution whatever the path, and its duration is not longer than
+  ///   that of stretching all times alike, knots being what is compared.
+  ///
+  /// Knots are at the ends of segments, and at most `step_s` apart where the rate is below 1.
+  /// O(knots). Preconditions: not empty, `step_s > 0`, limits above 0.
+  static TimeLaw within(const Path& path, const RateLimits& limits, double step_s);
+
+  /// The law with new times at knots that the sender can be told exactly, with `origin`. What the
+  /// times at `kept_s` move is spread over the knots between; there the given time moves with the
+  /// new one, so that the path by the law is as smooth as before. Nothing where times are not fine
+  /// enough for the knots. Precondition: those of `kept_s` within the law's span are knots, and
+  /// increase.
+  [[nodiscard]] std::optional<TimeLaw> sendable(const TimeOrigin& origin,
+                                                std::span<const double> kept_s) const;
+
+  /// The time that takes the place of `given_s`; strictly increasing but for rounding, and at knots
+  /// exactly `new_knots_s`. Clamped to the span of the law.
+  [[nodiscard]] double new_time_s(double given_s) const;
+
+  /// dt/dτ at `given_s`: how many given seconds pass in a new one. In (0, 1].
+  [[nodiscard]] double rate(double given_s) const;
+
+  /// Given times between which the squared rate is one parabola, and the new times there.
+  [[nodiscard]] std::span<const double> knots_s() const& { return knots_s_; }
+  [[nodiscard]] std::span<const double> new_knots_s() const& { return new_knots_s_; }
+  std::span<const double> knots_s() const&& = delete;
+  std::span<const double> new_knots_s() const&& = delete;
+
+  /// New duration by given duration; at least 1.
+  [[nodiscard]] double stretch() const;
+
+ private:
+  TimeLaw(std::vector<double> knots_s, std::vector<std::array<double, 3>> squares);
+
+  [[nodiscard]] std::size_t piece_at(double given_s) const;
+  [[nodiscard]] double passed_s(std::size_t piece, double given_s) const;
+
+  std::vector<double> knots_s_;
+  std::vector<double> new_knots_s_;
+  std::vector<std::array<double, 3>> squares_;  ///< Bézier points of the squared rate of a piece
+};
+
+}  // namespace camway::motion

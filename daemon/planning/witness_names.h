@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/collision/interval.h"
+#include "daemon/motion/body/body.h"
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+#include "daemon/scene/mesh/whole_mesh.h"
+
+namespace camway::planning {
+
+/// Names of object and body feature of `witness`, which was found with `mesh` and `body`.
+WitnessNames describe_witness(const scene::WholeMesh& mesh, const motion::Body& body,
+                              const collision::Witness& witness);
+
+/// Fills `collision_names` and `remaining_names` of a result of planning `request` in the scene
+/// `mesh`, unless they are there already. For whoever hands the result on; planning itself works
+/// with numbers.
+void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, PlanResult& result);
+
+}  // namespace camway::planning

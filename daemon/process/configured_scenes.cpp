@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/configured_scenes.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/planning/request.h"
+#include "daemon/scene/import/import.h"
+#include "daemon/scene/import/import_warnings.h"
+#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/service/scenes/scene_rules.h"
+
+namespace camway::service {
+namespace {
+
+std::string text_of(const geometry::Vec3& point) {
+  return fmt::format("{:.3g},{:.3g},{:.3g}", point.x(), point.y(), point.z());
+}
+
+void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, Log& log) {
+  const scene::ImportReport& report = snapshot.report;
+  log.info("scene read", {{"scene", snapshot.name},
+                          {"file", scene.file.string()},
+                          {"format", report.format},
+                          {"triangles", report.triangles},
+                          {"min_m", text_of(report.bounds_m.min())},
+                          {"max_m", text_of(report.bounds_m.max())},
+                          {"scale", report.scale},
+                          {"rounding_m", report.rounding_m},
+                          {"degenerate_left_out", report.degenerate_triangles},
+                          {"bad_left_out", report.dropped_nonfinite + report.dropped_bad_index},
+                          {"digest", snapshot.digest}});
+  for (const std::string& warning :
+       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+    log.warn("scene read with a warning", {{"scene", snapshot.name}, {"warning", warning}});
+  }
+  if (snapshot.occupancy) {
+    log.info("occupancy map built",
+             {{"scene", snapshot.name},
+              {"occupied_voxels", snapshot.occupancy->statistics().occupied_voxels},
+              {"resolution_m", snapshot.occupancy->resolution_m()}});
+  }
+}
+
+bool same(const SceneArgument& a, const SceneArgument& b) {
+  return a.name == b.name && a.file == b.file && a.options.import.scale == b.options.import.scale &&
+         a.options.import.up == b.options.import.up &&
+         a.options.import.unknown == b.options.import.unknown &&
+         a.options.occupancy_resolution_m == b.options.occupancy_resolution_m &&
+         a.options.bounds == b.options.bounds;
+}
+
+}  // namespace
+
+bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
+                              const std::stop_token& stop) {
+  fault_.clear();
+  std::vector<Held> next;
+  std::vector<std::shared_ptr<const scene::Snapshot>> loaded;
+  for (const SceneArgument& scene : wanted) {
+    // Before it is read: what is written meanwhile is read the next time.
+    next.push_back({scene, stamp_of(scene.file)});
+    if (holds(next.back())) continue;
+    if (stop.stop_requested()) return false;
+    loaded.push_back(load(scene, stop));
+    if (!loaded.back()) return false;
+  }
+  remove_all_but(wanted);
+  held_ = std::move(next);
+  bool all = true;
+  for (std::shared_ptr<const scene::Snapshot>& snapshot : loaded) {
+    const std::string name = snapshot->name;
+    const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
+    if (put.snapshot) continue;
+    const std::string reason = with_setting(put.error, put.limit);
+    log_->error("scene cannot be held", {{"scene", name}, {"reason", reason}});
+    note_fault(name, reason);
+    // Tried again the next time. An older one of that name goes when it is not wanted any more.
+    for (Held& held : held_) {
+      if (held.scene.name == name) held.stamp = {};
+    }
+    all = false;
+  }
+  return all;
+}
+
+void ConfiguredScenes::note_fault(const std::string& scene, const std::string& reason) {
+  if (fault_.empty()) fault_ = fmt::format("scene '{}': {}", scene, reason);
+}
+
+void ConfiguredScenes::remove_all_but(const std::vector<SceneArgument>& wanted) {
+  for (const Held& held : held_) {
+    const bool stays = std::any_of(wanted.begin(), wanted.end(), [&](const SceneArgument& scene) {
+      return scene.name == held.scene.name;
+    });
+    if (stays) continue;
+    store_.remove(held.scene.name);
+    log_->info("scene unloaded", {{"scene", held.scene.name}});
+  }
+}
+
+ConfiguredScenes::FileStamp ConfiguredScenes::stamp_of(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return {};  // loading says what is wrong
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  return {status.st_mtim.tv_sec * kNanosecondsPerSecond + status.st_mtim.tv_nsec, status.st_size,
+          status.st_ino};
+}
+
+bool ConfiguredScenes::watches_files() const {
+  return std::ranges::any_of(held_, [](const Held& held) { return held.scene.watch; });
+}
+
+void ConfiguredScenes::look_at_files(const std::stop_token& stop) {
+  for (Held& held : held_) {
+    if (stop.stop_requested()) return;
+    if (held.scene.watch) look_at(held, stop);
+  }
+}
+
+void ConfiguredScenes::look_at(Held& held, const std::stop_token& stop) {
+  const FileStamp now = stamp_of(held.scene.file);
+  const bool is_stable = std::exchange(held.seen, now) == now;
+  if (now == held.tried || !is_stable) return;
+  const FileStamp tried = std::exchange(held.tried, now);
+  if (now == FileStamp{}) {
+    log_->warn("scene file is gone, what was read of it stays",
+               {{"scene", held.scene.name}, {"file", held.scene.file.string()}});
+    return;
+  }
+  if (read_again(held.scene, stop)) {
+    held.stamp = now;
+  } else if (stop.stop_requested()) {
+    held.tried = tried;
+  }
+}
+
+bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_token& stop) {
+  const auto before = store_.find(scene.name);
+  const scene::SceneObject* const object = before ? before->find(scene.name) : nullptr;
+  if (object == nullptr) {
+    log_->info("scene file changed, but a client has taken it out",
+               {{"scene", scene.name}, {"file", scene.file.string()}});
+    return false;
+  }
+  log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
+  scene::ImportResult read = scene::import_mesh(scene.file, scene.options.import, stop);
+  if (stop.stop_requested()) return false;
+  if (!read.mesh) {
+    log_->warn("scene file cannot be read again, what was read before stays",
+               {{"scene", scene.name}, {"reason", with_setting(read.error, read.limit)}});
+    return false;
+  }
+  // Two maps may have the same faces, and one be solid where the other is not.
+  const bool is_same =
+      !read.map && !object->source->map_O &&
+      scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->parts_O.front().mesh);
+  if (is_same) return true;
+  const std::shared_ptr<const scene::ObjectSource> source =
+      read.map
+          ? scene::make_map_source(std::move(read.map), std::move(read.report), before->options)
+          : scene::make_source(scene::ObjectKind::kMesh, std::move(*read.mesh),
+                               std::move(read.report), before->options);
+  const scene::StoreResult changed = store_.change(
+      scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement},
+      {.operation = "put", .object = scene.name});
+  if (!changed.snapshot) {
+    log_->warn("scene cannot be changed, what was read before stays",
+               {{"scene", scene.name}, {"reason", with_setting(changed.error, changed.limit)}});
+    return false;
+  }
+  log_->info("scene file changed", {{"scene", scene.name},
+                                    {"file", scene.file.string()},
+                                    {"revision", changed.snapshot->revision}});
+  log_scene(*changed.snapshot, scene, *log_);
+  return true;
+}
+
+bool ConfiguredScenes::holds(const Held& wanted) const {
+  return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
+    return same(held.scene, wanted.scene) && held.stamp == wanted.stamp;
+  });
+}
+
+std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgument& scene,
+                                                              const std::stop_token& stop) {
+  log_->info("reading scene", {{"scene", scene.name}, {"file", scene.file.string()}});
+  scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
+  if (stop.stop_requested()) return nullptr;
+  if (!result.snapshot) {
+    const std::string reason = with_setting(result.error, result.limit);
+    log_->error("scene cannot be read",
+                {{"scene", scene.name}, {"said_at", scene.said_at}, {"reason", reason}});
+    note_fault(scene.name, reason);
+  } else {
+    log_scene(*result.snapshot, scene, *log_);
+  }
+  return result.snapshot;
+}
+
+}  // namespace camway::service

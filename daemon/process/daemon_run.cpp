@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/daemon_run.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "daemon/planning/plan.h"
+#include "daemon/process/metrics_text.h"
+#include "daemon/process/process_signals.h"
+#include "daemon/process/service_manager.h"
+#include "daemon/service/scenes/upload_file.h"
+#include "daemon/service/service.h"
+#include "daemon/service/transport/auth_transport.h"
+#include "daemon/service/transport/lcm_transport.h"
+
+namespace camway::service {
+namespace {
+
+constexpr int kExitLcm = 1;
+constexpr int kExitMetrics = 1;
+constexpr int kExitPrefix = 1;
+constexpr int kExitBadInput = 2;
+/// How long a start asks whether another daemon serves with its prefix; that one answers within
+/// milliseconds.
+constexpr std::chrono::milliseconds kClaimWindow{250};
+
+/// The last status, between the loop that makes it and the page that shows it.
+class LatestStatus {
+ public:
+  void set(const status_t& status) {
+    const std::lock_guard lock(mutex_);
+    status_ = status;
+  }
+  [[nodiscard]] status_t get() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+
+ private:
+  mutable std::mutex mutex_;  ///< guards status_
+  status_t status_{};
+};
+
+/// What was not trusted, as the status says it.
+void add_distrusted(const AuthTransport::Distrusted& counts, status_t& status) {
+  const auto count = [&](wire::Distrust why) { return counts.at(static_cast<std::size_t>(why)); };
+  status.unsigned_messages = count(wire::Distrust::kUnsigned);
+  status.broken_envelopes = count(wire::Distrust::kBroken);
+  status.unknown_key_messages = count(wire::Distrust::kUnknownKey);
+  status.altered_messages = count(wire::Distrust::kAltered);
+  status.stale_messages = count(wire::Distrust::kStale);
+  status.replayed_messages = count(wire::Distrust::kReplayed);
+  status.crowded_messages = count(wire::Distrust::kCrowded);
+}
+
+/// What signs and checks messages, if anything is to; `error` says why it cannot.
+std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::string& error) {
+  if (options.key_file.empty()) return nullptr;
+  wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.key_file);
+  error = std::move(read.error);
+  if (!read.keys) return nullptr;
+  wire::ReplayGuard::Limits limits;
+  limits.senders = options.senders;
+  limits.window_us = std::chrono::microseconds(options.window).count();
+  return std::make_shared<wire::MessageAuth>(std::move(read.keys), limits);
+}
+
+/// The page for Prometheus, if one is asked for.
+OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& latest,
+                            const std::shared_ptr<Log>& log) {
+  if (options.metrics.port == 0) return {};
+  HttpContent content;
+  content.path = "/metrics";
+  content.type = "text/plain; version=0.0.4; charset=utf-8";
+  content.text = [&latest] { return metrics_text(latest.get()); };
+  // For the page's thread alone, as the limits of lines are.
+  const auto crowded =
+      std::make_shared<LimitedLog>(log, LogLevel::kWarn, "metrics", options.service.log_limits);
+  content.full = [crowded, most = options.metrics_limits.connections] {
+    crowded->write("the page of metrics has as many connections as it may",
+                   {{"metrics.connections", most}});
+  };
+  return open_http_page(options.metrics, std::move(content), options.metrics_limits);
+}
+
+/// What the outcome of a run means for the process.
+int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
+  switch (outcome) {
+    case RunOutcome::kDrained:
+      return EXIT_SUCCESS;
+    case RunOutcome::kAbandoned:
+      std::_Exit(EXIT_SUCCESS);
+    case RunOutcome::kPrefixTaken:
+      return kExitPrefix;
+    case RunOutcome::kNotSubscribed:
+      log.error("LCM takes no subscription", {{"url", url}, {"hint", multicast_hint()}});
+      return kExitLcm;
+    case RunOutcome::kTransportBroken:
+      log.error("LCM failed", {{"url", url}});
+      return kExitLcm;
+  }
+  return kExitLcm;
+}
+
+}  // namespace
+
+int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
+          ConfiguredScenes& configured, const std::shared_ptr<Log>& log) {
+  if (const std::string other = url_of_environment(); !other.empty() && other != options.lcm_url) {
+    log->warn("LCM_DEFAULT_URL is set, but does not count",
+              {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
+  }
+  const OpenedTransport opened =
+      open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
+        log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
+      });
+  if (!opened.transport) {
+    log->error("LCM cannot be used", {{"reason", opened.error}});
+    return kExitLcm;
+  }
+  std::string auth_error;
+  const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
+  if (!auth_error.empty()) {
+    log->error("keys cannot be used",
+               {{"setting", options.where("auth.key_file")}, {"reason", auth_error}});
+    return kExitBadInput;
+  }
+  std::optional<AuthTransport> signing;
+  if (auth) {
+    signing.emplace(*opened.transport, auth, options.auth.required,
+                    LimitedLog(log, LogLevel::kWarn, "distrusted", options.service.log_limits));
+    log->info("messages are signed",
+              {{"unsigned_ones", options.auth.required ? "dropped" : "accepted"}});
+  }
+  Transport& transport = signing ? static_cast<Transport&>(*signing) : *opened.transport;
+  LatestStatus latest;
+  const OpenedHttpPage metrics = open_metrics(options, latest, log);
+  if (!metrics.error.empty()) {
+    log->error("there can be no page of metrics", {{"reason", metrics.error}});
+    return kExitMetrics;
+  }
+  const ServiceManager manager = ServiceManager::from_environment();
+  ReloadRecord reloads;
+  ServiceHooks hooks;
+  hooks.ready = [&] { manager.ready("serving"); };
+  hooks.stopping = [&] { manager.stopping(); };
+  hooks.alive = [&] { manager.alive(); };
+  if (metrics.page) {
+    log->info("page of metrics", {{"address", options.metrics.ip}, {"port", metrics.page->port()}});
+  }
+  hooks.status = [&](status_t& status) {
+    if (signing) {
+      add_distrusted(signing->distrusted(), status);
+      signing->tell_left_out();
+    }
+    status.signed_only = signing && options.auth.required ? 1 : 0;
+    reloads.add_to(status);
+    if (metrics.page) latest.set(status);
+  };
+  hooks.alive_period = manager.alive_period();
+  const Planner planner = [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
+                             const collision::Deadline& deadline) {
+    return planning::plan(snapshot, request, deadline);
+  };
+  if (const std::size_t files = remove_left_upload_files(); files > 0) {
+    log->info("removed uploads that a daemon left behind", {{"files", files}});
+  }
+  ServiceConfig config = options.service;
+  config.claim_window = options.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
+  Service service(transport, scenes, std::move(config), planner, log, std::move(hooks));
+  log->info("serving", {{"url", options.lcm_url},
+                        {"prefix", options.service.prefix},
+                        {"workers", options.service.workers},
+                        {"scene_workers", options.service.scene_workers},
+                        {"queue", options.service.queue.jobs},
+                        {"client_queue", options.service.queue.jobs_of_a_client}});
+  Reloader reloader(options, std::move(read_again), configured, reloads, manager, log, auth);
+  const SignalWaiter signals(
+      [&](int signal) {
+        log->info("signal", {{"number", signal}});
+        service.request_stop();
+      },
+      [&] { reloader.request(); });
+  return exit_code_of(service.run(), options.lcm_url, *log);
+}
+
+}  // namespace camway::service

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <memory>
+
+#include "daemon/base/standard_streams.h"
+#include "daemon/process/configured_scenes.h"
+#include "daemon/process/daemon_command_line.h"
+#include "daemon/process/daemon_run.h"
+#include "daemon/process/process_signals.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/service/log/log.h"
+#include "daemon/version/build_info.h"
+
+namespace {
+
+constexpr int kExitFault = 1;
+constexpr int kExitBadInput = 2;
+
+int run(int argc, char** argv) {
+  using namespace camway;
+  const service::ParsedOptions parsed = service::parse_daemon_options(argc, argv);
+  if (!(std::cout << parsed.text).flush()) {
+    std::cerr << "camwayd: standard output cannot be written\n";
+    return kExitFault;
+  }
+  for (const std::string& fault : parsed.faults) std::cerr << "camwayd: " << fault << '\n';
+  if (!parsed.faults.empty()) return kExitBadInput;
+  if (!parsed.options) return EXIT_SUCCESS;
+
+  const auto log = std::make_shared<service::Log>(std::cerr, parsed.options->log_format,
+                                                  parsed.options->log_level);
+  log->info("starting", {{"version", service::version_text()}});
+
+  service::block_reload_signal();  // a reload that is asked for now comes after the scenes
+  scene::SceneStore scenes(parsed.options->store);
+  service::ConfiguredScenes configured(scenes, log);
+  // A stop signal while scenes are being read ends the process at once: nobody was promised
+  // anything.
+  if (!configured.update(parsed.options->scenes)) return kExitBadInput;
+  service::block_stop_signals();
+  const auto read_again = [=] { return service::parse_daemon_options(argc, argv); };
+  return service::serve(*parsed.options, read_again, scenes, configured, log);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!camway::service::occupy_closed_standard_streams()) return kExitFault;
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "camwayd: " << error.what() << '\n';
+    return kExitFault;
+  }
+}

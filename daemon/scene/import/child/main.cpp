@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+
+/// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE, OBJ, OFF, PLY and STL by our own
+/// readers, occupancy maps with OctoMap and all else with assimp, and writes what `import_format.h`
+/// describes to file descriptor
+/// 3. Started by `import_mesh` only. The one place that sees assimp; a process of its own, because
+/// a file of a few bytes can make assimp crash or take all memory.
+
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <assimp/Importer.hpp>
+
+#include "daemon/scene/import/child/import_confinement.h"
+#include "daemon/scene/import/child/map_reader.h"
+#include "daemon/scene/import/readers/mesh_reader.h"
+#include "daemon/scene/import/record/import_format.h"
+
+namespace {
+
+namespace format = camway::scene::import_format;
+namespace mesh_readers = camway::scene::mesh_readers;
+
+/// A scene file and what it refers to, one after the other.
+constexpr rlim_t kMaxOpenFiles = 64;
+
+bool set_limit(int resource, rlim_t value) {
+  const rlimit limit{value, value};
+  return setrlimit(static_cast<__rlimit_resource_t>(resource), &limit) == 0;
+}
+
+bool limit_this_process(rlim_t memory_bytes, rlim_t cpu_s) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  // Sanitizers reserve terabytes of address space.
+  const bool address_space = true;
+#else
+  const bool address_space = set_limit(RLIMIT_AS, memory_bytes);
+#endif
+  return address_space && set_limit(RLIMIT_CPU, cpu_s) && set_limit(RLIMIT_CORE, 0) &&
+         set_limit(RLIMIT_FSIZE, memory_bytes) && set_limit(RLIMIT_NOFILE, kMaxOpenFiles) &&
+         set_limit(RLIMIT_NPROC, 0) && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0;
+}
+
+bool confine([[maybe_unused]] const char* file) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;  // sanitizers need more of the system than is left
+#else
+  return camway::scene::confine_this_process(file, format::kOutputFd);
+#endif
+}
+
+bool write_all(const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(format::kOutputFd, at, size);
+    if (written <= 0) return false;
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+template <class T>
+bool write_all(const std::vector<T>& values) {
+  return write_all(values.data(), values.size() * sizeof(T));
+}
+
+bool write_record(format::Record& record) {
+  record.header.text_bytes = record.text.size();
+  record.header.vertices = record.vertices.size();
+  record.header.triangles = record.triangles.size();
+  record.header.objects = record.objects.size();
+  record.header.name_bytes = record.names.size();
+  record.header.occupied = record.occupied.size();
+  record.header.free = record.free.size();
+  return write_all(&record.header, sizeof record.header) &&
+         write_all(record.text.data(), record.text.size()) && write_all(record.vertices) &&
+         write_all(record.triangles) && write_all(record.objects) &&
+         write_all(record.names.data(), record.names.size()) && write_all(record.occupied) &&
+         write_all(record.free);
+}
+
+int refuse(std::string reason) {
+  format::Record record;
+  record.text = std::move(reason);
+  return write_record(record) ? format::kExitRefused : format::kExitInternal;
+}
+
+std::string object_name(const aiNode& node, const aiMesh& mesh) {
+  const std::string_view node_name = node.mName.C_Str();
+  const std::string_view mesh_name = mesh.mName.C_Str();
+  if (node_name.empty()) return std::string(mesh_name);
+  if (mesh_name.empty() || mesh_name == node_name) return std::string(node_name);
+  return std::string(node_name) + "/" + std::string(mesh_name);
+}
+
+void append_mesh(const aiNode& node, const aiMesh& mesh, format::Record& record) {
+  const auto base = static_cast<std::uint32_t>(record.vertices.size());
+  const std::size_t first_triangle = record.triangles.size();
+  for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
+    record.vertices.push_back({v.x, v.y, v.z});
+  }
+  for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
+    if (face.mNumIndices != 3) {
+      ++record.header.dropped_points_and_lines;
+      continue;
+    }
+    format::Triangle triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      // assimp passes on an index that no vertex has; it must not reach into the next mesh.
+      const std::uint32_t index = face.mIndices[k];
+      triangle[k] = index < mesh.mNumVertices ? base + index : ~std::uint32_t{0};
+    }
+    record.triangles.push_back(triangle);
+  }
+  const std::string name = object_name(node, mesh);
+  record.objects.push_back({static_cast<std::uint32_t>(record.triangles.size() - first_triangle),
+                            static_cast<std::uint32_t>(name.size())});
+  record.names += name;
+}
+
+void append_nodes(const aiNode& node, const aiScene& scene, format::Record& record) {
+  for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) {
+    if (mesh < scene.mNumMeshes) append_mesh(node, *scene.mMeshes[mesh], record);
+  }
+  for (const aiNode* child : std::span(node.mChildren, node.mNumChildren)) {
+    append_nodes(*child, scene, record);
+  }
+}
+
+/// By how much assimp may be off where it only reads numbers: it makes a decimal of whole part and
+/// fraction, each rounded, and their sum, and multiplies by a power of ten, rounded too.
+constexpr double kReadingRoundoffs = 8.0;
+constexpr double kRoundoff = double{std::numeric_limits<ai_real>::epsilon()} / 2.0;
+
+/// A 4 × 4 matrix of magnitudes, for bounds.
+using Magnitudes = std::array<std::array<double, 4>, 4>;
+
+Magnitudes product_of_magnitudes(const Magnitudes& a, const aiMatrix4x4& b) {
+  Magnitudes product{};
+  for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned j = 0; j < 4; ++j) {
+      for (unsigned k = 0; k < 4; ++k) product[i][j] += a[i][k] * std::abs(double{b[k][j]});
+    }
+  }
+  return product;
+}
+
+/// Bounds the rounding of node transforms in single precision. A chain of m products of 4 terms,
+/// the last with a vertex, is off by less than 4 m roundoffs, and a few of reading, of the same
+/// chain of magnitudes (Higham 2002, "Accuracy and Stability of Numerical Algorithms",
+/// section 3.5); doubled, which is more than the terms of higher order come to.
+class TransformRounding {
+ public:
+  explicit TransformRounding(const aiScene& scene) : scene_(scene) {
+    Magnitudes identity{};
+    for (std::size_t i = 0; i < 4; ++i) identity[i][i] = 1.0;
+    add(*scene.mRootNode, identity, 0.0);
+  }
+  [[nodiscard]] double bound() const { return bound_; }
+
+ private:
+  void add(const aiNode& node, const Magnitudes& parent, double products) {
+    const bool moves = !node.mTransformation.IsIdentity();
+    const Magnitudes chain = product_of_magnitudes(parent, node.mTransformation);
+    const double here = products + (moves ? 1.0 : 0.0);
+    if (here > 0.0) {
+      const double roundoffs = 2.0 * (4.0 * here + (here + 1.0) * kReadingRoundoffs);
+      for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) {
+        if (mesh < scene_.mNumMeshes) add_mesh(*scene_.mMeshes[mesh], chain, roundoffs);
+      }
+    }
+    for (const aiNode* child : std::span(node.mChildren, node.mNumChildren)) {
+      add(*child, chain, here);
+    }
+  }
+
+  void add_mesh(const aiMesh& mesh, const Magnitudes& chain, double roundoffs) {
+    std::array<double, 4> largest = {0.0, 0.0, 0.0, 1.0};
+    for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
+      for (unsigned k = 0; k < 3; ++k) {
+        if (std::isfinite(v[k])) largest[k] = std::max(largest[k], std::abs(double{v[k]}));
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      double size = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) size += chain[i][k] * largest[k];
+      bound_ = std::max(bound_, roundoffs * kRoundoff * size);
+    }
+  }
+
+  const aiScene& scene_;
+  double bound_ = 0.0;
+};
+
+int import_with_assimp(const std::string& file) {
+  Assimp::Importer importer;
+  // Node transforms are applied before polygons are cut to triangles, and nodes keep their names.
+  importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, true);
+  // Only positions matter; the rest goes before it costs time.
+  importer.SetPropertyInteger(
+      AI_CONFIG_PP_RVC_FLAGS,
+      aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+          aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+  const aiScene* scene = importer.ReadFile(file, aiProcess_RemoveComponent);
+  if (scene == nullptr) return refuse(importer.GetErrorString());
+  if (scene->mRootNode == nullptr || !scene->HasMeshes()) return refuse("holds no mesh");
+  format::Record record;
+  record.header.single_precision = 1;
+  record.header.relative_rounding = kReadingRoundoffs * kRoundoff;
+  record.header.absolute_rounding = TransformRounding(*scene).bound();
+  const int index = importer.GetPropertyInteger("importerIndex", -1);
+  const aiImporterDesc* description =
+      index >= 0 ? importer.GetImporterInfo(static_cast<std::size_t>(index)) : nullptr;
+  record.text = description != nullptr ? description->mName : "unknown";
+  scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices | aiProcess_Triangulate);
+  if (scene == nullptr) return refuse(importer.GetErrorString());
+  append_nodes(*scene->mRootNode, *scene, record);
+  return write_record(record) ? format::kExitOk : format::kExitInternal;
+}
+
+/// The bytes of a file, mapped. One that shrinks meanwhile ends this process, which is its purpose.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::string& file) : fd_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    struct stat information {};
+    if (fd_ < 0 || fstat(fd_, &information) != 0) return;
+    size_ = static_cast<std::size_t>(information.st_size);
+    data_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd_, 0);
+  }
+  ~MappedFile() {
+    if (is_open()) munmap(data_, size_);
+    if (fd_ >= 0) close(fd_);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  [[nodiscard]] bool is_open() const { return data_ != MAP_FAILED; }
+  [[nodiscard]] std::string_view bytes() const { return {static_cast<const char*>(data_), size_}; }
+
+ private:
+  int fd_;
+  std::size_t size_ = 0;
+  void* data_ = MAP_FAILED;
+};
+
+int import_directly(const std::string& file, const std::string& extension) {
+  const MappedFile mapped(file);
+  if (!mapped.is_open()) {
+    // The file is there and not empty, so what is missing is address space.
+    return errno == ENOMEM ? format::kExitOutOfMemory : refuse("cannot be opened");
+  }
+  mesh_readers::ReadResult read = mesh_readers::read_mesh(extension, mapped.bytes());
+  if (!read.refusal.empty()) return refuse(std::move(read.refusal));
+  return write_record(read.record) ? format::kExitOk : format::kExitInternal;
+}
+
+int import_map(const std::string& file, const std::string& extension) {
+  format::Record record;
+  std::string refusal = camway::scene::read_map(file, extension, record);
+  if (!refusal.empty()) return refuse(std::move(refusal));
+  return write_record(record) ? format::kExitOk : format::kExitInternal;
+}
+
+int import_file(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (mesh_readers::is_known_extension(extension)) return import_directly(file, extension);
+  if (camway::scene::is_map_extension(extension)) return import_map(file, extension);
+  return import_with_assimp(file);
+}
+
+std::optional<rlim_t> parse_limit(std::string_view text) {
+  rlim_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) return format::kExitInternal;
+  const std::optional<rlim_t> memory_bytes = parse_limit(argv[2]);
+  const std::optional<rlim_t> cpu_s = parse_limit(argv[3]);
+  if (!memory_bytes || !cpu_s || !limit_this_process(*memory_bytes, *cpu_s)) {
+    return format::kExitInternal;
+  }
+  if (!confine(argv[1])) return format::kExitNotConfined;
+  // assimp catches bad_alloc and calls it something else; this comes before.
+  std::set_new_handler([] { _exit(format::kExitOutOfMemory); });
+  int code = format::kExitInternal;
+  try {
+    code = import_file(argv[1]);
+  } catch (const std::exception& e) {
+    code = refuse(e.what());
+  }
+  // What was written is complete; what assimp left behind at exit can only fail.
+  _exit(code);
+}

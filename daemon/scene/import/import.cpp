@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/import/import.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+
+#include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/import_process.h"
+#include "daemon/scene/import/record/import_record.h"
+
+namespace camway::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is wrong with the file before anything reads it; empty if nothing is.
+std::string reason_not_to_read(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) return "there is no such file";
+  if (error) return error.message();
+  if (status.type() == fs::file_type::directory) return "is a directory";
+  if (status.type() != fs::file_type::regular) return "is not a regular file";
+  if (access(file.c_str(), R_OK) != 0) return "cannot be read: permission denied";
+  if (fs::file_size(file, error) == 0 && !error) return "is empty";
+  return error ? error.message() : "";
+}
+
+/// Why the reader refused the file, without its name, which the caller adds.
+std::string refusal(const fs::path& file, const std::string& reason) {
+  if (reason.starts_with("No suitable reader found")) {
+    return "no reader recognises it: files of type '" + file.extension().string() +
+           "' are not supported, or its content is not what the name says";
+  }
+  return "cannot be read: " + reason;
+}
+
+std::string describe(const ImportProcessResult& process, const ImportOptions& options) {
+  using End = ImportProcessResult::End;
+  switch (process.end) {
+    case End::kOutOfMemory:
+      return "reading it takes more than the limit of " +
+             std::to_string(options.memory_limit_bytes >> 20) + " MiB";
+    case End::kOutOfTime: {
+      char seconds[32];
+      std::snprintf(seconds, sizeof seconds, "%g", options.time_limit_s);
+      return "reading it takes more than the limit of " + std::string(seconds) + " s";
+    }
+    case End::kStopped:
+      return "reading it was called off";
+    case End::kCrashed:
+      return "crashed its reader (" + process.detail + ")";
+    case End::kNotStarted:
+      return "cannot be imported: " + process.detail;
+    case End::kFinished:
+      break;
+  }
+  return "cannot be imported";
+}
+
+/// See `ImportReport::rounding_m`. The reader's own is relative to coordinates or absolute in file
+/// units; the product with the scale rounds once more.
+double rounding_m(const ImportRecordResult& record, const Mesh& mesh, double scale) {
+  if (mesh.triangles.empty()) return 0.0;
+  const geometry::Box bounds_m = mesh.bounds();
+  const double largest_m = bounds_m.min().cwiseAbs().cwiseMax(bounds_m.max().cwiseAbs()).maxCoeff();
+  const double of_scale = scale == 1.0 ? 0.0 : geometry::kUnitRoundoff;
+  return (record.relative_rounding + of_scale) * largest_m + record.absolute_rounding * scale;
+}
+
+std::string import_into(ImportResult& result, const fs::path& file, const ImportOptions& options,
+                        const std::stop_token& stop) {
+  if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
+    return "the scale must be a positive number";
+  }
+  if (std::string reason = reason_not_to_read(file); !reason.empty()) return reason;
+  const ImportProcessResult process =
+      run_import_process(file, options.memory_limit_bytes, options.time_limit_s, stop);
+  if (process.end != ImportProcessResult::End::kFinished) return describe(process, options);
+  ImportReport& report = result.report;
+  ImportRecordResult record = read_import_record(process.output, options, report);
+  if (record.broken) return "its reader answered with a broken record";
+  result.limit = record.limit;
+  if (!record.mesh) return refusal(file, record.refusal);
+  const Mesh& mesh = *record.mesh;
+  report.vertices = mesh.vertices.size();
+  report.triangles = mesh.triangles.size();
+  report.objects = mesh.objects.size();
+  report.bounds_m = mesh.bounds();
+  report.rounding_m = rounding_m(record, mesh, options.scale);
+  if (mesh.triangles.empty()) {
+    return record.map ? "holds no occupied voxel" : "holds no triangle with an area";
+  }
+  result.map = std::move(record.map);
+  result.mesh = std::move(record.mesh);
+  return "";
+}
+
+}  // namespace
+
+ImportResult import_mesh(const fs::path& file, const ImportOptions& options,
+                         const std::stop_token& stop) {
+  ImportResult result;
+  result.report.scale = options.scale;
+  result.report.up = options.up;
+  if (const std::string reason = import_into(result, file, options, stop); !reason.empty()) {
+    result.error = file.string() + ": " + reason;
+  }
+  return result;
+}
+
+std::string_view importer_note(std::string_view format) {
+  if (format.find("Collada") != std::string_view::npos) {
+    return "the reader has already applied the file's own <unit> and <up_axis> (to metres, Y up)";
+  }
+  if (format.find("FBX") != std::string_view::npos) {
+    return "an FBX file's own unit is often the centimetre; it is not applied";
+  }
+  return {};
+}
+
+}  // namespace camway::scene

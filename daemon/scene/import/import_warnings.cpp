@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/import/import_warnings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+namespace camway::scene {
+namespace {
+
+std::string metres(double length_m) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g m", length_m);
+  return text.data();
+}
+
+/// "3 of zero area, 1 with a coordinate that ..."; empty if nothing was left out.
+std::string left_out(const ImportReport& report) {
+  struct Reason {
+    std::uint64_t count;
+    std::string_view text;
+  };
+  const std::array<Reason, 4> reasons = {{
+      {report.dropped_nonfinite, "with a coordinate that is no usable number"},
+      {report.dropped_bad_index, "with a vertex that does not exist"},
+      {report.dropped_freeform, "that are free-form surfaces"},
+      {report.degenerate_triangles, "of zero area"},
+  }};
+  std::string list;
+  for (const Reason& reason : reasons) {
+    if (reason.count == 0) continue;
+    if (!list.empty()) list += ", ";
+    list += std::to_string(reason.count) + " " + std::string(reason.text);
+  }
+  return list;
+}
+
+}  // namespace
+
+double finest_length_m(double interval_tolerance_m, double clearance_m) {
+  return clearance_m > 0.0 ? std::min(interval_tolerance_m, clearance_m) : interval_tolerance_m;
+}
+
+std::vector<std::string> import_warnings(const ImportReport& report,
+                                         std::optional<double> resolution_m) {
+  std::vector<std::string> warnings;
+  if (const std::string list = left_out(report); !list.empty()) {
+    warnings.push_back("the scene is without faces of its file: " + list);
+  }
+  if (report.ignored_statements > 0) {
+    warnings.push_back("lines of its file that begin with an unknown word, and were not read: " +
+                       std::to_string(report.ignored_statements));
+  }
+  if (resolution_m && report.rounding_m > *resolution_m) {
+    warnings.push_back(
+        "the scene's coordinates may be off by " + metres(report.rounding_m) +
+        ", which is more than the " + metres(*resolution_m) + " that the request asks for: " +
+        (report.single_precision ? "files of this format are read in single precision"
+                                 : "doubles are no finer so far from the origin"));
+  }
+  return warnings;
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/import/readers/mesh_reader.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/readers/mesh_collector.h"
+#include "daemon/scene/import/readers/obj_reader.h"
+#include "daemon/scene/import/readers/off_reader.h"
+#include "daemon/scene/import/readers/ply_reader.h"
+#include "daemon/scene/import/readers/stl_reader.h"
+#include "daemon/scene/import/readers/tokens.h"
+
+namespace camway::scene::mesh_readers {
+namespace {
+
+/// A decimal becomes the nearest double.
+constexpr double kOneRounding = geometry::kUnitRoundoff;
+
+using Reader = ReadResult (*)(std::string_view);
+
+ReadResult finished(MeshCollector& mesh, std::string_view format, double relative_rounding,
+                    std::string refusal) {
+  if (!refusal.empty()) return {{}, std::move(refusal)};
+  return {mesh.finish(format, relative_rounding), ""};
+}
+
+ReadResult read_obj_file(std::string_view bytes) {
+  MeshCollector mesh;
+  read_obj(bytes, mesh);
+  return finished(mesh, "Wavefront OBJ", kOneRounding, "");
+}
+
+ReadResult read_off_file(std::string_view bytes) {
+  MeshCollector mesh;
+  std::string refusal = read_off(bytes, mesh);
+  return finished(mesh, "OFF", kOneRounding, std::move(refusal));
+}
+
+ReadResult read_ply_file(std::string_view bytes) {
+  MeshCollector mesh;
+  PlyKind kind;
+  std::string refusal = read_ply(bytes, mesh, kind);
+  return finished(mesh, kind.format, kind.relative_rounding, std::move(refusal));
+}
+
+ReadResult read_stl_file(std::string_view bytes) {
+  MeshCollector mesh;
+  std::string refusal = read_stl(bytes, mesh);
+  const bool binary = is_binary_stl(bytes);
+  return finished(mesh, binary ? "STL, binary" : "STL, text", binary ? 0.0 : kOneRounding,
+                  std::move(refusal));
+}
+
+Reader reader_for(std::string_view extension) {
+  constexpr std::array<std::pair<std::string_view, Reader>, 4> kReaders = {
+      {{".obj", read_obj_file},
+       {".off", read_off_file},
+       {".ply", read_ply_file},
+       {".stl", read_stl_file}}};
+  for (const auto& [known, reader] : kReaders) {
+    if (equals_ignoring_case(extension, known)) return reader;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_known_extension(std::string_view extension) { return reader_for(extension) != nullptr; }
+
+ReadResult read_mesh(std::string_view extension, std::string_view bytes) {
+  // Every vertex and every triangle takes a byte at least, so their numbers fit 32 bits.
+  if (bytes.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    return {{}, "is larger than 4 GiB"};
+  }
+  return reader_for(extension)(bytes);
+}
+
+}  // namespace camway::scene::mesh_readers

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/import/record/import_record.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "daemon/geometry/exact_triangles.h"
+#include "daemon/geometry/rounding.h"
+#include "daemon/scene/import/record/import_format.h"
+
+namespace camway::scene {
+namespace {
+
+namespace format = import_format;
+using format::Record;
+using geometry::Vec3;
+
+/// Takes a record apart. Every count is checked against the bytes that are there before anything is
+/// allocated for it.
+class RecordReader {
+ public:
+  explicit RecordReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  template <class T>
+  bool read(T& value) {
+    if (rest_.size() < sizeof(T)) return false;
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_ = rest_.subspan(sizeof(T));
+    return true;
+  }
+
+  template <class Container>
+  bool read(Container& values, std::uint64_t count) {
+    using T = typename Container::value_type;
+    if (count > rest_.size() / sizeof(T)) return false;
+    values.resize(static_cast<std::size_t>(count));
+    if (count > 0) std::memcpy(values.data(), rest_.data(), values.size() * sizeof(T));
+    rest_ = rest_.subspan(values.size() * sizeof(T));
+    return true;
+  }
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::span<const std::byte> rest_;
+};
+
+bool parse(std::span<const std::byte> bytes, Record& record) {
+  RecordReader reader(bytes);
+  return reader.read(record.header) && record.header.magic == format::kMagic &&
+         record.header.relative_rounding >= 0.0 && record.header.absolute_rounding >= 0.0 &&
+         reader.read(record.text, record.header.text_bytes) &&
+         reader.read(record.vertices, record.header.vertices) &&
+         reader.read(record.triangles, record.header.triangles) &&
+         reader.read(record.objects, record.header.objects) &&
+         reader.read(record.names, record.header.name_bytes) &&
+         reader.read(record.occupied, record.header.occupied) &&
+         reader.read(record.free, record.header.free) && reader.at_end();
+}
+
+/// Texts out of a file end up in logs and JSON: what is not printable ASCII becomes '?'.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (c < 0x20 || c > 0x7e) c = '?';
+  }
+  return text;
+}
+
+/// File coordinates to metres in the asked orientation.
+Vec3 to_scene(const format::Vertex& v, const ImportOptions& options) {
+  const Vec3 p = options.scale * Vec3(v[0], v[1], v[2]);
+  switch (options.up) {
+    case UpAxis::kZToY:
+      return {p.x(), p.z(), -p.y()};
+    case UpAxis::kYToZ:
+      return {p.x(), -p.z(), p.y()};
+    case UpAxis::kAsInFile:
+      break;
+  }
+  return p;
+}
+
+bool usable(const Vec3& p) {
+  // False for NaN.
+  return (p.array().abs() < geometry::kLargestCoordinate_m).all();
+}
+
+/// Builds the mesh of what is sound in a record, and counts the rest.
+class MeshBuilder {
+ public:
+  MeshBuilder(const Record& record, const ImportOptions& options, ImportReport& report)
+      : record_(record),
+        options_(options),
+        report_(report),
+        new_index_(record.vertices.size(), kUnused) {}
+
+  Mesh build() {
+    std::size_t next = 0;
+    std::size_t name_at = 0;
+    for (const format::Object& object : record_.objects) {
+      const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
+      const std::size_t end =
+          std::min<std::size_t>(record_.triangles.size(), next + object.triangles);
+      for (; next < end; ++next) add(record_.triangles[next]);
+      const auto count = static_cast<std::uint32_t>(mesh_.triangles.size()) - first;
+      const std::size_t at = std::min(name_at, record_.names.size());
+      name_at += object.name_bytes;
+      if (count == 0) continue;
+      mesh_.objects.push_back(
+          {printable(record_.names.substr(at, object.name_bytes)), first, count});
+    }
+    add_unclaimed(next);
+    return std::move(mesh_);
+  }
+
+ private:
+  static constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+  /// Objects cover all triangles, whatever the record says of them.
+  void add_unclaimed(std::size_t next) {
+    const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
+    for (; next < record_.triangles.size(); ++next) add(record_.triangles[next]);
+    const auto count = static_cast<std::uint32_t>(mesh_.triangles.size()) - first;
+    if (count > 0) mesh_.objects.push_back({"", first, count});
+  }
+
+  void add(const format::Triangle& indices) {
+    geometry::Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (indices[k] >= record_.vertices.size()) {
+        ++report_.dropped_bad_index;
+        return;
+      }
+      triangle[k] = to_scene(record_.vertices[indices[k]], options_);
+    }
+    if (!usable(triangle[0]) || !usable(triangle[1]) || !usable(triangle[2])) {
+      ++report_.dropped_nonfinite;
+      return;
+    }
+    if (geometry::has_no_area_exactly(triangle)) {
+      ++report_.degenerate_triangles;
+      return;
+    }
+    std::array<std::uint32_t, 3> kept{};
+    for (std::size_t k = 0; k < 3; ++k) kept[k] = keep_vertex(indices[k], triangle[k]);
+    mesh_.triangles.push_back(kept);
+  }
+
+  /// Only vertices that a triangle uses are kept, in the order of their first use.
+  std::uint32_t keep_vertex(std::uint32_t old_index, const Vec3& position) {
+    std::uint32_t& index = new_index_[old_index];
+    if (index == kUnused) {
+      index = static_cast<std::uint32_t>(mesh_.vertices.size());
+      mesh_.vertices.push_back(position);
+    }
+    return index;
+  }
+
+  const Record& record_;
+  const ImportOptions& options_;
+  ImportReport& report_;
+  std::vector<std::uint32_t> new_index_;
+  Mesh mesh_;
+};
+
+bool is_sound(const format::Cube& cube) {
+  const auto size = static_cast<std::uint32_t>(cube.size);
+  if (cube.size < 1 || cube.size > VoxelGrid::kRoot.size || !std::has_single_bit(size))
+    return false;
+  return std::ranges::all_of(cube.min, [&](std::int32_t low) {
+    return low >= VoxelGrid::kMinVoxel && low <= VoxelGrid::kMaxVoxel + 1 - cube.size &&
+           (low - VoxelGrid::kMinVoxel) % cube.size == 0;
+  });
+}
+
+/// As `to_scene`, for voxels: what goes the other way ends at the voxel before its beginning.
+VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
+  const auto turned = [&](std::int32_t low) { return -low - cube.size; };
+  switch (up) {
+    case UpAxis::kZToY:
+      return {{cube.min[0], cube.min[2], turned(cube.min[1])}, cube.size};
+    case UpAxis::kYToZ:
+      return {{cube.min[0], turned(cube.min[2]), cube.min[1]}, cube.size};
+    case UpAxis::kAsInFile:
+      break;
+  }
+  return {cube.min, cube.size};
+}
+
+/// The voxels of the cubes, or nothing if they are too many. Precondition: all are sound.
+std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up,
+                                  std::uint64_t most_voxels) {
+  std::uint64_t voxels = 0;
+  for (const format::Cube& cube : cubes) {
+    const auto edge = static_cast<std::uint64_t>(cube.size);
+    voxels += edge * edge * edge;
+    if (voxels > most_voxels) return std::nullopt;
+  }
+  VoxelSet set;
+  for (const format::Cube& cube : cubes) set.insert(to_scene(cube, up));
+  return set;
+}
+
+/// Makes map and mesh of a record with cubes, or says why not.
+std::string read_map(const Record& record, const ImportOptions& options,
+                     ImportRecordResult& result) {
+  if (!std::ranges::all_of(record.occupied, is_sound) ||
+      !std::ranges::all_of(record.free, is_sound)) {
+    return "has voxels that OctoMap cannot have";
+  }
+  std::optional<VoxelSet> occupied =
+      voxels_of(record.occupied, options.up, options.map_limits.voxels);
+  std::optional<VoxelSet> free = voxels_of(record.free, options.up, options.map_limits.voxels);
+  if (!occupied || !free) {
+    result.limit = Limit::kMapVoxels;
+    return "has more than " + std::to_string(options.map_limits.voxels) +
+           " voxels that are occupied or free";
+  }
+  VoxelMapResult built =
+      VoxelMap::build(options.scale * record.header.map_resolution, *std::move(occupied),
+                      *std::move(free), options.unknown, options.map_limits);
+  result.limit = built.limit;
+  if (!built.map) return built.error;
+  if (!built.map->skin()) {
+    result.limit = Limit::kMapTriangles;
+    return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
+  }
+  result.mesh = joined(built.map->skin()->parts());
+  result.map = std::move(built.map);
+  return {};
+}
+
+}  // namespace
+
+ImportRecordResult read_import_record(std::span<const std::byte> bytes,
+                                      const ImportOptions& options, ImportReport& report) {
+  Record record;
+  ImportRecordResult result;
+  result.broken = !parse(bytes, record);
+  if (result.broken) return result;
+  const bool is_map = record.header.map_resolution != 0.0;
+  if (record.header.objects == 0 && !is_map) {
+    result.refusal = printable(record.text);
+    return result;
+  }
+  report.format = printable(record.text);
+  report.dropped_points_and_lines = record.header.dropped_points_and_lines;
+  report.dropped_freeform = record.header.dropped_freeform;
+  report.ignored_statements = record.header.ignored_statements;
+  report.single_precision = record.header.single_precision != 0;
+  result.relative_rounding = record.header.relative_rounding;
+  result.absolute_rounding = record.header.absolute_rounding;
+  if (is_map) {
+    result.refusal = read_map(record, options, result);
+  } else {
+    result.mesh = MeshBuilder(record, options, report).build();
+  }
+  return result;
+}
+
+}  // namespace camway::scene

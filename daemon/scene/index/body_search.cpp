@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/index/body_search.h"
+
+#include <algorithm>
+
+#include "daemon/geometry/triangle_box.h"
+
+namespace camway::scene {
+
+using geometry::Box;
+using geometry::OrientedBox;
+using geometry::Triangle;
+
+BodySearch::Candidates::Candidates() { met.fill(kNone); }
+
+bool BodySearch::Candidates::was_met(std::uint32_t triangle) {
+  std::uint32_t& slot = met[triangle % met.size()];
+  if (slot == triangle) return true;
+  slot = triangle;
+  return false;
+}
+
+BodySearch::BodySearch(std::span<const Triangle> hull, std::size_t of_part, const Box& box,
+                       double error_m)
+    : hull_(hull),
+      of_part_(of_part),
+      sides_(box),
+      is_point_(box.min() == box.max()),
+      box_(hull),
+      oblique_(box_),
+      error_m_(error_m) {}
+
+// A distance asked may be `error_m_` below the true one, and a bound `error_m_` above it.
+void BodySearch::shrink_to(double reach_m) {
+  const double surely_m = reach_m + 2.0 * error_m_;
+  squared_reach_m2_ = surely_m * surely_m * (1.0 + 2.0 * OrientedBox::kRelativeError);
+}
+
+Box BodySearch::bounds_of(std::size_t part) const {
+  Box box;
+  for (const Triangle& triangle : hull_of(part)) box.extend(geometry::bounds(triangle));
+  return box;
+}
+
+void BodySearch::consider(std::uint32_t triangle) {
+  if (!candidates_) candidates_.emplace();
+  if (candidates_->was_met(triangle)) return;
+  const double squared_m2 = box_.axes_bound_m2(part_->triangle(triangle));
+  if (cannot_win(squared_m2, triangle)) return;
+  if (candidates_->waiting_count == candidates_->waiting.size()) settle();
+  candidates_->waiting[candidates_->waiting_count++] = {squared_m2, triangle};
+}
+
+void BodySearch::settle() {
+  if (!candidates_) return;
+  const auto begin = candidates_->waiting.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(candidates_->waiting_count);
+  candidates_->waiting_count = 0;
+  std::sort(begin, end, [](const Waiting& a, const Waiting& b) {
+    return a.squared_m2 < b.squared_m2 || (a.squared_m2 == b.squared_m2 && a.triangle < b.triangle);
+  });
+  for (auto next = begin; next != end && !is_done_; ++next) {
+    if (!cannot_win(next->squared_m2, next->triangle)) ask(next->triangle);
+  }
+}
+
+void BodySearch::ask(std::uint32_t index) {
+  const Triangle triangle = part_->triangle(index);
+  if (cannot_win(box_.plane_bound_m2(triangle), index)) return;
+  if (parts() == 1) {
+    ask_pair(0, triangle, index);
+  } else if (parts() <= kMaxOriented) {
+    ask_few(triangle, index);
+  } else {
+    ask_groups(triangle, index);
+  }
+}
+
+void BodySearch::ask_few(const Triangle& triangle, std::uint32_t index) {
+  if (!part_boxes_) {
+    part_boxes_.emplace();
+    for (std::size_t i = 0; i < parts(); ++i) {
+      // Two are mostly the halves of a quadrilateral, whose axes fit both.
+      (*part_boxes_)[i] = parts() == 2 ? box_.around(hull_of(i)) : OrientedBox(hull_of(i));
+    }
+  }
+  std::array<Waiting, kMaxOriented> order;
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < parts(); ++i) {
+    const double squared_m2 = (*part_boxes_)[i].squared_distance_bound_m2(triangle);
+    std::size_t place = count++;
+    for (; place > 0 && order[place - 1].squared_m2 > squared_m2; --place) {
+      order[place] = order[place - 1];
+    }
+    order[place] = {squared_m2, i};
+  }
+  for (std::size_t i = 0; i < count && !is_done_; ++i) {
+    if (!cannot_win(order[i].squared_m2, index)) ask_pair(order[i].triangle, triangle, index);
+  }
+}
+
+void BodySearch::ask_groups(const Triangle& triangle, std::uint32_t index) {
+  const std::size_t size = std::max(kGroupSize, (parts() + kMaxGroups - 1) / kMaxGroups);
+  if (!group_boxes_) {
+    group_boxes_.emplace();
+    for (std::size_t i = 0; i < parts(); ++i) {
+      (*group_boxes_)[i / size].extend(bounds_of(i));
+    }
+  }
+  const Box box = geometry::bounds(triangle);
+  for (std::size_t begin = 0; begin < parts(); begin += size) {
+    const Box& group = (*group_boxes_)[begin / size];
+    if (cannot_win(geometry::squared_box_distance_m2(group, box), index)) continue;
+    const std::size_t end = std::min(begin + size, parts());
+    for (std::size_t i = begin; i < end && !is_done_; ++i) {
+      const Box part = bounds_of(i);
+      if (cannot_win(geometry::squared_box_distance_m2(part, box), index)) continue;
+      ask_pair(i, triangle, index);
+    }
+  }
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/index/box_gaps.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "daemon/base/cpu_dispatch.h"
+
+namespace camway::scene {
+namespace {
+
+// Vectors of GCC and Clang: written once, compiled to what the processor has.
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+using HalfFloats = float __attribute__((vector_size(16)));
+using Doubles = double __attribute__((vector_size(32)));
+using Longs = std::int64_t __attribute__((vector_size(32)));
+using Shorts = std::uint16_t __attribute__((vector_size(16)));
+using Bytes = std::uint8_t __attribute__((vector_size(8)));
+
+/// Coordinates beyond so many steps are taken for so many: bounds become smaller, nothing
+/// overflows, and what is this far away is far whatever the reach.
+constexpr double kFarthestStep = 0x1p60;
+
+/// A coordinate in steps has a rounding of 2^-53 (the difference) and 2^-24 (to float), relative to
+/// itself; moving it outwards rounds twice more. 2^-21 is more than all of these; 2^-20 of a step
+/// covers `kByteBoxError`.
+constexpr float kRelativeMove = 0x1p-21F;
+constexpr float kLeastMove = 0x1p-20F;
+
+/// Along an oblique axis a box has three products of at most 255 steps each. A weight is rounded
+/// once, a product once, and each of the sums, with what they are added to, once more: 255·3·5
+/// roundings of 2^-24, less than 2^-12; twice that, for a share of the 2^-24 of the other summand.
+constexpr float kObliqueMove = 0x1p-11F;
+
+/// The bound's own error, and twice the rounding of the limit to float.
+constexpr double kLimitMove = kBoxGapRelativeError + 0x1p-22;
+/// More than any bound, which has at most `kFarthestStep` in each of three axes.
+constexpr double kLargestLimit = 0x1p126;
+
+// By reference: by value the calling convention would depend on the processor.
+[[gnu::always_inline]] inline void load(const std::array<double, 4>& numbers, Doubles& out) {
+  std::memcpy(&out, numbers.data(), sizeof out);
+}
+
+/// `steps` as floats that are surely not above them.
+[[gnu::always_inline]] inline void move_down(Doubles& steps, float least, HalfFloats& out) {
+  const Doubles farthest = {kFarthestStep, kFarthestStep, kFarthestStep, kFarthestStep};
+  steps = steps > farthest ? farthest : steps;
+  steps = steps < -farthest ? -farthest : steps;
+  const HalfFloats x = __builtin_convertvector(steps, HalfFloats);
+  const HalfFloats size = x < 0.0F ? -x : x;
+  out = x - (size * kRelativeMove + least);
+}
+
+[[gnu::always_inline]] inline void to_floats(const std::array<std::uint8_t, kNodeWidth>& steps,
+                                             Floats& out) {
+  Bytes bytes;
+  std::memcpy(&bytes, steps.data(), sizeof bytes);
+  // Step by step: GCC 12 takes eight bytes apart one by one otherwise.
+  out = __builtin_convertvector(
+      __builtin_convertvector(__builtin_convertvector(bytes, Shorts), Ints), Floats);
+}
+
+/// Steps of a frame, in metres and among themselves.
+struct Steps {
+  int largest;  ///< exponent
+  HalfFloats share_of_largest;
+  Doubles steps_per_m;
+};
+
+[[gnu::always_inline]] inline void steps_of(const ByteFrame& frame, Steps& out) {
+  const Longs exponent = {frame.exponent[0], frame.exponent[1], frame.exponent[2], 0};
+  out.largest = std::max({frame.exponent[0], frame.exponent[1], frame.exponent[2]});
+  out.steps_per_m = reinterpret_cast<Doubles>((1023 - exponent) << 52);
+  const Doubles shares = reinterpret_cast<Doubles>((1023 - out.largest + exponent) << 52);
+  out.share_of_largest = __builtin_convertvector(shares, HalfFloats);
+}
+
+/// Adds the squared gaps on one axis, in units of which a step has `weight`; a product with a power
+/// of two is exact. Sides of the box are given moved down: `minus_to` is the upper one, negated.
+[[gnu::always_inline]] inline void add_gaps(const ByteBoxes& boxes, std::size_t axis, float from,
+                                            float minus_to, float weight, Floats& sum) {
+  Floats begin, end;
+  to_floats(boxes.low[axis], begin);
+  to_floats(boxes.high[axis], end);
+  const Floats below = begin + minus_to;
+  const Floats above = from - end;
+  Floats gap = below > above ? below : above;
+  gap = gap > 0.0F ? gap : Floats{};
+  gap *= weight;
+  sum += gap * gap;
+}
+
+/// Bit i of the result: lane i is not above `limit`.
+[[gnu::always_inline]] inline unsigned not_above(const Floats& lanes, float limit) {
+  constexpr Ints kBits = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Ints above = (lanes > limit) & kBits;
+  Longs halves;
+  std::memcpy(&halves, &above, sizeof halves);
+  const auto joined = static_cast<std::uint64_t>(halves[0] | halves[1] | halves[2] | halves[3]);
+  return ~static_cast<unsigned>(joined | joined >> 32U) & 0xFFU;
+}
+
+/// Adds `weight` times the least, and the greatest, that a coordinate of each box can be.
+[[gnu::always_inline]] inline void add_extremes(const ByteBoxes& boxes, std::size_t axis,
+                                                float weight, Floats& least, Floats& greatest) {
+  Floats begin, end;
+  to_floats(boxes.low[axis], begin);
+  to_floats(boxes.high[axis], end);
+  least += (weight > 0.0F ? begin : end) * weight;
+  greatest += (weight > 0.0F ? end : begin) * weight;
+}
+
+[[gnu::always_inline]] inline void keep_near(const Floats& squared, int largest,
+                                             double squared_reach_m2, BoxGaps& out) {
+  std::memcpy(out.squared.data(), &squared, sizeof squared);
+  const double limit = squared_reach_m2 * power_of_two(-2 * largest) * (1.0 + kLimitMove);
+  out.near = not_above(squared, static_cast<float>(std::min(limit, kLargestLimit)) +
+                                    std::numeric_limits<float>::min());
+}
+
+}  // namespace
+
+ObliqueSides::ObliqueSides(const geometry::OrientedBox& box) {
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    origin_m[at] = box.origin()[k];
+    low_m[at] = box.low_m(k);
+    high_m[at] = box.high_m(k);
+    const geometry::Vec3 axis_W = box.axis(k);
+    for (int c = 0; c < 3; ++c) axis[static_cast<std::size_t>(c)][at] = axis_W[c];
+  }
+}
+
+CAMWAY_FOR_EVERY_PROCESSOR
+void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
+              double squared_reach_m2, BoxGaps& out) {
+  Steps steps;
+  steps_of(frame, steps);
+  const Doubles origin = {frame.origin[0], frame.origin[1], frame.origin[2], 0.0};
+  Doubles low, high;
+  load(box.low_m, low);
+  load(box.high_m, high);
+  // Both sides as numbers that are moved down.
+  Doubles down = (low - origin) * steps.steps_per_m;
+  Doubles up = (origin - high) * steps.steps_per_m;
+  HalfFloats from, minus_to;
+  move_down(down, kLeastMove, from);
+  move_down(up, kLeastMove, minus_to);
+  Floats sum = {};
+  add_gaps(boxes, 0, from[0], minus_to[0], steps.share_of_largest[0], sum);
+  add_gaps(boxes, 1, from[1], minus_to[1], steps.share_of_largest[1], sum);
+  add_gaps(boxes, 2, from[2], minus_to[2], steps.share_of_largest[2], sum);
+  out.square_m2 = power_of_two(2 * steps.largest);
+  keep_near(sum, steps.largest, squared_reach_m2, out);
+}
+
+CAMWAY_FOR_EVERY_PROCESSOR
+void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueSides& body,
+                  double squared_reach_m2, BoxGaps& gaps) {
+  Steps steps;
+  steps_of(frame, steps);
+  Doubles axis_x, axis_y, axis_z, low, high;
+  load(body.axis[0], axis_x);
+  load(body.axis[1], axis_y);
+  load(body.axis[2], axis_z);
+  load(body.low_m, low);
+  load(body.high_m, high);
+  // Where the frame begins along the axes of the body.
+  const Doubles offset = axis_x * (frame.origin[0] - body.origin_m[0]) +
+                         axis_y * (frame.origin[1] - body.origin_m[1]) +
+                         axis_z * (frame.origin[2] - body.origin_m[2]);
+  const double per_m = power_of_two(-steps.largest);
+  Doubles down = (offset - high) * per_m;
+  Doubles up = (low - offset) * per_m;
+  HalfFloats above_from, below_from;
+  move_down(down, kObliqueMove, above_from);
+  move_down(up, kObliqueMove, below_from);
+  const HalfFloats x = __builtin_convertvector(axis_x, HalfFloats) * steps.share_of_largest[0];
+  const HalfFloats y = __builtin_convertvector(axis_y, HalfFloats) * steps.share_of_largest[1];
+  const HalfFloats z = __builtin_convertvector(axis_z, HalfFloats) * steps.share_of_largest[2];
+  Floats sum = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Floats least = {};
+    Floats greatest = {};
+    add_extremes(boxes, 0, x[k], least, greatest);
+    add_extremes(boxes, 1, y[k], least, greatest);
+    add_extremes(boxes, 2, z[k], least, greatest);
+    const Floats above = least + above_from[k];
+    const Floats below = below_from[k] - greatest;
+    Floats gap = above > below ? above : below;
+    gap = gap > 0.0F ? gap : Floats{};
+    sum += gap * gap;
+  }
+  Floats known;
+  std::memcpy(&known, gaps.squared.data(), sizeof known);
+  keep_near(sum > known ? sum : known, steps.largest, squared_reach_m2, gaps);
+}
+
+}  // namespace camway::scene

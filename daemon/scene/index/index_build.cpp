@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "daemon/scene/index/index_tree.h"
+#include "daemon/scene/index/node_splitter.h"
+
+namespace camway::scene {
+
+using geometry::Box;
+
+namespace {
+
+/// Parts larger than this are built apart, by whatever thread is free. Not a matter of the number
+/// of threads, so that the index is not either.
+constexpr std::size_t kChunkEntries = 4096;
+
+/// Runs `work` on `threads` threads, this one among them; on fewer if the system gives no more.
+void run_on_threads(unsigned threads, const std::function<void()>& work) {
+  std::vector<std::jthread> others;
+  try {
+    for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // Those that started, and this one, do it all.
+  }
+  work();
+}
+
+/// Calls `body(begin, end)` for ranges that together make [0, count).
+void for_ranges(unsigned threads, std::size_t count,
+                const std::function<void(std::size_t, std::size_t)>& body) {
+  constexpr std::size_t kRange = 16384;
+  std::atomic<std::size_t> next = 0;
+  const auto ranges = static_cast<unsigned>(std::min<std::size_t>(count / kRange + 1, threads));
+  run_on_threads(ranges, [&] {
+    for (;;) {
+      const std::size_t begin = next.fetch_add(kRange);
+      if (begin >= count) return;
+      body(begin, std::min(begin + kRange, count));
+    }
+  });
+}
+
+/// What one thread builds by itself: a subtree, but for the chunks that hang below it.
+struct Chunk {
+  /// A node of this chunk that is the root of another.
+  struct Link {
+    std::uint32_t node;
+    std::unique_ptr<Chunk> chunk;
+  };
+
+  IndexNode root;
+  std::vector<IndexNode>
+      nodes;  ///< all but the root; numbers in nodes count from the chunk's first
+  std::vector<std::uint32_t> leaf_ends;  ///< leaf i has the entries up to leaf_ends[i]
+  std::vector<std::uint32_t> references;
+  std::vector<ByteBox> boxes;  ///< of the references
+  std::vector<Link> links;
+  std::uint32_t depth = 0;
+
+  // Where this chunk's parts begin in the index.
+  std::uint32_t first_node = 0;
+  std::uint32_t first_leaf = 0;
+  std::uint32_t first_reference = 0;
+};
+
+/// Builds chunks on several threads.
+class ChunkBuilder {
+ public:
+  explicit ChunkBuilder(const IndexDealer& dealer) : dealer_(dealer) {}
+
+  std::unique_ptr<Chunk> build(IndexPart all, unsigned threads) {
+    auto root = std::make_unique<Chunk>();
+    const bool is_small = all.entries.size() <= kChunkEntries;
+    add({root.get(), std::move(all)});
+    run_on_threads(is_small ? 1 : threads, [this] { work(); });
+    if (failure_) std::rethrow_exception(failure_);
+    return root;
+  }
+
+ private:
+  struct Task {
+    Chunk* chunk;
+    IndexPart part;
+  };
+  struct Inner {
+    IndexPart part;
+    std::vector<IndexPart> children;  ///< empty for one that becomes a chunk
+  };
+
+  void add(Task task) {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+    ++unfinished_;
+    changed_.notify_one();
+  }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [this] { return !tasks_.empty() || unfinished_ == 0; });
+      if (tasks_.empty()) return;
+      Task task = std::move(tasks_.back());
+      tasks_.pop_back();
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        build_chunk(*task.chunk, std::move(task.part));
+      } catch (...) {  // out of memory; no exception may leave a thread
+        failure = std::current_exception();
+      }
+      lock.lock();
+      if (failure) failure_ = failure;
+      if (--unfinished_ == 0) changed_.notify_all();
+    }
+  }
+
+  void build_chunk(Chunk& chunk, IndexPart part) {
+    std::vector<IndexPart> children = dealer_.deal(part);
+    // A part that cannot be split is the only leaf of its node.
+    if (children.empty()) {
+      part.is_final = true;
+      children.push_back(std::move(part));
+    }
+    build_node(chunk, chunk.root, std::move(children));
+  }
+
+  /// Fills `result`, which is no node of `chunk` yet, and builds what is below it.
+  void build_node(Chunk& chunk, IndexNode& result, std::vector<IndexPart> parts) {
+    Box box;
+    for (const IndexPart& part : parts) {
+      box.extend(part.box);
+      chunk.depth = std::max(chunk.depth, part.depth);
+    }
+    std::vector<Inner> inner;
+    std::vector<IndexPart> leaves;
+    sort_out(parts, inner, leaves);
+    IndexNode node;
+    node.frame = ByteFrame(box);
+    node.node_count = static_cast<std::uint8_t>(inner.size());
+    node.child_count = static_cast<std::uint8_t>(parts.size());
+    node.first_node = static_cast<std::uint32_t>(chunk.nodes.size());
+    node.first_leaf = static_cast<std::uint32_t>(chunk.leaf_ends.size());
+    std::size_t slot = 0;
+    for (const Inner& child : inner) {
+      set_box(node.boxes, slot++, node.frame.outside(child.part.box));
+    }
+    for (const IndexPart& leaf : leaves) {
+      set_box(node.boxes, slot++, node.frame.outside(leaf.box));
+      add_leaf(chunk, node.frame, leaf);
+    }
+    result = node;
+    chunk.nodes.resize(chunk.nodes.size() + inner.size());
+    build_inner(chunk, node.first_node, inner);
+  }
+
+  /// Which parts become nodes, and which become leaves.
+  void sort_out(std::vector<IndexPart>& parts, std::vector<Inner>& inner,
+                std::vector<IndexPart>& leaves) const {
+    inner.reserve(parts.size());
+    leaves.reserve(parts.size());
+    for (IndexPart& part : parts) {
+      const bool is_large = part.entries.size() > kChunkEntries && !part.is_final;
+      std::vector<IndexPart> children;
+      if (!is_large) children = dealer_.deal(part);
+      if (is_large || !children.empty()) {
+        inner.push_back({std::move(part), std::move(children)});
+      } else {
+        leaves.push_back(std::move(part));
+      }
+    }
+  }
+
+  void build_inner(Chunk& chunk, std::uint32_t first, std::vector<Inner>& inner) {
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+      const auto at = static_cast<std::uint32_t>(first + i);
+      if (inner[i].children.empty()) {
+        chunk.links.push_back({at, std::make_unique<Chunk>()});
+        add({chunk.links.back().chunk.get(), std::move(inner[i].part)});
+      } else {
+        IndexNode node;
+        build_node(chunk, node, std::move(inner[i].children));
+        chunk.nodes[at] = node;
+      }
+    }
+  }
+
+  static void add_leaf(Chunk& chunk, const ByteFrame& frame, const IndexPart& leaf) {
+    for (const IndexEntry& entry : leaf.entries) {
+      chunk.references.push_back(entry.triangle);
+      chunk.boxes.push_back(frame.outside(entry.box()));
+    }
+    chunk.leaf_ends.push_back(static_cast<std::uint32_t>(chunk.references.size()));
+  }
+
+  const IndexDealer& dealer_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Task> tasks_;     ///< guarded by mutex_
+  std::size_t unfinished_ = 0;  ///< tasks waiting and running; guarded by mutex_
+  std::exception_ptr failure_;  ///< guarded by mutex_
+};
+
+std::unique_ptr<IndexDealer> make_dealer(const Mesh& mesh, const Box& bounds,
+                                         const IndexOptions& options) {
+  switch (options.decomposition) {
+    case Decomposition::kKdTree:
+      return make_kd_tree_dealer(mesh, bounds, options);
+    case Decomposition::kBvh:
+      return make_bvh_dealer(options);
+    case Decomposition::kOctree:
+      break;
+  }
+  return make_octree_dealer(mesh, bounds, options);
+}
+
+unsigned threads_for(const IndexOptions& options) {
+  const unsigned wanted =
+      options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+  return std::clamp(wanted, 1U, kMaxIndexThreads);
+}
+
+IndexPart all_of(std::vector<IndexEntry> entries, const IndexOptions& options) {
+  IndexPart all;
+  all.entries = std::move(entries);
+  all.box = bounds_of(all.entries);
+  all.budget = std::max(1.0, options.max_duplication) * static_cast<double>(all.entries.size());
+  return all;
+}
+
+std::vector<IndexEntry> entries_of(const Mesh& mesh, unsigned threads) {
+  std::vector<IndexEntry> entries(mesh.triangles.size());
+  for_ranges(threads, entries.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      entries[i] = IndexEntry(geometry::bounds(mesh.triangle(i)), static_cast<std::uint32_t>(i));
+    }
+  });
+  return entries;
+}
+
+}  // namespace
+
+/// Puts chunks one after the other, in the order in which one thread would have come upon them.
+class IndexAssembler {
+ public:
+  IndexAssembler(IndexTree& tree, Chunk& root) : tree_(tree) {
+    place(root);
+    tree_.nodes_.resize(nodes_);
+    tree_.leaf_begin_.resize(leaves_ + std::size_t{1});
+    tree_.references_.resize(references_);
+    tree_.boxes_.resize((references_ + kNodeWidth - 1) / kNodeWidth);
+    tree_.depth_ = depth_;
+  }
+
+  void fill(unsigned threads) {
+    const Chunk& root = *chunks_.front();
+    tree_.nodes_[0] = moved(root, root.root);
+    std::atomic<std::size_t> next = 0;
+    run_on_threads(std::min(threads, static_cast<unsigned>(chunks_.size())), [&] {
+      for (std::size_t i = next.fetch_add(1); i < chunks_.size(); i = next.fetch_add(1)) {
+        copy(*chunks_[i]);
+      }
+    });
+    tree_.leaf_begin_.back() = references_;
+  }
+
+ private:
+  void place(Chunk& chunk) {
+    chunk.first_node = nodes_;
+    chunk.first_leaf = leaves_;
+    chunk.first_reference = references_;
+    nodes_ += static_cast<std::uint32_t>(chunk.nodes.size());
+    leaves_ += static_cast<std::uint32_t>(chunk.leaf_ends.size());
+    references_ += static_cast<std::uint32_t>(chunk.references.size());
+    depth_ = std::max(depth_, chunk.depth);
+    chunks_.push_back(&chunk);
+    for (const Chunk::Link& link : chunk.links) place(*link.chunk);
+  }
+
+  static IndexNode moved(const Chunk& chunk, IndexNode node) {
+    node.first_node += chunk.first_node;
+    node.first_leaf += chunk.first_leaf;
+    return node;
+  }
+
+  /// Chunks write to places of their own, so this may run for all at once.
+  void copy(const Chunk& chunk) {
+    for (std::size_t i = 0; i < chunk.nodes.size(); ++i) {
+      tree_.nodes_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
+    }
+    for (const Chunk::Link& link : chunk.links) {
+      tree_.nodes_[chunk.first_node + link.node] = moved(*link.chunk, link.chunk->root);
+    }
+    std::uint32_t begin = 0;
+    for (std::size_t i = 0; i < chunk.leaf_ends.size(); ++i) {
+      tree_.leaf_begin_[chunk.first_leaf + i] = chunk.first_reference + begin;
+      begin = chunk.leaf_ends[i];
+    }
+    for (std::size_t i = 0; i < chunk.references.size(); ++i) {
+      const std::size_t at = chunk.first_reference + i;
+      tree_.references_[at] = chunk.references[i];
+      set_box(tree_.boxes_[at / kNodeWidth], at % kNodeWidth, chunk.boxes[i]);
+    }
+  }
+
+  IndexTree& tree_;
+  std::vector<Chunk*> chunks_;
+  std::uint32_t nodes_ = 1;  ///< the root stands before all others
+  std::uint32_t leaves_ = 0;
+  std::uint32_t references_ = 0;
+  std::uint32_t depth_ = 0;
+};
+
+namespace {
+
+IndexTree assembled(const IndexDealer& dealer, IndexPart all, unsigned threads, IndexTree tree) {
+  const std::unique_ptr<Chunk> root = ChunkBuilder(dealer).build(std::move(all), threads);
+  IndexAssembler(tree, *root).fill(threads);
+  return tree;
+}
+
+}  // namespace
+
+IndexTree IndexTree::of_triangles(const Mesh& mesh, const IndexOptions& options) {
+  assert(options.threshold >= 1 && options.max_depth <= kMaxIndexDepth);
+  IndexTree tree;
+  if (mesh.triangles.empty()) return tree;
+  const unsigned threads = threads_for(options);
+  IndexPart all = all_of(entries_of(mesh, threads), options);
+  tree.bounds_ = all.box;
+  const std::unique_ptr<IndexDealer> dealer = make_dealer(mesh, all.box, options);
+  return assembled(*dealer, std::move(all), threads, std::move(tree));
+}
+
+IndexTree IndexTree::of_boxes(std::span<const Box> boxes) {
+  IndexTree tree;
+  if (boxes.empty()) return tree;
+  std::vector<IndexEntry> entries;
+  entries.reserve(boxes.size());
+  for (const Box& box : boxes) {
+    entries.emplace_back(box, static_cast<std::uint32_t>(entries.size()));
+  }
+  const IndexOptions options{.decomposition = Decomposition::kBvh, .threshold = 1, .threads = 1};
+  IndexPart all = all_of(std::move(entries), options);
+  tree.bounds_ = all.box;
+  return assembled(*make_bvh_dealer(options), std::move(all), 1, std::move(tree));
+}
+
+std::shared_ptr<const IndexedMesh> IndexedMesh::build(std::shared_ptr<const Mesh> mesh,
+                                                      const IndexOptions& options) {
+  assert(mesh);
+  auto indexed = std::make_shared<IndexedMesh>();
+  indexed->tree = IndexTree::of_triangles(*mesh, options);
+  indexed->mesh = std::move(mesh);
+  return indexed;
+}
+
+std::uint64_t IndexTree::memory_bytes() const {
+  return nodes_.size() * sizeof(IndexNode) + boxes_.size() * sizeof(ByteBoxes) +
+         (references_.size() + leaf_begin_.size()) * sizeof(std::uint32_t);
+}
+
+bool IndexTree::is_same_as(const IndexTree& other) const {
+  return nodes_ == other.nodes_ && leaf_begin_ == other.leaf_begin_ &&
+         references_ == other.references_ && boxes_ == other.boxes_;
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "daemon/scene/index/box_gaps.h"
+#include "daemon/scene/index/index_tree.h"
+
+namespace camway::scene {
+
+/// What to add to the numbers in a tree, where there are several.
+struct IndexOffsets {
+  std::uint32_t entry = 0;
+  std::uint32_t leaf = 0;
+};
+
+/// The one walk of all queries: depth first, nearer children first, through what is not beyond a
+/// reach that the query may shrink as it goes. A query has
+///
+///     const BoxSides& sides() const           what is asked about
+///     const ObliqueSides* oblique() const     the same in axes of its own, or null
+///     double squared_reach_m2() const         how far from it things are of interest
+///     bool is_beyond(double squared) const    the same, of a squared box distance
+///     bool enters(node, slot) const           a closer look at a child, or true
+///     void leaf(const IndexWalk::Leaf&)       asks what is in a leaf
+///     bool is_done() const                    whether to stop
+class IndexWalk {
+ public:
+  explicit IndexWalk(const IndexTree& tree, const IndexOffsets& offsets = {})
+      : tree_(tree), offsets_(offsets) {}
+
+  /// A leaf, and what in it is of interest.
+  class Leaf {
+   public:
+    Leaf(const IndexTree& tree, const IndexOffsets& offsets, std::uint32_t parent,
+         std::uint32_t leaf)
+        : tree_(tree), offsets_(offsets), parent_(parent), leaf_(leaf) {}
+
+    [[nodiscard]] std::uint32_t id() const { return offsets_.leaf + leaf_; }
+
+    /// Calls `visit(entry)` for those whose boxes are within reach, until `visit` returns false.
+    template <class Query, class Visit>
+    void for_each(const Query& query, const Visit& visit) const {
+      const std::uint32_t begin = tree_.leaf_begin_[leaf_];
+      const std::uint32_t end = tree_.leaf_begin_[leaf_ + 1];
+      BoxGaps gaps;
+      for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
+        look(query, tree_.nodes_[parent_].frame, tree_.boxes_[first / kNodeWidth], gaps);
+        // Eight boxes may belong to two leaves.
+        unsigned near = gaps.near;
+        if (first < begin) near &= 0xFFU << (begin - first);
+        if (end - first < kNodeWidth) near &= (1U << (end - first)) - 1U;
+        for (; near != 0; near &= near - 1U) {
+          const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
+          if (!visit(offsets_.entry + tree_.references_[first + i])) return;
+        }
+      }
+    }
+
+   private:
+    const IndexTree& tree_;
+    const IndexOffsets& offsets_;
+    std::uint32_t parent_;
+    std::uint32_t leaf_;
+  };
+
+  template <class Query>
+  void run(Query& query) {
+    if (tree_.nodes_.empty()) return;
+    push({0.0, 0, kNode});
+    while (size_ > 0) {
+      const Waiting top = stack_[--size_];
+      if (query.is_beyond(top.squared_m2)) continue;
+      if (top.leaf == kNode) {
+        push_children(query, top.node);
+      } else {
+        query.leaf(Leaf(tree_, offsets_, top.node, top.leaf));
+        if (query.is_done()) return;
+      }
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kNode = std::numeric_limits<std::uint32_t>::max();
+  /// Depth first, each level leaves at most seven siblings waiting. A large part that cannot be
+  /// split adds a level for its leaf.
+  static constexpr std::size_t kStackSize = (kNodeWidth - 1) * (kMaxIndexDepth + 1) + kNodeWidth;
+
+  struct Waiting {
+    double squared_m2;
+    std::uint32_t node;  ///< of a leaf: its parent
+    std::uint32_t leaf;  ///< kNode for a node
+  };
+
+  template <class Query>
+  static void look(const Query& query, const ByteFrame& frame, const ByteBoxes& boxes,
+                   BoxGaps& gaps) {
+    box_gaps(frame, boxes, query.sides(), query.squared_reach_m2(), gaps);
+    if (query.oblique() != nullptr && gaps.near != 0) {
+      oblique_gaps(frame, boxes, *query.oblique(), query.squared_reach_m2(), gaps);
+    }
+  }
+
+  void push(const Waiting& waiting) { stack_[size_++] = waiting; }
+
+  template <class Query>
+  void push_children(const Query& query, std::uint32_t at) {
+    const IndexNode& node = tree_.nodes_[at];
+    BoxGaps gaps;
+    look(query, node.frame, node.boxes, gaps);
+    const std::size_t begin = size_;
+    for (unsigned near = gaps.near & ((1U << node.child_count) - 1U); near != 0;
+         near &= near - 1U) {
+      const auto slot = static_cast<std::uint32_t>(std::countr_zero(near));
+      if (!query.enters(node, slot)) continue;
+      const double squared_m2 = static_cast<double>(gaps.squared[slot]) * gaps.square_m2;
+      const bool is_leaf = slot >= node.node_count;
+      // The closest child on top, and of equals the first.
+      std::size_t place = size_++;
+      for (; place > begin && stack_[place - 1].squared_m2 <= squared_m2; --place) {
+        stack_[place] = stack_[place - 1];
+      }
+      stack_[place] = {squared_m2, is_leaf ? at : node.first_node + slot,
+                       is_leaf ? node.first_leaf + slot - node.node_count : kNode};
+    }
+  }
+
+  const IndexTree& tree_;
+  IndexOffsets offsets_;
+  std::size_t size_ = 0;
+  std::array<Waiting, kStackSize> stack_;
+};
+
+}  // namespace camway::scene

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "daemon/geometry/types.h"
+#include "daemon/scene/index/index_tree.h"
+#include "daemon/scene/mesh/mesh.h"
+
+/// How the index is built: one builder for all decompositions, and a dealer for each.
+namespace camway::scene {
+
+/// A triangle in a part of the scene, and a box that holds what of it lies there. Plain numbers:
+/// the builders do little else than to move these. Numbers 3 of both arrays are 0.
+struct IndexEntry {
+  IndexEntry() = default;
+  IndexEntry(const geometry::Box& box, std::uint32_t index)
+      : low_m{box.min()[0], box.min()[1], box.min()[2], 0.0},
+        high_m{box.max()[0], box.max()[1], box.max()[2], 0.0},
+        triangle(index) {}
+
+  [[nodiscard]] bool is_empty() const {
+    return low_m[0] > high_m[0] || low_m[1] > high_m[1] || low_m[2] > high_m[2];
+  }
+  [[nodiscard]] geometry::Box box() const {
+    return {geometry::Vec3(low_m[0], low_m[1], low_m[2]),
+            geometry::Vec3(high_m[0], high_m[1], high_m[2])};
+  }
+
+  std::array<double, 4> low_m;
+  std::array<double, 4> high_m;
+  std::uint32_t triangle;
+};
+
+/// The box of many entries, as it grows.
+class EntryBounds {
+ public:
+  EntryBounds() {
+    low_m_.fill(std::numeric_limits<double>::infinity());
+    high_m_.fill(-std::numeric_limits<double>::infinity());
+  }
+  void extend(const std::array<double, 4>& low_m, const std::array<double, 4>& high_m) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      low_m_[k] = low_m[k] < low_m_[k] ? low_m[k] : low_m_[k];
+      high_m_[k] = high_m[k] > high_m_[k] ? high_m[k] : high_m_[k];
+    }
+  }
+  void extend(const IndexEntry& entry) { extend(entry.low_m, entry.high_m); }
+  void extend(const EntryBounds& other) { extend(other.low_m_, other.high_m_); }
+  /// Takes off `entry` what is further than `error_m` outside of these bounds.
+  void clip(IndexEntry& entry, double error_m) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      entry.low_m[k] = std::max(entry.low_m[k], low_m_[k] - error_m);
+      entry.high_m[k] = std::min(entry.high_m[k], high_m_[k] + error_m);
+    }
+  }
+  /// Empty where nothing was added.
+  [[nodiscard]] geometry::Box box() const {
+    return {geometry::Vec3(low_m_[0], low_m_[1], low_m_[2]),
+            geometry::Vec3(high_m_[0], high_m_[1], high_m_[2])};
+  }
+
+ private:
+  std::array<double, 4> low_m_;
+  std::array<double, 4> high_m_;
+};
+
+inline geometry::Box bounds_of(const std::vector<IndexEntry>& entries) {
+  EntryBounds bounds;
+  for (const IndexEntry& entry : entries) bounds.extend(entry);
+  return bounds.box();
+}
+
+/// What a child of a node is made of.
+struct IndexPart {
+  IndexPart() = default;
+  // Eigen does not promise that boxes move without throwing, and vectors would copy parts.
+  IndexPart(IndexPart&&) noexcept = default;
+  IndexPart& operator=(IndexPart&&) noexcept = default;
+
+  geometry::Box cell;               ///< its share of space; empty where space is not shared out
+  geometry::Box box;                ///< holds the boxes of the entries
+  std::vector<IndexEntry> entries;  ///< triangles increasing
+  double budget = 0.0;              ///< how many entries the leaves below may have
+  std::uint32_t depth = 0;          ///< levels below the root
+  bool is_final = false;            ///< splitting it was found not to pay
+};
+
+/// Deals the entries of a part to the children of a node. Const calls are safe from any thread, and
+/// the result depends on the arguments only.
+class IndexDealer {
+ public:
+  virtual ~IndexDealer() = default;
+
+  /// At most `kNodeWidth` parts, none of them empty, that hold what `part` holds; or none, and
+  /// `part` as it was, where it shall not be split.
+  [[nodiscard]] virtual std::vector<IndexPart> deal(IndexPart& part) const = 0;
+};
+
+/// Preconditions: `mesh` outlives the dealer; `bounds` holds all its triangles.
+std::unique_ptr<IndexDealer> make_octree_dealer(const Mesh& mesh, const geometry::Box& bounds,
+                                                const IndexOptions& options);
+std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const geometry::Box& bounds,
+                                                 const IndexOptions& options);
+std::unique_ptr<IndexDealer> make_bvh_dealer(const IndexOptions& options);
+
+/// Cuts what lies in a part by a plane `x[axis] = at`.
+class TriangleCutter {
+ public:
+  /// Rounding of a point where an edge meets a plane, in units of 2^-53 of the largest coordinate:
+  /// the parameter has two differences and a quotient (3), its product with a difference two more,
+  /// all relative to an edge of at most twice that size (10), the sum one; 16 leaves room for the
+  /// second order.
+  static constexpr double kCutErrorUnits = 16.0;
+
+  TriangleCutter(const Mesh& mesh, const geometry::Box& bounds);
+
+  /// Replaces `low` and `high` by what of `entry` lies at most, and at least, at the plane. Their
+  /// boxes are rounded outwards; one that is empty proves that nothing lies there.
+  /// Precondition: `entry.box` has points on both sides of the plane.
+  void cut(const IndexEntry& entry, int axis, double at, IndexEntry& low, IndexEntry& high) const;
+
+ private:
+  const Mesh& mesh_;
+  double error_m_;
+};
+
+/// About half the surface area of a box: how likely a query is to meet it. A box that is a line
+/// counts a little, by its length. 0 for an empty one.
+double half_area_m2(const geometry::Box& box);
+
+}  // namespace camway::scene

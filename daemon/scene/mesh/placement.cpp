@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/mesh/placement.h"
+
+#include <cmath>
+
+namespace camway::scene {
+
+using geometry::Quat;
+using geometry::Vec3;
+
+Placement Placement::make(const Vec3& position_W, const Quat& orientation_WO, std::string& fault) {
+  // Lengths of which the square neither overflows nor loses digits.
+  constexpr double kShortest = 1e-100;
+  constexpr double kLongest = 1e100;
+  const double length = orientation_WO.coeffs().cwiseAbs().maxCoeff();
+  if (!position_W.allFinite() || !orientation_WO.coeffs().allFinite()) {
+    fault = "pose: is not finite";
+  } else if ((position_W.array().abs() > kLargestCoordinateM).any()) {
+    fault = "pose: the position is more than 1e9 m from the origin";
+  } else if (length < kShortest || length > kLongest) {
+    fault = "pose: the orientation has no direction";
+  } else {
+    Placement placement;
+    placement.position_W_ = position_W;
+    placement.orientation_WO_ = orientation_WO.normalized();
+    placement.R_WO_ = placement.orientation_WO_.toRotationMatrix();
+    placement.is_identity_ = position_W.isZero(0.0) && placement.orientation_WO_.vec().isZero(0.0);
+    return placement;
+  }
+  return {};
+}
+
+Mesh placed_mesh(const Mesh& mesh_O, const Placement& placement) {
+  Mesh mesh = mesh_O;
+  for (Vec3& vertex : mesh.vertices) vertex = placement.to_world(vertex);
+  return mesh;
+}
+
+}  // namespace camway::scene

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/scene/snapshot/scene_store.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "daemon/scene/occupancy/occupancy_mirror.h"
+
+namespace camway::scene {
+namespace {
+
+StoreResult called_off() { return {nullptr, StoreFault::kCalledOff, "it was called off"}; }
+
+StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
+  const std::vector<KeptRevision> kept = history.revisions();
+  return {nullptr, StoreFault::kInvalid,
+          "revision: " + std::to_string(revision) + " of scene '" + std::string(scene) +
+              "' is not kept; " + std::to_string(kept.front().revision) + " to " +
+              std::to_string(kept.back().revision) + " are"};
+}
+
+}  // namespace
+
+SceneStore::Turn::Turn(SceneStore& store, std::string_view scene) : store_(store) {
+  std::unique_lock lock(store_.mutex_);
+  store_.turn_ended_.wait(lock, [&] { return !store_.changing_.contains(scene); });
+  scene_ = store_.changing_.emplace(scene).first;
+}
+
+SceneStore::Turn::~Turn() {
+  {
+    const std::lock_guard lock(store_.mutex_);
+    store_.changing_.erase(scene_);
+  }
+  store_.turn_ended_.notify_all();
+}
+
+SceneStore::Load SceneStore::load_of(const Snapshot& snapshot) {
+  return {snapshot.index.size(),
+          snapshot.occupancy ? snapshot.occupancy->statistics().memory_bytes : 0};
+}
+
+std::uint64_t SceneStore::next_revision(std::string_view scene) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = scenes_.find(scene);
+  return 1 + (found == scenes_.end() ? highest_removed_ : found->second.newest->revision);
+}
+
+StoreResult SceneStore::over_limit(const Snapshot& next, const Load& load) const {
+  const auto found = scenes_.find(next.name);
+  const bool is_new = found == scenes_.end();
+  const Load before = is_new ? Load{} : found->second.load;
+  const auto over = [&](Limit limit, const std::string& what) {
+    return StoreResult{nullptr, StoreFault::kLimit, "scene '" + next.name + "': " + what, limit};
+  };
+  if (next.objects.size() > limits_.objects) {
+    return over(Limit::kObjects, "more than " + std::to_string(limits_.objects) + " objects");
+  }
+  if (is_new && scenes_.size() >= limits_.scenes) {
+    return over(Limit::kScenes, "there are " + std::to_string(limits_.scenes) + " scenes already");
+  }
+  if (total_.triangles - before.triangles + load.triangles > limits_.triangles) {
+    return over(Limit::kTriangles, "with it there would be more than " +
+                                       std::to_string(limits_.triangles) +
+                                       " triangles in all scenes");
+  }
+  if (total_.occupancy_bytes - before.occupancy_bytes + load.occupancy_bytes >
+      limits_.occupancy_bytes) {
+    return over(Limit::kOccupancyBytes,
+                "with it the occupancy maps of all scenes would take more than " +
+                    std::to_string(limits_.occupancy_bytes) + " bytes");
+  }
+  return {};
+}
+
+void SceneStore::count(const Load& before, const Load& after) {
+  total_.triangles += after.triangles - before.triangles;
+  total_.occupancy_bytes += after.occupancy_bytes - before.occupancy_bytes;
+}
+
+StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
+                            const Undertaking& undertaking) {
+  assert(snapshot);
+  note.when = std::chrono::system_clock::now();
+  std::optional<Entry> old;  // takes its time to go, when nobody waits any more
+  const Turn turn(*this, snapshot->name);
+  if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
+    auto numbered = std::make_shared<Snapshot>(*snapshot);
+    numbered->revision = next;
+    snapshot = std::move(numbered);
+  }
+  Entry entry{snapshot, load_of(*snapshot),
+              SceneHistory(*snapshot, limits_.history, std::move(note))};
+  {
+    const std::lock_guard lock(mutex_);
+    if (StoreResult over = over_limit(*snapshot, entry.load); !over.error.empty()) return over;
+    if (!undertaking.come_into_force()) return called_off();
+    if (const auto found = scenes_.find(snapshot->name); found != scenes_.end()) {
+      old = std::move(found->second);
+    }
+    count(old ? old->load : Load{}, entry.load);
+    scenes_.insert_or_assign(snapshot->name, std::move(entry));
+  }
+  tell();
+  return {std::move(snapshot), StoreFault::kNone, ""};
+}
+
+StoreResult SceneStore::unknown(std::string_view scene) const {
+  return {nullptr, StoreFault::kUnknownScene,
+          "scene: '" + std::string(scene) + "' is unknown; " + summary()};
+}
+
+StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note,
+                               const Undertaking& undertaking) {
+  const Turn turn(*this, scene);
+  const std::shared_ptr<const Snapshot> before = find(scene);
+  if (!before) return unknown(scene);
+  return make_next(*before, {std::move(change)}, std::move(note), undertaking);
+}
+
+StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note,
+                                const Undertaking& undertaking) {
+  const Turn turn(*this, scene);
+  const std::optional<SceneHistory> known = history(scene);
+  if (!known) return unknown(scene);
+  std::optional<SceneChanges> changes = known->changes_back_to(revision);
+  if (!changes) return not_kept(scene, revision, *known);
+  note.restored_revision = revision;
+  const std::shared_ptr<const Snapshot> before = find(scene);
+  return make_next(*before, *std::move(changes), std::move(note), undertaking);
+}
+
+StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revision,
+                                   std::string other, ChangeNote note,
+                                   const Undertaking& undertaking) {
+  const std::optional<SceneHistory> known = history(scene);
+  if (!known) return unknown(scene);
+  const std::shared_ptr<const Snapshot> then = known->rebuild(revision, undertaking.stop());
+  if (undertaking.is_called_off()) return called_off();
+  if (!then) return not_kept(scene, revision, *known);
+  note.restored_revision = revision;
+  auto renamed = std::make_shared<Snapshot>(*then);
+  renamed->name = std::move(other);
+  renamed->revision = 1;
+  return put(std::move(renamed), std::move(note), undertaking);
+}
+
+StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
+                                  const Undertaking& undertaking) {
+  SnapshotResult result = changed(before, changes, before.revision + 1, undertaking.stop());
+  if (undertaking.is_called_off()) return called_off();
+  if (!result.snapshot) {
+    const bool is_limit = result.limit != Limit::kNone;
+    return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
+            result.limit};
+  }
+  const Load load = load_of(*result.snapshot);
+  note.when = std::chrono::system_clock::now();
+  {
+    const std::lock_guard lock(mutex_);
+    if (StoreResult over = over_limit(*result.snapshot, load); !over.error.empty()) return over;
+    if (!undertaking.come_into_force()) return called_off();
+    Entry& entry = scenes_.find(before.name)->second;
+    entry.newest = result.snapshot;
+    count(std::exchange(entry.load, load), load);
+    entry.history.add(std::move(changes), {result.snapshot->revision, std::move(note)});
+    forget_history();
+  }
+  tell();
+  return {std::move(result.snapshot), StoreFault::kNone, ""};
+}
+
+void SceneStore::forget_history() {
+  std::uint64_t bytes = 0;
+  for (const auto& [name, entry] : scenes_) bytes += entry.history.bytes();
+  while (bytes > limits_.history.bytes) {
+    SceneHistory& longest = std::ranges::max_element(scenes_, {}, [](const auto& scene) {
+                              return scene.second.history.bytes();
+                            })->second.history;
+    bytes -= longest.bytes();
+    longest.forget_oldest();
+    bytes += longest.bytes();
+  }
+}
+
+bool SceneStore::remove(std::string_view scene, const Undertaking& undertaking) {
+  std::optional<Entry> old;
+  const Turn turn(*this, scene);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = scenes_.find(scene);
+    if (found == scenes_.end() || !undertaking.come_into_force()) return false;
+    highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
+    old = std::move(found->second);
+    count(old->load, {});
+    scenes_.erase(found);
+  }
+  tell();
+  return true;
+}
+
+void SceneStore::on_change(std::function<void()> listener) {
+  const std::lock_guard telling(telling_);
+  listener_ = std::move(listener);
+}
+
+void SceneStore::tell() {
+  const std::lock_guard telling(telling_);
+  if (listener_) listener_();
+}
+
+std::shared_ptr<const Snapshot> SceneStore::find(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto position = scenes_.find(name);
+  return position == scenes_.end() ? nullptr : position->second.newest;
+}
+
+std::optional<SceneHistory> SceneStore::history(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto position = scenes_.find(name);
+  if (position == scenes_.end()) return std::nullopt;
+  return position->second.history;
+}
+
+SceneStore::Kept SceneStore::kept(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto position = scenes_.find(name);
+  if (position == scenes_.end()) return {};
+  return {position->second.newest, position->second.history.revisions()};
+}
+
+std::vector<std::shared_ptr<const Snapshot>> SceneStore::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::shared_ptr<const Snapshot>> all;
+  all.reserve(scenes_.size());
+  for (const auto& [name, entry] : scenes_) all.push_back(entry.newest);
+  return all;
+}
+
+std::string SceneStore::summary() const {
+  constexpr std::size_t kShown = 5;
+  const std::vector<std::shared_ptr<const Snapshot>> all = list();
+  if (all.empty()) return "there are no scenes";
+  std::string text = "there are:";
+  for (std::size_t i = 0; i < all.size() && i < kShown; ++i) text += " '" + all[i]->name + "'";
+  if (all.size() > kShown) text += " and " + std::to_string(all.size() - kShown) + " more";
+  return text;
+}
+
+}  // namespace camway::scene

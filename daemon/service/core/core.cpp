@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/core/core.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include <camway/error_t.hpp>
+
+#include "daemon/messages/convert.h"
+
+namespace camway::service {
+
+std::int64_t utime_now() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
+}
+
+Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
+           CoreConfig core_config, std::shared_ptr<Log> service_log)
+    : config(std::move(core_config)),
+      channels{config.prefix},
+      scenes(scene_store),
+      log(std::move(service_log)),
+      transport(inner_transport),
+      limited_log(log, config.log_limits),
+      malformed_answers(config.malformed_answers_per_s, config.malformed_answers_per_s),
+      outbox(transport, config.answers),
+      mailbox(transport),
+      workers(config.workers, config.queue) {}
+
+void Core::submit(Job job) {
+  if (std::optional<FairQueue::Refused> refused = workers.submit(std::move(job))) {
+    refused->job.abandon(refused->why);
+  }
+}
+
+void Core::expire_jobs() {
+  for (const Job& job : workers.take_expired(Job::Clock::now())) job.abandon(Refusal::kExpired);
+}
+
+std::string Core::refusal_text(Refusal why) const {
+  switch (why) {
+    case Refusal::kClientFull:
+      return fmt::format(
+          "{} requests of this client wait already "
+          "(queue.requests_of_a_client); send it again later",
+          config.queue.jobs_of_a_client);
+    case Refusal::kStopping:
+      return "the daemon is stopping";
+    case Refusal::kQueueFull:
+    case Refusal::kExpired:
+    case Refusal::kCancelled:
+      break;
+  }
+  return fmt::format(
+      "all {} workers are busy and {} requests wait (queue.requests); send it again later",
+      config.workers, config.queue.jobs);
+}
+
+bool Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
+  ++counters.malformed;
+  limited_log.malformed.write(
+      "malformed message",
+      {{"channel", channel}, {"bytes", size}, {"reason", clipped(reason, wire::kMaxTextBytes)}});
+  return malformed_answers.take(TokenBucket::Clock::now());
+}
+
+void Core::report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
+                               std::string_view reason) {
+  error_t error{};
+  error.utime = utime_now();
+  error.channel = channel;
+  error.size_bytes = static_cast<std::int64_t>(message.size());
+  error.message = clipped(reason, wire::kMaxTextBytes);
+  outbox.add(channels.error(), std::make_shared<const std::vector<Bytes>>(1, wire::encode(error)),
+             {}, Outbox::Kind::kRefusal);
+}
+
+}  // namespace camway::service

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "daemon/base/deadline.h"
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/scene/snapshot/snapshot.h"
+#include "daemon/service/core/config.h"
+#include "daemon/service/core/counters.h"
+#include "daemon/service/log/limited_log.h"
+#include "daemon/service/queue/worker_pool.h"
+#include "daemon/service/transport/mailbox.h"
+#include "daemon/service/transport/metered_transport.h"
+#include "daemon/service/transport/outbox.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/check.h"
+
+namespace camway::service {
+
+/// `planning::plan`, or a stand-in for it in tests. Called from several threads at a time.
+using Planner = std::function<planning::PlanResult(
+    const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&)>;
+
+/// Microseconds since 1970.
+std::int64_t utime_now();
+
+/// What the services for the different requests share. Owned by `Service`; all but `mailbox`,
+/// `workers`, `scenes` and `log` belong to the loop thread.
+struct Core {
+  Core(Transport& inner_transport, const scene::SceneStore& scene_store,
+       CoreConfig core_config, std::shared_ptr<Log> service_log);
+
+  /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
+  void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
+                           std::string_view reason);
+
+  /// Queues `job`; what is not run for it is abandoned here and now.
+  void submit(Job job);
+
+  /// Abandons what waited for too long.
+  void expire_jobs();
+
+  /// For whoever asked for a job that is refused for want of room or time to live.
+  [[nodiscard]] std::string refusal_text(Refusal why) const;
+
+  /// Counts and logs a message that could not be read. Whether its sender may be told.
+  bool note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
+
+  const CoreConfig config;
+  const wire::Channels channels;
+  const scene::SceneStore& scenes;
+  const std::shared_ptr<Log> log;
+  MeteredTransport transport;
+  Counters counters;
+  LimitedLogs limited_log;
+  TokenBucket malformed_answers;
+  Outbox outbox;
+  Mailbox mailbox;
+  WorkerPool workers;
+};
+
+}  // namespace camway::service

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <string_view>
+
+#include <camway/occupancy_request_t.hpp>
+#include <camway/occupancy_response_t.hpp>
+
+#include "daemon/base/deadline.h"
+#include "daemon/messages/answer_pages.h"
+#include "daemon/messages/convert.h"
+#include "daemon/service/core/core.h"
+
+namespace camway::service {
+
+/// Answers batches of occupancy queries. The loop thread calls it; workers ask the map. Nothing is
+/// cached: the map never changes under a revision and asking it again costs little, so a repeated
+/// request gets the same lists. Deadlines run from the receipt. One that is sent again while it
+/// waits or is being answered changes nothing.
+class OccupancyService {
+ public:
+  /// `core` must outlive the service; `deadline`: of batches.
+  OccupancyService(Core& core, const DeadlineLimits& deadline) : core_(core), deadline_(deadline) {}
+
+  /// A message on the occupancy request channel. Throws only for want of memory.
+  void on_message(std::span<const std::uint8_t> message);
+  /// One on the channel that calls them off. Throws likewise.
+  void on_cancel(std::span<const std::uint8_t> message);
+
+ private:
+  using Request = std::shared_ptr<const occupancy_request_t>;
+  /// A batch that waits or is being answered.
+  struct Flight {
+    Request request;
+    std::stop_source stop;
+  };
+
+  template <class Message>
+  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
+  template <class Message>
+  void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                    std::string_view reason);
+  void on_request(const Request& request);
+  void begin(const Request& request, std::shared_ptr<const scene::Snapshot> snapshot);
+  void abandon(const Request& request, Refusal why);
+  /// Sends the answer to a batch, unless that was called off.
+  void finish(const Request& request, occupancy_response_t answer);
+  void send(occupancy_response_t answer);
+
+  Core& core_;
+  const DeadlineLimits deadline_;
+  std::map<RequestKey, Flight> flights_;
+};
+
+}  // namespace camway::service

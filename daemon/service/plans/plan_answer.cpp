@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/plans/plan_answer.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "daemon/planning/quaternion_order.h"
+#include "daemon/planning/witness_names.h"
+#include "daemon/scene/import/import_warnings.h"
+
+namespace camway::service {
+namespace {
+
+/// What the sender should know beside the answer: behind its message, where it is read.
+void append_warnings(const scene::ImportReport& report, const planning::PlanRequest& request,
+                     planning::PlanResult& result) {
+  const auto append = [&](const std::string& warning) {
+    result.message += "; warning: " + warning;
+  };
+  const bool is_planned = result.status != planning::Status::kInvalid;
+  // Cameras that are turned wrongly often collide where they are.
+  if (is_planned || !result.keyframe_faults.empty()) {
+    if (const auto warning = planning::quaternion_order_warning(request)) append(*warning);
+  }
+  if (!is_planned) return;
+  const double resolution_m =
+      scene::finest_length_m(request.options.interval_tolerance_m, request.options.clearance_m);
+  for (const std::string& warning : scene::import_warnings(report, resolution_m)) append(warning);
+}
+
+}  // namespace
+
+AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
+  AnswerHeader header;
+  header.ids = {request.client_id, request.request_id, utime_now()};
+  header.scene = request.scene;
+  if (snapshot != nullptr) {
+    header.scene_revision = static_cast<std::int64_t>(snapshot->revision);
+    header.scene_digest = snapshot->digest;
+  }
+  return header;
+}
+
+plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                          const plan_request_t& wire, const DeadlineLimits& limits,
+                          const collision::Deadline& deadline) {
+  std::string error;
+  try {
+    const ConvertedRequest converted = from_wire(wire, limits);
+    if (!converted.request) {
+      return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
+                          header_of(wire, &snapshot));
+    }
+    planning::PlanResult result = planner(snapshot, *converted.request, deadline);
+    planning::name_witnesses(snapshot.mesh, *converted.request, result);
+    append_warnings(snapshot.report, *converted.request, result);
+    return to_wire(result, header_of(wire, &snapshot));
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  } catch (...) {
+    error = "unknown exception";
+  }
+  return plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
+                      header_of(wire, &snapshot));
+}
+
+std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
+                                                            const plan_response_t& answer,
+                                                            const DeadlineLimits& limits) {
+  if (!(request.watch_lease_s > 0.0) || !answer.certified) return nullptr;
+  const ConvertedRequest asked = from_wire(request, limits);
+  const ConvertedResult result = from_wire(answer);
+  if (!asked.request || !result.result) return nullptr;
+  std::optional<planning::WatchedPath> path =
+      planning::WatchedPath::of(*asked.request, *result.result);
+  return path ? std::make_shared<const planning::WatchedPath>(std::move(*path)) : nullptr;
+}
+
+Pages encode_answer(plan_response_t& answer, int most_pages) {
+  const std::size_t pages = count_pages(answer);
+  if (pages > static_cast<std::size_t>(most_pages)) {
+    const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
+                              answer.scene,
+                              answer.scene_revision,
+                              answer.scene_digest};
+    answer = plain_answer(plan_response_t::STATUS_LIMIT,
+                          fmt::format("the answer takes {} pages, more than the {} allowed "
+                                      "(queue.answer_pages); ask for parts of the path",
+                                      pages, most_pages),
+                          header);
+  }
+  return std::make_shared<const std::vector<Bytes>>(encode_pages(answer));
+}
+
+}  // namespace camway::service

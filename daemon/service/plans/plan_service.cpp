@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/plans/plan_service.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include <camway/cancel_t.hpp>
+#include <camway/missing_pages_t.hpp>
+#include <camway/plan_progress_t.hpp>
+
+#include "daemon/service/plans/plan_answer.h"
+
+namespace camway::service {
+namespace {
+
+constexpr double kMillisecondsPerSecond = 1e3;
+
+/// What is wrong with what a request says of its own handling, which planning does not see.
+std::string fault_of_handling(const plan_request_t& request) {
+  for (const auto& [name, value] : {std::pair{"deadline_s", request.deadline_s},
+                                    std::pair{"progress_period_s", request.progress_period_s},
+                                    std::pair{"watch_lease_s", request.watch_lease_s}}) {
+    if (!(value >= 0.0)) return fmt::format("{}: is {}; it must be at least 0", name, value);
+  }
+  if (request.priority < plan_request_t::LOW || request.priority > plan_request_t::HIGH) {
+    return fmt::format("priority: is {}; it must be -1 (low), 0 or 1 (high)",
+                       static_cast<int>(request.priority));
+  }
+  return {};
+}
+
+/// Precondition: it has no `fault_of_handling`.
+Priority priority_of(const plan_request_t& request) {
+  switch (request.priority) {
+    case plan_request_t::LOW:
+      return Priority::kLow;
+    case plan_request_t::HIGH:
+      return Priority::kHigh;
+    default:
+      return Priority::kNormal;
+  }
+}
+
+/// Of watched paths, so many are planned again or wait for that.
+constexpr std::size_t kReplansPerWorker = 2;
+
+Pages one_page(Bytes bytes) {
+  return std::make_shared<const std::vector<Bytes>>(1, std::move(bytes));
+}
+
+}  // namespace
+
+/// A request on its way to and through a worker.
+struct PlanService::Pending {
+  RequestKey key;
+  std::shared_ptr<const plan_request_t> request;
+  std::shared_ptr<const scene::Snapshot> snapshot;
+  std::size_t bytes;  ///< of the request
+  double deadline_s;
+  collision::Deadline deadline;
+};
+
+/// A watched path that collides, or for which there may be a better one, on its way likewise.
+struct PlanService::Replan {
+  RequestKey key;
+  std::shared_ptr<const plan_request_t> request;
+  collision::Deadline deadline;
+  bool for_offer;
+};
+
+/// What came of it.
+struct PlanService::Replanned {
+  plan_response_t answer;
+  Pages pages;
+  std::shared_ptr<const planning::WatchedPath> path;  ///< null if the answer proves none
+  std::shared_ptr<const scene::Snapshot> snapshot;
+};
+
+template <class Message>
+std::optional<Message> PlanService::read(const std::string& channel,
+                                         std::span<const std::uint8_t> message) {
+  wire::Decoded<Message> decoded = wire::decode<Message>(message);
+  if (!decoded.message) {
+    on_malformed<Message>(channel, message, decoded.fault.text(Message::getTypeName()));
+    return std::nullopt;
+  }
+  if (!wire::is_client_id(decoded.message->client_id)) {
+    on_malformed<Message>(
+        channel, message,
+        std::string(Message::getTypeName()) + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
+    return std::nullopt;
+  }
+  return std::move(decoded.message);
+}
+
+template <class Message>
+void PlanService::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                               std::string_view reason) {
+  if (!core_.note_malformed(channel, message.size(), reason)) return;
+  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
+  if (!sender) {
+    core_.report_unanswerable(channel, message, reason);
+    return;
+  }
+  plan_request_t request{};
+  request.client_id = sender->client_id;
+  request.request_id = sender->request_id;
+  answer_uncached(request, plan_response_t::STATUS_MALFORMED, reason);
+}
+
+void PlanService::on_request(std::span<const std::uint8_t> message) {
+  const std::string channel = core_.channels.plan_request();
+  std::optional<plan_request_t> page = read<plan_request_t>(channel, message);
+  if (!page) return;
+  // No scene or method of ours has a name with control characters, so nothing is lost.
+  page->scene = wire::printable(page->scene);
+  page->method = wire::printable(page->method);
+  PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
+  if (!outcome.error.empty()) {
+    on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error);
+  }
+  if (outcome.given_up > 0) {
+    core_.limited_log.refused.write(
+        "half received requests are given up",
+        {{"requests", outcome.given_up}, {"reason", "memory.half_received_requests or _bytes"}});
+  }
+  if (outcome.whole) take(std::move(*outcome.whole));
+}
+
+void PlanService::on_cancel(std::span<const std::uint8_t> message) {
+  const std::optional<cancel_t> cancel = read<cancel_t>(core_.channels.cancel(), message);
+  if (!cancel) return;
+  const RequestKey key{cancel->client_id, cancel->request_id};
+  if (in_flight_.cancel(key)) {
+    // One that is being planned ends by itself.
+    if (const std::optional<Job> waiting = core_.workers.take(key.client_id, key.request_id)) {
+      waiting->abandon(Refusal::kCancelled);
+    }
+  } else if (Pages answer = cache_.find(key)) {
+    send(key, std::move(answer));
+  } else {
+    plan_request_t unknown{};
+    unknown.client_id = key.client_id;
+    unknown.request_id = key.request_id;
+    answer_uncached(unknown, plan_response_t::STATUS_CANCELLED, "the daemon knows no such request");
+  }
+}
+
+void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
+  const auto asked = read<missing_pages_t>(core_.channels.missing_pages(), message);
+  if (!asked) return;
+  const RequestKey key{asked->client_id, asked->request_id};
+  Pages answer = cache_.find(key);
+  if (!answer) return;
+  std::set<std::size_t> which;
+  for (const std::int32_t page : asked->missing) {
+    if (page >= 0 && static_cast<std::size_t>(page) < answer->size()) {
+      which.insert(static_cast<std::size_t>(page));
+    }
+  }
+  if (which.empty()) return;
+  core_.counters.answer_pages_asked_again += static_cast<std::int64_t>(which.size());
+  core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(answer),
+                   {which.begin(), which.end()});
+}
+
+void PlanService::tick(Clock::time_point now) {
+  for (Watches::Taken& taken : watches_.take_taken()) put_in_force(std::move(taken), now);
+  plan_broken(now);
+  plan_improvable(now);
+  for (plan_progress_t& progress : in_flight_.take_due(now)) {
+    const auto ahead = core_.workers.ahead_of(progress.client_id, progress.request_id);
+    progress.requests_ahead = static_cast<std::int32_t>(ahead.value_or(0));
+    core_.outbox.add(core_.channels.plan_progress(progress.client_id),
+                     one_page(wire::encode(progress)));
+  }
+  for (PageAssembly<plan_request_t>::Gap& gap : pages_.take_gaps(now)) {
+    core_.counters.request_pages_asked_again += static_cast<std::int64_t>(gap.missing.size());
+    missing_pages_t question{};
+    question.client_id = gap.client_id;
+    question.request_id = gap.request_id;
+    question.utime = utime_now();
+    question.num_pages = gap.num_pages;
+    question.num_missing = static_cast<std::int32_t>(gap.missing.size());
+    question.missing = std::move(gap.missing);
+    core_.outbox.add(core_.channels.missing_pages(gap.client_id), one_page(wire::encode(question)));
+  }
+}
+
+PlanService::Clock::time_point PlanService::next_tick() const {
+  return std::min(in_flight_.next_due(), pages_.next_gap());
+}
+
+void PlanService::take(plan_request_t request) {
+  const RequestKey key{request.client_id, request.request_id};
+  if (request.keyframes.size() > config_.keyframes) {
+    answer_uncached(request, plan_response_t::STATUS_LIMIT,
+                    fmt::format("keyframes: holds {}; the daemon plans {} at most "
+                                "(planning.keyframes)",
+                                request.keyframes.size(), config_.keyframes));
+    return;
+  }
+  if (const std::string fault = fault_of_handling(request); !fault.empty()) {
+    answer_uncached(request, plan_response_t::STATUS_INVALID, fault);
+    return;
+  }
+  const AnswerCache::Found found = cache_.find_or_begin(key, digest_of(request));
+  switch (found.known) {
+    case AnswerCache::Known::kRunning:
+      ++core_.counters.repeated;
+      return;
+    case AnswerCache::Known::kAnswered:
+      if (found.was_watched && !watches_.renew(key, Clock::now())) {
+        // Its lease is over, so the answer is as old as that.
+        cache_.forget_answer(key);
+        take(std::move(request));
+        return;
+      }
+      ++core_.counters.repeated;
+      ++core_.counters.cache_hits;
+      core_.limited_log.answers.write(
+          "repeated answer",
+          {{"client", key.client_id}, {"request", key.request_id}, {"pages", found.pages->size()}});
+      send(key, found.pages);
+      return;
+    case AnswerCache::Known::kConflict:
+      answer_uncached(
+          request, plan_response_t::STATUS_INVALID,
+          fmt::format("request_id: {} was used before for another request", request.request_id));
+      return;
+    case AnswerCache::Known::kNew:
+      begin(std::make_shared<const plan_request_t>(std::move(request)), key);
+      return;
+  }
+}
+
+void PlanService::begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key) {
+  const auto bytes = static_cast<std::size_t>(request->getEncodedSize());
+  if (bytes_ > 0 && bytes_ + bytes > config_.request_bytes) {
+    refuse(*request, fmt::format("the requests that wait or are planned take {} bytes, {} at most "
+                                 "(queue.request_bytes); send it again later",
+                                 bytes_, config_.request_bytes));
+    return;
+  }
+  bytes_ += bytes;
+  const double deadline_s = deadline_of(request->deadline_s, config_.deadline);
+  const Pending pending{
+      key,   request,    core_.scenes.find(request->scene),
+      bytes, deadline_s, in_flight_.begin(key, deadline_s, request->progress_period_s)};
+  if (!pending.snapshot) {
+    const std::string message =
+        fmt::format("scene: '{}' is unknown; {}", request->scene, core_.scenes.summary());
+    finish_plainly(pending, plan_response_t::STATUS_UNKNOWN_SCENE, message);
+    return;
+  }
+  Job job;
+  job.run = [this, pending] { run(pending); };
+  job.abandon = [this, pending](Refusal why) { abandon(pending, why); };
+  job.client = key.client_id;
+  job.id = key.request_id;
+  job.priority = priority_of(*request);
+  job.expires =
+      Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
+                              std::chrono::duration<double>(pending.deadline.remaining_s()));
+  core_.submit(std::move(job));
+}
+
+// On a worker: touches nothing of the service but the planner and what is made for many threads.
+void PlanService::run(const Pending& pending) {
+  if (pending.deadline.passed()) {
+    const Refusal why = pending.deadline.stopped() ? Refusal::kCancelled : Refusal::kExpired;
+    core_.mailbox.post([this, pending, why] { abandon(pending, why); });
+    return;
+  }
+  const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
+  auto answer = std::make_shared<plan_response_t>(answer_of(
+      planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
+  auto path = watchable_path(*pending.request, *answer, config_.deadline);
+  Pages pages = encode_answer(*answer, config_.answer_pages);
+  core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
+                      path = std::move(path)] {
+    core_.counters.waiting.add(waited_s);
+    core_.counters.planning.add(answer->total_ms / kMillisecondsPerSecond);
+    if (in_flight_.cancelled(pending.key)) {
+      abandon(pending, Refusal::kCancelled);
+    } else {
+      finish(pending, *answer, pages);
+      if (path) watch(pending, path, *answer);
+    }
+  });
+}
+
+void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
+  core_.limited_log.answers.write("answered", {{"client", pending.key.client_id},
+                                               {"request", pending.key.request_id},
+                                               {"scene", pending.request->scene},
+                                               {"status", status_name(answer.status)},
+                                               {"keyframes", pending.request->keyframes.size()},
+                                               {"segments", answer.segments.size()},
+                                               {"collisions", answer.collisions.size()},
+                                               {"remaining", answer.remaining.size()},
+                                               {"pages", pages->size()},
+                                               {"ms", answer.total_ms},
+                                               {"since_receipt_ms", pending.deadline.elapsed_ms()},
+                                               {"message", answer.message}});
+  core_.counters.plan_answers.add(answer.status);
+  core_.counters.receipt_to_answer.add(pending.deadline.elapsed_ms() / kMillisecondsPerSecond);
+  in_flight_.end(pending.key);
+  bytes_ -= pending.bytes;
+  cache_.finish(pending.key, pages);
+  send(pending.key, std::move(pages));
+}
+
+void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
+                        const plan_response_t& answer) {
+  const WatchableAnswer watched{pending.key, pending.request, std::move(path), pending.snapshot,
+                                AnswerQuality::of(answer)};
+  if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
+}
+
+// Few at a time: they must neither fill the queue nor all be planned in a scene that has changed
+// again since.
+void PlanService::plan_broken(Clock::time_point now) {
+  const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
+  if (replanning_ >= most) return;
+  for (const Watches::Request& broken : watches_.take_broken(most - replanning_, now)) {
+    ++replanning_;
+    plan_again(broken, /*for_offer=*/false);
+  }
+}
+
+void PlanService::plan_improvable(Clock::time_point now) {
+  if (const auto watched = watches_.take_improvable(now)) plan_again(*watched, /*for_offer=*/true);
+}
+
+void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
+  const double deadline_s = deadline_of(watched.request->deadline_s, config_.deadline);
+  const Replan replan{watched.key, watched.request, collision::Deadline::after_s(deadline_s),
+                      for_offer};
+  Job job;
+  job.run = [this, replan] { run_again(replan); };
+  job.abandon = [this, replan](Refusal) { give_up(replan); };
+  job.client = replan.key.client_id;
+  job.priority = Priority::kLow;
+  job.expires = Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(
+                                        std::chrono::duration<double>(deadline_s));
+  core_.submit(std::move(job));
+}
+
+// On a worker.
+void PlanService::run_again(const Replan& replan) {
+  auto done = std::make_shared<Replanned>();
+  done->snapshot = core_.scenes.find(replan.request->scene);
+  if (!done->snapshot || replan.deadline.passed()) {
+    core_.mailbox.post([this, replan] { give_up(replan); });
+    return;
+  }
+  done->answer =
+      answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
+  done->path = watchable_path(*replan.request, done->answer, config_.deadline);
+  done->pages = encode_answer(done->answer, config_.answer_pages);
+  core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
+}
+
+void PlanService::finish_again(const Replan& replan, const Replanned& done) {
+  const Clock::time_point now = Clock::now();
+  const WatchableAnswer watched{replan.key, replan.request, done.path, done.snapshot,
+                                AnswerQuality::of(done.answer)};
+  if (replan.for_offer) {
+    if (done.path) {
+      watches_.offer(watched, done.pages, now);
+    } else {
+      watches_.no_offer(replan.key, now);
+    }
+    return;
+  }
+  --replanning_;
+  if (!watches_.ended(replan.key)) return;
+  core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
+                                                     {"request", replan.key.request_id},
+                                                     {"scene", done.answer.scene},
+                                                     {"revision", done.answer.scene_revision},
+                                                     {"status", status_name(done.answer.status)},
+                                                     {"message", done.answer.message}});
+  cache_.replace(replan.key, digest_of(*replan.request), done.pages);
+  send(replan.key, done.pages);
+  if (done.path) {
+    watches_.begin(watched, now);
+  } else {
+    watches_.answered(replan.key, done.answer.scene_revision, now);
+  }
+}
+
+// The client has its pages, but may have lost them since, and one that asks for the request gets
+// them.
+void PlanService::put_in_force(Watches::Taken taken, Clock::time_point now) {
+  const RequestKey& key = taken.answer.key;
+  cache_.replace(key, digest_of(*taken.answer.request), taken.pages);
+  send(key, std::move(taken.pages));
+  watches_.begin(taken.answer, now);
+}
+
+void PlanService::give_up(const Replan& replan) {
+  if (replan.for_offer) {
+    watches_.not_improved(replan.key, Clock::now());
+    return;
+  }
+  --replanning_;
+  watches_.not_planned(replan.key, Clock::now());
+}
+
+void PlanService::finish_plainly(const Pending& pending, std::int32_t status,
+                                 std::string_view message) {
+  plan_response_t answer =
+      plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
+  Pages pages = encode_answer(answer, config_.answer_pages);
+  finish(pending, answer, std::move(pages));
+}
+
+void PlanService::abandon(const Pending& pending, Refusal why) {
+  if (why == Refusal::kExpired) {
+    finish_plainly(pending, plan_response_t::STATUS_TIMEOUT,
+                   fmt::format("the deadline of {:g} s passed while the request waited for a "
+                               "worker; nothing was planned",
+                               pending.deadline_s));
+    return;
+  }
+  if (why == Refusal::kCancelled) {
+    finish_plainly(pending, plan_response_t::STATUS_CANCELLED, "cancelled by its client");
+    return;
+  }
+  in_flight_.end(pending.key);
+  bytes_ -= pending.bytes;
+  refuse(*pending.request, core_.refusal_text(why));
+}
+
+void PlanService::refuse(const plan_request_t& request, const std::string& message) {
+  cache_.forget({request.client_id, request.request_id});
+  ++core_.counters.overloaded;
+  core_.limited_log.refused.write(
+      "refused plan request",
+      {{"client", request.client_id}, {"request", request.request_id}, {"reason", message}});
+  answer_uncached(request, plan_response_t::STATUS_OVERLOADED, message);
+}
+
+void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,
+                                  std::string_view message) {
+  plan_response_t answer = plain_answer(status, message, header_of(request, nullptr));
+  core_.counters.plan_answers.add(status);
+  send({request.client_id, request.request_id}, encode_answer(answer, config_.answer_pages),
+       Outbox::Kind::kRefusal);
+}
+
+void PlanService::send(const RequestKey& key, Pages pages, Outbox::Kind kind) {
+  if (core_.outbox.add(core_.channels.plan_response(key.client_id), std::move(pages), {}, kind)) {
+    ++core_.counters.answered;
+  }
+}
+
+}  // namespace camway::service

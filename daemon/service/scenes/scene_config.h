@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/messages/convert.h"
+#include "daemon/service/queue/fair_queue.h"
+#include "daemon/service/scenes/map_exports.h"
+#include "daemon/service/scenes/scene_rules.h"
+#include "daemon/service/scenes/uploads.h"
+
+namespace camway::service {
+
+/// How scene requests are answered.
+struct SceneConfig {
+  /// Of changes of scenes: generous, as a large scene takes its time.
+  DeadlineLimits change_deadline{.default_s = 600.0, .max_s = 3600.0};
+  SceneRules scene_rules;
+  Uploads::Limits uploads;     ///< `scenes.uploads` and others
+  MapExports::Limits exports;  ///< `scenes.exports` and others
+  /// Changes of different scenes that are made at the same time; `scenes.workers`
+  /// [Limit: 1 <= value <= kMaxWorkers]
+  int scene_workers = 4;
+  FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
+};
+
+}  // namespace camway::service

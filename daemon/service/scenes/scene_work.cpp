@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/scenes/scene_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "daemon/messages/convert.h"
+#include "daemon/messages/scene.h"
+#include "daemon/messages/scene_names.h"
+#include "daemon/planning/request.h"
+#include "daemon/scene/import/import_warnings.h"
+#include "daemon/scene/voxels/map_scan.h"
+#include "daemon/service/scenes/scene_content.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/checksum.h"
+#include "lcmtypes/wire/layout.h"
+
+namespace camway::service {
+namespace {
+
+using geometry::Vec3;
+using scene::SceneChange;
+using Request = scene_request_t;
+using Answer = scene_response_t;
+
+/// Appends what fits a message, from element `first` on.
+template <class Elements, class List, class Convert>
+std::int32_t put_list(const Elements& elements, std::int32_t first, const Convert& convert,
+                      const Answer& answer, List& list) {
+  auto size = static_cast<std::size_t>(answer.getEncodedSize());
+  for (std::size_t i = static_cast<std::size_t>(std::max(first, 0)); i < elements.size(); ++i) {
+    auto element = convert(elements[i]);
+    size += static_cast<std::size_t>(element._getEncodedSizeNoHash());
+    if (size > wire::kMaxMessageBytes) break;
+    list.push_back(std::move(element));
+  }
+  return static_cast<std::int32_t>(list.size());
+}
+
+std::int32_t status_of(scene::StoreFault fault) {
+  switch (fault) {
+    case scene::StoreFault::kNone:
+      return Answer::STATUS_OK;
+    case scene::StoreFault::kUnknownScene:
+      return Answer::STATUS_UNKNOWN_SCENE;
+    case scene::StoreFault::kInvalid:
+      return Answer::STATUS_INVALID;
+    case scene::StoreFault::kLimit:
+      return Answer::STATUS_LIMIT;
+    case scene::StoreFault::kCalledOff:
+      return Answer::STATUS_CANCELLED;
+  }
+  return Answer::STATUS_INTERNAL_ERROR;
+}
+
+std::string warnings_of(const scene::ImportReport& report) {
+  std::string text;
+  for (const std::string& warning :
+       scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m)) {
+    text += (text.empty() ? "warning: " : "; warning: ") + warning;
+  }
+  return text;
+}
+
+/// One request on its way.
+class Work {
+ public:
+  Work(const Request& request, const UploadedBytes& upload, const SceneContext& context)
+      : request_(request),
+        upload_(upload),
+        context_(context),
+        rules_(context.rules),
+        scenes_(context.scenes) {}
+
+  Answer run() {
+    switch (request_.operation) {
+      case Request::LOAD:
+        return load();
+      case Request::UNLOAD:
+        return unload();
+      case Request::LIST:
+        return list();
+      case Request::DESCRIBE:
+        return describe();
+      case Request::PUT:
+        return put();
+      case Request::MOVE:
+        return move();
+      case Request::REMOVE:
+        return change({SceneChange::Kind::kRemove, request_.object, nullptr, {}}, "");
+      case Request::SCAN:
+        return scan();
+      case Request::EXPORT:
+        return export_map();
+      case Request::HISTORY:
+        return history();
+      case Request::RESTORE:
+        return restore();
+      default:
+        return invalid(fmt::format("operation: {} is unknown", request_.operation));
+    }
+  }
+
+  /// What is exported to the client.
+  std::vector<std::uint8_t> take_map() { return std::move(map_); }
+
+ private:
+  [[nodiscard]] Answer invalid(std::string_view reason) const {
+    return plain_scene_answer(request_, Answer::STATUS_INVALID, reason);
+  }
+
+  /// What could not be made, for whatever reason.
+  [[nodiscard]] Answer refused(std::string_view reason, scene::Limit limit) const {
+    if (limit == scene::Limit::kNone) return invalid(reason);
+    return plain_scene_answer(request_, Answer::STATUS_LIMIT, with_setting(reason, limit));
+  }
+
+  [[nodiscard]] Answer unknown() const {
+    return plain_scene_answer(
+        request_, Answer::STATUS_UNKNOWN_SCENE,
+        fmt::format("scene: '{}' is unknown; {}", request_.scene, scenes_.summary()));
+  }
+
+  /// What the scene's history says of this.
+  [[nodiscard]] scene::ChangeNote note(std::string object) const {
+    return {operation_name(request_), std::move(object), request_.client_id, 0, {}};
+  }
+
+  /// What the store made of a change.
+  [[nodiscard]] Answer answer_to(const scene::StoreResult& result, std::string_view message) const {
+    if (result.limit != scene::Limit::kNone) return refused(result.error, result.limit);
+    Answer answer = plain_scene_answer(request_, status_of(result.fault),
+                                       result.snapshot ? message : result.error);
+    if (!result.snapshot) return answer;
+    answer.scene = scene_info_of(*result.snapshot);
+    answer.total = static_cast<std::int32_t>(result.snapshot->objects.size());
+    if (const scene::SceneObject* object = result.snapshot->find(request_.object)) {
+      answer.objects = {object_on_wire(*object)};
+      answer.num_objects = 1;
+    }
+    return answer;
+  }
+
+  Answer load() {
+    if (!is_scene_name(request_.scene)) return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
+    scene::ObjectOptions options;
+    options.mirror_voxels = rules_.mirror_voxels;
+    options.bounds = bounds_of(request_.body_bounds);
+    if (const auto fault = geometry::fault_in(options.bounds))
+      return invalid("body_bounds." + fault->field + ": " + fault->reason);
+    if (request_.occupancy_resolution_m != 0.0) {
+      options.occupancy_resolution_m = request_.occupancy_resolution_m;
+    }
+    if (request_.file.empty() && request_.upload_bytes == 0) {
+      if (options.occupancy_resolution_m &&
+          !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
+        return invalid(std::string("occupancy_resolution_m: ") + kResolutionRule);
+      }
+      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options), note(""),
+                                   context_.undertaking),
+                       "");
+    }
+    Made<Content> made = read_mesh(request_, upload_, context_);
+    if (!made.value) return refused(made.error, made.limit);
+    const std::string warnings = warnings_of(made.value->report);
+    scene::ObjectResult placed =
+        scene::place_object(request_.scene, source_of(*std::move(made.value), options), {}, options,
+                            nullptr, context_.undertaking.stop());
+    if (!placed.object) return refused(placed.error, placed.limit);
+    return answer_to(
+        scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options),
+                    note(""), context_.undertaking),
+        warnings);
+  }
+
+  Answer unload() {
+    if (!scenes_.remove(request_.scene, context_.undertaking)) return unknown();
+    return plain_scene_answer(request_, Answer::STATUS_OK, "");
+  }
+
+  Answer list() {
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    const auto scenes = scenes_.list();
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(scenes.size());
+    answer.num_scenes = put_list(
+        scenes, request_.first, [](const auto& scene) { return scene_info_of(*scene); }, answer,
+        answer.scenes);
+    return answer;
+  }
+
+  Answer describe() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*snapshot);
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(snapshot->objects.size());
+    answer.num_objects = put_list(
+        snapshot->objects, request_.first,
+        [](const auto& object) { return object_on_wire(*object); }, answer, answer.objects);
+    return answer;
+  }
+
+  Answer history() {
+    const scene::SceneStore::Kept kept = scenes_.kept(request_.scene);
+    if (!kept.newest) return unknown();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*kept.newest);
+    answer.first = request_.first;
+    answer.total = static_cast<std::int32_t>(kept.revisions.size());
+    answer.num_changes =
+        put_list(kept.revisions, request_.first, change_on_wire, answer, answer.changes);
+    return answer;
+  }
+
+  Answer restore() {
+    const auto revision = static_cast<std::uint64_t>(std::max<std::int64_t>(request_.revision, 0));
+    if (request_.restore_as.empty() || request_.restore_as == request_.scene) {
+      return answer_to(scenes_.restore(request_.scene, revision, note(""), context_.undertaking),
+                       "");
+    }
+    if (!is_scene_name(request_.restore_as)) {
+      return invalid("restore_as: must be of [A-Za-z0-9_.-]{1,128}");
+    }
+    return answer_to(scenes_.restore_as(request_.scene, revision, request_.restore_as, note(""),
+                                        context_.undertaking),
+                     "");
+  }
+
+  Answer put() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    if (!is_scene_name(request_.object) || request_.object.size() > wire::kMaxPutNameBytes) {
+      return invalid("object: must be of [A-Za-z0-9_.-]{1,64}");
+    }
+    const std::optional<scene::ObjectKind> kind = kind_of(request_);
+    if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
+    const Made<scene::Placement> placement = placement_of(request_);
+    if (!placement.value) return invalid(placement.error);
+    Made<Content> made = make_mesh(request_, *kind, upload_, context_);
+    if (!made.value) return refused(made.error, made.limit);
+    const std::string warnings = warnings_of(made.value->report);
+    const auto source = source_of(*std::move(made.value), snapshot->options);
+    return change({SceneChange::Kind::kPut, request_.object, source, *placement.value}, warnings);
+  }
+
+  Answer move() {
+    const Made<scene::Placement> placement = placement_of(request_);
+    if (!placement.value) return invalid(placement.error);
+    return change({SceneChange::Kind::kMove, request_.object, nullptr, *placement.value}, "");
+  }
+
+  Answer scan() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    const scene::SceneObject* const object = snapshot->find(request_.object);
+    if (object == nullptr || !object->source->map_O) {
+      return invalid(fmt::format("object: '{}' is no occupancy map of scene '{}'", request_.object,
+                                 request_.scene));
+    }
+    Made<std::vector<Vec3>> points = read_points(upload_);
+    if (!points.value) return invalid(points.error);
+    const scene::Placement placement = object->placement;
+    for (Vec3& point : *points.value) point = placement.to_object(point);
+    const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points.value};
+    scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
+    if (!next.map) return refused(next.error, next.limit);
+    Made<Content> made = of_map(std::move(next.map));
+    if (!made.value) return refused(made.error, made.limit);
+    return change({SceneChange::Kind::kPut, request_.object,
+                   source_of(*std::move(made.value), snapshot->options), placement},
+                  "");
+  }
+
+  Answer export_map() {
+    const auto snapshot = scenes_.find(request_.scene);
+    if (!snapshot) return unknown();
+    if (!snapshot->occupancy) {
+      return plain_scene_answer(request_, Answer::STATUS_NO_MAP,
+                                "scene: it was loaded without an occupancy resolution");
+    }
+    if (!request_.file.empty() && !rules_.write_maps) {
+      return invalid("file: the daemon writes no files for clients (scenes.write_maps is false)");
+    }
+    std::ostringstream out;
+    snapshot->occupancy->write_bt(out);
+    const std::string_view bytes = out.view();
+    Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
+    answer.scene = scene_info_of(*snapshot);
+    answer.map_bytes = static_cast<std::int64_t>(bytes.size());
+    answer.map_checksum =
+        wire::crc64(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    if (request_.file.empty()) {
+      map_.assign(bytes.begin(), bytes.end());
+      return answer;
+    }
+    const std::lock_guard writing(context_.writing);
+    if (!context_.undertaking.come_into_force()) {
+      return plain_scene_answer(request_, Answer::STATUS_CANCELLED, "it was called off");
+    }
+    const std::string fault = rules_.roots.write(request_.file, ".bt", bytes);
+    return fault.empty() ? answer : invalid(fault);
+  }
+
+  Answer change(SceneChange change, std::string_view message) {
+    const std::string object = change.object;
+    return answer_to(
+        scenes_.change(request_.scene, std::move(change), note(object), context_.undertaking),
+        message);
+  }
+
+  const Request& request_;
+  const UploadedBytes& upload_;
+  const SceneContext& context_;
+  const SceneRules& rules_;
+  scene::SceneStore& scenes_;
+  std::vector<std::uint8_t> map_;
+};
+
+}  // namespace
+
+scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t status,
+                                    std::string_view message) {
+  scene_response_t answer{};
+  answer.client_id = request.client_id;
+  answer.request_id = request.request_id;
+  answer.status = status;
+  answer.message = clipped(message, wire::kMaxTextBytes);
+  return answer;
+}
+
+bool only_looks(const scene_request_t& request) {
+  return request.operation == scene_request_t::LIST ||
+         request.operation == scene_request_t::DESCRIBE ||
+         request.operation == scene_request_t::HISTORY;
+}
+
+const std::string& target_of(const scene_request_t& request) {
+  const bool makes_another =
+      request.operation == scene_request_t::RESTORE && !request.restore_as.empty();
+  return makes_another ? request.restore_as : request.scene;
+}
+
+const char* operation_name(const scene_request_t& request) {
+  switch (request.operation) {
+    case scene_request_t::LOAD:
+      return "load";
+    case scene_request_t::UNLOAD:
+      return "unload";
+    case scene_request_t::LIST:
+      return "list";
+    case scene_request_t::DESCRIBE:
+      return "describe";
+    case scene_request_t::PUT:
+      return "put";
+    case scene_request_t::MOVE:
+      return "move";
+    case scene_request_t::REMOVE:
+      return "remove";
+    case scene_request_t::SCAN:
+      return "scan";
+    case scene_request_t::EXPORT:
+      return "export";
+    case scene_request_t::HISTORY:
+      return "history";
+    case scene_request_t::RESTORE:
+      return "restore";
+    default:
+      return "unknown";
+  }
+}
+
+Performed perform(const scene_request_t& request, const UploadedBytes& upload,
+                  const SceneContext& context) {
+  Work work(request, upload, context);
+  Answer answer = work.run();
+  return {std::move(answer), work.take_map()};
+}
+
+}  // namespace camway::service

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "daemon/service/log/limited_log.h"
+#include "daemon/service/transport/transport.h"
+#include "lcmtypes/wire/auth/message_auth.h"
+
+namespace camway::service {
+
+/// Another transport, on which everything that goes out is signed, and what comes in without a
+/// good signature is dropped, counted and, now and then, logged.
+class AuthTransport final : public Transport {
+ public:
+  /// Messages by why they were not trusted: the index is the `wire::Distrust`.
+  using Distrusted = std::array<std::int64_t, wire::kDistrusts>;
+
+  /// `inner` must outlive this. Unless signatures are `required`, unsigned messages are handed on
+  /// all the same, and counted.
+  AuthTransport(Transport& inner, std::shared_ptr<wire::MessageAuth> auth, bool required,
+                LimitedLog log);
+
+  [[nodiscard]] bool subscribe(const std::string& channel, int queue_capacity,
+                               Handler handler) override;
+  [[nodiscard]] bool publish(const std::string& channel,
+                             std::span<const std::uint8_t> message) override;
+  [[nodiscard]] bool poll(std::chrono::milliseconds timeout) override {
+    return inner_.poll(timeout);
+  }
+  void wake() noexcept override { inner_.wake(); }
+
+  /// Since it was made. For the thread that owns the transport.
+  [[nodiscard]] const Distrusted& distrusted() const { return distrusted_; }
+  /// See `LimitedLog`. For the same thread.
+  void tell_left_out() { log_.tell_left_out(); }
+
+ private:
+  void take(const std::string& channel, std::span<const std::uint8_t> message,
+            const Handler& handler);
+
+  Transport& inner_;
+  const std::shared_ptr<wire::MessageAuth> auth_;
+  const bool required_;
+  LimitedLog log_;
+  Distrusted distrusted_{};
+};
+
+}  // namespace camway::service

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/service/watches/answer_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <camway/plan_request_t.hpp>
+
+namespace camway::service {
+namespace {
+
+/// Above 0 if `now` is better, below if it is worse, 0 if it is alike. `least`: what is less is
+/// alike.
+int compare(double now, double before, double least, bool more_is_better) {
+  const double gain = more_is_better ? now - before : before - now;
+  const double margin = std::max(least, kBetterShare * std::max(std::abs(now), std::abs(before)));
+  if (gain > margin) return 1;
+  return gain < -margin ? -1 : 0;
+}
+
+int compare(const path_measures_t& now, const path_measures_t& before, std::int8_t objective) {
+  const auto less = [&](double path_measures_t::*measure, double least) {
+    return compare(now.*measure, before.*measure, least, false);
+  };
+  switch (objective) {
+    case plan_request_t::SHORTEST:
+      return less(&path_measures_t::length_m, kBetterLength_m);
+    case plan_request_t::SMOOTHEST:
+      return less(&path_measures_t::bending_energy_m2_per_s3, 0.0);
+    case plan_request_t::SAFEST: {
+      const int safer = compare(now.clearance_lower_bound_m, before.clearance_lower_bound_m,
+                                kBetterLength_m, true);
+      if (safer != 0) return safer;
+      break;
+    }
+    default:
+      break;
+  }
+  return less(&path_measures_t::largest_deviation_m, kBetterLength_m);
+}
+
+}  // namespace
+
+AnswerQuality AnswerQuality::of(const plan_response_t& answer) {
+  AnswerQuality quality;
+  quality.repaired_keyframes = static_cast<std::size_t>(std::ranges::count_if(
+      answer.keyframes, [](const keyframe_t& keyframe) { return keyframe.repaired != 0; }));
+  quality.near_scale = answer.near_scale;
+  quality.time_scale = answer.time_scale;
+  quality.measures = answer.measures;
+  return quality;
+}
+
+bool is_better(const AnswerQuality& now, const AnswerQuality& before, std::int8_t objective) {
+  if (now.repaired_keyframes != before.repaired_keyframes) {
+    return now.repaired_keyframes < before.repaired_keyframes;
+  }
+  const int larger = compare(now.near_scale, before.near_scale, 0.0, true);
+  if (larger != 0) return larger > 0;
+  const int faster = compare(now.time_scale, before.time_scale, 0.0, false);
+  if (faster != 0) return faster > 0;
+  return compare(now.measures, before.measures, objective) > 0;
+}
+
+}  // namespace camway::service

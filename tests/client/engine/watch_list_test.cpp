@@ -1,0 +1,609 @@
+// SPDX-License-Identifier: MIT
+#include "client/engine/watch_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <camway/plan_response_t.hpp>
+#include <camway/watch_t.hpp>
+
+#include "lcmtypes/wire/check.h"
+
+namespace camway {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Kind = WatchEvent::Kind;
+
+constexpr std::int64_t kId = 7;
+
+/// A list whose messages and calls the test takes in its hands.
+class WatchListTest : public testing::Test {
+ protected:
+  WatchListTest()
+      : context_([] {
+          ClientOptions options;
+          options.client_id = "tester";
+          options.watch_lease_s = 30.0;
+          return options;
+        }()),
+        list_(context_,
+              {[this](Outgoing message) { sent_.push_back(std::move(message)); },
+               [this](std::shared_ptr<Call> call) { calls_.push_back(std::move(call)); }}) {
+    PlanRequest request;
+    request.request_id = kId;
+    request.scene = "office";
+    request.keyframes.resize(2);
+    list_.add(request, [this](const WatchEvent& event) { events_.push_back(event); });
+  }
+
+  /// Steps as the engine does, so long, and a heartbeat each second if `beats`.
+  void live(Clock::duration how_long, bool beats) {
+    for (Clock::duration passed{}; passed < how_long; passed += milliseconds(50)) {
+      step_at(milliseconds(50));
+      if (beats && passed % seconds(1) == Clock::duration::zero()) {
+        list_.take_heartbeat(1000.0, now_);
+      }
+    }
+  }
+
+  std::ptrdiff_t told(Kind kind) const {
+    return std::ranges::count(events_, kind, &WatchEvent::kind);
+  }
+
+  static Bytes answer(std::int64_t revision, std::int32_t status = plan_response_t::STATUS_OK) {
+    plan_response_t page{};
+    page.client_id = "tester";
+    page.request_id = kId;
+    page.num_pages = 1;
+    page.status = status;
+    page.scene_revision = revision;
+    page.near_scale = page.time_scale = 1.0;
+    if (status == plan_response_t::STATUS_OK) {
+      page.certified = 1;
+      page.segments.resize(1);
+      page.segments[0].t1_s = 1.0;
+      page.num_segments = 1;
+    }
+    return wire::encode(page);
+  }
+
+  /// Ends the last call with that answer.
+  void finish_call(const Bytes& bytes) {
+    ASSERT_FALSE(calls_.empty());
+    const std::shared_ptr<Call> call = calls_.back();
+    call->take_answer(bytes, now_);
+    call->finish(call->answered() ? Outcome::kAnswered : Outcome::kSilence);
+  }
+
+  void report(std::int64_t serial, std::int8_t state, std::int64_t revision,
+              std::int64_t answer_revision, std::int64_t answers = 0,
+              std::int64_t offer_revision = 0) {
+    watch_report_t message{};
+    message.client_id = "tester";
+    message.request_id = answers;
+    path_state_t path{};
+    path.request_id = kId;
+    path.serial = serial;
+    path.state = state;
+    path.scene_revision = revision;
+    path.answer_revision = answer_revision;
+    path.offer_revision = offer_revision;
+    message.paths = {path};
+    message.num_paths = 1;
+    if (state == path_state_t::BROKEN) {
+      broken_interval_t interval{};
+      interval.request_id = kId;
+      interval.t_begin_s = 0.25;
+      interval.t_end_s = 0.5;
+      message.intervals = {interval};
+      message.num_intervals = 1;
+    }
+    list_.take_report(wire::encode(message), now_);
+  }
+
+  /// What was sent since the last call of this.
+  std::vector<watch_t> sent() {
+    std::vector<watch_t> messages;
+    for (const Outgoing& message : std::exchange(sent_, {})) {
+      EXPECT_EQ(message.channel, "CAMWAY_WATCH");
+      messages.push_back(wire::decode<watch_t>(message.bytes).message.value());
+    }
+    return messages;
+  }
+
+  /// The same, but for questions whether the daemon lives.
+  std::vector<watch_t> sent_renewals() {
+    std::vector<watch_t> messages = sent();
+    std::erase_if(messages, [](const watch_t& message) { return message.num_paths == 0; });
+    return messages;
+  }
+
+  void step_at(Clock::duration later) {
+    now_ += later;
+    list_.step(now_);
+  }
+
+  /// Asked, answered at revision 3, and known to be watched.
+  void begin() {
+    step_at({});
+    finish_call(answer(3));
+    report(100, path_state_t::FREE, 3, 3);
+    step_at({});
+    sent();
+  }
+
+  Context context_;
+  Clock::time_point now_ = Clock::now();
+  std::vector<Outgoing> sent_;
+  std::vector<std::shared_ptr<Call>> calls_;
+  std::vector<WatchEvent> events_;
+  WatchList list_;
+};
+
+TEST_F(WatchListTest, AsksTellsTheAnswerAndSaysWhatItKnows) {
+  EXPECT_LE(list_.wake(), now_);
+  step_at({});
+  ASSERT_EQ(calls_.size(), 1u);
+  finish_call(answer(3));
+  ASSERT_EQ(events_.size(), 1u);
+  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[0].scene_revision, 3);
+  ASSERT_TRUE(events_[0].answer);
+  EXPECT_TRUE(events_[0].answer->ok()) << events_[0].answer->error;
+  report(100, path_state_t::FREE, 3, 3);
+  step_at({});
+  const std::vector<watch_t> said = sent();
+  ASSERT_EQ(said.size(), 1u);
+  ASSERT_EQ(said[0].num_paths, 1);
+  EXPECT_EQ(said[0].paths[0].request_id, kId);
+  EXPECT_EQ(said[0].paths[0].known_serial, 100);
+  EXPECT_EQ(said[0].lease_s, 0.0);
+  EXPECT_EQ(events_.size(), 1u) << "that a free path is free is no news";
+}
+
+TEST_F(WatchListTest, TellsWhatBreaksAndTakesTheCorrectedAnswer) {
+  begin();
+  report(101, path_state_t::BROKEN, 4, 3);
+  report(101, path_state_t::BROKEN, 4, 3);  // twice, as messages may come
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_EQ(events_[1].kind, Kind::kBroken);
+  EXPECT_EQ(events_[1].scene_revision, 4);
+  ASSERT_EQ(events_[1].broken.size(), 1u);
+  EXPECT_EQ(events_[1].broken[0].t_begin_s, 0.25);
+  EXPECT_EQ(events_[1].broken[0].t_end_s, 0.5);
+  list_.take_answer(kId, answer(4));
+  list_.take_answer(kId, answer(4));
+  list_.take_answer(kId, answer(3));  // an old one, late
+  ASSERT_EQ(events_.size(), 3u);
+  EXPECT_EQ(events_[2].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[2].answer->scene_revision, 4);
+  report(102, path_state_t::FREE, 4, 4);
+  step_at(seconds(5));
+  EXPECT_EQ(events_.size(), 3u);
+  EXPECT_EQ(calls_.size(), 1u) << "nothing was missing";
+}
+
+TEST_F(WatchListTest, NewsThatACorrectionOvertookIsNone) {
+  begin();
+  list_.take_answer(kId, answer(4));
+  report(101, path_state_t::BROKEN, 4, 3);
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_EQ(events_[1].kind, Kind::kAnswer);
+}
+
+TEST_F(WatchListTest, AsksForACorrectedAnswerThatDoesNotCome) {
+  begin();
+  report(101, path_state_t::BROKEN, 4, 3);
+  report(102, path_state_t::FREE, 4, 4);
+  step_at(milliseconds(100));
+  EXPECT_EQ(calls_.size(), 1u);
+  step_at(seconds(1));
+  ASSERT_EQ(calls_.size(), 2u);
+  finish_call(answer(4));
+  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().scene_revision, 4);
+}
+
+TEST_F(WatchListTest, TellsThatAPathIsFreeAgain) {
+  begin();
+  report(101, path_state_t::BROKEN, 4, 3);
+  report(102, path_state_t::FREE, 5, 3);
+  EXPECT_EQ(events_.back().kind, Kind::kFree);
+  EXPECT_EQ(events_.back().scene_revision, 5);
+  report(101, path_state_t::BROKEN, 4, 3);  // overtaken by the other
+  EXPECT_EQ(events_.back().kind, Kind::kFree);
+}
+
+TEST_F(WatchListTest, AnUnprovedCorrectionLeavesThePathWatched) {
+  begin();
+  report(101, path_state_t::BROKEN, 4, 3);
+  list_.take_answer(kId, answer(4, plan_response_t::STATUS_INVALID));
+  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().answer->status, Status::kInvalid);
+  report(102, path_state_t::BROKEN, 4, 4);
+  report(103, path_state_t::FREE, 5, 4);
+  EXPECT_EQ(events_.back().kind, Kind::kFree);
+}
+
+TEST_F(WatchListTest, AFirstAnswerWithoutAProofEndsIt) {
+  step_at({});
+  finish_call(answer(3, plan_response_t::STATUS_INVALID));
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[1].kind, Kind::kEnded);
+  EXPECT_NE(events_[1].error, "");
+  step_at(seconds(100));
+  EXPECT_EQ(calls_.size(), 1u);
+}
+
+TEST_F(WatchListTest, AsksAgainWhatTheDaemonDoesNotKnowLessAndLessOften) {
+  begin();
+  for (std::size_t asked = 1; asked < 8; ++asked) {
+    report(0, path_state_t::UNKNOWN, 0, 0);
+    step_at(seconds(40));
+    ASSERT_EQ(calls_.size(), asked + 1);
+    finish_call(answer(static_cast<std::int64_t>(asked) + 3));
+  }
+  report(0, path_state_t::UNKNOWN, 0, 0);
+  const Clock::time_point asked = now_;
+  while (calls_.size() < 9) step_at(milliseconds(100));
+  EXPECT_GT(now_ - asked, seconds(10));
+}
+
+TEST_F(WatchListTest, GoesOnTryingWhenNobodyAnswers) {
+  step_at({});
+  calls_.back()->finish(Outcome::kSilence);
+  ASSERT_EQ(events_.size(), 1u);
+  EXPECT_EQ(events_[0].kind, Kind::kLost);
+  EXPECT_NE(events_[0].error, "");
+  step_at(seconds(1));
+  ASSERT_EQ(calls_.size(), 2u);
+  finish_call(answer(3));
+  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+}
+
+TEST_F(WatchListTest, RenewsUntilItIsAnsweredAndTellsOnceThatNobodyDoes) {
+  begin();
+  step_at(seconds(9));
+  EXPECT_TRUE(sent().empty());
+  step_at(seconds(2));
+  ASSERT_EQ(sent_renewals().size(), 1u) << "a third of the lease is over";
+  int renewals = 0;
+  for (int i = 0; i < 600; ++i) {
+    step_at(milliseconds(100));
+    renewals += static_cast<int>(sent_renewals().size());
+  }
+  EXPECT_GT(renewals, 5);
+  EXPECT_LT(renewals, 20) << "less and less often";
+  EXPECT_EQ(std::count_if(events_.begin(), events_.end(),
+                          [](const WatchEvent& event) { return event.kind == Kind::kLost; }),
+            1);
+  while (sent_.empty()) step_at(milliseconds(100));
+  const std::int64_t id = sent().back().request_id;
+  report(100, path_state_t::FREE, 3, 3, id);
+  step_at(seconds(1));
+  sent();
+  step_at(seconds(8));
+  EXPECT_TRUE(sent_renewals().empty());
+}
+
+TEST_F(WatchListTest, TellsThatALostPathIsWatchedAgain) {
+  begin();
+  const auto lose = [&] {
+    while (events_.back().kind != Kind::kLost) step_at(milliseconds(100));
+    sent();
+    while (sent_.empty()) step_at(milliseconds(100));
+    return sent().back().request_id;
+  };
+  watch_report_t nothing_new{};
+  nothing_new.client_id = "tester";
+  nothing_new.request_id = lose();
+  list_.take_report(wire::encode(nothing_new), now_);
+  ASSERT_EQ(events_.size(), 3u) << "answer, lost, watched";
+  EXPECT_EQ(events_[2].kind, Kind::kWatched);
+  EXPECT_EQ(events_[2].scene_revision, 3);
+
+  report(101, path_state_t::BROKEN, 5, 3, lose());
+  ASSERT_EQ(events_.size(), 5u);
+  EXPECT_EQ(events_[4].kind, Kind::kBroken) << "which says as much";
+
+  nothing_new.request_id = lose();
+  list_.take_report(wire::encode(nothing_new), now_);
+  ASSERT_EQ(events_.size(), 7u);
+  EXPECT_EQ(events_[6].kind, Kind::kWatched);
+  EXPECT_EQ(events_[6].scene_revision, 5) << "in which it is broken still";
+
+  report(0, path_state_t::UNKNOWN, 0, 0, lose());
+  EXPECT_EQ(events_.size(), 8u) << "it is asked for anew";
+  step_at(seconds(1));
+  finish_call(answer(6));
+  ASSERT_EQ(events_.size(), 9u);
+  EXPECT_EQ(events_[8].kind, Kind::kAnswer);
+}
+
+TEST_F(WatchListTest, AsksADaemonThatWasStartedAnewAtOnce) {
+  begin();
+  step_at(seconds(5));
+  EXPECT_TRUE(sent().empty());
+  list_.take_heartbeat(1.0, now_);
+  step_at({});
+  EXPECT_EQ(sent().size(), 1u);
+  list_.take_heartbeat(2.0, now_ + seconds(1));
+  step_at(milliseconds(100));
+  EXPECT_TRUE(sent().empty()) << "once";
+}
+
+TEST_F(WatchListTest, ThreeMissedHeartbeatsAreToldOnceWithTheReason) {
+  begin();
+  live(seconds(20), /*beats=*/true);
+  EXPECT_EQ(told(Kind::kLost), 0);
+  const Clock::time_point silent_since = now_;
+  while (told(Kind::kLost) == 0) live(milliseconds(50), /*beats=*/false);
+  // The last heartbeat came up to a second before.
+  EXPECT_GT(now_ - silent_since, seconds(2));
+  EXPECT_LE(now_ - silent_since, milliseconds(3500));
+  EXPECT_EQ(events_.back().status, Status::kNoDaemon);
+  EXPECT_NE(events_.back().error.find("fell silent"), std::string::npos) << events_.back().error;
+  live(seconds(90), /*beats=*/false);
+  EXPECT_EQ(told(Kind::kLost), 1) << "once";
+}
+
+TEST_F(WatchListTest, ADaemonThatComesBackIsAskedAtOnceAndToldOnce) {
+  begin();
+  live(seconds(20), /*beats=*/false);
+  ASSERT_EQ(told(Kind::kLost), 1);
+  sent();
+  list_.take_heartbeat(1000.0, now_);
+  step_at(milliseconds(50));
+  const std::vector<watch_t> renewals = sent();
+  ASSERT_EQ(renewals.size(), 1u);
+  ASSERT_EQ(renewals[0].num_paths, 1);
+  report(100, path_state_t::FREE, 3, 3, renewals[0].request_id);
+  EXPECT_EQ(events_.back().kind, Kind::kWatched);
+  live(seconds(5), /*beats=*/true);
+  EXPECT_EQ(told(Kind::kWatched), 1);
+  EXPECT_EQ(told(Kind::kLost), 1);
+}
+
+TEST_F(WatchListTest, AnswersToQuestionsCountWhereHeartbeatsDoNotCome) {
+  begin();
+  std::int64_t asked = 0;
+  for (int i = 0; i < 2000; ++i) {
+    step_at(milliseconds(50));
+    for (const watch_t& message : sent()) {
+      ++asked;
+      watch_report_t nothing_new{};
+      nothing_new.client_id = "tester";
+      nothing_new.request_id = message.request_id;
+      list_.take_report(wire::encode(nothing_new), now_);
+    }
+  }
+  EXPECT_EQ(told(Kind::kLost), 0);
+  EXPECT_GT(asked, 50);
+  EXPECT_LT(asked, 100) << "not each time that it is looked";
+}
+
+TEST_F(WatchListTest, TimeInWhichNobodyListenedIsNoSilence) {
+  begin();
+  live(seconds(5), /*beats=*/true);
+  step_at(seconds(9));  // suspended, say, or in a slow handler
+  EXPECT_EQ(told(Kind::kLost), 0);
+  list_.take_heartbeat(1000.0, now_);
+  live(seconds(5), /*beats=*/true);
+  EXPECT_EQ(told(Kind::kLost), 0);
+}
+
+TEST_F(WatchListTest, ADaemonThatWasNeverHeardIsToldOnce) {
+  while (events_.empty()) live(milliseconds(50), /*beats=*/false);
+  EXPECT_EQ(events_[0].kind, Kind::kLost);
+  EXPECT_EQ(events_[0].status, Status::kNoDaemon);
+  EXPECT_NE(events_[0].error.find("no daemon was heard"), std::string::npos) << events_[0].error;
+  for (int i = 0; i < 4; ++i) {
+    calls_.back()->finish(Outcome::kSilence);
+    live(seconds(20), /*beats=*/false);
+  }
+  EXPECT_GT(calls_.size(), 2u) << "it is asked for on and on";
+  EXPECT_EQ(events_.size(), 1u);
+}
+
+TEST_F(WatchListTest, ABetterPathIsOfferedAndTakenOnlyIfAskedFor) {
+  begin();
+  report(101, path_state_t::BROKEN, 4, 3);
+  list_.take_answer(kId, answer(4));
+  report(102, path_state_t::FREE, 4, 4);
+  list_.take_offer(kId, answer(5));
+  EXPECT_EQ(told(Kind::kBetter), 0) << "not before it is said to be on offer";
+  report(103, path_state_t::FREE, 4, 4, 0, 5);
+  report(103, path_state_t::FREE, 4, 4, 0, 5);
+  list_.take_offer(kId, answer(5));
+  ASSERT_EQ(told(Kind::kBetter), 1);
+  EXPECT_EQ(events_.back().scene_revision, 5);
+  EXPECT_TRUE(events_.back().answer->ok());
+  const auto taken = [&](const std::vector<watch_t>& messages) {
+    std::ptrdiff_t count = 0;
+    for (const watch_t& message : messages) {
+      for (const watched_path_t& path : message.paths) count += path.taken_offer == 5 ? 1 : 0;
+    }
+    return count;
+  };
+  live(seconds(20), /*beats=*/true);
+  EXPECT_EQ(taken(sent()), 0) << "it is not forced";
+
+  list_.take_better(kId);
+  step_at({});
+  EXPECT_EQ(taken(sent()), 1);
+  live(seconds(3), /*beats=*/true);
+  EXPECT_GE(taken(sent()), 2) << "until it is answered";
+  list_.take_answer(kId, answer(5));
+  report(104, path_state_t::FREE, 5, 5);
+  EXPECT_EQ(events_.back().kind, Kind::kAnswer);
+  EXPECT_EQ(events_.back().scene_revision, 5);
+  live(seconds(20), /*beats=*/true);
+  EXPECT_EQ(taken(sent()), 0);
+  EXPECT_EQ(told(Kind::kWithdrawn), 0);
+}
+
+TEST_F(WatchListTest, TheLostPagesOfAnOfferAreAskedFor) {
+  begin();
+  report(103, path_state_t::FREE, 4, 3, 0, 5);
+  step_at(milliseconds(100));
+  EXPECT_EQ(sent().size(), 1u) << "what is known";
+  live(seconds(1), /*beats=*/true);
+  const std::vector<watch_t> questions = sent();
+  ASSERT_FALSE(questions.empty());
+  EXPECT_EQ(questions[0].paths.at(0).wanted_offer, 5);
+  EXPECT_EQ(questions[0].paths.at(0).taken_offer, 0);
+  list_.take_offer(kId, answer(5));
+  EXPECT_EQ(told(Kind::kBetter), 1);
+  live(seconds(3), /*beats=*/true);
+  EXPECT_TRUE(sent().empty());
+}
+
+TEST_F(WatchListTest, AnOfferThatIsWithdrawnIsToldIfItWas) {
+  begin();
+  report(103, path_state_t::FREE, 5, 3, 0, 5);
+  report(104, path_state_t::FREE, 6, 3, 0, 0);
+  EXPECT_EQ(told(Kind::kWithdrawn), 0) << "nobody heard of it";
+  report(105, path_state_t::FREE, 7, 3, 0, 7);
+  list_.take_offer(kId, answer(7));
+  ASSERT_EQ(events_.back().kind, Kind::kBetter);
+  report(106, path_state_t::FREE, 8, 3, 0, 0);
+  EXPECT_EQ(events_.back().kind, Kind::kWithdrawn);
+  EXPECT_EQ(events_.back().scene_revision, 8);
+  list_.take_better(kId);
+  step_at({});
+  for (const watch_t& message : sent()) {
+    for (const watched_path_t& path : message.paths) EXPECT_EQ(path.taken_offer, 0);
+  }
+}
+
+TEST_F(WatchListTest, ARefusalIsToldOnceAndTheAnswerAgainOnceItIsWatched) {
+  step_at({});
+  finish_call(answer(3));
+  for (std::size_t asked = 1; asked < 5; ++asked) {
+    report(0, path_state_t::REFUSED, 0, 0);
+    for (int i = 0; i < 50 && calls_.size() == asked; ++i) step_at(milliseconds(100));
+    ASSERT_EQ(calls_.size(), asked + 1) << "it is asked for on and on";
+    finish_call(answer(3));
+    ASSERT_EQ(events_.size(), 2u) << "the first answer, and that it is not watched";
+  }
+  EXPECT_EQ(events_[1].kind, Kind::kLost);
+  report(100, path_state_t::FREE, 3, 3);
+  ASSERT_EQ(events_.size(), 3u);
+  EXPECT_EQ(events_[2].kind, Kind::kAnswer);
+  report(101, path_state_t::BROKEN, 4, 3);
+  ASSERT_EQ(events_.size(), 4u);
+  EXPECT_EQ(events_[3].kind, Kind::kBroken);
+}
+
+TEST_F(WatchListTest, ARefusalThatOvertakesTheAnswerIsToldAfterIt) {
+  step_at({});
+  report(0, path_state_t::REFUSED, 0, 0);
+  EXPECT_TRUE(events_.empty());
+  finish_call(answer(3));
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_EQ(events_[0].kind, Kind::kAnswer);
+  EXPECT_EQ(events_[1].kind, Kind::kLost);
+}
+
+TEST_F(WatchListTest, UnwatchingTellsTheDaemonUntilItAnswers) {
+  begin();
+  list_.remove(kId);
+  step_at({});
+  const std::vector<watch_t> said = sent();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_LT(said[0].lease_s, 0.0);
+  EXPECT_EQ(said[0].paths.at(0).request_id, kId);
+  report(101, path_state_t::BROKEN, 4, 3);
+  EXPECT_EQ(events_.size(), 1u);
+  step_at(milliseconds(250));
+  const std::vector<watch_t> again = sent();
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].request_id, said[0].request_id);
+  EXPECT_TRUE(list_.is_ending(kId));
+  EXPECT_LT(again[0].lease_s, 0.0);
+  step_at(milliseconds(250));
+  EXPECT_TRUE(sent().empty()) << "less and less often";
+  report(102, path_state_t::BROKEN, 4, 3, said[0].request_id);
+  EXPECT_FALSE(list_.is_ending(kId));
+  EXPECT_EQ(list_.wake(), Clock::time_point::max());
+  step_at(seconds(10));
+  EXPECT_TRUE(sent().empty());
+}
+
+TEST_F(WatchListTest, UnwatchingIsToldNoLongerThanTheLease) {
+  begin();
+  list_.remove(kId);
+  step_at({});
+  step_at(seconds(29));
+  EXPECT_EQ(sent().size(), 2u);
+  step_at(seconds(1));
+  EXPECT_TRUE(sent().empty());
+  EXPECT_EQ(list_.wake(), Clock::time_point::max());
+}
+
+TEST_F(WatchListTest, UnwatchingBeforeTheAnswerEndsWhatTheAnswerBegins) {
+  step_at({});
+  list_.remove(kId);
+  step_at({});
+  report(0, path_state_t::UNKNOWN, 0, 0, sent().at(0).request_id);
+  finish_call(answer(3));
+  step_at({});
+  const std::vector<watch_t> said = sent();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_LT(said[0].lease_s, 0.0);
+  EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(WatchListTest, WatchingAnewIsNotEndedByAnOldRepetition) {
+  begin();
+  list_.remove(kId);
+  step_at({});
+  sent();
+  PlanRequest request;
+  request.request_id = kId;
+  request.keyframes.resize(2);
+  list_.add(request, nullptr);
+  step_at(seconds(1));
+  EXPECT_TRUE(sent().empty());
+}
+
+TEST_F(WatchListTest, ManyPathsTakeSeveralMessages) {
+  for (std::int64_t id = 1000; id < 8000; ++id) {
+    PlanRequest request;
+    request.request_id = id;
+    request.keyframes.resize(2);
+    list_.add(request, nullptr);
+  }
+  step_at({});
+  for (const std::shared_ptr<Call>& call : calls_) {
+    plan_response_t page{};
+    page.client_id = "tester";
+    page.request_id = call->request_id();
+    page.num_pages = 1;
+    page.certified = 1;
+    page.near_scale = page.time_scale = 1.0;
+    page.segments.resize(1);
+    page.segments[0].t1_s = 1.0;
+    page.num_segments = 1;
+    call->take_answer(wire::encode(page), now_);
+    call->finish(Outcome::kAnswered);
+  }
+  step_at(seconds(11));
+  std::size_t paths = 0;
+  for (const Outgoing& message : sent_) {
+    EXPECT_LE(message.bytes.size(), wire::kMaxMessageBytes);
+    paths += wire::decode<watch_t>(message.bytes).message.value().paths.size();
+  }
+  EXPECT_GE(paths, 7001u);
+}
+
+}  // namespace
+}  // namespace camway

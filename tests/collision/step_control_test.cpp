@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/collision/step_control.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace camway::collision {
+namespace {
+
+/// What is seen of a plane `gap_m` ahead of the beginning of a stretch, when every point moves
+/// towards it by `slope` of its motion.
+Look look_at_plane(double gap_m, double slope, double reach_m) {
+  const double closing_m = 2.0 * slope * reach_m;
+  Look seen;
+  seen.reach_m = reach_m;
+  seen.free = gap_m > closing_m;
+  seen.gap_m = gap_m - 0.5 * closing_m;
+  seen.ahead = (seen.free ? gap_m - closing_m : gap_m) / closing_m;
+  return seen;
+}
+
+/// Walks towards the plane until it is resolved to `finest_m`; returns how many looks that took.
+int looks_until(double gap_m, double slope, double finest_m) {
+  double reach_m = 1.0;
+  for (int looks = 1; looks < 10'000; ++looks) {
+    const Look seen = look_at_plane(gap_m, slope, reach_m);
+    if (seen.free) {
+      gap_m -= 2.0 * slope * reach_m;
+    } else if (reach_m <= finest_m) {
+      return looks;
+    }
+    const double next_m = next_reach_m(seen);
+    EXPECT_TRUE(seen.free || next_m < reach_m);
+    reach_m = std::max(next_m, 0.9 * finest_m);
+  }
+  return 10'000;
+}
+
+TEST(Pace, ClosesInOnAPlaneByOrdersOfMagnitude) {
+  // Halving would take 2·log2(10 / 1e-6) = 46 looks and more, whatever the slope.
+  for (const double slope : {1.0, 0.3, 0.01}) {
+    EXPECT_LE(looks_until(10.0 * slope, slope, 1e-6), 14) << slope;
+  }
+}
+
+TEST(Pace, IsNotTemptedFarBeyondWhatWasSeen) {
+  Look seen = look_at_plane(1e6, 1e-3, 0.1);
+  ASSERT_TRUE(seen.free);
+  EXPECT_GT(next_reach_m(seen), 0.1);
+  EXPECT_LE(next_reach_m(seen), 1.0);
+}
+
+TEST(Pace, GrowsByTheLowerBoundOfAGapThatWasNotMeasured) {
+  Look seen;
+  seen.free = true;
+  seen.is_measured = false;
+  seen.reach_m = 0.1;
+  seen.gap_m = 5.0;
+  EXPECT_GT(next_reach_m(seen), 1.0);
+  EXPECT_LT(next_reach_m(seen), 5.0);
+}
+
+}  // namespace
+}  // namespace camway::collision

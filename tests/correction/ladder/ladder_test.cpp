@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/ladder.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "daemon/collision/near_quad.h"
+#include "daemon/correction/path/free_space.h"
+#include "daemon/correction/smoothing/objective_cost.h"
+#include "daemon/motion/spline/interpolate.h"
+#include "tests/support/scenes.h"
+
+namespace camway::correction {
+namespace {
+
+using collision::CollisionInterval;
+using collision::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using motion::CubicPath;
+using motion::Keyframe;
+using scene::Mesh;
+
+struct Case {
+  Mesh mesh;
+  scene::SceneIndex index;
+  motion::Body body{testing::small_camera()};
+  std::vector<Keyframe> keyframes;
+  LadderOptions options;
+
+  [[nodiscard]] CubicPath path() const { return motion::interpolate_cubic(keyframes); }
+  [[nodiscard]] std::vector<CollisionInterval> collisions(const CubicPath& path) const {
+    return collision::detect_collisions(index, path.path(), body, path.begin_s(), path.end_s(),
+                                        options.detect, Deadline::never())
+        .value();
+  }
+  [[nodiscard]] LadderResult corrected() const {
+    const CubicPath before = path();
+    return correct_by_ladder(std::make_shared<const Mesh>(mesh), index, body, keyframes, before,
+                             collisions(before), options, Deadline::never());
+  }
+};
+
+Case case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
+  Case c;
+  c.mesh = mesh;
+  c.index = scene::SceneIndex::build(mesh);
+  c.keyframes = std::move(keyframes);
+  return c;
+}
+
+Keyframe at(double time_s, const Vec3& position) { return {time_s, {position, Quat::Identity()}}; }
+
+// Flies past a column that stands a little in the way.
+Case column() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.1, -3, -0.2}, {0.5, 3, 0.0});
+  return case_with(mesh, {at(0, {-0.15, 0, 2}), at(3, {-0.15, 0, 0.9}), at(6, {-0.15, 0, -2})});
+}
+
+// A wall without an end in y; a door at x in [2, 3.5].
+Case wall_with_door() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
+  testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
+  return case_with(mesh, {at(0, {0, 0, 2}), at(5, {0, 0, -2})});
+}
+
+void expect_keyframes_kept(const Case& c, const CubicPath& path) {
+  const motion::Path segments = path.path();
+  for (const Keyframe& keyframe : c.keyframes) {
+    const motion::Pose pose = segments.pose(keyframe.time_s);
+    EXPECT_EQ(pose.position, keyframe.pose.position);
+    EXPECT_LT(pose.orientation.angularDistance(keyframe.pose.orientation), 1e-12);
+  }
+}
+
+void expect_corrected(const Case& c, const std::vector<Rung>& rungs) {
+  const LadderResult result = c.corrected();
+  EXPECT_TRUE(c.collisions(result.path).empty());
+  expect_keyframes_kept(c, result.path);
+  ASSERT_FALSE(result.corrections.empty());
+  for (const Correction& correction : result.corrections) {
+    EXPECT_TRUE(std::ranges::count(rungs, correction.rung) == 1) << to_string(correction.rung);
+  }
+}
+
+TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {Rung::kMove}); }
+
+TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {Rung::kGoRound}); }
+
+// The near quadrilateral is 0.4 wide and 0.3 high; the gap 0.34 wide and without an end in y.
+TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-40, -60, -0.05}, {-0.17, 60, 0.05});
+  testing::add_cuboid(mesh, {0.17, -60, -0.05}, {40, 60, 0.05});
+  Case c = case_with(mesh, {at(0, {0, 0, 1.5}), at(4, {0, 0, -1.5})});
+  c.body =
+      motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
+  expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
+}
+
+// A closed room with a partition of 2 cm. The diagonal of its hole is 1.2 times the short side of
+// the near quadrilateral, which has to pass long side first, rolled by 45 degrees.
+/// A closed room of 2.4 x 2.4 x 3.6 m.
+Mesh closed_room() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-1.3, -1.3, 1.8}, {1.3, 1.3, 1.9});
+  testing::add_cuboid(mesh, {-1.3, -1.3, -1.9}, {1.3, 1.3, -1.8});
+  for (const double wall_m : {-1.25, 1.25}) {
+    testing::add_cuboid(mesh, {wall_m - 0.05, -1.3, -1.8}, {wall_m + 0.05, 1.3, 1.8});
+    testing::add_cuboid(mesh, {-1.2, wall_m - 0.05, -1.8}, {1.2, wall_m + 0.05, 1.8});
+  }
+  return mesh;
+}
+
+/// Across the room, 2 cm thick, with a hole between two corners.
+void add_wall(Mesh& mesh, double z_m, const Vec3& low, const Vec3& high) {
+  testing::add_cuboid(mesh, {-1.2, -1.2, z_m - 0.01}, {low[0], 1.2, z_m + 0.01});
+  testing::add_cuboid(mesh, {high[0], -1.2, z_m - 0.01}, {1.2, 1.2, z_m + 0.01});
+  testing::add_cuboid(mesh, {low[0], -1.2, z_m - 0.01}, {high[0], low[1], z_m + 0.01});
+  testing::add_cuboid(mesh, {low[0], high[1], z_m - 0.01}, {high[0], 1.2, z_m + 0.01});
+}
+
+/// Of 40 x 30 cm.
+motion::Body wide_camera() {
+  return motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
+}
+
+TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
+  Mesh mesh = closed_room();
+  add_wall(mesh, 0.0, {-0.127, -0.127, 0}, {0.127, 0.127, 0});
+  Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.1}), at(4, {0.3, 0.1, -0.8})});
+  c.body = wide_camera();
+  expect_corrected(c, {Rung::kGoRound});
+}
+
+// A slit, and a hole that is not in line with it, turned the other way.
+TEST(Ladder, ThreadsTwoHolesInARow) {
+  Mesh mesh = closed_room();
+  add_wall(mesh, 0.6, {-0.7, 0.1, 0}, {-0.3, 0.17, 0});
+  add_wall(mesh, -0.6, {0.3, -0.6, 0}, {0.45, -0.2, 0});
+  Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.4}), at(4, {0.3, 0.1, -1.4})});
+  c.body = wide_camera();
+  expect_corrected(c, {Rung::kGoRound});
+}
+
+// Less than a metre apart, and 28 m by the only way there is: round the end of a wall in a closed
+// room.
+TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-8.2, -1.4, -2.2}, {8.2, -1.2, 2.2});
+  testing::add_cuboid(mesh, {-8.2, 1.2, -2.2}, {8.2, 1.4, 2.2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, -2.2}, {8.2, 1.2, -2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, 2}, {8.2, 1.2, 2.2});
+  testing::add_cuboid(mesh, {-8.2, -1.2, -2}, {-8, 1.2, 2});
+  testing::add_cuboid(mesh, {8, -1.2, -2}, {8.2, 1.2, 2});
+  testing::add_cuboid(mesh, {-8, -1.2, -0.1}, {7, 1.2, 0.1});
+  expect_corrected(case_with(mesh, {at(0, {-7, 0, 0.4}), at(5, {-7, 0, -0.4})}), {Rung::kGoRound});
+}
+
+TEST(Ladder, LeavesWhatItCannotCorrect) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  const Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2})});
+  const LadderResult result = c.corrected();
+  ASSERT_EQ(result.corrections.size(), 1U);
+  EXPECT_EQ(result.corrections[0].rung, Rung::kNone);
+  EXPECT_TRUE(result.inserted_s.empty());
+  EXPECT_EQ(result.path.pieces.size(), c.path().pieces.size());
+}
+
+// What lies outside the stretches that were changed is the same bit for bit.
+// There is no path then, but who asked for another keyframe was not told so.
+TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2}), at(4, {0, 0, 0.1})});
+  ASSERT_TRUE(c.corrected().separation);
+  EXPECT_EQ(c.corrected().separation->inside, 1U);
+  c.keyframes[1].is_repaired = true;
+  ASSERT_TRUE(c.corrected().separation);
+  EXPECT_EQ(c.corrected().separation->inside, 2U);
+  c.keyframes[2].is_repaired = true;
+  EXPECT_FALSE(c.corrected().separation);
+  EXPECT_FALSE(c.corrected().cage);
+}
+
+// A closed surface is asked for before the large lattices are searched.
+TEST(Ladder, ProvesBeforeItSearchesFar) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-20, -20, -20}, {20, 20, 20});
+  const Case c = case_with(mesh, {at(0, {0, 0, 19.4}), at(4, {0.3, 0.1, 20.6})});
+  const LadderResult result = c.corrected();
+  ASSERT_TRUE(result.separation);
+  EXPECT_EQ(result.separation->triangles.size(), 12U);
+  for (const Correction& correction : result.corrections)
+    EXPECT_LT(correction.tried.lattice_points, 40'000);
+}
+
+TEST(Ladder, IsLocal) {
+  Case c = column();
+  for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));
+  const CubicPath before = c.path();
+  const LadderResult result = c.corrected();
+  EXPECT_LT(result.corrections.back().t_end_s, c.keyframes.back().time_s - 4.0);
+  for (const motion::CubicPiece& piece : before.pieces) {
+    if (piece.t0_s < result.corrections.back().t_end_s) continue;
+    EXPECT_TRUE(std::ranges::any_of(result.path.pieces, [&](const motion::CubicPiece& other) {
+      return other.t0_s == piece.t0_s && other.position == piece.position &&
+             other.image == piece.image;
+    }));
+  }
+}
+
+TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
+  Case c = wall_with_door();
+  c.options.max_inserted_keyframes = 2;
+  const LadderResult result = c.corrected();
+  EXPECT_LE(result.inserted_s.size(), 2U);
+  EXPECT_FALSE(c.collisions(result.path).empty());
+}
+
+TEST(Ladder, KeepsTheRequiredClearance) {
+  Case c = column();
+  c.options.detect.clearance_m = 0.1;
+  expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+}
+
+TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
+  Case c = column();
+  std::string error;
+  c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)}, error);
+  expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+}
+
+// A tour through clutter, with several collisions in neighbouring gaps.
+Case cluttered_tour(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  for (;;) {
+    std::vector<Keyframe> keyframes;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 eye(place(random), place(random), place(random));
+      keyframes.push_back({1.5 * i, {eye, testing::random_rotation(random)}});
+    }
+    Case c = case_with(testing::scattered_triangles(random, 25, 0.3), std::move(keyframes));
+    const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
+    const bool all_free = std::ranges::none_of(c.keyframes, [&](const Keyframe& keyframe) {
+      return collision::collides(c.index, corners_C, keyframe.pose);
+    });
+    if (all_free && c.collisions(c.path()).size() >= 2) return c;
+  }
+}
+
+bool covers(const Correction& correction, double time_s) {
+  return correction.rung != Rung::kNone && correction.t_begin_s <= time_s &&
+         time_s <= correction.t_end_s;
+}
+
+// What corrections say of themselves, compared with the path that is returned, at many times.
+TEST(Ladder, TellsWhatBecameOfThePath) {
+  std::mt19937_64 random = testing::seeded(4501);
+  int corrected = 0;
+  constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
+                                      Objective::kSmoothest, Objective::kSafest};
+  for (int run = 0; run < 12; ++run) {
+    Case c = cluttered_tour(random);
+    c.options.objective = kObjectives[static_cast<std::size_t>(run) % kObjectives.size()];
+    const CubicPath before = c.path();
+    const LadderResult result = c.corrected();
+    expect_keyframes_kept(c, result.path);
+    constexpr int kTimes = 20000;
+    std::vector<double> moved_m(result.corrections.size());
+    std::vector<double> turned_rad(result.corrections.size());
+    for (int i = 0; i <= kTimes; ++i) {
+      const double time_s = std::lerp(before.begin_s(), before.end_s(), i / double{kTimes});
+      const motion::Pose was = before.pose(time_s);
+      const motion::Pose is = result.path.pose(time_s);
+      bool is_covered = false;
+      for (std::size_t k = 0; k < result.corrections.size(); ++k) {
+        if (!covers(result.corrections[k], time_s)) continue;
+        is_covered = true;
+        moved_m[k] = std::max(moved_m[k], (is.position - was.position).norm());
+        turned_rad[k] = std::max(turned_rad[k], is.orientation.angularDistance(was.orientation));
+      }
+      if (is_covered) continue;
+      // The rest of a piece that was cut differs by rounding.
+      constexpr double kRounding = 1e-14;
+      ASSERT_LT((is.position - was.position).norm(), kRounding) << run << " at " << time_s;
+      ASSERT_LT((is.orientation.coeffs() - was.orientation.coeffs()).norm(), kRounding) << run;
+    }
+    for (std::size_t k = 0; k < result.corrections.size(); ++k) {
+      const Correction& correction = result.corrections[k];
+      if (correction.rung == Rung::kNone) continue;
+      ++corrected;
+      EXPECT_LE(before.begin_s(), correction.t_begin_s);
+      EXPECT_LT(correction.t_begin_s, correction.t_end_s);
+      EXPECT_LE(correction.t_end_s, before.end_s());
+      // Both are of samples.
+      EXPECT_NEAR(correction.moved_m, moved_m[k], 0.02 * moved_m[k]) << run;
+      EXPECT_NEAR(correction.turned_rad, turned_rad[k], 0.02 * turned_rad[k] + 1e-7) << run;
+      EXPECT_GT(moved_m[k] + turned_rad[k], 0.0);
+      // The collision that it is for is within it.
+      EXPECT_LT(correction.t_begin_s, correction.interval.t_end_s);
+      EXPECT_GT(correction.t_end_s, correction.interval.t_begin_s);
+    }
+  }
+  EXPECT_GT(corrected, 12);
+}
+
+// Each is at least as good by its own measure as the path that is closest, and most are better.
+TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
+  std::mt19937_64 random = testing::seeded(4503);
+  std::map<Objective, int> better;
+  constexpr int kRuns = 12;
+  for (int run = 0; run < kRuns; ++run) {
+    Case c = cluttered_tour(random);
+    const CubicPath original = c.path();
+    const CubicPath closest = c.corrected().path;
+    FreeSpace space(c.index, c.body, c.options.detect, c.options.orientation);
+    for (const Objective objective :
+         {Objective::kShortest, Objective::kSmoothest, Objective::kSafest}) {
+      c.options.objective = objective;
+      const CubicPath path = c.corrected().path;
+      const ObjectiveCost now = objective_cost(objective, path, original, space, Deadline::never());
+      const ObjectiveCost before =
+          objective_cost(objective, closest, original, space, Deadline::never());
+      // The sum over gaps, of samples at other times than those that were compared.
+      EXPECT_LE(now.value, 1.001 * before.value) << run << ": " << static_cast<int>(objective);
+      EXPECT_GE(now.least_gap_m, 0.97 * before.least_gap_m) << run;
+      better[objective] += now.value < 0.99 * before.value ? 1 : 0;
+      // What it did not have to turn for, it did not turn.
+      for (int i = 0; i <= 200; ++i) {
+        const double time_s = std::lerp(path.begin_s(), path.end_s(), i / 200.0);
+        EXPECT_LT(path.pose(time_s).orientation.angularDistance(closest.pose(time_s).orientation),
+                  1e-6);
+      }
+    }
+  }
+  for (const auto& [objective, count] : better)
+    EXPECT_GT(count, kRuns / 2) << static_cast<int>(objective);
+}
+
+// Two walls with doors that are not where the path would go.
+Case two_walls(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Mesh mesh;
+  for (const double z : {0.8, -0.8}) {
+    const double door = 1.2 * unit(random);
+    testing::add_cuboid(mesh, {-6, -8, z - 0.05}, {door - 0.4, 8, z + 0.05});
+    testing::add_cuboid(mesh, {door + 0.4, -8, z - 0.05}, {6, 8, z + 0.05});
+  }
+  return case_with(mesh, {at(0, {unit(random), 0, 2.5}), at(3, {unit(random), 0, 0}),
+                          at(6, {unit(random), 0, -2.5})});
+}
+
+// Sums of squares say little of the furthest point, so others may stray less, but seldom and
+// little.
+TEST(Ladder, ClosestStraysTheLeast) {
+  std::mt19937_64 random = testing::seeded(4504);
+  int compared = 0;
+  int beaten = 0;
+  for (int run = 0; run < 24; ++run) {
+    Case c = two_walls(random);
+    const CubicPath original = c.path();
+    FreeSpace space(c.index, c.body, c.options.detect, c.options.orientation);
+    const auto deviation_m = [&](Objective objective) {
+      c.options.objective = objective;
+      return objective_cost(Objective::kClosest, c.corrected().path, original, space,
+                            Deadline::never())
+          .value;
+    };
+    const double closest_m = deviation_m(Objective::kClosest);
+    for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
+      const double other_m = deviation_m(objective);
+      ++compared;
+      beaten += other_m < 0.95 * closest_m ? 1 : 0;
+    }
+  }
+  EXPECT_LE(beaten, compared / 8);
+}
+
+TEST(Ladder, InsertsKeyframesWithinThePathAndBesideThoseGiven) {
+  std::mt19937_64 random = testing::seeded(4502);
+  int inserted = 0;
+  for (int run = 0; run < 8; ++run) {
+    const Case c = cluttered_tour(random);
+    const LadderResult result = c.corrected();
+    EXPECT_LE(result.inserted_s.size(), static_cast<std::size_t>(c.options.max_inserted_keyframes));
+    double last_s = result.path.begin_s();
+    for (const double time_s : result.inserted_s) {
+      EXPECT_LT(last_s, time_s) << "in order, each once, and after the begin";
+      last_s = time_s;
+      EXPECT_LT(time_s, result.path.end_s());
+      EXPECT_TRUE(std::ranges::any_of(result.corrections, [&](const Correction& correction) {
+        return covers(correction, time_s);
+      }));
+      for (const Keyframe& keyframe : c.keyframes) EXPECT_NE(time_s, keyframe.time_s);
+      ++inserted;
+    }
+  }
+  EXPECT_GT(inserted, 20);
+}
+
+}  // namespace
+}  // namespace camway::correction

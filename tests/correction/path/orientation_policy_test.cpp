@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// The ladder under every rule for orientations, on scenes where the camera has to turn.
+#include <gtest/gtest.h>
+
+#include "daemon/correction/ladder/ladder.h"
+#include "daemon/motion/spline/interpolate.h"
+#include "tests/support/orientation_oracle.h"
+#include "tests/support/scenes.h"
+
+namespace camway::correction {
+namespace {
+
+using collision::CollisionInterval;
+using collision::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using motion::CubicPath;
+using motion::Keyframe;
+using scene::Mesh;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kFar = 60.0;
+
+struct Case {
+  Mesh mesh;
+  motion::Body body{testing::small_camera()};
+  std::vector<Keyframe> keyframes;
+};
+
+struct Outcome {
+  LadderResult result;
+  CubicPath before;
+  bool is_free;
+  double breach_deg;
+  double turned_deg;
+};
+
+Outcome corrected(const Case& c, const OrientationPolicy& policy, Objective objective) {
+  const scene::SceneIndex index = scene::SceneIndex::build(c.mesh);
+  LadderOptions options;
+  options.orientation = policy;
+  options.objective = objective;
+  const CubicPath before = motion::interpolate_cubic(c.keyframes);
+  const auto collisions = [&](const CubicPath& path) {
+    return collision::detect_collisions(index, path.path(), c.body, path.begin_s(), path.end_s(),
+                                        options.detect, Deadline::never())
+        .value();
+  };
+  const std::vector<CollisionInterval> found = collisions(before);
+  EXPECT_FALSE(found.empty()) << "nothing to correct";
+  Outcome outcome{correct_by_ladder(std::make_shared<const scene::Mesh>(c.mesh), index, c.body,
+                                    c.keyframes, before, found, options, Deadline::never()),
+                  before, false, 0.0, 0.0};
+  const motion::Path now = outcome.result.path.path();
+  outcome.is_free = collisions(outcome.result.path).empty();
+  outcome.breach_deg =
+      testing::worst_breach_deg(policy, now, before.path(), before.begin_s(), before.end_s());
+  outcome.turned_deg = testing::largest_turn_deg(now, before.path());
+  return outcome;
+}
+
+void expect_free(const Case& c, const OrientationPolicy& policy,
+                 Objective objective = Objective::kClosest) {
+  const Outcome outcome = corrected(c, policy, objective);
+  EXPECT_TRUE(outcome.is_free);
+  EXPECT_LE(outcome.breach_deg, testing::kOracleRounding_deg);
+}
+
+void expect_stuck(const Case& c, const OrientationPolicy& policy) {
+  const Outcome outcome = corrected(c, policy, Objective::kClosest);
+  EXPECT_FALSE(outcome.is_free);
+  EXPECT_LE(outcome.breach_deg, testing::kOracleRounding_deg);
+}
+
+OrientationPolicy limited(double max_turn_deg) {
+  OrientationPolicy policy;
+  policy.max_turn_rad = max_turn_deg * kDegree;
+  return policy;
+}
+
+OrientationPolicy level(double max_turn_deg = 180.0) {
+  OrientationPolicy policy = limited(std::min(max_turn_deg, 179.0));
+  if (max_turn_deg >= 180.0) policy.max_turn_rad = std::numbers::pi;
+  policy.rule = OrientationRule::kLevel;
+  return policy;
+}
+
+OrientationPolicy towards(const Vec3& target_W, double cone_deg) {
+  OrientationPolicy policy;
+  policy.rule = OrientationRule::kTarget;
+  policy.target_W = target_W;
+  policy.cone_rad = cone_deg * kDegree;
+  return policy;
+}
+
+OrientationPolicy keep() {
+  OrientationPolicy policy;
+  policy.rule = OrientationRule::kKeep;
+  return policy;
+}
+
+motion::Body camera_of(double half_width_m, double half_height_m) {
+  constexpr double kNear_m = 0.2;
+  return motion::Body(motion::Camera{2.0 * std::atan(half_width_m / kNear_m),
+                                     2.0 * std::atan(half_height_m / kNear_m), kNear_m});
+}
+
+Quat yawed_and_pitched(double yaw_deg, double pitch_deg) {
+  return Eigen::AngleAxisd(yaw_deg * kDegree, Vec3::UnitY()) *
+         Eigen::AngleAxisd(pitch_deg * kDegree, Vec3::UnitX());
+}
+
+// A wall across z with an endless slit at `slant_deg` from the x axis. Where it is thicker than the
+// camera is wide, all of the camera has to fit at once.
+Mesh wall_with_slit(double slant_deg, double half_width_m, double thickness_m) {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-kFar, half_width_m, -0.5 * thickness_m},
+                      {kFar, kFar, 0.5 * thickness_m});
+  testing::add_cuboid(mesh, {-kFar, -kFar, -0.5 * thickness_m},
+                      {kFar, -half_width_m, 0.5 * thickness_m});
+  for (Vec3& vertex : mesh.vertices)
+    vertex = Eigen::AngleAxisd(slant_deg * kDegree, Vec3::UnitZ()) * vertex;
+  return mesh;
+}
+
+// The near quadrilateral is 0.4 wide and 0.1 high, the slit 0.14 wide: it fits at up to 5.7° from
+// the slit, and not rolled only if it is turned by more than 60°.
+Case slanted_slit() {
+  return {wall_with_slit(30.0, 0.07, 0.5),
+          camera_of(0.2, 0.05),
+          {{0, {{0, 0, 1.5}, Quat::Identity()}}, {4, {{0, 0, -1.5}, Quat::Identity()}}}};
+}
+
+// An upright gap of 0.34 and a camera that is 0.4 wide and 0.38 high: it has to be yawed by 32°.
+// Between two keyframes that look down and turn.
+Case upright_gap() {
+  return {wall_with_slit(90.0, 0.17, 0.04),
+          camera_of(0.2, 0.19),
+          {{0, {{0, 0.5, 1.6}, yawed_and_pitched(-10, -15)}},
+           {4, {{0, -0.5, -1.2}, yawed_and_pitched(15, -25)}}}};
+}
+
+// Flies past a column, looking at a point beyond it.
+Case column() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-0.3, -kFar, -0.2}, {0.5, kFar, 0.0});
+  return {mesh,
+          motion::Body(testing::small_camera()),
+          {{0, {{-0.15, 0, 2}, Quat::Identity()}}, {6, {{-0.15, 0, -2}, Quat::Identity()}}}};
+}
+
+Case wall_with_door() {
+  Mesh mesh;
+  testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
+  testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
+  return {mesh,
+          motion::Body(testing::small_camera()),
+          {{0, {{0, 0, 2}, Quat::Identity()}}, {5, {{0, 0, -2}, Quat::Identity()}}}};
+}
+
+TEST(OrientationPolicy, TurnsWithinTheLimit) {
+  const Outcome outcome = corrected(slanted_slit(), limited(45), Objective::kClosest);
+  EXPECT_TRUE(outcome.is_free);
+  EXPECT_GT(outcome.turned_deg, 20.0);
+  EXPECT_LE(outcome.turned_deg, 45.0);
+  for (const Correction& correction : outcome.result.corrections)
+    EXPECT_NEAR(correction.turned_rad / kDegree, outcome.turned_deg, 1.0);
+}
+
+TEST(OrientationPolicy, DoesNotTurnBeyondTheLimit) { expect_stuck(slanted_slit(), limited(10)); }
+
+TEST(OrientationPolicy, YawsWhereTheHorizonHasToStayLevel) {
+  expect_free(upright_gap(), level());
+  expect_free(upright_gap(), level(50));
+}
+
+TEST(OrientationPolicy, DoesNotRollWhereTheHorizonHasToStayLevel) {
+  expect_stuck(slanted_slit(), level(60));
+  expect_free(slanted_slit(), limited(60));
+}
+
+TEST(OrientationPolicy, TurnsNothingWhereOrientationsAreKept) {
+  expect_stuck(slanted_slit(), keep());
+  expect_stuck(upright_gap(), keep());
+  expect_free(column(), keep());
+  expect_free(wall_with_door(), keep());
+  expect_free(column(), limited(0));
+}
+
+// Passing the column takes some 30 cm to the side, 4° as seen from the target.
+TEST(OrientationPolicy, TurnsTowardsTheTargetAsItMovesAside) {
+  const OrientationPolicy policy = towards({-0.15, 0, -4}, 2.0);
+  const Outcome outcome = corrected(column(), policy, Objective::kClosest);
+  EXPECT_TRUE(outcome.is_free);
+  EXPECT_LE(outcome.breach_deg, testing::kOracleRounding_deg);
+  EXPECT_GT(outcome.turned_deg, 1.0) << "or the scene asks for nothing";
+}
+
+TEST(OrientationPolicy, KeepsTheTargetInViewOnAWayRound) {
+  expect_free(wall_with_door(), towards({0, 0, -6}, 8.0));
+}
+
+// The target is behind the camera: then it may not turn further away from it.
+TEST(OrientationPolicy, LooksNoFurtherAwayFromATargetOutsideTheCone) {
+  expect_free(column(), towards({1, 0.5, 7}, 10.0));
+}
+
+TEST(OrientationPolicy, HoldsUnderEveryObjective) {
+  for (const Objective objective :
+       {Objective::kShortest, Objective::kSmoothest, Objective::kSafest}) {
+    expect_free(slanted_slit(), limited(45), objective);
+    expect_free(upright_gap(), level(), objective);
+    expect_free(wall_with_door(), towards({0, 0, -6}, 8.0), objective);
+    expect_free(wall_with_door(), keep(), objective);
+  }
+}
+
+}  // namespace
+}  // namespace camway::correction

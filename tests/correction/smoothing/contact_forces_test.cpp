@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/contact_forces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "tests/support/gap_problems.h"
+
+namespace camway::correction {
+namespace {
+
+using testing::Draw;
+
+/// Samples that reply to each other as points of a spline do: symmetric, positive semidefinite.
+struct Case {
+  StackedPoints unforced;
+  Eigen::MatrixXd reply;
+  std::vector<ForcedBound> bounds;
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(bounds.size()); }
+  [[nodiscard]] const ForcedBound& bound(Eigen::Index i) const {
+    return bounds[static_cast<std::size_t>(i)];
+  }
+};
+
+Case random_case(Draw& draw, int samples, int bounds_of_sample, double share_soft) {
+  Case c;
+  c.unforced = draw.points(samples, 1.0);
+  const Eigen::MatrixXd shares =
+      Eigen::MatrixXd::NullaryExpr(samples, samples + 1, [&]() { return draw.number(-0.3, 1.0); });
+  c.reply = shares * shares.transpose() / samples;
+  for (int s = 0; s < samples; ++s) {
+    for (int i = 0; i < bounds_of_sample; ++i) {
+      ForcedBound bound;
+      bound.sample = static_cast<std::size_t>(s);
+      bound.direction = draw.stacked(1.0);
+      bound.bound_m = c.unforced.row(s).dot(bound.direction) + draw.number(-0.5, 0.5);
+      bound.softness = draw.number(0.0, 1.0) < share_soft ? draw.number(0.2, 2.0) : 0.0;
+      c.bounds.push_back(bound);
+    }
+  }
+  return c;
+}
+
+/// How much each bound gets from a unit force on each, what gives way included.
+Eigen::MatrixXd matrix_of(const Case& c) {
+  Eigen::MatrixXd matrix(c.size(), c.size());
+  for (Eigen::Index i = 0; i < c.size(); ++i) {
+    for (Eigen::Index j = 0; j < c.size(); ++j) {
+      const auto a = static_cast<Eigen::Index>(c.bound(i).sample);
+      const auto b = static_cast<Eigen::Index>(c.bound(j).sample);
+      matrix(i, j) = c.reply(a, b) * c.bound(i).direction.dot(c.bound(j).direction);
+    }
+  }
+  for (Eigen::Index i = 0; i < c.size(); ++i) matrix(i, i) *= 1.0 + c.bound(i).softness;
+  return matrix;
+}
+
+Eigen::VectorXd missing_in(const Case& c) {
+  Eigen::VectorXd missing(c.size());
+  for (Eigen::Index i = 0; i < c.size(); ++i) {
+    const auto sample = static_cast<Eigen::Index>(c.bound(i).sample);
+    missing[i] = c.bound(i).bound_m - c.unforced.row(sample).dot(c.bound(i).direction);
+  }
+  return missing;
+}
+
+Eigen::VectorXd forces_of(const Case& c) {
+  Eigen::VectorXd forces(c.size());
+  for (Eigen::Index i = 0; i < c.size(); ++i) forces[i] = c.bound(i).force;
+  return forces;
+}
+
+/// All ways to choose which bounds feel a force: the one with no force that pulls, and no bound
+/// that does not hold.
+std::optional<Eigen::VectorXd> exact_forces(const Case& c) {
+  const Eigen::MatrixXd matrix = matrix_of(c);
+  const Eigen::VectorXd missing = missing_in(c);
+  const double rounding = 1e-9 * missing.cwiseAbs().maxCoeff();
+  for (unsigned chosen = 0; chosen < 1U << c.size(); ++chosen) {
+    std::vector<Eigen::Index> active;
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      if ((chosen >> i & 1U) != 0) active.push_back(i);
+    }
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(c.size());
+    if (!active.empty()) {
+      const Eigen::VectorXd part = matrix(active, active).fullPivLu().solve(missing(active));
+      if (!(part.minCoeff() >= 0.0)) continue;
+      forces(active) = part;
+    }
+    if ((matrix * forces - missing).minCoeff() >= -rounding) return forces;
+  }
+  return std::nullopt;
+}
+
+/// Again and again from what was found, until nothing changes: each call is bounded.
+void find_until_settled(Case& c) {
+  constexpr double kUnchanged = 1e-14;
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::VectorXd before = forces_of(c);
+    find_forces(c.bounds, c.unforced, c.reply, 0.0);
+    const Eigen::VectorXd now = forces_of(c);
+    if ((now - before).norm() <= kUnchanged * now.norm()) return;
+  }
+}
+
+/// What the dual maximises.
+double dual_of(const Case& c, const Eigen::VectorXd& forces) {
+  return missing_in(c).dot(forces) - 0.5 * forces.dot(matrix_of(c) * forces);
+}
+
+TEST(ContactForces, AreThoseOfTheBestActiveSet) {
+  Draw draw(4201);
+  int with_force = 0;
+  for (int run = 0; run < 300; ++run) {
+    Case c = random_case(draw, draw.integer(1, 4), draw.integer(1, 2), 0.4);
+    const std::optional<Eigen::VectorXd> exact = exact_forces(c);
+    ASSERT_TRUE(exact) << run;
+    find_until_settled(c);
+    // Forces may be large where bounds nearly exclude each other; what they do is what counts.
+    const double size = 1.0 + exact->cwiseAbs().maxCoeff();
+    EXPECT_LT((matrix_of(c) * (forces_of(c) - *exact)).norm(), 1e-6 * size) << run;
+    EXPECT_NEAR(dual_of(c, forces_of(c)), dual_of(c, *exact), 1e-6 * size) << run;
+    with_force += exact->maxCoeff() > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(with_force, 150);
+}
+
+TEST(ContactForces, MeetTheConditionsOfTheOptimumWhereThereAreMany) {
+  Draw draw(4202);
+  for (int run = 0; run < 20; ++run) {
+    // Many bounds of one sample may exclude each other; soft ones cannot.
+    Case c = random_case(draw, 30, 3, 1.0);
+    find_until_settled(c);
+    const Eigen::VectorXd forces = forces_of(c);
+    const Eigen::VectorXd room = matrix_of(c) * forces - missing_in(c);
+    EXPECT_GE(forces.minCoeff(), 0.0);
+    EXPECT_GT(forces.maxCoeff(), 0.0);
+    EXPECT_GE(room.minCoeff(), -1e-9) << "a bound does not hold";
+    EXPECT_LT(forces.cwiseProduct(room).cwiseAbs().maxCoeff(), 1e-9) << "a force without contact";
+  }
+}
+
+TEST(ContactForces, FromAnyGuessAreTheSame) {
+  Draw draw(4203);
+  for (int run = 0; run < 50; ++run) {
+    Case cold = random_case(draw, 12, 2, 1.0);
+    Case warm = cold;
+    for (ForcedBound& bound : warm.bounds) bound.force = draw.integer(0, 1) * draw.number(0.0, 3.0);
+    find_until_settled(cold);
+    find_until_settled(warm);
+    const double size = 1.0 + forces_of(cold).maxCoeff();
+    EXPECT_LT((forces_of(cold) - forces_of(warm)).cwiseAbs().maxCoeff(), 1e-9 * size) << run;
+  }
+}
+
+TEST(ContactForces, NeverGetWorseThanTheGuess) {
+  Draw draw(4204);
+  for (int run = 0; run < 300; ++run) {
+    Case c = random_case(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
+    for (ForcedBound& bound : c.bounds) bound.force = draw.integer(0, 1) * draw.number(0.0, 1.0);
+    const double before = dual_of(c, forces_of(c));
+    find_forces(c.bounds, c.unforced, c.reply, 1e-3);
+    const double after = dual_of(c, forces_of(c));
+    EXPECT_GE(after, before - 1e-12 * (1.0 + std::abs(before))) << run;
+    EXPECT_GE(forces_of(c).minCoeff(), 0.0);
+  }
+}
+
+// One bound has a solution that can be written down.
+TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
+  Case c;
+  c.unforced = StackedPoints::Zero(1, 7);
+  c.reply = Eigen::MatrixXd::Constant(1, 1, 4.0);
+  for (const double softness : {0.0, 1.0, 3.0}) {
+    c.bounds = {{0, 0.5 * StackedPoint::Unit(2), 6.0, softness, 0.0}};
+    find_forces(c.bounds, c.unforced, c.reply, 0.0);
+    EXPECT_DOUBLE_EQ(c.bounds[0].force, 6.0 / (1.0 + softness));  // 4 · 0.5² is 1
+  }
+  c.bounds = {{0, 0.5 * StackedPoint::Unit(2), -1.0, 0.0, 0.0}};
+  find_forces(c.bounds, c.unforced, c.reply, 0.0);
+  EXPECT_EQ(c.bounds[0].force, 0.0) << "it holds already";
+}
+
+// A sample that no variable moves: nothing helps there, and nobody else must suffer for it.
+// What they reply to each other is kept as a matrix, which must not grow with bodies of thousands
+// of triangles.
+TEST(ContactForces, AreOfLimitedNumber) {
+  Draw draw(4407);
+  Case c = random_case(draw, 40, 100, 0.0);
+  find_forces(c.bounds, c.unforced, c.reply, 0.0);
+  const auto felt =
+      std::ranges::count_if(c.bounds, [](const ForcedBound& bound) { return bound.force > 0.0; });
+  EXPECT_GT(felt, 100);
+  EXPECT_LE(felt, 1024);
+  // And those first that miss most, so the worst of all feels one or holds.
+  const Eigen::VectorXd missing_m = missing_in(c);
+  Eigen::Index worst = 0;
+  missing_m.maxCoeff(&worst);
+  StackedPoint moved = StackedPoint::Zero();
+  for (const ForcedBound& bound : c.bounds) {
+    moved += bound.force *
+             c.reply(static_cast<Eigen::Index>(bound.sample),
+                     static_cast<Eigen::Index>(c.bound(worst).sample)) *
+             bound.direction;
+  }
+  EXPECT_LT(missing_m[worst] - moved.dot(c.bound(worst).direction), missing_m[worst]);
+}
+
+TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
+  Draw draw(4205);
+  Case c = random_case(draw, 3, 1, 1.0);
+  Case without = c;
+  without.bounds.erase(without.bounds.begin() + 1);
+  for (Case* changed : {&c, &without}) {
+    changed->reply.row(1).setZero();
+    changed->reply.col(1).setZero();
+    changed->bounds[0].bound_m += 2.0;
+  }
+  c.bounds[1].bound_m = c.unforced.row(1).dot(c.bounds[1].direction) + 1.0;
+  find_until_settled(c);
+  find_until_settled(without);
+  EXPECT_EQ(c.bounds[1].force, 0.0);
+  EXPECT_GT(c.bounds[0].force, 0.0);
+  EXPECT_DOUBLE_EQ(c.bounds[0].force, without.bounds[0].force);
+  EXPECT_DOUBLE_EQ(c.bounds[2].force, without.bounds[1].force);
+}
+
+}  // namespace
+}  // namespace camway::correction

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/objective_cost.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "daemon/collision/clearance.h"
+#include "daemon/motion/path/measures.h"
+#include "tests/support/gap_problems.h"
+
+namespace camway::correction {
+namespace {
+
+using geometry::Vec3;
+using motion::CubicPath;
+using testing::Draw;
+
+/// A camera above a floor that reaches further than it sees.
+struct Case {
+  scene::Mesh mesh;
+  scene::SceneIndex index;
+  motion::Body body{testing::small_camera()};
+  collision::DetectOptions detect;
+
+  Case() {
+    testing::add_cuboid(mesh, {-50, -2, -50}, {50, -1, 50});
+    index = scene::SceneIndex::build(mesh);
+  }
+  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, {}); }
+  [[nodiscard]] ObjectiveCost cost(Objective objective, const CubicPath& path,
+                                   const CubicPath& original) const {
+    FreeSpace space = this->space();
+    return objective_cost(objective, path, original, space, collision::Deadline::never());
+  }
+};
+
+CubicPath straight(const Vec3& from, const Vec3& to, double duration_s) {
+  return testing::problem_of_gap({{0.0, {from, geometry::Quat::Identity()}},
+                                  {duration_s, {to, geometry::Quat::Identity()}}},
+                                 0)
+      .path;
+}
+
+// Whoever compares objectives reads these numbers in an answer.
+TEST(ObjectiveCost, IsWhatMeasuresSay) {
+  const Case c;
+  Draw draw(6101);
+  for (int run = 0; run < 50; ++run) {
+    std::vector<motion::Keyframe> keyframes;
+    for (int i = 0; i < 4; ++i) keyframes.push_back({1.7 * i, {draw.vector(3.0), draw.turn(1.0)}});
+    const CubicPath path = testing::problem_of_gap(keyframes, 1).path;
+    keyframes[1].pose.position += draw.vector(1.0);
+    const CubicPath original = testing::problem_of_gap(keyframes, 1).path;
+    const motion::PathMeasures measures = motion::measure(path.path(), original.path());
+    const auto value = [&](Objective objective) { return c.cost(objective, path, original).value; };
+    // Both sample each piece, one of them twice as densely.
+    EXPECT_NEAR(value(Objective::kShortest), measures.length_m, 2e-3 * measures.length_m);
+    EXPECT_NEAR(value(Objective::kClosest), measures.largest_deviation_m,
+                2e-2 * measures.largest_deviation_m);
+    EXPECT_NEAR(value(Objective::kSmoothest), measures.bending_energy_m2_per_s3,
+                1e-9 * measures.bending_energy_m2_per_s3);
+  }
+}
+
+// At a constant height all of it is known: what is missing does not change, and the way is its
+// length.
+TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
+  const Case c;
+  const double radius_m = c.space().ball_radius_m();
+  const double comfort_m = kComfort * radius_m;
+  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const Vec3 up(0, -1.0 - low_m + share * comfort_m, 0);
+    const CubicPath path = straight(up, up + Vec3(3, 0, 0), 2.0);
+    const ObjectiveCost cost = c.cost(Objective::kSafest, path, path);
+    EXPECT_NEAR(cost.value, 3.0 * (1.0 - share) * (1.0 - share), 0.02) << share;
+    // As exact as the clearance of an answer.
+    EXPECT_LE(cost.least_gap_m, share * comfort_m * (1.0 + 1e-9));
+    EXPECT_GE(cost.least_gap_m, share * comfort_m * (1.0 - collision::kClearanceGap) - 1e-9);
+    // However long it takes.
+    const CubicPath slow = straight(up, up + Vec3(3, 0, 0), 20.0);
+    EXPECT_NEAR(c.cost(Objective::kSafest, slow, slow).value, cost.value, 1e-6);
+  }
+  const CubicPath far = straight({0, 10, 0}, {3, 10, 0}, 2.0);
+  EXPECT_EQ(c.cost(Objective::kSafest, far, far).value, 0.0);
+  EXPECT_EQ(c.cost(Objective::kSafest, far, far).least_gap_m, comfort_m);
+}
+
+TEST(ObjectiveCost, IsBetterOnlyIfLessAndNoNearer) {
+  EXPECT_TRUE(is_better({0.9, 0.1}, {1.0, 0.1}));
+  EXPECT_FALSE(is_better({1.0, 0.1}, {1.0, 0.1}));
+  EXPECT_FALSE(is_better({0.99999, 0.1}, {1.0, 0.1})) << "not worth a change";
+  EXPECT_FALSE(is_better({0.9, 0.09}, {1.0, 0.1})) << "nearer";
+  EXPECT_TRUE(is_better({0.9, 0.2}, {1.0, 0.1}));
+}
+
+// Only what is tight counts for the others.
+TEST(ObjectiveCost, OfOthersKnowsTightGapsAlone) {
+  const Case c;
+  const double radius_m = c.space().ball_radius_m();
+  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
+    const auto gap_m = [&](double height_m) {
+      const Vec3 up(0, -1.0 - low_m + height_m, 0);
+      const CubicPath path = straight(up, up + Vec3(3, 0, 0), 2.0);
+      return c.cost(objective, path, path).least_gap_m;
+    };
+    EXPECT_LT(gap_m(0.005 * radius_m), 0.006 * radius_m);
+    EXPECT_EQ(gap_m(0.5 * radius_m), gap_m(2.0 * radius_m));
+  }
+}
+
+}  // namespace
+}  // namespace camway::correction

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "daemon/collision/near_quad.h"
+#include "daemon/correction/path/orientation_rule.h"
+#include "daemon/correction/smoothing/smoothing_form.h"
+#include "daemon/motion/path/measures.h"
+#include "tests/support/gap_problems.h"
+
+namespace camway::correction {
+namespace {
+
+using collision::Deadline;
+using geometry::Quat;
+using geometry::Vec3;
+using motion::CubicPath;
+using motion::Keyframe;
+using testing::Draw;
+
+constexpr int kEnough = 100;  // steps
+constexpr int kKnots = 12;
+constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
+                                    Objective::kSmoothest, Objective::kSafest};
+
+Keyframe at(double time_s, const Vec3& position, const Quat& orientation = Quat::Identity()) {
+  return {time_s, {position, orientation}};
+}
+
+/// A scene, a camera and a gap that has to be crossed in it.
+struct Case {
+  scene::Mesh mesh;
+  scene::SceneIndex index;
+  motion::Body body{testing::small_camera()};
+  collision::DetectOptions detect;
+  OrientationPolicy policy;
+  Problem problem;
+
+  void build() { index = scene::SceneIndex::build(mesh); }
+  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, policy); }
+  /// As the objective sees it; the lever arm is that of the relaxation.
+  [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
+    const double lever_m = 4.0 * space().ball_radius_m();
+    const FreeCoefficients free(problem, offsets.knots, ends);
+    return SmoothingForm(problem, free, objective, lever_m)
+        .value(free.variables_of(offsets, lever_m));
+  }
+};
+
+/// The distance of the near quadrilateral, triangle by triangle, at equidistant times.
+double least_gap_m(const Case& c, const CubicPath& path, double begin_s, double end_s,
+                   int samples) {
+  const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
+  constexpr double kFar_m = 10.0;
+  double least_m = kFar_m;
+  for (int i = 0; i <= samples; ++i) {
+    const double time_s = std::lerp(begin_s, end_s, static_cast<double>(i) / samples);
+    least_m = std::min(
+        least_m,
+        collision::clearance_m(c.index, corners_C, path.pose(time_s), kFar_m).value_or(kFar_m));
+  }
+  return least_m;
+}
+
+double length_m(const CubicPath& path) {
+  const motion::Path segments = path.path();
+  return motion::measure(segments, segments).length_m;
+}
+
+std::optional<Relaxed> correction_with(const Case& c, const Offsets& offsets, Ends ends) {
+  FreeSpace space = c.space();
+  Attempt tried = attempt(c.problem, {bumps_for(offsets, ends)}, space, Deadline::never());
+  if (!tried.candidate) return std::nullopt;
+  return Relaxed{offsets, std::move(*tried.candidate)};
+}
+
+Relaxed relaxed_fully(const Case& c, const Relaxed& free, Ends ends, Objective objective,
+                      int steps = kEnough) {
+  FreeSpace space = c.space();
+  Improvement improvement{objective, steps};
+  return relaxed(c.problem, free, ends, improvement, space, Deadline::never());
+}
+
+/// The inner coefficients all alike.
+Offsets lifted(const Problem& problem, int count, const Vec3& by) {
+  Offsets offsets{{problem.gap_begin_s(), problem.gap_end_s(), count}, 1, {}};
+  for (int k = 1; k < count; ++k) offsets.at.push_back({by, geometry::Vec4::Zero()});
+  return offsets;
+}
+
+void expect_keyframes_kept(const Case& c, const CubicPath& path) {
+  for (const double time_s : c.problem.keyframes_s) {
+    EXPECT_EQ(path.at(time_s).position, c.problem.path.at(time_s).position);
+    EXPECT_EQ(path.at(time_s).image, c.problem.path.at(time_s).image);
+  }
+}
+
+void expect_same(const CubicPath& a, const CubicPath& b) {
+  ASSERT_EQ(a.pieces.size(), b.pieces.size());
+  for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+    EXPECT_EQ(a.pieces[i].t0_s, b.pieces[i].t0_s);
+    EXPECT_EQ(a.pieces[i].position, b.pieces[i].position);
+    EXPECT_EQ(a.pieces[i].image, b.pieces[i].image);
+  }
+}
+
+/// A tour through clutter in which one gap is crossed by some large swing that happens to be free.
+struct Swing {
+  Case c;
+  Ends ends = Ends::kFree;
+  std::optional<Relaxed> free;
+};
+
+Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
+  Swing swing;
+  swing.c.policy.max_turn_rad = max_turn_rad;
+  while (!swing.free) {
+    Case& c = swing.c;
+    c.mesh = testing::scattered_triangles(draw.generator(), 25, 0.4);
+    c.build();
+    std::vector<Keyframe> keyframes;
+    for (int i = 0; i < 4; ++i) keyframes.push_back(at(1.5 * i, draw.vector(1.3), draw.turn(1.0)));
+    c.problem = testing::problem_of_gap(keyframes, static_cast<std::size_t>(draw.integer(0, 2)));
+    c.detect.clearance_m = draw.integer(0, 1) * 0.01;
+    swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
+    // What the swing leaves as it was may collide, and is not to be corrected.
+    c.problem.others = collision::detect_collisions(
+                           c.index, c.problem.path.path(), c.body, c.problem.path.begin_s(),
+                           c.problem.path.end_s(), c.detect, Deadline::never())
+                           .value();
+    std::erase_if(c.problem.others, [&](const collision::CollisionInterval& other) {
+      return other.t_end_s > c.problem.gap_begin_s() && other.t_begin_s < c.problem.gap_end_s();
+    });
+    const int count = 8 << draw.integer(0, 2);
+    Offsets offsets = lifted(c.problem, count, draw.vector(1.5));
+    for (motion::CubicPoint& point : offsets.at)
+      point.image = draw.image(0.1 * std::min(1.0, max_turn_rad));
+    swing.free = correction_with(c, offsets, swing.ends);
+  }
+  return swing;
+}
+
+/// Whether the body keeps what is required at many times, but where others have to see to it.
+void expect_free(const Case& c, const CubicPath& path) {
+  const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
+  constexpr int kTimes = 3000;
+  for (int i = 0; i <= kTimes; ++i) {
+    const double time_s = std::lerp(path.begin_s(), path.end_s(), static_cast<double>(i) / kTimes);
+    const bool is_others =
+        std::ranges::any_of(c.problem.others, [&](const collision::CollisionInterval& other) {
+          return other.t_begin_s <= time_s && time_s <= other.t_end_s;
+        });
+    if (is_others) continue;
+    const motion::Pose pose = path.pose(time_s);
+    ASSERT_FALSE(collision::collides(c.index, corners_C, pose)) << "at " << time_s;
+    const auto gap_m =
+        collision::clearance_m(c.index, corners_C, pose, c.detect.clearance_m + 1e-3);
+    ASSERT_GE(gap_m.value_or(1.0), c.detect.clearance_m) << "at " << time_s;
+  }
+}
+
+TEST(Relaxation, StaysFreeKeepsKeyframesAndIsNoWorse) {
+  Draw draw(9901);  // among them one that keeping away from what is near makes worse
+  int better = 0;
+  constexpr int kRuns = 70;
+  for (int run = 0; run < kRuns; ++run) {
+    const Swing swing = random_swing(draw);
+    for (const Objective objective : kObjectives) {
+      const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, objective);
+      expect_free(swing.c, result.candidate.path);
+      expect_keyframes_kept(swing.c, result.candidate.path);
+      const double before = swing.c.value(swing.free->offsets, swing.ends, objective);
+      const double after = swing.c.value(result.offsets, swing.ends, objective);
+      if (objective != Objective::kSafest) {
+        EXPECT_LE(after, before * (1.0 + 1e-12)) << run;
+        better += after < 0.9 * before ? 1 : 0;
+      }
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(better, 3 * kRuns * 8 / 10) << "most of what swings widely is easy to improve";
+}
+
+TEST(Relaxation, GivesTheCandidateOfItsOffsets) {
+  Draw draw(4402);
+  for (int run = 0; run < 10; ++run) {
+    const Swing swing = random_swing(draw);
+    const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, Objective::kClosest);
+    const CubicPath expected = motion::with_bumps(
+        swing.c.problem.path, std::vector{bumps_for(result.offsets, swing.ends)});
+    ASSERT_EQ(result.candidate.path.pieces.size(), expected.pieces.size());
+    for (int i = 0; i <= 100; ++i) {
+      const double time_s = std::lerp(expected.begin_s(), expected.end_s(), i / 100.0);
+      // What keeping keyframes takes from rounding.
+      EXPECT_LT((result.candidate.path.at(time_s).position - expected.at(time_s).position).norm(),
+                1e-13);
+    }
+  }
+}
+
+TEST(Relaxation, IsTheSameBitForBitEveryTime) {
+  Draw draw(4403);
+  for (int run = 0; run < 8; ++run) {
+    const Swing swing = random_swing(draw);
+    for (const Objective objective : {Objective::kShortest, Objective::kSafest}) {
+      const Relaxed once = relaxed_fully(swing.c, *swing.free, swing.ends, objective);
+      const Relaxed again = relaxed_fully(swing.c, *swing.free, swing.ends, objective);
+      expect_same(once.candidate.path, again.candidate.path);
+    }
+  }
+}
+
+TEST(Relaxation, WithoutStepsChangesNothing) {
+  Draw draw(4404);
+  const Swing swing = random_swing(draw);
+  const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, Objective::kClosest, 0);
+  expect_same(result.candidate.path, swing.free->candidate.path);
+  FreeSpace space = swing.c.space();
+  Improvement improvement{Objective::kClosest, 0};
+  EXPECT_FALSE(polished(swing.c.problem, kKnots, improvement, space, Deadline::never()));
+  EXPECT_EQ(improvement.steps_left, 0);
+}
+
+TEST(Relaxation, AfterTheDeadlineChangesNothingAndDoesNoSteps) {
+  Draw draw(4405);
+  const Swing swing = random_swing(draw);
+  FreeSpace space = swing.c.space();
+  Improvement improvement{Objective::kClosest, kEnough};
+  const Relaxed result =
+      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, space, Deadline::after_s(0.0));
+  expect_same(result.candidate.path, swing.free->candidate.path);
+  EXPECT_EQ(improvement.steps_left, kEnough);
+}
+
+TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
+  Draw draw(4406);
+  int stopped_early = 0;
+  for (int run = 0; run < 20; ++run) {
+    const Swing swing = random_swing(draw);
+    for (const int steps : {1, 3, kEnough}) {
+      FreeSpace space = swing.c.space();
+      Improvement improvement{Objective::kSmoothest, steps};
+      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, space, Deadline::never());
+      EXPECT_GE(improvement.steps_left, 0);
+      EXPECT_LT(improvement.steps_left, steps);
+      stopped_early += steps == kEnough && improvement.steps_left > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(stopped_early, 20) << "one correction must not use up what all have";
+}
+
+// Nothing is in the way: what it began with is the objective's minimum in the end.
+TEST(Relaxation, ReachesTheMinimumInTheOpen) {
+  Case c;
+  testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
+  c.build();
+  c.problem = testing::problem_of_gap(
+      {at(0, {0, 0, 3}), at(1, {0.5, 0, 1}), at(3, {0, 0.3, -1}), at(4, {0, 0, -3})}, 1);
+  const std::optional<Relaxed> free =
+      correction_with(c, lifted(c.problem, 16, {0, 2, 0}), Ends::kFree);
+  ASSERT_TRUE(free);
+  for (const Objective objective : kObjectives) {
+    const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
+    const double lever_m = 4.0 * c.space().ball_radius_m();
+    const FreeCoefficients coefficients(c.problem, free->offsets.knots, Ends::kFree);
+    const SmoothingForm form(c.problem, coefficients, objective, lever_m);
+    const double start = form.value(coefficients.variables_of(free->offsets, lever_m));
+    const double reached = form.value(coefficients.variables_of(result.offsets, lever_m));
+    const double least = form.value(form.minimum());
+    EXPECT_LE(reached - least, 1e-3 * (start - least)) << static_cast<int>(objective);
+  }
+}
+
+// The camera flies along a corridor close to one of its walls.
+TEST(Relaxation, SafestGoesAwayFromWalls) {
+  Case c;
+  testing::add_cuboid(c.mesh, {-0.7, -9, -4}, {-0.6, 9, 4});
+  testing::add_cuboid(c.mesh, {0.6, -9, -4}, {0.7, 9, 4});
+  c.build();
+  c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(6, {0, 0, -3})}, 0);
+  const std::optional<Relaxed> free =
+      correction_with(c, lifted(c.problem, 12, {0.45, 0, 0}), Ends::kFree);
+  ASSERT_TRUE(free);
+  const double before_m = least_gap_m(c, free->candidate.path, 0.0, 6.0, 2000);
+  const Relaxed result = relaxed_fully(c, *free, Ends::kFree, Objective::kSafest);
+  const double after_m = least_gap_m(c, result.candidate.path, 0.0, 6.0, 2000);
+  EXPECT_LT(before_m, 0.06);
+  // In the middle there is half a metre to either side; three radii of the ball count as enough.
+  EXPECT_GT(after_m, 0.3);
+  // Bending alone would take it there too: where a keyframe is close to a wall, it goes the other
+  // way.
+  c.problem = testing::problem_of_gap({at(0, {0.4, 0, 3}), at(6, {0.4, 0, -3})}, 0);
+  const std::optional<Relaxed> straight =
+      correction_with(c, lifted(c.problem, 12, {0.0, 0.1, 0}), Ends::kFree);
+  ASSERT_TRUE(straight);
+  const Relaxed bent = relaxed_fully(c, *straight, Ends::kFree, Objective::kSafest);
+  EXPECT_LT(bent.candidate.path.at(3.0).position.x(), 0.25);
+  EXPECT_NEAR(least_gap_m(c, straight->candidate.path, 1.5, 4.5, 500), 0.1, 1e-3);
+  EXPECT_GT(least_gap_m(c, bent.candidate.path, 1.5, 4.5, 500), 0.2);
+}
+
+TEST(Relaxation, ShortestShortensUpToWhatIsInTheWay) {
+  Case c;
+  testing::add_cuboid(c.mesh, {-3, -3, -0.2}, {3, 0.4, 0.2});
+  c.build();
+  c.policy.rule = OrientationRule::kKeep;  // tilted, it could go lower
+  c.problem = testing::problem_of_gap({at(0, {0, 0, 2}), at(6, {0, 0, -2})}, 0);
+  const std::optional<Relaxed> free =
+      correction_with(c, lifted(c.problem, 16, {0.8, 2.0, 0}), Ends::kFree);
+  ASSERT_TRUE(free);
+  const Relaxed result = relaxed_fully(c, *free, Ends::kFree, Objective::kShortest);
+  // The lower edge of the quadrilateral, 0.1 before the eye, straight over the edges of the block:
+  // no less than that, and little more.
+  const double top_m = 0.4 + std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  const double least_m = std::hypot(1.7, top_m) + 0.4 + std::hypot(1.9, top_m);
+  EXPECT_GT(length_m(free->candidate.path), 1.2 * least_m);
+  EXPECT_GT(length_m(result.candidate.path), least_m);
+  EXPECT_LT(length_m(result.candidate.path), 1.05 * least_m);
+  // What steps leave at the samples is 0.03 radii of the ball; two thirds of that between them.
+  EXPECT_GT(least_gap_m(c, result.candidate.path, 0.0, 6.0, 4000),
+            0.02 * c.space().ball_radius_m());
+}
+
+// Plates without thickness across the way, each between two samples: at none of these times is one
+// of them near the camera, which is as thin.
+TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
+  for (const Objective objective : kObjectives) {
+    Case c;
+    constexpr int kFewKnots = 8;
+    c.policy.rule = OrientationRule::kKeep;
+    c.problem = testing::problem_of_gap({at(0, {0, 0, 2.1}), at(8, {0, 0, -1.9})}, 0);
+    // The middle is a knot; samples are a quarter of a second from knots, an eighth of a metre.
+    const double z = c.problem.path.at(4.0).position.z() - 0.1;
+    testing::add_triangle(c.mesh, {-0.02, -4, z}, {0.02, -4, z}, {0, 0.2, z});
+    c.build();
+    const std::optional<Relaxed> free =
+        correction_with(c, lifted(c.problem, kFewKnots, {0, 0.9, 0}), Ends::kFree);
+    ASSERT_TRUE(free);
+    const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
+    expect_keyframes_kept(c, result.candidate.path);
+    EXPECT_FALSE(collision::first_collision(c.index, result.candidate.path.path(), c.body, 0.0, 8.0,
+                                            c.detect, Deadline::never())
+                     .interval);
+    // It is above where it passes the plate, and not where it was: it came down to it.
+    const CubicPath& path = result.candidate.path;
+    const double edge_m = 0.2 + std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+    int passing = 0;
+    for (int i = 0; i <= 100000; ++i) {
+      const Vec3 eye = path.at(8.0 * i / 100000).position;
+      if (std::abs(eye.z() - 0.1 - z) > 1e-4 || std::abs(eye.x()) > 0.1) continue;
+      ++passing;
+      ASSERT_GT(eye.y(), edge_m - 0.04);  // the tip, beside which it may be lower
+      if (objective != Objective::kSafest) {
+        ASSERT_LT(eye.y(), 0.5);
+      }
+    }
+    EXPECT_GT(passing, 0);
+    const double before = c.value(free->offsets, Ends::kFree, objective);
+    EXPECT_LT(c.value(result.offsets, Ends::kFree, objective), before);
+  }
+}
+
+TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
+  Draw draw(4407);
+  int found = 0;
+  constexpr int kRuns = 20;
+  for (int run = 0; run < kRuns; ++run) {
+    Swing swing = random_swing(draw);
+    Case& c = swing.c;
+    c.problem.path = swing.free->candidate.path;
+    // On coarser knots than before; some wide swings can only be made worse by these.
+    FreeSpace space = c.space();
+    Improvement improvement{Objective::kSmoothest, kEnough};
+    const std::optional<Candidate> better =
+        polished(c.problem, kKnots, improvement, space, Deadline::never());
+    EXPECT_LE(improvement.steps_left, kEnough);
+    if (!better) continue;
+    ++found;
+    expect_free(c, better->path);
+    expect_keyframes_kept(c, better->path);
+    EXPECT_LT(
+        motion::measure(better->path.path(), c.problem.path.path()).bending_energy_m2_per_s3,
+        motion::measure(c.problem.path.path(), c.problem.path.path()).bending_energy_m2_per_s3)
+        << run;
+  }
+  EXPECT_GT(found, kRuns / 2);
+}
+
+TEST(Relaxation, GetsFarWhereTurningIsLimited) {
+  Draw draw(4408);
+  int better = 0;
+  constexpr int kRuns = 60;
+  for (int run = 0; run < kRuns; ++run) {
+    Swing swing = random_swing(draw, 0.15);
+    const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, Objective::kSmoothest);
+    const CubicPath& path = result.candidate.path;
+    for (int i = 0; i <= 500; ++i) {
+      const double time_s = std::lerp(path.begin_s(), path.end_s(), i / 500.0);
+      ASSERT_GE(rule_room(swing.c.policy, path.pose(time_s), swing.c.problem.original.pose(time_s)),
+                -1e-9)
+          << run;
+    }
+    const double before = swing.c.value(swing.free->offsets, swing.ends, Objective::kSmoothest);
+    const double after = swing.c.value(result.offsets, swing.ends, Objective::kSmoothest);
+    better += after < 0.5 * before ? 1 : 0;
+  }
+  // Those whose steps break the rule are refused as a whole, and retreat.
+  EXPECT_GT(better, kRuns * 9 / 10);
+}
+
+// The objective's minimum is a hundredth of the ball's radius above a block that is too far away to
+// be known where it begins; one step would take it there.
+TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
+  Case c;
+  c.policy.rule = OrientationRule::kKeep;
+  const double radius_m = c.space().ball_radius_m();
+  const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
+  testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m - 0.01 * radius_m, 0.3});
+  c.build();
+  c.problem = testing::problem_of_gap({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
+  const std::optional<Relaxed> free =
+      correction_with(c, lifted(c.problem, 8, {0, 1.5 * radius_m, 0}), Ends::kFree);
+  ASSERT_TRUE(free);
+  const Relaxed result = relaxed_fully(c, *free, Ends::kFree, Objective::kSmoothest, 1);
+  const auto gap_m = [&](const Relaxed& of) {
+    return least_gap_m(c, of.candidate.path, 0.0, 8.0, 4000);
+  };
+  EXPECT_LT(gap_m(result), gap_m(*free) - 0.1 * radius_m);
+  EXPECT_GT(gap_m(result), 0.02 * radius_m);
+}
+
+// The next keyframe is so close that what keeps the one before it would reach it.
+TEST(Relaxation, PolishesNextToAShortGap) {
+  Case c;
+  testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
+  c.build();
+  c.problem = testing::problem_of_gap(
+      {at(0, {0, 0, 3}), at(6, {0, 0, -3}), at(6.5, {0, 0, -3.5}), at(8, {0, 0, -5})}, 0);
+  c.problem.path =
+      correction_with(c, lifted(c.problem, 12, {0, 0.5, 0}), Ends::kFixed).value().candidate.path;
+  FreeSpace space = c.space();
+  Improvement improvement{Objective::kShortest, kEnough};
+  const std::optional<Candidate> better =
+      polished(c.problem, kKnots, improvement, space, Deadline::never());
+  ASSERT_TRUE(better);
+  expect_keyframes_kept(c, better->path);
+  constexpr double kStraight_m = 6.5;
+  EXPECT_LT(length_m(better->path) - kStraight_m, 0.2 * (length_m(c.problem.path) - kStraight_m));
+}
+
+TEST(Relaxation, PolishesNothingThatIsAsGoodAsItGets) {
+  Case c;
+  testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
+  c.build();
+  c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
+  FreeSpace space = c.space();
+  Improvement improvement{Objective::kClosest, kEnough};
+  EXPECT_FALSE(polished(c.problem, kKnots, improvement, space, Deadline::never()));
+  EXPECT_EQ(improvement.steps_left, kEnough);
+}
+
+}  // namespace
+}  // namespace camway::correction

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/smoothing/smoothing_form.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include "tests/support/gap_problems.h"
+
+namespace camway::correction {
+namespace {
+
+using motion::CubicPath;
+using motion::CubicPoint;
+using motion::KnotRow;
+using testing::Draw;
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+// Of some hundred sums and products of numbers of size 10 or less.
+constexpr double kRounding = 1e-12;
+constexpr double kLever_m = 0.4;
+
+/// A gap of a random tour, at its begin, its end, between, or alone.
+struct Case {
+  Problem problem;
+  KnotRow knots;
+};
+
+Case random_case(Draw& draw) {
+  const std::vector<motion::Keyframe> keyframes =
+      testing::random_keyframes(draw, draw.integer(2, 6));
+  const auto gap =
+      static_cast<std::size_t>(draw.integer(0, static_cast<int>(keyframes.size()) - 2));
+  Case c{testing::problem_of_gap(keyframes, gap), {}};
+  c.knots = {c.problem.gap_begin_s(), c.problem.gap_end_s(), draw.integer(4, 24)};
+  // Somewhere else than the original.
+  motion::BumpRow row{{c.problem.path.begin_s(), c.problem.path.end_s(), 9}, -1, {}};
+  for (int k = -1; k <= 10; ++k) row.bumps.push_back({draw.vector(0.5), draw.image(0.1)});
+  c.problem.path = motion::with_bumps(c.problem.path, std::vector{row});
+  return c;
+}
+
+/// Runs `check` on many cases and both kinds of ends; every place that a gap can have is among
+/// them.
+template <class Check>
+void for_many(Draw& draw, int count, const Check& check) {
+  int first = 0;
+  int last = 0;
+  int inner = 0;
+  for (int i = 0; i < count; ++i) {
+    const Case c = random_case(draw);
+    const std::size_t gap = c.problem.gap;
+    const bool is_last = gap + 2 == c.problem.keyframes_s.size();
+    first += gap == 0 ? 1 : 0;
+    last += is_last ? 1 : 0;
+    inner += gap > 0 && !is_last ? 1 : 0;
+    for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
+      check(c, ends, FreeCoefficients(c.problem, c.knots, ends));
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(std::min({first, last, inner}), count / 10);
+}
+
+TEST(FreeCoefficients, AreWhatTheRowOfBumpsAdds) {
+  Draw draw(4101);
+  for_many(draw, 150, [&](const Case& c, Ends ends, const FreeCoefficients& free) {
+    const StackedPoints variables = draw.points(free.size(), 1.0);
+    const Offsets offsets = free.offsets_of(variables, kLever_m);
+    const CubicPath after =
+        motion::with_bumps(c.problem.path, std::vector{bumps_for(offsets, ends)});
+    for (int i = 0; i < 60; ++i) {
+      const double time_s = draw.number(c.problem.path.begin_s(), c.problem.path.end_s());
+      const StackedPoint added = combined(free.at(time_s), variables);
+      const StackedPoint now = stacked(after.at(time_s), kLever_m);
+      const StackedPoint before = stacked(c.problem.path.at(time_s), kLever_m);
+      ASSERT_LT((before + added - now).norm(), kRounding) << "at " << time_s;
+    }
+  });
+}
+
+TEST(FreeCoefficients, LeaveKeyframesWhereTheyAre) {
+  Draw draw(4102);
+  int without_room = 0;
+  for_many(draw, 500, [&](const Case& c, Ends ends, const FreeCoefficients& free) {
+    const StackedPoints variables = draw.points(free.size(), 1.0);
+    double largest = 0.0;
+    for (const double time_s : c.problem.keyframes_s) {
+      const double moved = combined(free.at(time_s), variables).norm();
+      const bool is_of_gap = time_s == c.knots.begin_s || time_s == c.knots.end_s;
+      if (is_of_gap) {
+        ASSERT_LT(moved, kRounding);
+      }
+      largest = std::max(largest, moved);
+    }
+    const bool fits = ends == Ends::kFixed || fits_free_ends(c.problem, c.knots);
+    without_room += fits ? 0 : 1;
+    ASSERT_EQ(largest < kRounding, fits) << "those beyond";
+  });
+  EXPECT_GT(without_room, 5);
+}
+
+TEST(FreeCoefficients, FixedEndsChangeNothingBeyondNorTheSlopeThere) {
+  Draw draw(4103);
+  for_many(draw, 100, [&](const Case& c, Ends ends, const FreeCoefficients& free) {
+    if (ends == Ends::kFree) return;
+    const StackedPoints variables = draw.points(free.size(), 1.0);
+    const auto size_at = [&](double time_s) { return combined(free.at(time_s), variables).norm(); };
+    const double span_s = c.knots.end_s - c.knots.begin_s;
+    for (const double share : {1e-9, 0.1, 3.0}) {
+      ASSERT_EQ(size_at(c.knots.begin_s - share * span_s), 0.0);
+      ASSERT_EQ(size_at(c.knots.end_s + share * span_s), 0.0);
+    }
+    // A cubic with a triple zero at the keyframe, of at most 4 coefficients of size 3.
+    const double step = 1e-3;
+    ASSERT_LT(size_at(c.knots.begin_s + step * c.knots.spacing_s()), 4 * 3 * step * step * step);
+    ASSERT_LT(size_at(c.knots.end_s - step * c.knots.spacing_s()), 4 * 3 * step * step * step);
+  });
+}
+
+// Also where the neighbours are a whole number of knots away, and that is rounded.
+TEST(FreeCoefficients, DoNotReachBeyondTheNextKeyframe) {
+  Draw draw(4104);
+  int reaching = 0;
+  for (int run = 0; run < 2000; ++run) {
+    std::vector<motion::Keyframe> keyframes = testing::random_keyframes(draw, 4);
+    const int count = draw.integer(4, 24);
+    const double spacing_s = (keyframes[2].time_s - keyframes[1].time_s) / count;
+    if (run % 2 == 0) {
+      keyframes[0].time_s = keyframes[1].time_s - draw.integer(3, 12) * spacing_s;
+      keyframes[3].time_s = keyframes[2].time_s + draw.integer(3, 12) * spacing_s;
+    }
+    const Problem problem = testing::problem_of_gap(keyframes, 1);
+    const KnotRow knots{problem.gap_begin_s(), problem.gap_end_s(), count};
+    if (!fits_free_ends(problem, knots)) continue;
+    const FreeCoefficients free(problem, knots, Ends::kFree);
+    ASSERT_GE(knots.knot_s(free.first() - 2), problem.keyframes_s[0]) << run;
+    ASSERT_LE(knots.knot_s(free.last() + 2), problem.keyframes_s[3]) << run;
+    reaching += free.first() < 0 ? 1 : 0;
+    // Nor less far than they may, but for rounding.
+    if (free.first() > -count / 2) {
+      ASSERT_LT(knots.knot_s(free.first() - 3), problem.keyframes_s[0] + 1e-9 * spacing_s) << run;
+    }
+  }
+  EXPECT_GT(reaching, 500);
+}
+
+TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
+  Draw draw(4105);
+  for_many(draw, 100, [&](const Case& c, Ends, const FreeCoefficients& free) {
+    const StackedPoints variables = draw.points(free.size(), 1.0);
+    const Offsets offsets = free.offsets_of(variables, kLever_m);
+    ASSERT_EQ(offsets.first, free.first());
+    ASSERT_EQ(offsets.last(), free.last());
+    const StackedPoints back = free.variables_of(offsets, kLever_m);
+    // Divided and multiplied by the lever.
+    ASSERT_LE((back - variables).cwiseAbs().maxCoeff(), 2.0 * kEps);
+    // What is held is what keeps the keyframe.
+    for (int k = free.first(); k <= free.last(); ++k) {
+      if (!free.is_held(k)) continue;
+      const CubicPoint held = holding(c.knots, k, offsets(k - 1), offsets(k + 1));
+      ASSERT_LT((offsets(k).position - held.position).norm(), 8.0 * kEps);
+      ASSERT_LT((offsets(k).image - held.image).norm(), 8.0 * kEps / kLever_m);
+    }
+  });
+}
+
+/// The path, straight on beyond its ends.
+StackedPoint on(const CubicPath& path, double time_s) {
+  const double inside_s = std::clamp(time_s, path.begin_s(), path.end_s());
+  const StackedPoint there = stacked(path.at(inside_s), kLever_m);
+  if (inside_s == time_s) return there;
+  const bool is_before = time_s < inside_s;
+  const motion::CubicPiece& piece = is_before ? path.pieces.front() : path.pieces.back();
+  const std::size_t i = is_before ? 0 : 2;
+  const CubicPoint slope{piece.position[i + 1] - piece.position[i],
+                         piece.image[i + 1] - piece.image[i]};
+  return there + 3.0 / (piece.t1_s - piece.t0_s) * (time_s - inside_s) * stacked(slope, kLever_m);
+}
+
+/// The objective, from control points one by one; its weights are part of what is computed.
+double value_of(const Case& c, Objective objective, const Offsets& offsets, int first, int last) {
+  const bool is_near = objective == Objective::kClosest || objective == Objective::kSafest;
+  const double distance = is_near ? 1.0 : 0.0;
+  const double stretch = objective == Objective::kShortest ? 1.0 : 0.0;
+  double bend = 1.0;
+  if (objective == Objective::kShortest) bend = std::pow(0.1 * c.knots.count, 2.0);
+  if (objective == Objective::kClosest) bend = std::pow(1.5 * c.knots.count, 4.0);
+  if (objective == Objective::kSafest) bend = std::pow(0.2 * c.knots.count, 4.0);
+  const auto control_point = [&](int k) -> StackedPoint {
+    return on(c.problem.path, c.knots.knot_s(k)) + stacked(offsets(k), kLever_m);
+  };
+  double sum = 0.0;
+  for (int k = first - 2; k <= last + 2; ++k) {
+    const double time_s = c.knots.knot_s(k);
+    if (time_s < c.problem.path.begin_s() || time_s > c.problem.path.end_s()) continue;
+    const StackedPoint here = control_point(k);
+    const StackedPoint before = control_point(k - 1);
+    const StackedPoint after = control_point(k + 1);
+    sum += 0.5 * distance * (here - on(c.problem.original, time_s)).squaredNorm() +
+           0.5 * stretch * (here - before).squaredNorm() +
+           0.5 * bend * (before - 2.0 * here + after).squaredNorm();
+  }
+  return sum;
+}
+
+constexpr std::array kObjectives = {Objective::kClosest, Objective::kShortest,
+                                    Objective::kSmoothest, Objective::kSafest};
+
+template <class Check>
+void for_many_forms(Draw& draw, int count, const Check& check) {
+  for_many(draw, count, [&](const Case& c, Ends, const FreeCoefficients& free) {
+    for (const Objective objective : kObjectives)
+      check(c, free, objective, SmoothingForm(c.problem, free, objective, kLever_m));
+  });
+}
+
+TEST(SmoothingForm, IsTheSumOfSquaresOfControlPoints) {
+  Draw draw(4106);
+  for_many_forms(draw, 60,
+                 [&](const Case& c, const FreeCoefficients& free, Objective objective,
+                     const SmoothingForm& form) {
+                   const StackedPoints variables = draw.points(free.size(), 1.0);
+                   const double expected =
+                       value_of(c, objective, free.offsets_of(variables, kLever_m), free.first(),
+                                free.last());
+                   ASSERT_NEAR(form.value(variables), expected, kRounding * expected);
+                 });
+}
+
+// Of a quadratic the difference quotients are exact, but for rounding: that of the value, which is
+// large beside what a small step changes.
+TEST(SmoothingForm, IsLeastWhereItSays) {
+  Draw draw(4107);
+  for_many_forms(
+      draw, 30,
+      [&](const Case&, const FreeCoefficients& free, Objective, const SmoothingForm& form) {
+        const StackedPoints& minimum = form.minimum();
+        const double least = form.value(minimum);
+        const double size = form.value(StackedPoints::Zero(free.size(), 7));
+        for (int i = 0; i < 20; ++i) {
+          StackedPoints step = draw.points(free.size(), 1.0);
+          const double up = form.value(minimum + step) - least;
+          const double down = form.value(minimum - step) - least;
+          ASSERT_GT(up, 0.0);
+          ASSERT_NEAR(up, down, 1e-9 * (up + size)) << "slope";
+        }
+      });
+}
+
+TEST(SmoothingForm, HasAPositiveHessianOfWhichItKnowsTheInverse) {
+  Draw draw(4108);
+  for_many_forms(
+      draw, 20,
+      [&](const Case&, const FreeCoefficients& free, Objective, const SmoothingForm& form) {
+        const Eigen::MatrixXd& inverse = form.inverse();
+        ASSERT_EQ(inverse.rows(), free.size());
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse, Eigen::EigenvaluesOnly);
+        ASSERT_GT(eigen.eigenvalues().minCoeff(), 0.0);
+        ASSERT_TRUE(std::isfinite(eigen.eigenvalues().maxCoeff()));
+        // x'Hx from values, where x is the inverse times any vector; in every dimension.
+        const double least = form.value(form.minimum());
+        const double size = form.value(StackedPoints::Zero(free.size(), 7));
+        for (Eigen::Index dimension = 0; dimension < 7; ++dimension) {
+          const Eigen::VectorXd any = draw.points(free.size(), 1.0).col(0);
+          const double expected = 0.5 * any.dot(inverse * any);
+          const double scale = std::sqrt((1.0 + size) / expected);  // to be large beside rounding
+          StackedPoints step = StackedPoints::Zero(free.size(), 7);
+          step.col(dimension) = scale * inverse * any;
+          const double rise = form.value(form.minimum() + step) - least;
+          ASSERT_NEAR(rise, scale * scale * expected, 1e-6 * rise);
+        }
+      });
+}
+
+}  // namespace
+}  // namespace camway::correction

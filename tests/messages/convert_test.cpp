@@ -1,0 +1,543 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/messages/convert.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+
+#include "lcmtypes/wire/check.h"
+#include "tests/messages/plan_samples.h"
+
+namespace camway::service {
+namespace {
+
+using testing::kSeed;
+using testing::Random;
+using testing::sample_request;
+using testing::sample_result;
+using ::testing::StartsWith;
+
+const RequestIds kIds{"tester", -3, 1'000'000};
+
+plan_request_t minimal_request() {
+  plan_request_t wire{};
+  wire.client_id = "tester";
+  wire.num_pages = 1;
+  return wire;
+}
+
+// Bytes compare every bit of every number, NaN and -0 included, without a comparison of ours.
+TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  for (const std::size_t keyframes : {0U, 1U, 2U, 50U}) {
+    const plan_request_t wire = to_wire(sample_request(keyframes, random), kIds);
+    EXPECT_EQ(wire.client_id, kIds.client_id);
+    EXPECT_EQ(wire.request_id, kIds.request_id);
+    EXPECT_EQ(wire.num_keyframes, static_cast<std::int32_t>(keyframes));
+    const ConvertedRequest back = from_wire(wire);
+    ASSERT_TRUE(back.request) << back.error;
+    EXPECT_EQ(wire::encode(to_wire(*back.request, kIds)), wire::encode(wire));
+  }
+}
+
+TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    const planning::PlanRequest request = sample_request(2, random);
+    const ConvertedRequest back = from_wire(to_wire(request, kIds));
+    ASSERT_TRUE(back.request) << back.error;
+    EXPECT_EQ(back.request->options, request.options);
+  }
+}
+
+TEST(WireConvert, OptionsHaveTheirNumbersWhereTheTypesSayTheyAre) {
+  planning::PlanRequest request;
+  planning::PlanOptions& options = request.options;
+  options.objective = correction::Objective::kSafest;
+  options.orientation.rule = correction::OrientationRule::kTarget;
+  options.orientation.target_W = {1, 2, 3};
+  options.orientation.cone_rad = 0.5;
+  options.orientation.max_turn_rad = 0.25;
+  options.limits.turn_rate_rad_per_s = 1.5;
+  options.limits.may_retime = true;
+  options.bounds.min_W.y() = -0.5;
+  options.bounds.max_W.z() = 0.0;
+  options.seed = 99;
+  const plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.objective, 3);
+  EXPECT_EQ(wire.orientation.policy, 3);
+  EXPECT_EQ(wire.orientation.target_m[1], 2.0);
+  EXPECT_EQ(wire.orientation.cone_rad, 0.5);
+  EXPECT_EQ(wire.orientation.has_max_turn, 1);
+  EXPECT_EQ(wire.orientation.max_turn_rad, 0.25);
+  EXPECT_EQ(wire.limits.turn_rate_rad_per_s, 1.5);
+  EXPECT_EQ(wire.limits.may_retime, 1);
+  EXPECT_EQ(wire.bounds.has_min[1], 1);
+  EXPECT_EQ(wire.bounds.min_m[1], -0.5);
+  EXPECT_EQ(wire.bounds.has_max[2], 1);
+  EXPECT_EQ(wire.bounds.has_min[0] + wire.bounds.has_min[2] + wire.bounds.has_max[0] +
+                wire.bounds.has_max[1],
+            0);
+  EXPECT_EQ(from_wire(wire).request->options.bounds, options.bounds);
+  EXPECT_FALSE(from_wire(minimal_request()).request->options.bounds.any());
+  EXPECT_EQ(wire.seed, 99);
+}
+
+TEST(WireConvert, DirectionsNeedNotBeOfUnitLength) {
+  plan_request_t wire = minimal_request();
+  wire.orientation.policy = orientation_t::LEVEL;
+  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitY())
+      << "the default";
+  wire.orientation.up[2] = 1e200;
+  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitZ());
+  wire.orientation.up[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(from_wire(wire).request->options.orientation.up_W.y()))
+      << "for planning::validate to refuse";
+}
+
+TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
+  plan_request_t wire = minimal_request();
+  wire.objective = 4;
+  EXPECT_EQ(from_wire(wire).error, "objective: 4 is unknown");
+  wire = minimal_request();
+  wire.orientation.policy = -1;
+  EXPECT_EQ(from_wire(wire).error, "orientation.policy: -1 is unknown");
+}
+
+// A program that knows nothing of the options leaves them zero.
+TEST(WireConvert, AZeroMessageAsksForEveryDefault) {
+  const ConvertedRequest read = from_wire(minimal_request());
+  ASSERT_TRUE(read.request) << read.error;
+  planning::PlanOptions defaults;
+  defaults.deadline_s = DeadlineLimits{}.default_s;
+  EXPECT_EQ(read.request->options, defaults);
+  EXPECT_FALSE(read.request->body);
+  EXPECT_FALSE(read.request->has_times);
+}
+
+TEST(WireConvert, NothingIsCorrectedOnlyWhereItIsAskedFor) {
+  plan_request_t wire = minimal_request();
+  wire.correct_nothing = 1;
+  EXPECT_EQ(from_wire(wire).request->options.max_inserted_keyframes, 0);
+  wire.max_inserted_keyframes = 7;
+  EXPECT_THAT(from_wire(wire).error,
+              StartsWith("max_inserted_keyframes: is 7, which does not count"));
+  wire.correct_nothing = 0;
+  EXPECT_EQ(from_wire(wire).request->options.max_inserted_keyframes, 7);
+  planning::PlanRequest none;
+  none.options.max_inserted_keyframes = 0;
+  EXPECT_EQ(to_wire(none, kIds).correct_nothing, 1);
+}
+
+TEST(WireConvert, WhatWouldNotCountIsRefusedByName) {
+  using Change = void (*)(plan_request_t&);
+  const std::pair<const char*, Change> kIdle[] = {
+      {"keyframes[1].time_s: ", [](plan_request_t& r) { r.keyframes[1].time_s = 0.5; }},
+      {"keyframes[0].time_s: ",
+       [](plan_request_t& r) { r.keyframes[0].time_s = std::numeric_limits<double>::quiet_NaN(); }},
+      {"orientation.up: ", [](plan_request_t& r) { r.orientation.up[2] = 1.0; }},
+      {"orientation.up: ",
+       [](plan_request_t& r) {
+         r.orientation.policy = orientation_t::TARGET;
+         r.orientation.up[2] = 1.0;
+       }},
+      {"orientation.target_m: ", [](plan_request_t& r) { r.orientation.target_m[0] = 1.0; }},
+      {"orientation.cone_rad: ", [](plan_request_t& r) { r.orientation.cone_rad = 0.25; }},
+      {"orientation.max_turn_rad: ", [](plan_request_t& r) { r.orientation.max_turn_rad = 0.25; }},
+      {"body.size_m: ", [](plan_request_t& r) { r.body.size_m[1] = 1.0; }},
+      {"body.center_m: ", [](plan_request_t& r) { r.body.center_m[1] = 1.0; }},
+      {"body.radius_m: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::BOX;
+         r.body.radius_m = 0.5;
+       }},
+      {"body.points_m: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::SPHERE;
+         r.body.points_m = {{0, 0, 0}};
+       }},
+      {"body.triangles: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::CONVEX;
+         r.body.triangles = {{0, 1, 2}};
+       }},
+      {"body.piece_sizes: ",
+       [](plan_request_t& r) {
+         r.body.type = body_t::MESH;
+         r.body.piece_sizes = {3};
+       }},
+  };
+  plan_request_t good = minimal_request();
+  good.keyframes.resize(2);
+  ASSERT_TRUE(from_wire(good).request);
+  for (const auto& [field, change] : kIdle) {
+    plan_request_t wire = good;
+    change(wire);
+    const ConvertedRequest read = from_wire(wire);
+    EXPECT_FALSE(read.request) << field;
+    EXPECT_THAT(read.error, StartsWith(field));
+  }
+}
+
+// Every member that `planning::validate` can name is one that lcm-gen's users see.
+TEST(WireConvert, MessagesNameMembersAsTheWireDoes) {
+  const std::pair<const char*, const char*> kNames[] = {
+      {"camera.fov_x", "camera.fov_x_rad"},
+      {"camera.fov_y", "camera.fov_y_rad"},
+      {"camera.near", "camera.near_m"},
+      {"camera", "camera"},
+      {"keyframes", "keyframes"},
+      {"keyframes[3].time", "keyframes[3].time_s"},
+      {"keyframes[12].position", "keyframes[12].position_m"},
+      {"keyframes[0].orientation", "keyframes[0].orientation_wxyz"},
+      {"body.size[2]", "body.size_m[2]"},
+      {"body.center", "body.center_m"},
+      {"body.radius", "body.radius_m"},
+      {"body.points[5]", "body.points_m[5]"},
+      {"body.pieces[2]", "body.piece_sizes[2]"},
+      {"body.pieces[2][7]", "body.points_m (point 7 of piece 2)"},
+      {"body.vertices[4]", "body.points_m[4]"},
+      {"body.triangles[1][2]", "body.triangles[1][2]"},
+      {"options.deadline_s", "deadline_s"},
+      {"options.clearance", "clearance_m"},
+      {"options.max_inserted_keyframes", "max_inserted_keyframes"},
+      {"options.default_speed", "default_speed_m_per_s"},
+      {"options.orientation.up", "orientation.up"},
+      {"options.orientation.target", "orientation.target_m"},
+      {"options.orientation.cone", "orientation.cone_rad"},
+      {"options.orientation.max_turn", "orientation.max_turn_rad"},
+      {"options.limits", "limits"},
+      {"options.limits.speed", "limits.speed_m_per_s"},
+      {"options.limits.acceleration", "limits.acceleration_m_per_s2"},
+      {"options.limits.turn_rate", "limits.turn_rate_rad_per_s"},
+      {"options.limits.retime", "limits.may_retime"},
+  };
+  plan_request_t wire = minimal_request();
+  const planning::PlanRequest request = *from_wire(wire).request;
+  for (const auto& [path, name] : kNames) EXPECT_EQ(request.name_of(path), name);
+  wire.correct_nothing = 1;
+  EXPECT_EQ(from_wire(wire).request->name_of("options.max_inserted_keyframes"), "correct_nothing");
+}
+
+TEST(WireConvert, EveryBodySurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  std::vector<std::optional<motion::BodyShape>> bodies = testing::sample_bodies(random);
+  bodies.emplace_back(testing::largest_body(random));
+  for (const auto& body : bodies) {
+    SCOPED_TRACE(body ? body->index() : 99);
+    planning::PlanRequest request = sample_request(2, random);
+    request.body = body;
+    const plan_request_t wire = to_wire(request, kIds);
+    ASSERT_FALSE(wire::check(wire::layout_of<plan_request_t>(), wire::encode(wire)));
+    const ConvertedRequest back = from_wire(wire);
+    ASSERT_TRUE(back.request) << back.error;
+    ASSERT_EQ(back.request->body.has_value(), body.has_value());
+    if (body) {
+      EXPECT_EQ(back.request->body->index(), body->index());
+    }
+    EXPECT_EQ(back.request->options.clearance_m, 0.0625);
+    EXPECT_EQ(wire::encode(to_wire(*back.request, kIds)), wire::encode(wire));
+  }
+}
+
+TEST(WireConvert, ABodyHasItsNumbersWhereTheTypeSaysTheyAre) {
+  planning::PlanRequest request;
+  // Not assigned: with sanitizers, GCC 12 warns of the variant in the empty optional, which
+  // assignment never reads.
+  request.body.emplace(motion::BoxShape{{1, 2, 3}, {4, 5, 6}});
+  plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.body.type, body_t::BOX);
+  EXPECT_EQ(wire.body.center_m[1], 2.0);
+  EXPECT_EQ(wire.body.size_m[2], 6.0);
+  request.body = motion::ConvexShape{{{{1, 2, 3}}, {{4, 5, 6}, {7, 8, 9}}}};
+  wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.body.piece_sizes, (std::vector<std::int32_t>{1, 2}));
+  EXPECT_EQ(wire.body.points_m[2], (std::vector<double>{7, 8, 9}));
+  const ConvertedRequest convex = from_wire(wire);
+  EXPECT_EQ(std::get<motion::ConvexShape>(*convex.request->body).pieces_C[1][0],
+            geometry::Vec3(4, 5, 6));
+  request.body = motion::MeshShape{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, {{2, 0, 1}}};
+  wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.body.triangles[0], (std::vector<std::int32_t>{2, 0, 1}));
+  request.body = motion::Camera{1.0, 0.5, 0.25};
+  wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.camera.near_m, 0.25) << "goes as the camera";
+  EXPECT_FALSE(from_wire(wire).request->body);
+}
+
+TEST(WireConvert, BodiesThatCannotBeAreErrorsThatNameTheField) {
+  const auto error_of = [](const auto& edit) {
+    plan_request_t wire = minimal_request();
+    wire.body.type = body_t::CONVEX;
+    wire.body.points_m = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    wire.body.piece_sizes = {1, 2};
+    edit(wire.body);
+    return from_wire(wire).error;
+  };
+  EXPECT_EQ(error_of([](body_t&) {}), "");
+  EXPECT_EQ(error_of([](body_t& b) { b.type = 9; }), "body.type: 9 is unknown");
+  EXPECT_EQ(error_of([](body_t& b) { b.type = -1; }), "body.type: -1 is unknown");
+  EXPECT_EQ(error_of([](body_t& b) { b.piece_sizes = {1}; }),
+            "body.piece_sizes: 2 points belong to no piece");
+  EXPECT_EQ(error_of([](body_t& b) {
+              b.piece_sizes = {1, 3};
+            }),
+            "body.piece_sizes[1]: is 3, and 2 points are left");
+  EXPECT_EQ(error_of([](body_t& b) {
+              b.piece_sizes = {4, -1};
+            }),
+            "body.piece_sizes[0]: is 4, and 3 points are left");
+  EXPECT_EQ(error_of([](body_t& b) {
+              b.piece_sizes = {3, -1};
+            }),
+            "body.piece_sizes[1]: is -1, and 0 points are left");
+  const auto mesh = [](body_t& b) {
+    b.type = body_t::MESH;
+    b.piece_sizes = {};
+    b.triangles = {{0, 1, 2}, {0, -2, 1}};
+  };
+  EXPECT_EQ(error_of(mesh), "body.triangles[1][1]: is -2, which is below 0");
+}
+
+TEST(WireConvert, NamesOfWitnessesAreCutToTheirLimits) {
+  planning::PlanResult result;
+  result.collisions = {{0.0, 1.0, collision::Witness{}}};
+  EXPECT_EQ(to_wire(result, {kIds, "", 0, ""}).collisions[0].witness_object, "") << "not named";
+  result.collision_names = {{std::string(5000, 'o'), std::string(5000, 'f')}};
+  const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+  EXPECT_EQ(wire.collisions[0].witness_object.size(), wire::kMaxObjectNameBytes);
+  EXPECT_FALSE(wire::check(wire::layout_of<plan_response_t>(), wire::encode(wire)));
+}
+
+TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  const AnswerHeader header{kIds, "room", 7, "abc"};
+  for (const std::size_t segments : {0U, 1U, 40U}) {
+    const planning::PlanResult result = sample_result(segments, random);
+    const plan_response_t wire = to_wire(result, header);
+    const ConvertedResult back = from_wire(wire);
+    ASSERT_TRUE(back.result) << back.error;
+    EXPECT_EQ(wire::encode(to_wire(*back.result, header)), wire::encode(wire));
+    EXPECT_EQ(back.result->status, result.status);
+    EXPECT_EQ(back.result->message, result.message);
+    EXPECT_EQ(back.result->path.segments().size(), segments);
+    EXPECT_EQ(back.result->collisions, result.collisions);
+    EXPECT_EQ(back.result->collision_names, result.collision_names);
+    EXPECT_EQ(back.result->remaining_collisions, result.remaining_collisions);
+    EXPECT_EQ(back.result->remaining_names, result.remaining_names);
+    EXPECT_FALSE(back.result->keyframe);
+    EXPECT_EQ(back.result->corrections.size(), segments);
+    EXPECT_TRUE(std::ranges::equal(back.result->keyframes, result.keyframes, {},
+                                   &motion::Keyframe::is_repaired, &motion::Keyframe::is_repaired));
+    EXPECT_EQ(back.result->measures_before, result.measures_before);
+    EXPECT_EQ(back.result->measures, result.measures);
+    EXPECT_EQ(back.result->near_scale, 0.75);
+    EXPECT_EQ(back.result->time_scale, 1.25);
+    EXPECT_TRUE(back.result->deadline_reached);
+    EXPECT_EQ(back.result->slowed, result.slowed);
+    EXPECT_EQ(back.result->keyframe_faults.size(), result.keyframe_faults.size());
+    ASSERT_TRUE(back.result->infeasibility);
+    EXPECT_EQ(back.result->infeasibility->keyframe_inside, 3U);
+    EXPECT_EQ(back.result->infeasibility->triangles, result.infeasibility->triangles);
+    const auto& cage = result.infeasibility->cage;
+    const auto& cage_back = back.result->infeasibility->cage;
+    ASSERT_EQ(cage_back.has_value(), cage.has_value());
+    if (!cage) continue;
+    EXPECT_EQ(cage_back->box.min(), cage->box.min());
+    EXPECT_EQ(cage_back->box.max(), cage->box.max());
+    EXPECT_EQ(cage_back->orientation.coeffs(), cage->orientation.coeffs());
+    EXPECT_EQ(cage_back->widest_hole_m, cage->widest_hole_m);
+    EXPECT_EQ(cage_back->shortest_chord_m, cage->shortest_chord_m);
+  }
+}
+
+TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
+  planning::PlanResult result;
+  correction::Correction correction;
+  correction.interval = {1.0, 2.0, collision::Witness{}};
+  correction.rung = correction::Rung::kGoRound;
+  correction.t_begin_s = 0.5;
+  correction.t_end_s = 2.5;
+  correction.moved_m = 0.25;
+  correction.turned_rad = 0.125;
+  correction.tried = {1, 2, 3, 4};
+  result.corrections = {correction};
+  motion::PathMeasures measures;
+  measures.length_m = 7.0;
+  measures.largest_turn_acceleration_rad_per_s2 = 8.0;
+  measures.clearance_lower_bound_m = 9.0;
+  result.measures = measures;
+  planning::KeyframeFault fault;
+  fault.keyframe = 4;
+  fault.depth_m = 0.0625;
+  fault.free_pose = motion::Pose{{1, 2, 3}, geometry::Quat(0.1, 0.2, 0.3, 0.4)};
+  result.keyframe_faults = {fault};
+  result.slowed = {{1.5, 2.5, 1.0, 1.25}};
+  const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+  ASSERT_EQ(wire.num_corrections, 1);
+  EXPECT_EQ(wire.corrections[0].t_end_s, 2.0);
+  EXPECT_EQ(wire.corrections[0].method, correction_t::GO_ROUND);
+  EXPECT_EQ(wire.corrections[0].changed_t_begin_s, 0.5);
+  EXPECT_EQ(wire.corrections[0].changed_t_end_s, 2.5);
+  EXPECT_EQ(wire.corrections[0].moved_m, 0.25);
+  EXPECT_EQ(wire.corrections[0].turned_rad, 0.125);
+  EXPECT_EQ(wire.corrections[0].tried_directions, 1);
+  EXPECT_EQ(wire.corrections[0].tried_paths, 2);
+  EXPECT_EQ(wire.corrections[0].tried_lattice_points, 3);
+  EXPECT_EQ(wire.corrections[0].tried_tree_samples, 4);
+  EXPECT_EQ(from_wire(wire).result->corrections[0].tried, correction.tried);
+  EXPECT_FALSE(from_wire(wire).result->corrections[0].interval.witness);
+  EXPECT_EQ(wire.has_measures_before, 0);
+  EXPECT_EQ(wire.has_measures, 1);
+  EXPECT_EQ(wire.measures.length_m, 7.0);
+  EXPECT_EQ(wire.measures.largest_turn_acceleration_rad_per_s2, 8.0);
+  EXPECT_EQ(wire.measures.clearance_lower_bound_m, 9.0);
+  ASSERT_EQ(wire.num_slowed, 1);
+  EXPECT_EQ(wire.slowed[0].t_begin_s, 1.5);
+  EXPECT_EQ(wire.slowed[0].t_end_s, 2.5);
+  EXPECT_EQ(wire.slowed[0].given_t_begin_s, 1.0);
+  EXPECT_EQ(wire.slowed[0].given_t_end_s, 1.25);
+  ASSERT_EQ(wire.num_keyframe_faults, 1);
+  EXPECT_EQ(wire.keyframe_faults[0].keyframe, 4);
+  EXPECT_EQ(wire.keyframe_faults[0].free_position_m[2], 3.0);
+  EXPECT_EQ(wire.keyframe_faults[0].free_orientation_wxyz[0], 0.1);
+  EXPECT_EQ(wire.has_infeasibility, 0);
+  EXPECT_EQ(wire.keyframe_inside, -1);
+  EXPECT_EQ(wire.near_scale, 1.0);
+}
+
+TEST(WireConvert, ReportsThatMakeNoSenseAreErrors) {
+  Random random(kSeed);
+  planning::PlanResult result = sample_result(4, random);
+  result.keyframe_faults.resize(2);
+  const plan_response_t good = to_wire(result, {kIds, "room", 7, "abc"});
+  const auto error_of = [&](const auto& edit) {
+    plan_response_t wire = good;
+    edit(wire);
+    return from_wire(wire).error;
+  };
+  EXPECT_EQ(error_of([](plan_response_t&) {}), "");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.corrections[2].method = 5; }),
+            "corrections[2].method: 5 is unknown");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_faults[1].keyframe = -1; }),
+            "keyframe_faults[1].keyframe: is below 0");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.keyframe_outside = -1; }),
+            "keyframe_outside: is below 0");
+  EXPECT_EQ(error_of([](plan_response_t& w) { w.proof_triangles[7] = -2; }),
+            "proof_triangles[7]: is below 0");
+}
+
+TEST(WireConvert, QuaternionsAreOrderedWxyzOnTheWire) {
+  planning::PlanRequest request;
+  request.keyframes.resize(1);
+  request.keyframes[0].pose.orientation = geometry::Quat(0.1, 0.2, 0.3, 0.4);  // w, x, y, z
+  const plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.keyframes[0].orientation_wxyz[0], 0.1);
+  EXPECT_EQ(wire.keyframes[0].orientation_wxyz[3], 0.4);
+  EXPECT_EQ(from_wire(wire).request->keyframes[0].pose.orientation.w(), 0.1);
+}
+
+TEST(WireConvert, EveryPlanningStatusHasItsNumber) {
+  using planning::Status;
+  const std::vector<std::pair<Status, std::int32_t>> table{
+      {Status::kOk, 0},           {Status::kPartial, 1}, {Status::kInfeasible, 2},
+      {Status::kTimeout, 3},      {Status::kInvalid, 4}, {Status::kUnknownScene, 5},
+      {Status::kInternalError, 6}};
+  for (const auto& [status, number] : table) {
+    planning::PlanResult result;
+    result.status = status;
+    const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+    EXPECT_EQ(wire.status, number);
+    EXPECT_EQ(from_wire(wire).result->status, status);
+    EXPECT_EQ(status_name(number), planning::to_string(status));
+  }
+  for (const std::int32_t number : {7, 8, 9, -1, 1000}) {
+    EXPECT_FALSE(from_wire(plain_answer(number, "later", {kIds, "", 0, ""})).result);
+  }
+  EXPECT_EQ(from_wire(plain_answer(7, "later", {kIds, "", 0, ""})).error, "overloaded: later");
+}
+
+TEST(WireConvert, KeyframeAtFaultIsMinusOneForNone) {
+  planning::PlanResult result;
+  EXPECT_EQ(to_wire(result, {kIds, "", 0, ""}).keyframe, -1);
+  result.keyframe = 3;
+  const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
+  EXPECT_EQ(wire.keyframe, 3);
+  EXPECT_EQ(from_wire(wire).result->keyframe, 3U);
+}
+
+TEST(WireConvert, ZerosAskForDefaults) {
+  const planning::PlanOptions defaults;
+  const ConvertedRequest converted = from_wire(minimal_request(), {.default_s = 4.0, .max_s = 8.0});
+  ASSERT_TRUE(converted.request);
+  planning::PlanOptions expected = defaults;
+  expected.deadline_s = 4.0;
+  EXPECT_EQ(converted.request->options, expected);
+}
+
+TEST(WireConvert, DeadlinesAreCutToTheMaximum) {
+  const auto deadline_of = [](double wire_s) {
+    plan_request_t wire = minimal_request();
+    wire.deadline_s = wire_s;
+    return from_wire(wire, {.default_s = 4.0, .max_s = 8.0}).request->options.deadline_s;
+  };
+  EXPECT_EQ(deadline_of(7.5), 7.5);
+  EXPECT_EQ(deadline_of(8.5), 8.0);
+  EXPECT_EQ(deadline_of(std::numeric_limits<double>::infinity()), 8.0);
+  // These are for planning::validate to refuse.
+  EXPECT_EQ(deadline_of(-1.0), -1.0);
+  EXPECT_TRUE(std::isnan(deadline_of(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST(WireConvert, ValuesAreLeftToValidation) {
+  plan_request_t wire = minimal_request();
+  wire.chord_error_m = -1.0;
+  wire.keyframes.resize(1);
+  wire.keyframes[0].position_m[1] = std::numeric_limits<double>::quiet_NaN();
+  wire.keyframes[0].origin = keyframe_t::ORIGIN_INSERTED;
+  const ConvertedRequest converted = from_wire(wire);
+  ASSERT_TRUE(converted.request);
+  EXPECT_EQ(converted.request->options.chord_error_m, -1.0);
+  EXPECT_TRUE(std::isnan(converted.request->keyframes[0].pose.position.y()));
+  EXPECT_EQ(converted.request->keyframes[0].origin, motion::KeyframeOrigin::kGiven);
+  EXPECT_TRUE(planning::validate(*converted.request));
+}
+
+TEST(WireConvert, UnknownMethodIsAnErrorThatNamesIt) {
+  plan_request_t wire = minimal_request();
+  wire.method = "magic";
+  EXPECT_EQ(from_wire(wire).error, "method: 'magic' is unknown");
+}
+
+TEST(WireConvert, SegmentsThatAreNoPathAreRefused) {
+  Random random(kSeed);
+  const plan_response_t good = to_wire(sample_result(4, random), {kIds, "room", 7, "abc"});
+  plan_response_t gap = good;
+  gap.segments[2].t0_s += 0.01;
+  EXPECT_EQ(from_wire(gap).error, "segments[2]: does not begin where the one before ends");
+  plan_response_t backward = good;
+  backward.segments[0].t1_s = backward.segments[0].t0_s;
+  EXPECT_EQ(from_wire(backward).error, "segments[0]: its times do not increase");
+  plan_response_t nan = good;
+  nan.segments[3].t1_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(from_wire(nan).error, "segments[3]: its times do not increase");
+}
+
+TEST(WireConvert, LongTextsAreCutBetweenCharacters) {
+  EXPECT_EQ(clipped("abcdef", 4), "abcd");
+  EXPECT_EQ(clipped("abcd", 4), "abcd");
+  EXPECT_EQ(clipped(std::string_view("ab\0cd", 5), 4), "ab");
+  EXPECT_EQ(clipped("abc\xc3\xa4", 4), "abc");  // ä: two bytes
+  EXPECT_EQ(clipped("abc\xc3\xa4", 5), "abc\xc3\xa4");
+  EXPECT_EQ(clipped("\x80\x80\x80", 2), "");  // never UTF-8, still ends
+  planning::PlanResult result;
+  result.message = std::string(5000, 'm');
+  const plan_response_t wire = to_wire(result, {kIds, std::string(5000, 's'), 0, ""});
+  EXPECT_FALSE(wire::check(wire::layout_of<plan_response_t>(), wire::encode(wire)));
+}
+
+}  // namespace
+}  // namespace camway::service

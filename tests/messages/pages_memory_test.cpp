@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "daemon/messages/convert.h"
+#include "daemon/messages/pages.h"
+#include "tests/messages/plan_samples.h"
+#include "tests/support/allocation_meter.h"
+
+namespace camway::service {
+namespace {
+
+// An answer that is too long for all its pages is refused before anything is made of it.
+TEST(WirePages, CountingThemAllocatesNothing) {
+  testing::Random random(testing::kSeed);
+  const plan_response_t answer = to_wire(testing::sample_result(2000, random), AnswerHeader{});
+  const testing::AllocationMeter meter;
+  const std::size_t pages = count_pages(answer);
+  ASSERT_EQ(meter.bytes(), 0U);
+  EXPECT_EQ(pages, encode_pages(answer).size());
+  EXPECT_GT(pages, 10U);
+  EXPECT_GT(meter.bytes(), 0U) << "the meter counts nothing";
+}
+
+}  // namespace
+}  // namespace camway::service

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "tests/messages/plan_samples.h"
+
+#include <utility>
+#include <vector>
+
+namespace camway::testing {
+namespace {
+
+double number(Random& random) { return std::uniform_real_distribution<double>(-50, 50)(random); }
+
+motion::Keyframe keyframe(double time_s, Random& random) {
+  motion::Keyframe keyframe;
+  keyframe.time_s = time_s;
+  for (double& value : keyframe.pose.position) value = number(random);
+  for (double& value : keyframe.pose.orientation.coeffs()) value = number(random);
+  return keyframe;
+}
+
+motion::Segment segment(double t0_s, double t1_s, Random& random) {
+  motion::Segment segment;
+  segment.t0_s = t0_s;
+  segment.t1_s = t1_s;
+  for (geometry::Vec3& point : segment.position) {
+    for (double& value : point) value = number(random);
+  }
+  for (geometry::Vec4& point : segment.orientation) {
+    for (double& value : point) value = number(random);
+  }
+  return segment;
+}
+
+geometry::Vec3 point(Random& random) { return {number(random), number(random), number(random)}; }
+
+collision::Witness witness(double time_s, Random& random) {
+  return {.time_s = time_s,
+          .triangle = static_cast<std::uint32_t>(below(random, 100'000)),
+          .depth_m = number(random),
+          .point_W = point(random)};
+}
+
+correction::OrientationPolicy orientation(Random& random) {
+  correction::OrientationPolicy policy;
+  policy.rule = static_cast<correction::OrientationRule>(below(random, 4));
+  // Only what counts with the policy is sent.
+  const geometry::Vec3 any = point(random);
+  if (policy.rule == correction::OrientationRule::kLevel) policy.up_W = planning::direction_of(any);
+  if (policy.rule == correction::OrientationRule::kTarget) {
+    policy.target_W = any;
+    policy.cone_rad = 0.25;
+  }
+  policy.max_turn_rad = static_cast<double>(below(random, 4));
+  return policy;
+}
+
+correction::MotionLimits limits(Random& random) {
+  correction::MotionLimits limits;
+  if (below(random, 2) == 0) limits.speed_m_per_s = 1.5;
+  if (below(random, 2) == 0) limits.acceleration_m_per_s2 = 2.5;
+  if (below(random, 2) == 0) limits.turn_rate_rad_per_s = 3.5;
+  limits.may_retime = below(random, 2) == 0;
+  return limits;
+}
+
+motion::PathMeasures measures(Random& random) {
+  return {number(random), number(random), number(random), number(random),
+          number(random), number(random), number(random), number(random)};
+}
+
+correction::Correction corrected(const collision::CollisionInterval& interval, Random& random) {
+  correction::Correction correction;
+  correction.interval = {interval.t_begin_s, interval.t_end_s};
+  correction.rung = static_cast<correction::Rung>(below(random, 5));
+  correction.t_begin_s = number(random);
+  correction.t_end_s = number(random);
+  correction.moved_m = number(random);
+  correction.turned_rad = number(random);
+  const auto count = [&] { return static_cast<std::int32_t>(below(random, 100'000)); };
+  correction.tried = {count(), count(), count(), count()};
+  return correction;
+}
+
+void add_report(planning::PlanResult& result, Random& random) {
+  for (const collision::CollisionInterval& interval : result.collisions) {
+    result.corrections.push_back(corrected(interval, random));
+  }
+  if (below(random, 2) == 0) result.measures_before = measures(random);
+  if (below(random, 2) == 0) result.measures = measures(random);
+  result.bounds.max_W.y() = 2.5;
+  result.near_scale = 0.75;
+  result.time_scale = 1.25;
+  result.deadline_reached = true;
+  for (std::size_t i = 0; i < below(random, 5); ++i)
+    result.slowed.push_back({number(random), number(random), number(random), number(random)});
+  for (std::size_t i = 0; i < below(random, 5); ++i) {
+    planning::KeyframeFault& fault = result.keyframe_faults.emplace_back();
+    fault.keyframe = i;
+    fault.depth_m = number(random);
+    if (below(random, 2) == 0) fault.free_pose = keyframe(0.0, random).pose;
+  }
+  planning::Infeasibility& proof = result.infeasibility.emplace();
+  proof.keyframe_inside = 3;
+  proof.keyframe_outside = 1;
+  if (below(random, 2) == 0) {
+    correction::CageBox& cage = proof.cage.emplace();
+    cage.box = geometry::Box(geometry::Vec3(1, 2, 3), geometry::Vec3(4, 6, 8));
+    cage.orientation = keyframe(0.0, random).pose.orientation;
+    cage.widest_hole_m = number(random);
+    cage.shortest_chord_m = number(random);
+  }
+  for (std::uint32_t i = 0; i < 60 * result.collisions.size(); ++i)
+    proof.triangles.push_back(2 * i);
+}
+
+}  // namespace
+
+planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
+  planning::PlanRequest request;
+  request.scene = "room";
+  request.camera = {1.5, 1.0, 0.1};
+  request.has_times = below(random, 2) == 0;
+  request.options.deadline_s = 3.25;
+  request.options.chord_error_m = 0.0078125;
+  request.options.interval_tolerance_m = 1e-5;
+  request.options.clearance_m = 0.0625;
+  request.options.max_inserted_keyframes = below(random, 2) == 0 ? 17 : 0;
+  request.options.objective = static_cast<correction::Objective>(below(random, 4));
+  request.options.orientation = orientation(random);
+  request.options.limits = limits(random);
+  if (below(random, 2) == 0) request.options.bounds.min_W = {-1.5, 0.0, -2.5};
+  if (below(random, 2) == 0) request.options.bounds.max_W.y() = 3.25;
+  request.options.max_shrink = 0.375;
+  request.options.repair_keyframes = below(random, 2) == 0;
+  request.options.seed = 1 + random();
+  if (!request.has_times && below(random, 2) == 0) request.options.default_speed_m_per_s = 2.5;
+  for (std::size_t i = 0; i < keyframes; ++i) {
+    request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
+  }
+  return request;
+}
+
+std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random) {
+  const auto points = [&](std::size_t count) {
+    std::vector<geometry::Vec3> list(count);
+    for (geometry::Vec3& p : list) p = point(random);
+    return list;
+  };
+  return {std::nullopt, motion::BoxShape{point(random), point(random).cwiseAbs()},
+          motion::SphereShape{point(random), 0.25},
+          motion::ConvexShape{{points(4), points(1), points(7)}},
+          motion::MeshShape{points(4), {{0, 1, 2}, {0, 2, 3}}}};
+}
+
+motion::BodyShape largest_body(Random& random) {
+  motion::ConvexShape convex;
+  for (std::size_t i = 0; i < motion::kMaxBodyPoints; ++i) {
+    convex.pieces_C.push_back({point(random)});
+  }
+  return convex;
+}
+
+planning::PlanResult sample_result(std::size_t segments, Random& random) {
+  planning::PlanResult result;
+  result.status = planning::Status::kPartial;
+  result.message = "2 of the path's collisions remain";
+  std::vector<motion::Segment> path;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const double t0_s = 0.1 * static_cast<double>(i);
+    path.push_back(segment(t0_s, 0.1 * static_cast<double>(i + 1), random));
+    for (const motion::KeyframeOrigin origin :
+         {motion::KeyframeOrigin::kGiven, motion::KeyframeOrigin::kInserted}) {
+      result.keyframes.push_back(keyframe(t0_s, random));
+      result.keyframes.back().origin = origin;
+      result.keyframes.back().is_repaired = below(random, 2) == 0;
+    }
+    result.collisions.push_back({t0_s, t0_s + 0.01});
+    result.collision_names.emplace_back();
+    if (below(random, 3) == 0) continue;
+    result.collisions.back().witness = witness(t0_s, random);
+    result.collision_names.back() = {"object " + std::string(below(random, 20), 'x'), "edge 2"};
+  }
+  if (!path.empty()) result.path = motion::Path(std::move(path));
+  result.remaining_collisions = {{0.125, 0.25}, {0.5, 0.5, witness(0.5, random)}};
+  result.remaining_names = {{"", ""}, {"chair", "corner 0"}};
+  result.certificate = {true, 0.0123};
+  result.timing = {0.0, 1.5, 2.5, 3.5, 4.5, 12.0};
+  add_report(result, random);
+  return result;
+}
+
+std::shared_ptr<const scene::Snapshot> empty_scene(std::string name) {
+  auto snapshot = std::make_shared<scene::Snapshot>();
+  snapshot->name = std::move(name);
+  snapshot->revision = 7;
+  snapshot->digest = "0123456789abcdef0123456789abcdef";
+  return snapshot;
+}
+
+}  // namespace camway::testing

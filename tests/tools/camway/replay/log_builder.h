@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/messages/convert.h"
+#include "daemon/planning/request.h"
+#include "daemon/planning/result.h"
+#include "daemon/scene/mesh/mesh.h"
+
+namespace camway::tools {
+
+/// Writes the bytes of an event log as lcm-logger does, from its description in LCM's manual and
+/// not with the code under test.
+class LogBuilder {
+ public:
+  void add_event(const std::string& channel, const std::vector<std::uint8_t>& data);
+
+  /// As many pages as the request takes.
+  void add_request(const planning::PlanRequest& request, const service::RequestIds& ids,
+                   const std::string& prefix = "CAMWAY");
+  void add_answer(const planning::PlanResult& result, const service::AnswerHeader& header,
+                  const std::string& prefix = "CAMWAY");
+
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  /// Length of the log before each event.
+  [[nodiscard]] const std::vector<std::size_t>& offsets() const { return offsets_; }
+
+ private:
+  std::string bytes_;
+  std::vector<std::size_t> offsets_;
+};
+
+/// A folder of its own that vanishes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::string file(std::string_view name) const { return (path_ / name).string(); }
+  /// Writes a file into it and returns its path.
+  std::string write(std::string_view name, std::string_view content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_all(const std::string& file);
+
+/// A request that a person would write: camera along -Z, keyframes at `positions_m`.
+planning::PlanRequest simple_request(const std::vector<geometry::Vec3>& positions_m);
+
+/// A wall in the plane z = 0, 0.4 m wide and 2 m high, to run into head on; and a fin in the plane
+/// x = 2, from z = -0.2 to 0.2, to clip with a side: what the seed's method can correct.
+scene::Mesh wall_mesh();
+/// The same as an OBJ file.
+std::string wall_obj();
+
+}  // namespace camway::tools

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "lcmtypes/wire/check.h"
+#include "tests/tools/camway/cli_runner.h"
+#include "tools/camway/replay/event_log.h"
+
+namespace camway::tools {
+namespace {
+
+using ::testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+/// Stands where a daemon would: keeps every request that comes, and answers planning if told to.
+class Listener {
+ public:
+  enum class Manner { kAnswers, kIsSilent };
+
+  explicit Listener(Manner manner) : manner_(manner) {
+    // The whole proof: without a network that carries multicast these tests prove nothing.
+    EXPECT_TRUE(lcm_.good()) << "LCM cannot use the network";
+    if (!lcm_.good()) return;
+    lcm_.subscribe("CAMWAY_.*_REQUEST", &Listener::on_request, this)->setQueueCapacity(1000);
+    thread_ = std::jthread([this](const std::stop_token& stop) {
+      while (!stop.stop_requested()) lcm_.handleTimeout(20);
+    });
+  }
+
+  struct Received {
+    std::string channel;
+    std::vector<std::uint8_t> data;
+    Clock::time_point time;
+  };
+  /// What came so far, as soon as that is `count` messages, at the latest after 10 s.
+  std::vector<Received> received(std::size_t count) {
+    const Clock::time_point limit = Clock::now() + std::chrono::seconds(10);
+    for (;;) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (received_.size() >= count || Clock::now() > limit) return received_;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+ private:
+  void on_request(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
+    const std::vector<std::uint8_t> data(bytes, bytes + buffer->data_size);
+    {
+      const std::lock_guard lock(mutex_);
+      received_.push_back({channel, data, Clock::now()});
+    }
+    const auto request = wire::decode<plan_request_t>(data);
+    if (!request.message || manner_ == Manner::kIsSilent) return;
+    const service::AnswerHeader header{
+        {request.message->client_id, request.message->request_id, 0}, "wall", 1, ""};
+    const auto answer = service::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header);
+    lcm_.publish("CAMWAY_PLAN_RESPONSE_" + request.message->client_id, &answer);
+  }
+
+  Manner manner_;
+  lcm::LCM lcm_;
+  std::mutex mutex_;  ///< guards received_
+  std::vector<Received> received_;
+  std::jthread thread_;  ///< last: it uses the others
+};
+
+class Publish : public ::testing::Test {
+ protected:
+  Publish() {
+    for (int i = 0; i < 6; ++i) {
+      log_.add_request(simple_request({{1, 0, 1}, {1, 0, -1}}), {"client", i, 0});
+      log_.add_event("OTHER_CHANNEL", {1, 2, 3});
+    }
+    log_.add_event("CAMWAY_OCCUPANCY_REQUEST", {7, 7});
+    log_.add_event("CAMWAY_PLAN_REQUEST", {8, 8, 8});  // malformed, and sent as it was
+    file_ = folder_.write("log", log_.bytes());
+  }
+
+  TemporaryFolder folder_;
+  LogBuilder log_;
+  std::string file_;
+};
+
+TEST_F(Publish, SendsTheRecordedRequestsByteForByteAndCountsAnswers) {
+  Listener listener(Listener::Manner::kAnswers);
+  const CliRun run = run_camway({"replay", file_, "--publish", "--speed", "0"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("sent 8 messages; 6 of 6 planning requests answered"));
+  const auto received = listener.received(8);
+  ASSERT_EQ(received.size(), 8U);
+  std::size_t at = 0;
+  read_event_log(file_, [&](LogEvent&& event) {
+    if (event.channel == "OTHER_CHANNEL") return;
+    EXPECT_EQ(received[at].channel, event.channel);
+    EXPECT_EQ(received[at].data, event.data);
+    ++at;
+  });
+}
+
+TEST_F(Publish, KeepsTheRecordedRhythm) {
+  Listener listener(Listener::Manner::kAnswers);
+  // The log's events are 1 ms apart: 12 ms from first to last request are 600 ms at this speed.
+  const CliRun run = run_camway({"replay", file_, "--publish", "--speed", "0.02"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto received = listener.received(8);
+  ASSERT_EQ(received.size(), 8U);
+  // Only a lower limit: a busy machine may be late, never early. Half, for the first may be late.
+  EXPECT_GE(received.back().time - received.front().time, std::chrono::milliseconds(300));
+}
+
+TEST_F(Publish, EndsWithThreeWhenNobodyAnswers) {
+  Listener listener(Listener::Manner::kIsSilent);
+  const CliRun run = run_camway({"replay", file_, "--publish", "--speed", "0", "--wait-s", "0.2"});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("0 of 6 planning requests answered"));
+  EXPECT_EQ(listener.received(8).size(), 8U);
+}
+
+TEST_F(Publish, EndsWithTwoWhereThereIsNothingToSend) {
+  const CliRun run = run_camway({"replay", file_, "--publish", "--prefix", "OTHER"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("holds no requests on OTHER_"));
+}
+
+TEST_F(Publish, SaysThatNoDaemonReadsTheRequestsOfAnotherVersion) {
+  Listener listener(Listener::Manner::kAnswers);
+  std::vector<std::uint8_t> older =
+      wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"client", 9, 0}));
+  older[3] ^= 1;  // within the fingerprint
+  log_.add_event("CAMWAY_PLAN_REQUEST", older);
+  const CliRun run =
+      run_camway({"replay", folder_.write("log", log_.bytes()), "--publish", "--speed", "0"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("of another version of the wire types"));
+  EXPECT_EQ(listener.received(9).size(), 9U) << "sent as recorded all the same";
+}
+
+}  // namespace
+}  // namespace camway::tools

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "tools/drawing/floor_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "daemon/motion/spline/interpolate.h"
+
+namespace camway::draw {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Vec3;
+
+/// A closed box as one object.
+void add_box(scene::Mesh& mesh, const Vec3& low, const Vec3& high) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (unsigned i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back((i & 1U) != 0 ? high.x() : low.x(),
+                               (i & 2U) != 0 ? high.y() : low.y(),
+                               (i & 4U) != 0 ? high.z() : low.z());
+  }
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces{
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  const auto first_triangle = static_cast<std::uint32_t>(mesh.triangles.size());
+  for (const auto& f : kFaces) {
+    mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
+    mesh.triangles.push_back({first + f[0], first + f[2], first + f[3]});
+  }
+  mesh.objects.push_back({"box", first_triangle, 12});
+}
+
+/// Two storeys of 6 x 4 m: floors at 0 and 3 m, a wall, a table.
+scene::Mesh small_house() {
+  scene::Mesh mesh;
+  add_box(mesh, {0, -0.2, 0}, {6, 0, 4});
+  add_box(mesh, {0, 2.8, 0}, {6, 3, 4});
+  add_box(mesh, {3, 0, 0}, {3.2, 2.8, 2.5});
+  add_box(mesh, {4, 0, 1}, {5, 0.7, 2});
+  return mesh;
+}
+
+scene::Mesh turned_to_z_up(scene::Mesh mesh) {
+  for (Vec3& v : mesh.vertices) v = Vec3(v.x(), -v.z(), v.y());
+  return mesh;
+}
+
+double area_of(const SectionLine& line) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const PlanPoint& a = line.points[i];
+    const PlanPoint& b = line.points[i + 1];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::abs(twice) / 2.0;
+}
+
+TEST(FloorSection, CutsWallsAndKeepsWhatIsLower) {
+  const FloorSection section = cut_floor(small_house(), SceneUp::kY, 1.5);
+  EXPECT_EQ(section.floor_m, 0.0);
+  ASSERT_EQ(section.cut.size(), 1U) << "the wall alone";
+  ASSERT_EQ(section.cut[0].size(), 1U);
+  EXPECT_TRUE(section.cut[0][0].closed);
+  EXPECT_NEAR(area_of(section.cut[0][0]), 0.2 * 2.5, 1e-12);
+  EXPECT_EQ(section.tops.size(), 2U) << "the table's top; its underside is on the floor";
+  // A box without the edges of its underside, which borders on the floor and is left out: four
+  // edges of the top, the four upright ones are points on paper, and four at the bottom's borders.
+  EXPECT_EQ(section.outlines.size(), 8U);
+}
+
+/// The same picture whichever axis is up, if the scene is turned accordingly.
+TEST(FloorSection, UpAxisIsOnlyAMatterOfNames) {
+  const FloorSection y = cut_floor(small_house(), SceneUp::kY, 1.5);
+  const FloorSection z = cut_floor(turned_to_z_up(small_house()), SceneUp::kZ, 1.5);
+  EXPECT_EQ(y.floor_m, z.floor_m);
+  ASSERT_EQ(z.cut.size(), y.cut.size());
+  EXPECT_EQ(area_of(z.cut[0][0]), area_of(y.cut[0][0]));
+  EXPECT_EQ(z.outlines.size(), y.outlines.size());
+  EXPECT_EQ(to_plan({1, 5, 2}, SceneUp::kY), PlanPoint(1, 2));
+  EXPECT_EQ(to_plan({1, -2, 5}, SceneUp::kZ), PlanPoint(1, 2));
+}
+
+/// An opening makes two loops of one object, or one with a hole.
+TEST(FloorSection, LoopsAreClosedWhereSolidsAre) {
+  scene::Mesh mesh = small_house();
+  for (const double height_m : {0.35, 0.7, 1.0, 2.79}) {
+    for (const std::vector<SectionLine>& object : cut_floor(mesh, SceneUp::kY, height_m).cut) {
+      for (const SectionLine& line : object) EXPECT_TRUE(line.closed) << height_m;
+    }
+  }
+  mesh.triangles.pop_back();  // and an open mesh does not pretend
+  mesh.objects.back().triangle_count = 11;
+  bool open = false;
+  for (const std::vector<SectionLine>& object : cut_floor(mesh, SceneUp::kY, 0.35).cut) {
+    for (const SectionLine& line : object) open |= !line.closed;
+  }
+  EXPECT_TRUE(open);
+}
+
+motion::Keyframe keyframe(double time_s, const Vec3& position, motion::KeyframeOrigin origin) {
+  const geometry::Quat east(Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitY()));
+  return {time_s, {position, east}, origin};
+}
+
+FloorPlan through_the_wall() {
+  using enum motion::KeyframeOrigin;
+  FloorPlan plan;
+  plan.title = "test";
+  plan.mesh = small_house();
+  plan.corners_C = motion::near_corners_C({1.2, 0.9, 0.2});
+  const std::vector<motion::Keyframe> given{keyframe(0, {1, 1.5, 2}, kGiven),
+                                            keyframe(2, {5.4, 1.5, 2.4}, kGiven)};
+  plan.keyframes = {given[0], keyframe(1, {3.1, 1.5, 3.2}, kInserted), given[1]};
+  plan.before = sample(motion::interpolate(given), 300);
+  plan.after = sample(motion::interpolate(plan.keyframes), 300);
+  plan.collisions = {{0.9, 1.1}};
+  return plan;
+}
+
+TEST(FloorPlan, HeightIsTheKeyframesAndAvoidsFloors) {
+  using enum motion::KeyframeOrigin;
+  const scene::Mesh house = small_house();
+  const auto cut = [&](const std::vector<double>& heights) {
+    std::vector<motion::Keyframe> keyframes;
+    for (const double h : heights) keyframes.push_back(keyframe(0, {1, h, 1}, kGiven));
+    return cut_height_m(house, SceneUp::kY, keyframes);
+  };
+  EXPECT_EQ(cut({1.4, 1.6, 1.7}), 1.6);
+  EXPECT_EQ(cut({1.5, 2.9, 4.6}), 1.5) << "2.9 is inside the slab";
+  EXPECT_EQ(cut({}), 0.0);
+}
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8U | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+TEST(FloorPlan, WritesBothFiles) {
+  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_test.svg",
+                           fs::path(testing::TempDir()) / "floor_plan_test.png"};
+  ASSERT_EQ(draw_floor_plan(through_the_wall(), files), "");
+  const std::string png = contents(files.png);
+  ASSERT_GT(png.size(), 1000U);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(big_endian(png, 16), 1600U);
+  EXPECT_GT(big_endian(png, 20), 500U);
+  const std::string svg = contents(files.svg);
+  EXPECT_THAT(svg, testing::HasSubstr("<svg"));
+  EXPECT_THAT(svg, testing::HasSubstr("</svg>"));
+}
+
+/// How often the SVG draws a stroke in the collision colour.
+std::size_t collision_strokes(const FloorPlan& plan) {
+  const fs::path file = fs::path(testing::TempDir()) / "floor_plan_count.svg";
+  EXPECT_EQ(draw_floor_plan(plan, {file, {}}), "");
+  const std::string svg = contents(file);
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = svg.find("rgb(83.5%,36.9%,0%)", at)) != std::string::npos; ++at)
+    ++count;
+  return count;
+}
+
+/// Each interval adds a bold stretch, two quadrilaterals and a mark.
+TEST(FloorPlan, ShowsEveryCollision) {
+  FloorPlan plan = through_the_wall();
+  plan.collisions.clear();
+  const std::size_t legend = collision_strokes(plan);
+  EXPECT_GT(legend, 0U);
+  plan.collisions = {{0.9, 1.1}};
+  const std::size_t one = collision_strokes(plan);
+  plan.collisions = {{0.9, 1.1}, {1.2, 1.21}};
+  const std::size_t two = collision_strokes(plan);
+  EXPECT_GE(one, legend + 4);
+  EXPECT_GE(two, one + 4);
+}
+
+TEST(FloorPlan, SurvivesAlmostNothing) {
+  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_empty.svg", {}};
+  EXPECT_EQ(draw_floor_plan({}, files), "");
+  FloorPlan only_keyframe;
+  only_keyframe.keyframes = {keyframe(0, {0, 0, 0}, motion::KeyframeOrigin::kGiven)};
+  only_keyframe.collisions = {{0.0, 1.0}};  // without a path to show them on
+  EXPECT_EQ(draw_floor_plan(only_keyframe, files), "");
+}
+
+TEST(FloorPlan, FailureNamesTheFile) {
+  EXPECT_THAT(draw_floor_plan(through_the_wall(), {"/nonexistent/plan.svg", {}}),
+              testing::HasSubstr("/nonexistent/plan.svg"));
+  EXPECT_THAT(draw_floor_plan(through_the_wall(), {{}, "/nonexistent/plan.png"}),
+              testing::HasSubstr("/nonexistent/plan.png"));
+}
+
+TEST(FloorPlan, SamplesIncludeBothEnds) {
+  const std::vector<motion::Keyframe> keyframes{
+      keyframe(1, {0, 0, 0}, motion::KeyframeOrigin::kGiven),
+      keyframe(3, {1, 0, 0}, motion::KeyframeOrigin::kGiven)};
+  const SampledPath samples = sample(motion::interpolate(keyframes), 5);
+  ASSERT_EQ(samples.size(), 5U);
+  EXPECT_EQ(samples.front().time_s, 1.0);
+  EXPECT_EQ(samples.back().time_s, 3.0);
+  EXPECT_EQ(samples.back().pose.position, Vec3(1, 0, 0));
+}
+
+}  // namespace
+}  // namespace camway::draw

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json/json_body.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/json/json_io.h"
+
+namespace camway::tools {
+namespace {
+
+using geometry::Vec3;
+using ::testing::StartsWith;
+
+/// A request with this body, and a camera if asked for.
+std::string request_with(const std::string& body, bool with_camera = false) {
+  return R"({"keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
+                           {"position": [0, 0, 1], "orientation": [1, 0, 0, 0]}],)" +
+         std::string(with_camera ? R"("camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},)"
+                                 : "") +
+         "\"body\": " + body + "}";
+}
+
+planning::PlanRequest read(const std::string& body, bool with_camera = false) {
+  const auto parsed = parse_plan_request(request_with(body, with_camera), "R.json");
+  EXPECT_TRUE(parsed.value) << parsed.error;
+  return parsed.value.value_or(RequestFile{});
+}
+
+TEST(JsonBody, ReadsABox) {
+  const auto request = read(R"({"type": "box", "size": [1, 2, 3], "center": [4, 5, 6]})");
+  const auto& box = std::get<motion::BoxShape>(request.body.value());
+  EXPECT_EQ(box.size_m, Vec3(1, 2, 3));
+  EXPECT_EQ(box.center_C, Vec3(4, 5, 6));
+  EXPECT_FALSE(planning::validate(request)) << "a body needs no camera";
+  EXPECT_EQ(
+      std::get<motion::BoxShape>(*read(R"({"type": "box", "size": [1, 2, 3]})").body).center_C,
+      Vec3::Zero());
+}
+
+TEST(JsonBody, ReadsASphere) {
+  const auto request = read(R"({"type": "sphere", "radius": 0.5, "center": [0, 0, -1]})", true);
+  const auto& sphere = std::get<motion::SphereShape>(request.body.value());
+  EXPECT_EQ(sphere.radius_m, 0.5);
+  EXPECT_EQ(sphere.center_C, Vec3(0, 0, -1));
+  EXPECT_EQ(request.camera.near_m, 0.1) << "for the picture";
+}
+
+TEST(JsonBody, ReadsConvexPieces) {
+  const auto one = read(R"({"type": "convex", "points": [[1, 2, 3], [4, 5, 6]]})");
+  const auto& points = std::get<motion::ConvexShape>(one.body.value()).pieces_C;
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0][1], Vec3(4, 5, 6));
+  const auto two = read(R"({"type": "convex", "pieces": [[[1, 2, 3]], [[4, 5, 6], [7, 8, 9]]]})");
+  const auto& pieces = std::get<motion::ConvexShape>(two.body.value()).pieces_C;
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[1][1], Vec3(7, 8, 9));
+}
+
+TEST(JsonBody, ReadsAMesh) {
+  const auto request = read(
+      R"({"type": "mesh", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 2, 1]],
+          "_source": "drone.obj"})");
+  const auto& mesh = std::get<motion::MeshShape>(request.body.value());
+  EXPECT_EQ(mesh.vertices_C[2], Vec3(0, 1, 0));
+  EXPECT_EQ(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 2, 1}));
+}
+
+TEST(JsonBody, ACameraIsTheDefault) {
+  EXPECT_FALSE(read(R"({"type": "camera"})", true).body);
+  EXPECT_THAT(parse_plan_request(request_with(R"({"type": "camera"})"), "R.json").error,
+              StartsWith("R.json: camera: is missing"));
+}
+
+TEST(JsonBody, NamesTheFieldAtFault) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"7", "body: must be an object, not a number"},
+      {"{}", "body.type: is missing"},
+      {R"({"type": 3})", "body.type: must be a string"},
+      {R"({"type": "cone"})",
+       "body.type: 'cone' is unknown; a body is a camera, box, sphere, convex or mesh"},
+      {R"({"type": "camera", "near": 1})", "body.near: is unknown; body has type"},
+      {R"({"type": "box"})", "body.size: is missing"},
+      {R"({"type": "box", "size": 2})", "body.size: must be an array of 3 numbers, not a number"},
+      {R"({"type": "box", "size": [1, 2, 3], "centre": [0, 0, 0]})",
+       "body.centre: is unknown; body has type, size, center"},
+      {R"({"type": "box", "size": [1, 2, 3], "radius": 1})", "body.radius: is unknown"},
+      {R"({"type": "sphere"})", "body.radius: is missing"},
+      {R"({"type": "convex"})", "body: must have either points or pieces"},
+      {R"({"type": "convex", "points": [[0, 0, 0]], "pieces": []})",
+       "body: must have either points or pieces"},
+      {R"({"type": "convex", "points": [[0, 0]]})",
+       "body.points[0]: must be an array of 3 numbers, not an array of 2"},
+      {R"({"type": "convex", "pieces": [[[0, 0, 0]], 5]})", "body.pieces[1]: must be an array"},
+      {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0]]})",
+       "body.triangles[0]: must be an array of 3 indices"},
+      {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})",
+       "body.triangles[0][2]: must be a whole number from 0"},
+      {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0, 0.5]]})",
+       "body.triangles[0][2]: must be a whole number"},
+  };
+  for (const auto& [body, expected] : cases) {
+    const auto parsed = parse_plan_request(request_with(body), "R.json");
+    EXPECT_FALSE(parsed.value) << body;
+    EXPECT_THAT(parsed.error, StartsWith(std::string("R.json: ") + expected)) << body;
+  }
+}
+
+TEST(JsonBody, LeavesRangesToValidation) {
+  const auto fault_of = [](const std::string& body) {
+    const auto fault = planning::validate(read(body));
+    return fault ? fault->message : std::string();
+  };
+  EXPECT_THAT(fault_of(R"({"type": "box", "size": [1, 0, 3]})"),
+              StartsWith("body.size[1]: is 0 m; it must be above 0"));
+  EXPECT_THAT(fault_of(R"({"type": "sphere", "radius": -1})"), StartsWith("body.radius: is -1 m"));
+  EXPECT_THAT(fault_of(R"({"type": "convex", "points": []})"), StartsWith("body.points: is empty"));
+  EXPECT_THAT(fault_of(R"({"type": "convex", "pieces": []})"), StartsWith("body.pieces: is empty"));
+  EXPECT_THAT(fault_of(R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 1, 0]]})"),
+              StartsWith("body.triangles[0][1]: is 1, but there are 1 vertices"));
+  std::string points;
+  for (int i = 0; i < 600; ++i) points += std::string(i == 0 ? "" : ", ") + "[0, 0, 0]";
+  EXPECT_THAT(fault_of(R"({"type": "convex", "points": [)" + points + "]}"),
+              StartsWith("body.points: passes the 512 points"));
+}
+
+}  // namespace
+}  // namespace camway::tools

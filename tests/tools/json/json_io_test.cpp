@@ -1,0 +1,627 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json/json_io.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "daemon/collision/obstacles.h"
+#include "tools/camway/replay/compare.h"
+#include "tools/json/json_angle.h"
+
+namespace camway::tools {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* kGoodRequest = R"({
+  "scene": "office.obj", "comment": "remarks may stand anywhere",
+  "camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},
+  "keyframes": [
+    {"time": 1.5, "position": [1, 2, 3], "orientation": [1, 0, 0, 0]},
+    {"time": 2.5, "position": [4, 5, 6.25], "orientation": [0, 3, 0, 4], "_name": "door"}],
+  "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "clearance": 0.25, "chord_error_m": 0.01,
+              "interval_tolerance_m": 0.001, "max_inserted_keyframes": 7}})";
+
+/// The good request with `from` replaced by `to`.
+std::string edited(const std::string& from, const std::string& to) {
+  std::string text = kGoodRequest;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(JsonRequest, ReadsEveryField) {
+  const auto parsed = parse_plan_request(kGoodRequest, "R.json");
+  ASSERT_TRUE(parsed.value) << parsed.error;
+  const planning::PlanRequest& request = *parsed.value;
+  EXPECT_EQ(request.scene, "office.obj");
+  EXPECT_DOUBLE_EQ(request.camera.fov_x_rad, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(request.camera.fov_y_rad, std::numbers::pi / 3);
+  EXPECT_EQ(request.camera.near_m, 0.1);
+  ASSERT_EQ(request.keyframes.size(), 2U);
+  EXPECT_TRUE(request.has_times);
+  EXPECT_EQ(request.keyframes[1].time_s, 2.5);
+  EXPECT_EQ(request.keyframes[1].pose.position, geometry::Vec3(4, 5, 6.25));
+  EXPECT_NEAR(
+      (geometry::wxyz(request.keyframes[1].pose.orientation) - geometry::Vec4(0, 0.6, 0, 0.8))
+          .norm(),
+      0.0, kUnitQuaternionError);
+  EXPECT_EQ(request.options.deadline_s, 2.5);
+  EXPECT_EQ(request.options.clearance_m, 0.25);
+  EXPECT_FALSE(request.body);
+  EXPECT_EQ(request.options.chord_error_m, 0.01);
+  EXPECT_EQ(request.options.interval_tolerance_m, 0.001);
+  EXPECT_EQ(request.options.max_inserted_keyframes, 7);
+  EXPECT_FALSE(planning::validate(request));
+}
+
+TEST(JsonRequest, HasDefaultsForAllThatMayBeMissing) {
+  const auto parsed = parse_plan_request(
+      R"({"camera": {"fov_x_deg": 90, "fov_y_deg": 60, "near": 0.1},
+          "keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
+                        {"position": [0, 0, 1], "orientation": [1, 0, 0, 0]}]})",
+      "R.json");
+  ASSERT_TRUE(parsed.value) << parsed.error;
+  EXPECT_EQ(parsed.value->scene, "");
+  EXPECT_FALSE(parsed.value->has_times);
+  EXPECT_EQ(parsed.value->options, planning::PlanOptions{});
+}
+
+TEST(JsonRequest, NamesTheFieldAtFault) {
+  const struct {
+    const char* from;
+    const char* to;
+    const char* expected;
+  } cases[] = {
+      {R"("camera": {)", R"("_camera": {)", "camera: is missing"},
+      {R"("near": 0.1)", R"("_near": 0.1)", "camera.near: is missing"},
+      {R"("camera": {)", R"("kamera": {)",
+       "kamera: is unknown; a request has scene, scale, up, unknown, camera, body, keyframes, "
+       "options, and for "
+       "remarks "
+       "comment or _..."},
+      {R"("near": 0.1)", R"("near": 0.1, "far": 9)",
+       "camera.far: is unknown; camera has fov_x_deg, fov_y_deg, near"},
+      {R"("_name": "door")", R"("name": "door")",
+       "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, "
+       "orientation_xyzw, origin, repaired"},
+      {R"("fov_x_deg": 90)", R"("fov_x_deg": "90")",
+       "camera.fov_x_deg: must be a number, not a string"},
+      {R"("keyframes": [)", R"("keyframes": 5, "_old": [)",
+       "keyframes: must be an array, not a number"},
+      {"[4, 5, 6.25]", "[4, 5]",
+       "keyframes[1].position: must be an array of 3 numbers, not an array of 2"},
+      {"[4, 5, 6.25]", "[4, null, 6]", "keyframes[1].position[1]: must be a number, not null"},
+      {"[4, 5, 6.25]", "{}", "keyframes[1].position: must be an array of 3 numbers, not an object"},
+      {"[0, 3, 0, 4]", "[0, 0, 0, 0]", "keyframes[1].orientation: has length zero"},
+      {"[0, 3, 0, 4]", "[0, -0.0, 0, 0e5]", "keyframes[1].orientation: has length zero"},
+      {"[0, 3, 0, 4]", "[0, 3, 0, 4, 5]", "keyframes[1].orientation: must be an array of 4"},
+      {R"("orientation": [0, 3, 0, 4])",
+       R"("orientation": [0, 3, 0, 4], "orientation_xyzw": [3, 0, 4, 0])",
+       "keyframes[1]: has both orientation and orientation_xyzw"},
+      {R"("orientation": [0, 3, 0, 4])", R"("orientation_xyzw": [0, 0, 0, 0])",
+       "keyframes[1].orientation_xyzw: has length zero"},
+      {R"("orientation": [0, 3, 0, 4])", R"("_orientation": [0, 3, 0, 4])",
+       "keyframes[1].orientation: is missing"},
+      {R"("scene": "office.obj")", R"("scale": 0)", "scale: must be above 0"},
+      {R"("scene": "office.obj")", R"("scale": "inch")", "scale: must be a number"},
+      {R"("scene": "office.obj")", R"("up": "zup")",
+       "up: 'zup' is unknown; there are as-in-file, z-to-y, y-to-z"},
+      {R"("scene": "office.obj")", R"("unknown": true)", "unknown: must be a string"},
+      {R"("time": 2.5, )", "", "keyframes[1]: has no time and keyframe 0 has one"},
+      {R"("time": 1.5, )", "", "keyframes[1]: has a time and keyframe 0 has none"},
+      {R"("time": 2.5)", R"("time": null)", "keyframes[1].time: must be a number, not null"},
+      {R"("method": "keyframe_insertion")", R"("method": "magic")",
+       "options.method: 'magic' is unknown; there are ladder, keyframe_insertion"},
+      {R"("deadline_s": 2.5)", R"("dead_line_s": 2.5)",
+       "options.dead_line_s: is unknown; options has method, deadline_s, clearance, chord_error_m"},
+      {R"("clearance": 0.25)", R"("clearance": "wide")",
+       "options.clearance: must be a number, not a string"},
+      {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": 7.5)",
+       "options.max_inserted_keyframes: must be a whole number"},
+      {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": -1)",
+       "options.max_inserted_keyframes: must be a whole number from 0"},
+      {R"("scene": "office.obj")", R"("scene": 3)", "scene: must be a string, not a number"},
+      {R"("options": {)", R"("options": [{}], "_more": {)", "options: must be an object"},
+  };
+  for (const auto& c : cases) {
+    const auto parsed = parse_plan_request(edited(c.from, c.to), "dir/R.json");
+    EXPECT_FALSE(parsed.value) << c.to;
+    EXPECT_THAT(parsed.error, StartsWith(std::string("dir/R.json: ") + c.expected));
+  }
+  EXPECT_THAT(parse_plan_request("[]", "R.json").error,
+              HasSubstr("R.json: must be an object, not an array"));
+}
+
+TEST(JsonRequest, LeavesRangesToValidationWhoseMessagesNameTheField) {
+  const auto fault_of = [](const std::string& text) {
+    const auto parsed = parse_plan_request(text, "R.json");
+    EXPECT_TRUE(parsed.value) << parsed.error;
+    if (!parsed.value) return std::string();
+    const auto fault = planning::validate(*parsed.value);
+    return fault ? fault->message : std::string();
+  };
+  EXPECT_THAT(fault_of(edited(R"("time": 2.5)", R"("time": 1.5)")), HasSubstr("keyframes[1].time"));
+  EXPECT_THAT(fault_of(edited(R"("near": 0.1)", R"("near": -0.1)")), HasSubstr("camera.near"));
+  EXPECT_THAT(fault_of(edited(R"("fov_x_deg": 90)", R"("fov_x_deg": 180)")),
+              StartsWith("camera.fov_x_deg: "));
+  EXPECT_THAT(fault_of(edited(R"("deadline_s": 2.5)", R"("deadline_s": 0)")),
+              HasSubstr("options.deadline_s"));
+}
+
+// Every field that validation names is one that the request has: it is there, as written.
+TEST(JsonRequest, ValidationNamesFieldsAsTheFileDoes) {
+  const std::pair<const char*, const char*> kFaults[] = {
+      {R"("fov_y_deg": 60)", R"("fov_y_deg": 0)"},
+      {R"("near": 0.1)", R"("near": 1e300)"},
+      {R"("time": 2.5)", R"("time": 1)"},
+      {"[4, 5, 6.25]", "[4, 5, 6e25]"},
+      {R"("clearance": 0.25)", R"("clearance": -1)"},
+      {R"("clearance": 0.25)", R"("default_speed_m_per_s": 0)"},
+      {R"("clearance": 0.25)", R"("default_speed_m_per_s": 1)"},
+      {R"("clearance": 0.25)", R"("max_shrink": 2)"},
+      {R"("clearance": 0.25)", R"("limits": {"speed": -1})"},
+      {R"("clearance": 0.25)", R"("limits": {"acceleration": -1})"},
+      {R"("clearance": 0.25)", R"("limits": {"turn_rate_deg": -1})"},
+      {R"("clearance": 0.25)", R"("orientation": {"max_turn_deg": -1})"},
+      {R"("clearance": 0.25)", R"("orientation": {"policy": "level", "up": [0, 0, 0]})"},
+      {R"("clearance": 0.25)",
+       R"("orientation": {"policy": "target", "target": [0, 0, 1], "cone_deg": 0})"},
+      {R"("clearance": 0.25)", R"("orientation": {"policy": "target", "target": [0, 0, 1e20]})"},
+      {R"("camera": {)", R"("body": {"type": "sphere", "radius": -1}, "camera": {)"},
+      {R"("camera": {)", R"("body": {"type": "box", "size": [1, 1e20, 1]}, "camera": {)"},
+  };
+  for (const auto& [from, to] : kFaults) {
+    const std::string text = edited(from, to);
+    const auto parsed = parse_plan_request(text, "R.json");
+    ASSERT_TRUE(parsed.value) << parsed.error;
+    const auto fault = planning::validate(*parsed.value);
+    ASSERT_TRUE(fault) << to;
+    std::string pointer = "/" + fault->message.substr(0, fault->message.find(": "));
+    std::ranges::replace(pointer, '.', '/');
+    std::ranges::replace(pointer, '[', '/');
+    std::erase(pointer, ']');
+    EXPECT_TRUE(nlohmann::json::parse(text).contains(nlohmann::json::json_pointer(pointer)))
+        << fault->message;
+  }
+}
+
+TEST(JsonRequest, QuaternionsMayBeWrittenXyzw) {
+  const auto wxyz = parse_plan_request(kGoodRequest, "R.json");
+  const auto xyzw = parse_plan_request(
+      edited(R"("orientation": [0, 3, 0, 4])", R"("orientation_xyzw": [3, 0, 4, 0])"), "R.json");
+  ASSERT_TRUE(xyzw.value) << xyzw.error;
+  EXPECT_EQ(xyzw.value->keyframes[1].pose.orientation.coeffs(),
+            wxyz.value->keyframes[1].pose.orientation.coeffs());
+  EXPECT_TRUE(xyzw.value->says_xyzw);
+  EXPECT_FALSE(wxyz.value->says_xyzw);
+}
+
+TEST(JsonRequest, SaysHowToReadTheScene) {
+  const auto said = parse_plan_request(
+      edited(R"("scene": "office.obj")",
+             R"("scene": "office.obj", "scale": 0.0254, "up": "z-to-y", "unknown": "occupied")"),
+      "R.json");
+  ASSERT_TRUE(said.value) << said.error;
+  EXPECT_EQ(said.value->reading.scale, 0.0254);
+  EXPECT_EQ(said.value->reading.up, scene::UpAxis::kZToY);
+  EXPECT_EQ(said.value->reading.unknown, scene::UnknownSpace::kOccupied);
+  const auto silent = parse_plan_request(kGoodRequest, "R.json");
+  EXPECT_FALSE(silent.value->reading.scale || silent.value->reading.up ||
+               silent.value->reading.unknown);
+}
+
+TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
+  std::mt19937_64 random(20260801);
+  RecordProperty("seed", 20260801);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-300, 300);
+  for (int i = 0; i < 2000; ++i) {
+    const geometry::Vec4 unit =
+        geometry::Vec4(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const double length = i % 2 == 0 ? 1.0 : std::pow(10.0, exponent(random));
+    const geometry::Vec4 q = unit * length;
+    const auto parsed = parse_plan_request(
+        edited("[0, 3, 0, 4]", fmt::format("[{}, {}, {}, {}]", q[0], q[1], q[2], q[3])), "R.json");
+    ASSERT_TRUE(parsed.value) << parsed.error;
+    const geometry::Vec4 read = geometry::wxyz(parsed.value->keyframes[1].pose.orientation);
+    // Each coefficient: one rounding of `unit * length`, two divisions, the length's own error.
+    EXPECT_LE((read - unit).cwiseAbs().maxCoeff(), 8 * std::numeric_limits<double>::epsilon());
+    if (length == 1.0) {
+      EXPECT_EQ(read, q);
+    }
+  }
+}
+
+/// Any finite double, every exponent equally likely.
+double any_double(std::mt19937_64& random) {
+  for (;;) {
+    const double value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) return value;
+  }
+}
+
+/// An angle that reads back as the same bits from degrees.
+double any_angle(std::mt19937_64& random) {
+  return radians(std::uniform_real_distribution<double>(0, 180)(random));
+}
+
+motion::PathMeasures any_measures(std::mt19937_64& random) {
+  const auto number = [&] { return any_double(random); };
+  return {number(), number(),          number(),          number(),
+          number(), any_angle(random), any_angle(random), number()};
+}
+
+/// All that a response may say of correction, each of it there or not.
+void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
+  const auto number = [&] { return any_double(random); };
+  result.corrections.resize(random() % 4);
+  for (correction::Correction& correction : result.corrections) {
+    correction.interval = {number(), number()};
+    correction.rung = static_cast<correction::Rung>(random() % 5);
+    correction.t_begin_s = number();
+    correction.t_end_s = number();
+    correction.moved_m = number();
+    correction.turned_rad = any_angle(random);
+    const auto count = [&] { return static_cast<std::int32_t>(random() >> 33); };
+    if (correction.rung == correction::Rung::kNone) {
+      correction.tried = {count(), count(), count(), count()};
+    }
+  }
+  if (random() % 2 == 0) result.measures_before = any_measures(random);
+  if (random() % 2 == 0) result.measures = any_measures(random);
+  if (random() % 2 == 0) result.near_scale = number();
+  if (random() % 2 == 0) result.time_scale = number();
+  result.slowed.resize(random() % 3);
+  for (planning::SlowedStretch& stretch : result.slowed)
+    stretch = {number(), number(), number(), number()};
+  result.keyframe_faults.resize(random() % 3);
+  for (planning::KeyframeFault& fault : result.keyframe_faults) {
+    fault.keyframe = random() % 1000;
+    fault.depth_m = number();
+    if (random() % 2 == 0) continue;
+    motion::Pose& pose = fault.free_pose.emplace();
+    pose.position = {number(), number(), number()};
+    pose.orientation = geometry::from_wxyz({number(), number(), number(), number()});
+  }
+  if (random() % 2 == 0) return;
+  planning::Infeasibility& proof = result.infeasibility.emplace();
+  proof.keyframe_inside = random() % 1000;
+  proof.keyframe_outside = random() % 1000;
+  proof.triangles.resize(random() % 20);
+  for (std::uint32_t& triangle : proof.triangles) triangle = static_cast<std::uint32_t>(random());
+}
+
+planning::PlanResult any_result(std::mt19937_64& random) {
+  const auto number = [&] { return any_double(random); };
+  planning::PlanResult result;
+  result.status = static_cast<planning::Status>(random() % 7);
+  result.message = "quotes \" and \\ and \n, \xc3\xa9";
+  if (random() % 2 == 0) result.keyframe = random() % 1000;
+  std::vector<motion::Segment> segments(random() % 5);
+  double time_s = -5.0;
+  for (motion::Segment& segment : segments) {
+    segment.t0_s = time_s;
+    segment.t1_s = time_s += std::ldexp(1.0 + static_cast<double>(random() % 1000), -7);
+    for (geometry::Vec3& p : segment.position) p = {number(), number(), number()};
+    for (geometry::Vec4& q : segment.orientation) q = {number(), number(), number(), number()};
+  }
+  result.path = motion::Path(std::move(segments));
+  result.keyframes.resize(random() % 5);
+  for (motion::Keyframe& keyframe : result.keyframes) {
+    keyframe.time_s = number();
+    keyframe.pose.position = {number(), number(), number()};
+    keyframe.pose.orientation = geometry::from_wxyz({number(), number(), number(), number()});
+    keyframe.origin = static_cast<motion::KeyframeOrigin>(random() % 2);
+    keyframe.is_repaired = random() % 2 == 0;
+  }
+  for (auto* list : {&result.collisions, &result.remaining_collisions}) {
+    list->resize(random() % 4);
+    for (collision::CollisionInterval& interval : *list) {
+      interval = {number(), number()};
+      if (random() % 2 == 0) continue;
+      interval.witness = {.time_s = number(),
+                          .triangle = static_cast<std::uint32_t>(random()),
+                          .depth_m = number(),
+                          .point_W = {number(), number(), number()}};
+    }
+  }
+  for (const auto& interval : result.collisions) {
+    result.collision_names.emplace_back();
+    if (interval.witness) result.collision_names.back() = {"a \"table\"", "edge 3"};
+  }
+  for (const auto& interval : result.remaining_collisions) {
+    result.remaining_names.emplace_back();
+    if (interval.witness) result.remaining_names.back() = {"", "face 11"};
+  }
+  result.certificate = {random() % 2 == 0, number()};
+  result.timing = {number(), number(), number(), number(), number(), number()};
+  add_any_report(result, random);
+  return result;
+}
+
+TEST(JsonResponse, IsReadBackBitForBit) {
+  std::mt19937_64 random(42);
+  RecordProperty("seed", 42);
+  for (int i = 0; i < 2000; ++i) {
+    const planning::PlanResult result = any_result(random);
+    const auto text = write_plan_response(result);
+    ASSERT_TRUE(text.value) << text.error;
+    const auto read = parse_plan_response(*text.value, "P.json");
+    ASSERT_TRUE(read.value) << read.error;
+    EXPECT_EQ(read.value->message, result.message);
+    EXPECT_EQ(compare(result, *read.value, motion::Body(motion::Camera{})).what, "");
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(read.value->timing.certify_ms),
+              std::bit_cast<std::uint64_t>(result.timing.certify_ms));
+    EXPECT_EQ(write_plan_response(*read.value).value, text.value);
+  }
+}
+
+TEST(JsonResponse, KeepsTheSignOfZeroAndTheEndsOfTheRange) {
+  planning::PlanResult result;
+  result.collisions = {
+      {-0.0, 0.0},
+      {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()},
+      {-std::numeric_limits<double>::max(), 9007199254740993.0}};
+  const auto read = parse_plan_response(*write_plan_response(result).value, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(compare(result, *read.value, motion::Body(motion::Camera{})).what, "");
+  EXPECT_TRUE(std::signbit(read.value->collisions[0].t_begin_s));
+}
+
+TEST(JsonResponse, HasTheKeysOfTheFormatInAFixedOrder) {
+  ResponseFormat format;
+  format.scene = "office.obj";
+  format.scene_digest = "00ff";
+  const std::string text = *write_plan_response({}, format).value;
+  std::size_t at = 0;
+  for (const char* key :
+       {"status", "message", "scene", "scene_digest", "segments", "keyframes", "collisions",
+        "remaining_collisions", "certificate", "certified", "clearance_lower_bound", "corrections",
+        "timing_ms", "load_scene", "motion", "detect", "correct", "certify", "total"}) {
+    const std::size_t found = text.find('"' + std::string(key) + "\":");
+    ASSERT_NE(found, std::string::npos) << key;
+    EXPECT_GE(found, at) << key;
+    at = found;
+  }
+  format.timing = TimingField::kOmitted;
+  EXPECT_EQ(write_plan_response({}, format).value->find("timing_ms"), std::string::npos);
+}
+
+TEST(JsonResponse, RefusesToWriteWhatJsonCannotHold) {
+  planning::PlanResult result;
+  result.keyframes.resize(1);
+  result.keyframes[0].pose.position.y() = std::numeric_limits<double>::quiet_NaN();
+  const auto text = write_plan_response(result);
+  EXPECT_FALSE(text.value);
+  EXPECT_EQ(text.error, "keyframes[].position: is not finite");
+}
+
+TEST(JsonResponse, NamesTheFieldAtFaultWhenRead) {
+  std::mt19937_64 random(7);
+  planning::PlanResult result = any_result(random);
+  while (result.path.segments().size() < 2 || result.keyframes.empty()) result = any_result(random);
+  const std::string good = *write_plan_response(result).value;
+  const auto error_of = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return parse_plan_response(text, "P.json").error;
+  };
+  EXPECT_THAT(error_of("\"status\": \"", "\"status\": \"not_"), HasSubstr("P.json: status: 'not_"));
+  EXPECT_THAT(error_of("\"t0\": -5.0", "\"t0\": 1e9"),
+              HasSubstr("segments[0].t1: must be above t0"));
+  EXPECT_THAT(error_of("\"orientation\": [[", "\"orientation\": [[], ["),
+              HasSubstr("segments[0].orientation: must hold 7 control points, not 8"));
+  EXPECT_THAT(error_of("\"origin\": \"", "\"origin\": \"re"),
+              HasSubstr("keyframes[0].origin: must be \"given\" or \"inserted\""));
+}
+
+TEST(JsonResponse, RefusesSegmentsThatDoNotFollowEachOther) {
+  planning::PlanResult result;
+  std::vector<motion::Segment> segments(2);
+  segments[0] = {0.0, 1.0, {}, {}};
+  segments[1] = {1.0, 2.0, {}, {}};
+  for (motion::Segment& segment : segments) {
+    segment.position.fill(geometry::Vec3::Zero());
+    segment.orientation.fill(geometry::Vec4::UnitX());
+  }
+  result.path = motion::Path(segments);
+  std::string text = *write_plan_response(result).value;
+  ASSERT_TRUE(parse_plan_response(text, "P.json").value);
+  text.replace(text.find("\"t0\": 1.0"), 9, "\"t0\": 1.1");
+  EXPECT_THAT(parse_plan_response(text, "P.json").error,
+              HasSubstr("segments[1].t0: must equal t1 of the segment before"));
+}
+
+TEST(JsonResponse, WitnessesStandInTheirIntervals) {
+  planning::PlanResult result;
+  result.collisions = {{0.5, 1.5, collision::Witness{1.25, 12, 3, 0.0625, {1, -2, 0.5}}},
+                       {2.5, 3.0}};
+  result.collision_names = {{"table", "edge 2"}, {"", ""}};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"("collisions": [
+    {"t_begin": 0.5, "t_end": 1.5,
+     "witness": {"time": 1.25, "object": "table", "triangle": 12, "feature": "edge 2", "depth": 0.0625, "point": [1.0, -2.0, 0.5]}},
+    {"t_begin": 2.5, "t_end": 3.0}
+  ],)"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->collision_names, result.collision_names);
+  EXPECT_EQ(read.value->collisions[0].witness->triangle, 12U);
+  EXPECT_FALSE(read.value->collisions[1].witness);
+}
+
+TEST(JsonResponse, SaysWhichBoundsThereWereAndWhereTheyWereLeft) {
+  planning::PlanResult result;
+  EXPECT_THAT(*write_plan_response(result).value, ::testing::Not(HasSubstr("bounds\"")));
+  result.bounds.min_W.y() = -0.5;
+  const std::uint32_t min_y = collision::Obstacles::number_of_side(1);
+  result.collisions = {{0.5, 1.5, collision::Witness{1.25, min_y, 5, 0.0625, {1, -0.5, 0.5}}}};
+  result.collision_names = {{"bounds.min.y", "corner 0"}};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text,
+              HasSubstr(R"("bounds": {"min": [null, -0.5, null], "max": [null, null, null]})"));
+  EXPECT_THAT(text, HasSubstr(R"("object": "bounds.min.y", "triangle": -2, )"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->bounds, result.bounds);
+  EXPECT_EQ(read.value->collisions[0].witness->triangle, min_y);
+}
+
+TEST(JsonResponse, SaysWhatCorrectionDid) {
+  planning::PlanResult result;
+  correction::Correction correction;
+  correction.interval = {2.25, 2.75, collision::Witness{}};
+  correction.rung = correction::Rung::kGoRound;
+  correction.t_begin_s = 2.0;
+  correction.t_end_s = 3.0;
+  correction.moved_m = 0.125;
+  correction.turned_rad = std::numbers::pi / 2;
+  result.corrections = {correction};
+  motion::PathMeasures measures;
+  measures.length_m = 4.0;
+  measures.largest_turn_rate_rad_per_s = std::numbers::pi;
+  result.measures_before = measures;
+  measures.length_m = 5.0;
+  result.measures = measures;
+  result.near_scale = 0.75;
+  result.time_scale = 1.5;
+  result.deadline_reached = true;
+  result.slowed = {{2.0, 4.0, 1.5, 2.5}};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"("corrections": [
+    {"t_begin": 2.25, "t_end": 2.75, "method": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
+  ],
+  "measures": {
+    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
+    "after": {"length_m": 5.0,)"));
+  EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
+  "time_scale": 1.5,
+  "deadline_reached": true,
+  "slowed": [
+    {"t_begin": 2.0, "t_end": 4.0, "given": [1.5, 2.5]}
+  ])"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->corrections[0].turned_rad, std::numbers::pi / 2);
+  EXPECT_EQ(read.value->measures, result.measures);
+  EXPECT_TRUE(read.value->deadline_reached);
+  EXPECT_EQ(read.value->slowed, result.slowed);
+}
+
+TEST(JsonResponse, SaysWhyThereIsNoPath) {
+  planning::PlanResult result;
+  result.status = planning::Status::kInfeasible;
+  result.infeasibility = planning::Infeasibility{2, 0, {3, 5, 8}};
+  planning::KeyframeFault fault;
+  fault.keyframe = 1;
+  fault.depth_m = 0.5;
+  result.keyframe_faults = {fault};
+  fault.free_pose = motion::Pose{{1, 2, 3}, geometry::Quat(1, 0, 0, 0)};
+  result.keyframe_faults.push_back(fault);
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"("keyframe_faults": [
+    {"keyframe": 1, "depth": 0.5},
+    {"keyframe": 1, "depth": 0.5, "free_pose": {"position": [1.0, 2.0, 3.0], "orientation": [1.0, 0.0, 0.0, 0.0]}}
+  ],
+  "infeasibility": {"keyframe_inside": 2, "keyframe_outside": 0,
+    "triangles": [3, 5, 8]})"));
+}
+
+TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
+  planning::PlanResult result;
+  result.status = planning::Status::kInfeasible;
+  correction::CageBox cage{.box = {geometry::Vec3(0, 1, 2), geometry::Vec3(3, 4, 5)},
+                           .orientation = geometry::Quat(0.6, 0, 0, 0.8),
+                           .widest_hole_m = 0.0625,
+                           .shortest_chord_m = 0.25};
+  result.infeasibility = planning::Infeasibility{2, 0, {3, 5, 8}, cage};
+  const std::string text = *write_plan_response(result).value;
+  EXPECT_THAT(text, HasSubstr(R"(
+  "infeasibility": {"keyframe_inside": 2, "keyframe_outside": 0,
+    "cage": {"orientation": [0.6, 0.0, 0.0, 0.8], "min": [0.0, 1.0, 2.0], "max": [3.0, 4.0, 5.0],
+      "widest_hole_m": 0.0625, "shortest_chord_m": 0.25},
+    "triangles": [3, 5, 8]})"));
+  const auto read = parse_plan_response(text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  ASSERT_TRUE(read.value->infeasibility && read.value->infeasibility->cage);
+  const correction::CageBox& back = *read.value->infeasibility->cage;
+  EXPECT_EQ(back.box.min(), cage.box.min());
+  EXPECT_EQ(back.box.max(), cage.box.max());
+  EXPECT_EQ(back.orientation.coeffs(), cage.orientation.coeffs());
+  EXPECT_EQ(back.widest_hole_m, 0.0625);
+  EXPECT_EQ(back.shortest_chord_m, 0.25);
+  std::string broken = text;
+  broken.replace(broken.find("widest_hole_m"), 13, "widest");
+  EXPECT_EQ(parse_plan_response(broken, "P.json").error,
+            "P.json: infeasibility.cage.widest_hole_m: is missing");
+}
+
+TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
+  const std::string text = *write_plan_response({}).value;
+  for (const char* key :
+       {"measures", "near_scale", "time_scale", "deadline_reached", "slowed", "keyframe_faults",
+        "infeasibility"}) {
+    EXPECT_EQ(text.find(key), std::string::npos) << key;
+  }
+}
+
+TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
+  planning::PlanResult result;
+  result.corrections.resize(2);
+  result.infeasibility = planning::Infeasibility{2, 0, {3, 5, 8}};
+  result.measures = motion::PathMeasures{};
+  const std::string good = *write_plan_response(result).value;
+  const auto error_of = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.rfind(from), from.size(), to);
+    return parse_plan_response(text, "P.json").error;
+  };
+  EXPECT_EQ(error_of("\"none\"", "\"fly\""), "P.json: corrections[1].method: 'fly' is unknown");
+  EXPECT_EQ(error_of("\"moved_m\"", "\"moved\""), "P.json: corrections[1].moved_m: is missing");
+  EXPECT_THAT(error_of("[3, 5, 8]", "[3, -5]"),
+              HasSubstr("infeasibility.triangles[1]: must be a whole number from 0"));
+  EXPECT_EQ(error_of("\"length_m\"", "\"length\""), "P.json: measures.after.length_m: is missing");
+}
+
+// What is written for an angle is read as the same bits where degrees can say so, within a rounding
+// of each of the two factors otherwise, and in any case written as the same text again.
+TEST(JsonAngle, DegreesReadBack) {
+  constexpr unsigned kSeed = 11;
+  RecordProperty("seed", kSeed);
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> angle(0, std::numbers::pi);
+  int exact = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double given = angle(random);
+    const double read = radians(degrees(given));
+    ASSERT_NEAR(read, given, 2 * std::numeric_limits<double>::epsilon() * given);
+    ASSERT_EQ(degrees(read), degrees(given)) << given;
+    exact += read == given ? 1 : 0;
+    const double from_degrees = any_angle(random);
+    ASSERT_EQ(radians(degrees(from_degrees)), from_degrees);
+  }
+  EXPECT_GT(exact, 50'000);
+}
+
+TEST(JsonResponse, OfLaterVersionsMaySayMore) {
+  std::string text = *write_plan_response({}).value;
+  text.replace(text.find("\"status\""), 0, "\"mood\": \"sunny\", ");
+  EXPECT_TRUE(parse_plan_response(text, "P.json").value);
+}
+
+}  // namespace
+}  // namespace camway::tools

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json/json_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/json/json_io.h"
+
+namespace camway::tools {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+constexpr const char* kSegment = R"({"t0": 0, "t1": 1, "_made": "by hand",
+    "position": [[0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 0, 3]],
+    "orientation": [[1, 0, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0],
+                    [1, 0, 0, 0], [1, 0, 0, 0]]})";
+
+std::string path_with(const std::string& more) {
+  return std::string(R"({"segments": [)") + kSegment + "]" + more + "}";
+}
+
+std::vector<double> times_of(const std::string& keyframes) {
+  const auto read = parse_path_file(path_with(R"(, "keyframes": )" + keyframes), "P.json");
+  EXPECT_TRUE(read.value) << read.error;
+  return read.value ? read.value->keyframe_times_s : std::vector<double>{-1.0};
+}
+
+std::string error_of(const std::string& text) { return parse_path_file(text, "P.json").error; }
+
+TEST(PathFile, NeedsSegmentsAlone) {
+  const auto read = parse_path_file(path_with(""), "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  ASSERT_EQ(read.value->path.segments().size(), 1U);
+  EXPECT_EQ(read.value->path.segments()[0].position[3], geometry::Vec3(0, 0, 3));
+  EXPECT_THAT(read.value->keyframe_times_s, IsEmpty());
+  EXPECT_EQ(read.value->scene_digest, "");
+  EXPECT_EQ(error_of("{}"), "P.json: segments: is missing");
+}
+
+TEST(PathFile, IgnoresWhatCannotChangeWhatIsProved) {
+  const auto read = parse_path_file(
+      path_with(R"(, "status": 200, "certificate": "mine", "author": {"name": "x"})"), "P.json");
+  EXPECT_TRUE(read.value) << read.error;
+}
+
+TEST(PathFile, RefusesWhatCould) {
+  std::string text = path_with("");
+  text.insert(text.find("\"t0\""), R"("weights": [1, 2, 2, 1], )");
+  EXPECT_THAT(error_of(text), StartsWith("P.json: segments[0].weights: is unknown; segments[0] has "
+                                         "t0, t1, position, orientation"));
+  std::string misspelled = path_with("");
+  misspelled.replace(misspelled.find("segments"), 8, "Segments");
+  EXPECT_EQ(error_of(misspelled), "P.json: segments: is missing");
+}
+
+TEST(PathFile, TakesTheTimesOfGivenKeyframes) {
+  EXPECT_THAT(times_of(R"([{"time": 0}, {"time": 0.5, "name": "door"}, {"time": 1}])"),
+              ElementsAre(0.0, 0.5, 1.0));
+  EXPECT_THAT(times_of(R"([{"time": 0, "origin": "given"}, {"time": 0.5, "origin": "inserted"}])"),
+              ElementsAre(0.0));
+  EXPECT_THAT(times_of(R"([{"time": 0}, {"position": [0, 0, 0]}])"), IsEmpty());
+  EXPECT_EQ(error_of(path_with(R"(, "keyframes": [{"time": 0, "origin": "mine"}])")),
+            "P.json: keyframes[0].origin: must be \"given\" or \"inserted\"");
+}
+
+TEST(PathFile, IsEveryResponseOfOurs) {
+  planning::PlanResult result;
+  result.status = planning::Status::kPartial;
+  result.path = parse_path_file(path_with(""), "P.json").value->path;
+  result.keyframes.resize(3);
+  result.keyframes[1].origin = motion::KeyframeOrigin::kInserted;
+  result.keyframes[2].time_s = 1.0;
+  ResponseFormat format;
+  format.scene_digest = "00ff";
+  const auto read = parse_path_file(*write_plan_response(result, format).value, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->path.segments().size(), 1U);
+  EXPECT_THAT(read.value->keyframe_times_s, ElementsAre(0.0, 1.0));
+  EXPECT_EQ(read.value->scene_digest, "00ff");
+}
+
+}  // namespace
+}  // namespace camway::tools

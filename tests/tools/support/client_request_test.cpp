@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "tools/support/client_request.h"
+
+#include <gtest/gtest.h>
+
+#include <camway/plan_request_t.hpp>
+
+#include "client/messages/plan.h"
+#include "daemon/messages/convert.h"
+#include "lcmtypes/wire/check.h"
+#include "tests/messages/plan_samples.h"
+
+namespace camway::tools {
+namespace {
+
+// From memory through the client's structs onto the wire, and from there as the daemon reads it.
+TEST(ClientRequest, EveryOptionReachesTheDaemon) {
+  testing::Random random(testing::kSeed);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(::testing::Message() << "seed " << testing::kSeed << ", trial " << trial);
+    const planning::PlanRequest request = testing::sample_request(2, random);
+    const auto pages = to_pages(to_client_request(request, "room"), "me", 7);
+    ASSERT_EQ(pages.size(), 1U);
+    const auto page = wire::decode<plan_request_t>(pages[0]);
+    ASSERT_TRUE(page.message) << page.fault.text("plan_request_t");
+    const service::ConvertedRequest read = service::from_wire(*page.message);
+    ASSERT_TRUE(read.request) << read.error;
+    EXPECT_EQ(read.request->options, request.options);
+  }
+}
+
+}  // namespace
+}  // namespace camway::tools

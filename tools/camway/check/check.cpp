@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "daemon/planning/path_faults.h"
+#include "tools/camway/check/check_report.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/scene_flags.h"
+#include "tools/json/json_io.h"
+#include "tools/json/json_path.h"
+
+namespace camway::tools {
+namespace {
+
+struct CheckFlags {
+  SceneFlags scene;
+  std::string request;
+  std::string response;
+  bool json = false;
+};
+
+Parsed<CheckInput> failed(std::string error) { return {std::nullopt, std::move(error)}; }
+
+/// The request's keyframes with the times at which they are to be met: its own or, if it leaves
+/// them open, those that the response gives, if they increase: wrong ones cannot hide a miss, only
+/// make one.
+std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& request,
+                                              const std::vector<double>& times_s) {
+  std::vector<motion::Keyframe> keyframes = request.keyframes;
+  if (request.has_times) return keyframes;
+  if (times_s.size() != keyframes.size()) return {};
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    if (i > 0 && !(times_s[i - 1] < times_s[i])) return {};
+    keyframes[i].time_s = times_s[i];
+  }
+  return keyframes;
+}
+
+/// Request and response, each judged by itself.
+Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>& request) {
+  if (!request.value) return failed(request.error);
+  if (const auto fault = planning::validate(*request.value)) {
+    return failed(flags.request + ": " + fault->message);
+  }
+  const Parsed<PathFile> response = read_path_file(flags.response);
+  if (!response.value) return failed(response.error);
+  motion::Camera camera = request.value->camera;
+  camera.near_m *= response.value->near_scale;
+  std::string fault;
+  auto body = motion::Body::make(request.value->body.value_or(camera), fault);
+  if (!body) return failed(flags.request + ": body: " + fault);
+  // Those of the scene that it was planned in are told by the response alone.
+  const geometry::Bounds bounds = request.value->options.bounds.within(response.value->bounds);
+  return {
+      CheckInput{*request.value, response.value->path, flags.response,
+                 timed_keyframes(*request.value, response.value->keyframe_times_s), std::move(body),
+                 nullptr, response.value->scene_digest, response.value->near_scale, bounds},
+      {}};
+}
+
+Parsed<CheckInput> read_input(const CheckFlags& flags) {
+  const Parsed<RequestFile> request = read_plan_request(flags.request);
+  Parsed<CheckInput> input = read_files(flags, request);
+  if (!input.value) return input;
+  std::optional<std::string> fault = planning::find_fault(input.value->path.segments());
+  if (!fault) fault = planning::find_jump(input.value->path, input.value->body->radius_m());
+  if (fault) return failed(flags.response + ": " + *fault);
+  const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
+  if (scene_file.empty()) {
+    return failed(flags.request + ": scene: is missing, and there is no --scene");
+  }
+  scene::SnapshotOptions options;
+  options.import = flags.scene.import_options(request.value->reading);
+  const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
+  if (!loaded.snapshot) return failed(loaded.error);
+  input.value->snapshot = loaded.snapshot;
+  return input;
+}
+
+PathSearch search(const CheckInput& input) {
+  return search_path(collision::Obstacles(*input.snapshot).within(input.bounds), input.path,
+                     *input.body, planning::detect_options(input.request.options),
+                     collision::Deadline::after_s(input.request.options.deadline_s));
+}
+
+ExitCode run_check(const CheckFlags& flags) {
+  const Parsed<CheckInput> read = read_input(flags);
+  if (!read.value) {
+    print_error(read.error);
+    return ExitCode::kInvalidInput;
+  }
+  const CheckInput& input = *read.value;
+  const PathSearch found = search(input);
+  for (const std::string& warning : check_warnings(input, found)) {
+    print_error("warning: " + warning);
+  }
+  if (!found.complete) {
+    print_error(fmt::format("{}: the deadline of {} s came first", flags.response,
+                            input.request.options.deadline_s));
+  }
+  fmt::print("{}", flags.json ? check_json(input, found).dump(2) + "\n" : check_text(input, found));
+  return found.certificate.certified ? ExitCode::kSuccess : ExitCode::kNegative;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, ExitCode& exit_code) {
+  const auto flags = std::make_shared<CheckFlags>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Prove a path free of collision, whoever made it, or list where it collides");
+  add_request_scene_flags(*command, flags->scene);
+  command->add_option("--request", flags->request, "Request file: scene, camera and options")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--response", flags->response,
+                   "Response file, or any with the path as \"segments\"")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--json", flags->json, "Write the result as JSON");
+  command->footer(
+      "What is proved is freedom of collision, between samples and over joins too. Where the "
+      "deadline\n"
+      "(options.deadline_s) comes first, what was found is listed, and how far the search came.\n"
+      "Whether the path meets the request's keyframes is only measured: a line says how many of "
+      "them\n"
+      "it passes within options.interval_tolerance_m (0.001 m), at the times of the request or, if "
+      "it\n"
+      "gives none, of the response. The body must stay within options.bounds and the response's\n"
+      "bounds, too. Missed keyframes do not change the exit code, nor does a "
+      "warning\n"
+      "that the response's scene_digest is not that of the scene. Times, numbers or joins that "
+      "make "
+      "no\n"
+      "path are refused as invalid input, and so are unknown fields of segments, but for comment "
+      "and\n"
+      "those that begin with '_'. Of the rest of the response only keyframes[].time, "
+      "keyframes[].origin,\n"
+      "bounds and scene_digest are read, if they are there.\n" +
+      exit_code_help("the path collides, or the deadline came first") +
+      "\nExample: camway check --request "
+      "scenes/requests/office-graze-door.json --response out.json");
+  command->callback([flags, &exit_code] { exit_code = run_check(*flags); });
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/common/scene_flags.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include "daemon/command_line/command_line.h"
+#include "daemon/scene/import/record/import_words.h"
+#include "tools/camway/common/commands.h"
+
+namespace camway::tools {
+namespace {
+
+/// Help for the scene, and what holds where a flag is not given, before the usual.
+CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& first) {
+  command
+      .add_option(
+          "--scale", flags.reading.scale,
+          "Metres per unit of the scene file (0.0254 for inches); multiplies coordinates [" +
+              first + "1]")
+      ->check(service::above_0());
+  service::add_choice(
+      command, "--up", flags.reading.up, scene::kUpAxes,
+      "Turn the axes: z-to-y for a file with Z up and keyframes with Y up, y-to-z for "
+      "the reverse [" +
+          first + "as-in-file]")
+      ->type_name("AXES");
+  service::add_choice(
+      command, "--unknown", flags.reading.unknown, scene::kUnknownSpaces,
+      "What an OctoMap (.bt, .ot) knows nothing of counts as free or occupied [" + first + "free]")
+      ->type_name("STATE");
+  return command
+      .add_option("--scene", flags.file, "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...)")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+scene::ImportOptions SceneFlags::import_options(const SceneReading& of_request) const {
+  scene::ImportOptions options;
+  const auto choose = [](const auto& flag, const auto& requested, auto& value) {
+    if (const auto& said = flag ? flag : requested) value = *said;
+  };
+  choose(reading.scale, of_request.scale, options.scale);
+  choose(reading.up, of_request.up, options.up);
+  choose(reading.unknown, of_request.unknown, options.unknown);
+  return options;
+}
+
+std::string SceneFlags::file_for(const std::string& request_file,
+                                 const planning::PlanRequest& request) const {
+  if (!file.empty() || request.scene.empty()) return file;
+  if (request_file == "-") return request.scene;
+  return (std::filesystem::path(request_file).parent_path() / request.scene).string();
+}
+
+CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags) {
+  return add_flags(command, flags, "");
+}
+
+void add_request_scene_flags(CLI::App& command, SceneFlags& flags) {
+  add_flags(command, flags, "the request's, else ")
+      ->description(
+          "Scene file (OBJ, OFF, PLY, STL, glTF, OctoMap, ...) [the request's, which is relative "
+          "to the request's folder]");
+}
+
+void warn_of_reading(const std::string& request_file, const RequestFile& request) {
+  const SceneReading& reading = request.reading;
+  if (!reading.scale && !reading.up && !reading.unknown) return;
+  print_error("warning: " + request_file +
+              ": scale, up and unknown do not count here: the scene is as it was loaded");
+}
+
+std::string_view to_string(scene::UpAxis up) {
+  for (const auto& [name, value] : scene::kUpAxes) {
+    if (value == up) return name;
+  }
+  return "unknown";
+}
+
+const LoadedScene& SceneCache::load(const std::string& file, const scene::ImportOptions& import) {
+  const Key key{file, import.scale, import.up, import.unknown};
+  const auto found = scenes_.find(key);
+  if (found != scenes_.end()) return found->second;
+  scene::SnapshotOptions options;
+  options.import = import;
+  return scenes_.emplace(key, load_timed(file, file, options)).first->second;
+}
+
+LoadedScene load_timed(const std::string& name, const std::string& file,
+                       const scene::SnapshotOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  LoadedScene loaded;
+  loaded.result = scene::load_snapshot(name, file, options);
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  loaded.load_ms = taken.count();
+  return loaded;
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/plan.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "daemon/command_line/command_line.h"
+#include "daemon/planning/quaternion_order.h"
+#include "daemon/planning/witness_names.h"
+#include "daemon/scene/import/import_warnings.h"
+#include "tools/camway/common/commands.h"
+#include "tools/camway/common/scene_flags.h"
+#include "tools/camway/plan/plan_summary.h"
+#include "tools/json/json_angle.h"
+#include "tools/json/json_io.h"
+#include "tools/json/json_options.h"
+#include "tools/support/output_file.h"
+
+namespace camway::tools {
+namespace {
+
+using planning::PlanResult;
+using planning::Status;
+
+struct PlanFlags {
+  SceneFlags scene;
+  std::vector<std::string> requests;
+  std::string response;
+  std::string response_dir;
+  std::optional<planning::Method> method;
+  std::optional<double> deadline_s;
+  std::optional<double> clearance_m;
+  std::optional<correction::Objective> objective;
+  std::optional<double> max_turn_deg;
+  std::optional<double> max_shrink;
+  std::optional<std::uint64_t> seed;
+  bool repair_keyframes = false;
+  bool no_timing = false;
+};
+
+/// The answer to one request file, whatever went wrong.
+struct Answer {
+  PlanResult result;
+  std::string scene_file;
+  std::string scene_digest;
+  std::vector<std::string> scene_warnings;    ///< of its import
+  std::vector<std::string> request_warnings;  ///< a sentence each
+  std::shared_ptr<const scene::Mesh> mesh;  ///< of the scene; null if it was not loaded
+};
+
+PlanResult invalid(std::string message) {
+  PlanResult result;
+  result.status = Status::kInvalid;
+  result.message = std::move(message);
+  return result;
+}
+
+ExitCode exit_code_of(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return ExitCode::kSuccess;
+    case Status::kPartial:
+    case Status::kInfeasible:
+    case Status::kTimeout:
+      return ExitCode::kNegative;
+    case Status::kInvalid:
+    case Status::kUnknownScene:
+      return ExitCode::kInvalidInput;
+    case Status::kInternalError:
+      break;
+  }
+  return ExitCode::kOurFault;
+}
+
+/// Names the flag where it was a flag that said it.
+planning::FieldSpelling spelling_with(std::map<std::string, std::string, std::less<>> flags,
+                                      planning::FieldSpelling otherwise) {
+  return [flags = std::move(flags), otherwise = std::move(otherwise)](std::string_view path) {
+    const auto flag = flags.find(path);
+    return flag == flags.end() ? otherwise(path) : flag->second;
+  };
+}
+
+/// What the command line says goes before what the request says.
+void apply(const PlanFlags& flags, planning::PlanRequest& request) {
+  planning::PlanOptions& options = request.options;
+  std::map<std::string, std::string, std::less<>> said;
+  const auto set = [&said](const auto& flag, auto& value, const char* path, const char* name) {
+    if (!flag) return;
+    value = *flag;
+    said[path] = name;
+  };
+  set(flags.method, options.method, "options.method", "--method");
+  set(flags.deadline_s, options.deadline_s, "options.deadline_s", "--deadline-s");
+  set(flags.clearance_m, options.clearance_m, "options.clearance", "--clearance");
+  set(flags.objective, options.objective, "options.objective", "--objective");
+  set(flags.max_shrink, options.max_shrink, "options.max_shrink", "--max-shrink");
+  set(flags.seed, options.seed, "options.seed", "--seed");
+  if (flags.max_turn_deg) {
+    options.orientation.max_turn_rad = radians(*flags.max_turn_deg);
+    said["options.orientation.max_turn"] = "--max-turn-deg";
+  }
+  if (flags.repair_keyframes) options.repair_keyframes = true;
+  request.spelling = spelling_with(std::move(said), std::move(request.spelling));
+}
+
+/// What the user should know of the request, a sentence each.
+std::vector<std::string> warnings_of(const RequestFile& request) {
+  if (request.says_xyzw) return {};
+  const auto order = planning::quaternion_order_warning(request);
+  if (!order) return {};
+  return {*order + "; orientation_xyzw takes the other order"};
+}
+
+Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCache& scenes) {
+  Answer answer;
+  Parsed<RequestFile> request = read_plan_request(file);
+  if (!request.value) {
+    answer.result = invalid(request.error);
+    return answer;
+  }
+  apply(flags, *request.value);
+  if (const auto fault = planning::validate(*request.value)) {
+    answer.result = invalid(file + ": " + fault->message);
+    answer.result.keyframe = fault->keyframe;
+    return answer;
+  }
+  answer.scene_file = flags.scene.file_for(file, *request.value);
+  if (answer.scene_file.empty()) {
+    answer.result = invalid(file + ": scene: is missing, and there is no --scene");
+    return answer;
+  }
+  const LoadedScene& scene =
+      scenes.load(answer.scene_file, flags.scene.import_options(request.value->reading));
+  if (!scene.result.snapshot) {
+    answer.result = invalid(scene.result.error);
+    return answer;
+  }
+  answer.scene_digest = scene.result.snapshot->digest;
+  answer.mesh = scene.result.snapshot->mesh.share();
+  const planning::PlanOptions& options = request.value->options;
+  answer.scene_warnings = scene::import_warnings(
+      scene.result.snapshot->report,
+      scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
+  answer.request_warnings = warnings_of(*request.value);
+  answer.result = planning::plan(*scene.result.snapshot, *request.value);
+  planning::name_witnesses(scene.result.snapshot->mesh, *request.value, answer.result);
+  answer.result.timing.load_scene_ms = scene.load_ms;
+  if (answer.result.status == Status::kInvalid) {
+    answer.result.message = file + ": " + answer.result.message;
+  }
+  return answer;
+}
+
+void print_warnings(const std::string& file, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) print_error("warning: " + file + ": " + warning);
+}
+
+/// Writes the response to `file`, or to standard output if it is empty.
+ExitCode write_response(const Answer& answer, const std::string& file, bool no_timing) {
+  ResponseFormat format;
+  format.timing = no_timing ? TimingField::kOmitted : TimingField::kWritten;
+  format.scene = answer.scene_file;
+  format.scene_digest = answer.scene_digest;
+  format.warnings = answer.scene_warnings;
+  format.warnings.insert(format.warnings.end(), answer.request_warnings.begin(),
+                         answer.request_warnings.end());
+  const Parsed<std::string> text = write_plan_response(answer.result, format);
+  if (!text.value) {
+    print_error("the response cannot be written: " + text.error);
+    return ExitCode::kOurFault;
+  }
+  if (file.empty()) {
+    const bool written =
+        std::fwrite(text.value->data(), 1, text.value->size(), stdout) == text.value->size() &&
+        std::fflush(stdout) == 0;
+    if (written) return ExitCode::kSuccess;
+    print_error("standard output cannot be written");
+    return ExitCode::kInvalidInput;
+  }
+  const std::string error = write_file(file, *text.value);
+  if (error.empty()) return ExitCode::kSuccess;
+  print_error(error);
+  return ExitCode::kInvalidInput;
+}
+
+void print_summary(const std::string& request, const Answer& answer) {
+  const std::string text = plan_summary(answer.result, answer.mesh.get());
+  // An invalid request's message names the file already.
+  print_error(answer.result.status == Status::kInvalid ? text : request + ": " + text);
+}
+
+/// Why a response could not go to `file`, or to standard output if it is empty.
+std::string why_unwritable_response(const std::string& file) {
+  if (!file.empty()) return why_unwritable(file);
+  const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
+  const bool is_open = flags != -1 && (flags & O_ACCMODE) != O_RDONLY;
+  return is_open ? "" : "standard output cannot be written";
+}
+
+ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
+  const std::string& file = flags.requests.front();
+  if (const std::string fault = why_unwritable_response(flags.response); !fault.empty()) {
+    print_error(fault);
+    return ExitCode::kInvalidInput;
+  }
+  const Answer answer = answer_request(flags, file, scenes);
+  print_warnings(answer.scene_file, answer.scene_warnings);
+  print_warnings(file, answer.request_warnings);
+  print_summary(file, answer);
+  const ExitCode outcome = exit_code_of(answer.result.status);
+  // Invalid input leaves nothing on standard output, where a path is expected.
+  if (outcome == ExitCode::kInvalidInput && flags.response.empty()) return outcome;
+  return worse(outcome, write_response(answer, flags.response, flags.no_timing));
+}
+
+/// Where the response to each request goes; an error if one
+/// cannot be written, or two would go to one file or onto a request.
+Parsed<std::vector<std::string>> response_files(const PlanFlags& flags) {
+  std::vector<std::string> files;
+  std::set<std::string> taken;
+  for (const std::string& request : flags.requests) {
+    const std::filesystem::path name = std::filesystem::path(request).filename();
+    const std::string file = (flags.response_dir / name).string();
+    if (!taken.insert(file).second) return {{}, file + ": is the response file of two requests"};
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, request, ignored)) {
+      return {{}, file + ": the response would overwrite the request"};
+    }
+    if (std::string fault = why_unwritable(file); !fault.empty()) return {{}, std::move(fault)};
+    files.push_back(file);
+  }
+  return {std::move(files), {}};
+}
+
+ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
+  std::error_code error;
+  std::filesystem::create_directories(flags.response_dir, error);
+  if (error) {
+    print_error(flags.response_dir + ": cannot be made: " + error.message());
+    return ExitCode::kInvalidInput;
+  }
+  const Parsed<std::vector<std::string>> files = response_files(flags);
+  if (!files.value) {
+    print_error(files.error);
+    return ExitCode::kInvalidInput;
+  }
+  ExitCode outcome = ExitCode::kSuccess;
+  std::size_t ok_count = 0;
+  std::set<std::string> warned_of;  // once a scene; every response has its own
+  fmt::print("{:<14} {:>9} {:>9} {:>8} {:>9}  {}\n", "status", "ms", "colliding", "inserted",
+             "remaining", "request");
+  for (std::size_t i = 0; i < flags.requests.size(); ++i) {
+    const Answer answer = answer_request(flags, flags.requests[i], scenes);
+    if (warned_of.insert(answer.scene_file).second) {
+      print_warnings(answer.scene_file, answer.scene_warnings);
+    }
+    print_warnings(flags.requests[i], answer.request_warnings);
+    const PlanResult& result = answer.result;
+    ok_count += result.status == Status::kOk ? 1 : 0;
+    fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),
+               result.timing.total_ms, result.collisions.size(), inserted_count(result),
+               result.remaining_collisions.size(), flags.requests[i]);
+    std::fflush(stdout);
+    const ExitCode code = exit_code_of(result.status);
+    // Of the others the table says all.
+    if (code == ExitCode::kInvalidInput || code == ExitCode::kOurFault) {
+      print_summary(flags.requests[i], answer);
+    }
+    outcome = worse(outcome, code);
+    outcome = worse(outcome, write_response(answer, (*files.value)[i], flags.no_timing));
+  }
+  fmt::print("{} of {} ok\n", ok_count, plural(flags.requests.size(), "request"));
+  return outcome;
+}
+
+ExitCode run_plan(const PlanFlags& flags) {
+  SceneCache scenes;
+  if (!flags.response_dir.empty()) return plan_set(flags, scenes);
+  if (flags.requests.size() == 1) return plan_one(flags, scenes);
+  print_error("several requests need --response-dir");
+  return ExitCode::kInvalidInput;
+}
+
+/// Flags that go before the request's own options.
+void add_option_flags(CLI::App& command, PlanFlags& flags) {
+  static constexpr std::array<std::pair<std::string_view, planning::Method>, 2> kMethods{
+      {{"ladder", planning::Method::kLadder},
+       {"keyframe_insertion", planning::Method::kKeyframeInsertion}}};
+  service::add_choice(
+      command, "--method", flags.method, kMethods,
+      "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
+      "keyframe_insertion (the paper's); these flags go before the request's options")
+      ->type_name("METHOD");
+  command
+      .add_option("--deadline-s", flags.deadline_s,
+                  "Seconds after which planning stops with what it has")
+      ->check(service::above_0());
+  command
+      .add_option("--clearance", flags.clearance_m, "Distance to keep from the scene, in metres")
+      ->check(service::at_least_0());
+  service::add_choice(command, "--objective", flags.objective, kObjectives,
+                      "What a corrected path is improved for")
+      ->type_name("OBJECTIVE");
+  command
+      .add_option("--max-turn-deg", flags.max_turn_deg,
+                  "Most degrees that corrections may turn the camera")
+      ->check(service::between(0.0, 180.0));
+  command
+      .add_option("--max-shrink", flags.max_shrink,
+                  "By what share the near distance may be made smaller where nothing else helps")
+      ->check(service::at_least_0());  // below 1: planning::validate
+  command.add_option("--seed", flags.seed, "Of the searches for ways round")
+      ->check(service::whole_number(1));
+  command.add_flag("--repair-keyframes", flags.repair_keyframes,
+                   "Move given keyframes that collide to the nearest free pose instead of refusing "
+                   "the request");
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, ExitCode& exit_code) {
+  const auto flags = std::make_shared<PlanFlags>();
+  CLI::App* command = app.add_subcommand(
+      "plan", "Plan a path through the keyframes of a request and write the response");
+  add_request_scene_flags(*command, flags->scene);
+  command->add_option("--request", flags->requests, "Request file, '-' for standard input")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* response =
+      command->add_option("--response", flags->response, "Response file [standard output]")
+          ->type_name("FILE");
+  command
+      ->add_option("--response-dir", flags->response_dir,
+                   "Folder for the responses to several requests, named as the requests are; each "
+                   "scene is loaded once, a table goes to standard output")
+      ->excludes(response)
+      ->type_name("DIR");
+  add_option_flags(*command, *flags);
+  command->add_flag("--no-timing", flags->no_timing,
+                    "Leave timing_ms out, so that two responses compare byte by byte");
+  command->footer(
+      exit_code_help("no path free of collision was found (partial, infeasible, timeout)") +
+      "\nWhat must not collide is the request's body: the camera's near quadrilateral, or a box, "
+      "sphere, convex or mesh (\"body\": {\"type\": \"box\", \"size\": [x, y, z]}, metres, in the "
+      "camera's frame). options.clearance asks for a distance to keep, in metres; "
+      "options.orientation and options.limits say how corrections may turn the camera and how fast "
+      "it may move; README.md lists all options. Fields that are unknown are refused, but for "
+      "comment and those that begin with '_'. Each collision of the response has a witness: time, "
+      "object, triangle, feature of the body, depth, point; corrections say what became of it, and "
+      "how "
+      "hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
+      "A response is written for invalid input too when --response or --response-dir is given.\n"
+      "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
+  command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
+}
+
+}  // namespace camway::tools

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/replay/publish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <set>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+#include <lcm/lcm-cpp.hpp>
+
+#include "lcmtypes/wire/auth/message_auth.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/check.h"
+#include "lcmtypes/wire/envelope.h"
+#include "lcmtypes/wire/local_traffic.h"
+#include "tools/camway/replay/event_log.h"
+#include "tools/camway/replay/signed_event.h"
+
+namespace camway::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Key = std::pair<std::string, std::int64_t>;
+
+/// Sends requests and collects the ids of the answers, all on the calling thread.
+class Publisher {
+ public:
+  /// `auth` may be null.
+  Publisher(lcm::LCM& lcm, const wire::Channels& channels, wire::MessageAuth* auth)
+      : lcm_(lcm), channels_(channels), auth_(auth) {
+    lcm_.subscribe(channels_.plan_response(".*"), &Publisher::on_answer, this)
+        ->setQueueCapacity(kQueueCapacity);
+  }
+
+  [[nodiscard]] bool is_request(const LogEvent& event) const {
+    return event.channel == channels_.plan_request() ||
+           event.channel == channels_.occupancy_request();
+  }
+
+  bool send(const LogEvent& event) {
+    if (event.channel == channels_.plan_request()) {
+      const auto decoded = wire::decode<plan_request_t>(event.data);
+      if (decoded.message) {
+        asked_.emplace(decoded.message->client_id, decoded.message->request_id);
+      } else if (wire::is_other_version(decoded.fault)) {
+        ++other_version_;
+      }
+    }
+    const auto publish = [&](const std::vector<std::uint8_t>& message) {
+      return lcm_.publish(event.channel, message.data(),
+                          static_cast<unsigned int>(message.size())) == 0;
+    };
+    return auth_ != nullptr ? publish(auth_->seal(event.channel, event.data)) : publish(event.data);
+  }
+
+  /// Takes in answers until `time`, or until all requests are answered if `stop_early`.
+  void listen_until(Clock::time_point time, bool stop_early) {
+    while (Clock::now() < time && !(stop_early && answered_count() == asked_.size())) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - Clock::now());
+      lcm_.handleTimeout(static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, kSliceMs)));
+    }
+  }
+
+  [[nodiscard]] std::size_t asked_count() const { return asked_.size(); }
+  [[nodiscard]] std::size_t answered_count() const { return answered_.size(); }
+  /// Planning requests that were sent although no daemon of this version can read them.
+  [[nodiscard]] std::size_t other_version_count() const { return other_version_; }
+
+ private:
+  static constexpr int kQueueCapacity = 4096;
+  static constexpr std::int64_t kSliceMs = 100;
+
+  void on_answer(const lcm::ReceiveBuffer* buffer, const std::string& channel) noexcept {
+    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    const auto message =
+        auth_ != nullptr ? auth_->open(channel, bytes).message : wire::payload_unchecked(bytes);
+    if (!message) return;
+    const auto sender = wire::peek_sender(wire::layout_of<plan_response_t>(), *message);
+    if (!sender) return;
+    Key key(sender->client_id, sender->request_id);
+    if (asked_.contains(key)) answered_.insert(std::move(key));
+  }
+
+  lcm::LCM& lcm_;
+  const wire::Channels& channels_;
+  wire::MessageAuth* auth_;
+  std::set<Key> asked_;
+  std::set<Key> answered_;
+  std::size_t other_version_ = 0;
+};
+
+Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+}
+
+/// How long after `first` the event is to be sent. The times of a log are anybody's: as doubles
+/// their difference cannot overflow, and a wait is cut to what a clock can hold.
+Clock::duration due_after(const LogEvent& first, const LogEvent& event, double speed) {
+  constexpr double kLongest_s = 1e8;
+  const double recorded_us = static_cast<double>(event.utime) - static_cast<double>(first.utime);
+  return seconds(std::clamp(recorded_us * 1e-6 / speed, 0.0, kLongest_s));
+}
+
+}  // namespace
+
+ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options,
+                     std::shared_ptr<const wire::MessageKeys> keys) {
+  std::vector<LogEvent> requests;
+  const wire::Channels channels{options.prefix};
+  const wire::OpenedLcm opened = wire::open_lcm(options.url);
+  if (!opened.lcm) {
+    print_error(
+        "LCM cannot use the network: is there a multicast route? "
+        "(ip route add 224.0.0.0/4 dev lo)");
+    return ExitCode::kInvalidInput;
+  }
+  std::optional<wire::MessageAuth> auth;
+  wire::ReplayGuard::Limits limits;
+  limits.only_since_start = false;  // this lives for moments, and the daemon's clock may be behind
+  if (keys) auth.emplace(keys, limits);
+  Publisher publisher(*opened.lcm, channels, auth ? &*auth : nullptr);
+  if (!opened.unguarded.empty()) {
+    print_error("other hosts of the network can be heard: " + opened.unguarded);
+  }
+  std::uint64_t distrusted = 0;
+  const LogSummary summary = read_event_log(log, [&](LogEvent&& event) {
+    if (!publisher.is_request(event)) return;
+    if (open_event(keys.get(), event)) {
+      ++distrusted;
+    } else {
+      requests.push_back(std::move(event));
+    }
+  });
+  if (!summary.damage.empty()) print_error(summary.damage);
+  if (distrusted > 0) {
+    print_error(fmt::format("{}: {} messages left out: their signature is missing or not good",
+                            log.string(), distrusted));
+  }
+  if (requests.empty()) {
+    print_error(fmt::format("{}: holds no requests on {}_*", log.string(), options.prefix));
+    return ExitCode::kInvalidInput;
+  }
+  const Clock::time_point start = Clock::now();
+  for (const LogEvent& event : requests) {
+    if (options.speed > 0.0) {
+      publisher.listen_until(start + due_after(requests.front(), event, options.speed), false);
+    }
+    if (!publisher.send(event)) {
+      print_error("LCM refused a message of " + std::to_string(event.data.size()) + " bytes");
+      return ExitCode::kOurFault;
+    }
+  }
+  publisher.listen_until(Clock::now() + seconds(options.wait_s), true);
+  fmt::print("sent {} messages; {} of {} planning requests answered\n", requests.size(),
+             publisher.answered_count(), publisher.asked_count());
+  if (publisher.answered_count() < publisher.asked_count()) return ExitCode::kNegative;
+  if (publisher.other_version_count() > 0) {
+    print_error(
+        fmt::format("{}: {} of its messages are of another version of the wire types, which "
+                    "only a daemon of that version reads",
+                    log.string(), publisher.other_version_count()));
+    return ExitCode::kInvalidInput;
+  }
+  return summary.damage.empty() ? ExitCode::kSuccess : ExitCode::kInvalidInput;
+}
+
+}  // namespace camway::tools

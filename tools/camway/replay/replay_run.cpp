@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/replay/replay_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "daemon/planning/plan.h"
+#include "daemon/planning/witness_names.h"
+
+namespace camway::tools {
+namespace {
+
+using planning::PlanResult;
+using planning::Status;
+
+bool scene_was_unknown(const RecordedRequest& request) {
+  return request.answer && request.answer->result &&
+         request.answer->result->status == Status::kUnknownScene;
+}
+
+PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
+  PlanResult result;
+  if (!recorded.request) {
+    result.status = Status::kInvalid;
+    result.message = recorded.error;
+    return result;
+  }
+  const auto scene = scenes.find(recorded.scene);
+  if (scene == scenes.end()) {
+    result.status = Status::kUnknownScene;
+    result.message = "no scene '" + recorded.scene + "'";
+    return result;
+  }
+  planning::PlanRequest request = *recorded.request;
+  // Those of the scene then are told by the answer alone.
+  if (recorded.answer && recorded.answer->result)
+    request.options.bounds = request.options.bounds.within(recorded.answer->result->bounds);
+  result = planning::plan(*scene->second, request);
+  planning::name_witnesses(scene->second->mesh, request, result);
+  return result;
+}
+
+/// Why the recorded answer cannot be held against the new one; empty if it can.
+std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& now) {
+  if (!recorded.answer) return "no answer in the log";
+  if (!recorded.answer->result) return "recorded: " + recorded.answer->status;
+  const Status then = recorded.answer->result->status;
+  if (then == Status::kTimeout || recorded.answer->result->deadline_reached) {
+    return fmt::format("recorded: {}, cut short by its deadline, which hangs on the machine's speed",
+                       planning::to_string(then));
+  }
+  if (then == Status::kUnknownScene && now.status != Status::kUnknownScene) {
+    return "recorded: unknown_scene";
+  }
+  return {};
+}
+
+/// What moved; for a request that names nothing that can move, a point.
+motion::Body body_of(const RecordedRequest& recorded) {
+  if (recorded.request) {
+    std::string fault;
+    const planning::PlanRequest& request = *recorded.request;
+    auto body = motion::Body::make(request.body.value_or(request.camera), fault);
+    if (body) return *body;
+  }
+  return motion::Body(motion::Camera{});
+}
+
+std::size_t keyframe_count(const PlanResult& result) { return result.keyframes.size(); }
+
+void judge(const RecordedRequest& recorded, const ReplayOptions& options, ReplayedRequest& item) {
+  item.note = why_not_compared(recorded, item.result);
+  if (!item.note.empty()) return;
+  const PlanResult& then = *recorded.answer->result;
+  item.difference = compare(then, item.result, body_of(recorded));
+  const bool close = then.status == item.result.status &&
+                     keyframe_count(then) == keyframe_count(item.result) &&
+                     item.difference.path_m <= options.tolerance_m && options.tolerance_m > 0.0;
+  const bool agrees = item.difference.what.empty() || close;
+  item.verdict = agrees ? Verdict::kAgrees : Verdict::kDiffers;
+  if (!agrees) item.note = item.difference.what;
+}
+
+}  // namespace
+
+std::vector<std::string> missing_scenes(const Session& session, const Scenes& scenes) {
+  std::set<std::string> missing;
+  for (const RecordedRequest& request : session.requests) {
+    if (request.request && !scenes.contains(request.scene) && !scene_was_unknown(request)) {
+      missing.insert(request.scene);
+    }
+  }
+  return {missing.begin(), missing.end()};
+}
+
+std::vector<ReplayedRequest> replay(const Session& session, const Scenes& scenes,
+                                    const ReplayOptions& options) {
+  std::vector<ReplayedRequest> replayed(session.requests.size());
+  std::atomic<std::size_t> next{0};
+  // Threads share the counter alone: each writes the elements that it drew.
+  const auto work = [&] {
+    for (std::size_t i = next++; i < replayed.size(); i = next++) {
+      const RecordedRequest& recorded = session.requests[i];
+      ReplayedRequest& item = replayed[i];
+      item.result = plan_again(recorded, scenes);
+      judge(recorded, options, item);
+      const auto scene = scenes.find(recorded.scene);
+      item.scene_changed = scene != scenes.end() && recorded.answer &&
+                           !recorded.answer->scene_digest.empty() &&
+                           recorded.answer->scene_digest != scene->second->digest;
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned i = 1; i < options.threads; ++i) threads.emplace_back(work);
+  work();
+  threads.clear();  // joins
+  return replayed;
+}
+
+std::size_t count(const std::vector<ReplayedRequest>& replayed, Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(replayed.begin(), replayed.end(),
+                    [&](const ReplayedRequest& item) { return item.verdict == verdict; }));
+}
+
+}  // namespace camway::tools

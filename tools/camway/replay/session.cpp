@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "tools/camway/replay/session.h"
+
+#include <map>
+#include <utility>
+
+#include "daemon/messages/pages.h"
+#include "lcmtypes/wire/channels.h"
+#include "lcmtypes/wire/check.h"
+#include "tools/camway/replay/signed_event.h"
+
+namespace camway::tools {
+namespace {
+
+using Key = std::pair<std::string, std::int64_t>;  // client and request id
+
+class SessionBuilder {
+ public:
+  SessionBuilder(const std::string& prefix, const wire::MessageKeys* keys)
+      : keys_(keys),
+        request_channel_(wire::Channels{prefix}.plan_request()),
+        response_channels_(wire::Channels{prefix}.plan_response("")) {}
+
+  void add(LogEvent event) {
+    const bool request = event.channel == request_channel_;
+    if (!request && !event.channel.starts_with(response_channels_)) return;
+    if (open_event(keys_, event)) {
+      ++session_.distrusted;
+    } else if (request) {
+      add_page<plan_request_t>(event, request_pages_,
+                               [this](plan_request_t&& whole) { add_request(std::move(whole)); });
+    } else {
+      add_page<plan_response_t>(event, response_pages_,
+                                [this](plan_response_t&& whole) { add_answer(whole); });
+    }
+  }
+
+  Session take() {
+    session_.incomplete = request_pages_.half_received() + response_pages_.half_received();
+    for (auto& [key, answer] : answers_) {
+      const auto found = index_.find(key);
+      if (found == index_.end()) {
+        ++session_.unasked;
+      } else {
+        session_.requests[found->second].answer = std::move(answer);
+      }
+    }
+    return std::move(session_);
+  }
+
+ private:
+  template <typename Message, typename UseWhole>
+  void add_page(const LogEvent& event, service::PageAssembly<Message>& pages, UseWhole use_whole) {
+    wire::Decoded<Message> decoded = wire::decode<Message>(event.data);
+    if (!decoded.message) {
+      ++session_.malformed;
+      if (wire::is_other_version(decoded.fault)) ++session_.other_version;
+      return;
+    }
+    auto outcome = pages.add(std::move(*decoded.message));
+    if (!outcome.error.empty()) ++session_.malformed;
+    if (outcome.whole) use_whole(std::move(*outcome.whole));
+  }
+
+  void add_request(plan_request_t whole) {
+    // No daemon answers another id; and ids become names of files here.
+    if (!wire::is_client_id(whole.client_id)) {
+      ++session_.malformed;
+      return;
+    }
+    RecordedRequest recorded;
+    recorded.ids = {whole.client_id, whole.request_id, whole.utime};
+    recorded.scene = whole.scene;
+    recorded.sent = 1;
+    service::ConvertedRequest converted = service::from_wire(whole);
+    recorded.request = std::move(converted.request);
+    recorded.error = std::move(converted.error);
+    whole.utime = 0;  // does not count as content
+    service::Bytes content = wire::encode(whole);
+    const auto [position, is_new] =
+        index_.try_emplace({recorded.ids.client_id, recorded.ids.request_id}, contents_.size());
+    if (is_new) {
+      session_.requests.push_back(std::move(recorded));
+      contents_.push_back(std::move(content));
+    } else if (contents_[position->second] == content) {
+      ++session_.requests[position->second].sent;
+    } else {
+      ++session_.conflicts;
+    }
+  }
+
+  void add_answer(const plan_response_t& whole) {
+    service::ConvertedResult converted = service::from_wire(whole);
+    RecordedAnswer answer;
+    answer.status = service::status_name(whole.status);
+    answer.result = std::move(converted.result);
+    answer.scene_digest = whole.scene_digest;
+    const auto [position, is_new] = answers_.try_emplace({whole.client_id, whole.request_id});
+    if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);
+  }
+
+  const wire::MessageKeys* keys_;
+  std::string request_channel_;
+  std::string response_channels_;
+  service::PageAssembly<plan_request_t> request_pages_;
+  service::PageAssembly<plan_response_t> response_pages_;
+  std::map<Key, std::size_t> index_;
+  std::vector<service::Bytes> contents_;
+  std::map<Key, RecordedAnswer> answers_;
+  Session session_;
+};
+
+}  // namespace
+
+Session read_session(const std::filesystem::path& log, const std::string& prefix,
+                     const wire::MessageKeys* keys) {
+  SessionBuilder builder(prefix, keys);
+  LogSummary summary =
+      read_event_log(log, [&](LogEvent&& event) { builder.add(std::move(event)); });
+  Session session = builder.take();
+  session.log = std::move(summary);
+  return session;
+}
+
+}  // namespace camway::tools

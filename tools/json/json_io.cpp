@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json/json_io.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "daemon/scene/import/record/import_words.h"
+#include "tools/json/json_angle.h"
+#include "tools/json/json_body.h"
+#include "tools/json/json_names.h"
+#include "tools/json/json_options.h"
+#include "tools/json/json_path.h"
+#include "tools/json/json_report.h"
+
+namespace camway::tools {
+namespace {
+
+using collision::CollisionInterval;
+using motion::Keyframe;
+using planning::PlanResult;
+
+motion::Camera read_camera(const Field& field) {
+  field.allow_only({"fov_x_deg", "fov_y_deg", "near"});
+  motion::Camera camera;
+  camera.fov_x_rad = radians(field.member("fov_x_deg").number());
+  camera.fov_y_rad = radians(field.member("fov_y_deg").number());
+  camera.near_m = field.member("near").number();
+  return camera;
+}
+
+template <typename Vector>
+Vector read_vector(const Field& field) {
+  Vector v;
+  field.numbers(v.data(), static_cast<std::size_t>(v.size()));
+  return v;
+}
+
+/// The unit quaternion in the direction of `wxyz`. Scaled by the largest coefficient first, so that
+/// squares neither overflow nor vanish.
+geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
+  const double largest = wxyz.cwiseAbs().maxCoeff();
+  if (largest == 0.0) {
+    field.fail("has length zero, which is no orientation");
+    return geometry::Quat::Identity();
+  }
+  if (std::abs(wxyz.squaredNorm() - 1.0) <= kUnitQuaternionError) return geometry::from_wxyz(wxyz);
+  const geometry::Vec4 scaled = wxyz / largest;
+  return geometry::from_wxyz(scaled / scaled.norm());
+}
+
+/// The time of keyframe `index`, where the first has one, and none where it has none.
+void read_time(const Field& item, std::size_t index, RequestFile& request, Keyframe& keyframe) {
+  const std::optional<Field> time = item.optional_member("time");
+  if (time) keyframe.time_s = time->number();
+  if (index == 0) request.has_times = time.has_value();
+  if (time.has_value() == request.has_times) return;
+  item.fail(std::string(time ? "has a time and keyframe 0 has none"
+                             : "has no time and keyframe 0 has one") +
+            ": time stands in all keyframes or in none");
+}
+
+/// The quaternion, in either order of its numbers.
+geometry::Quat read_orientation(const Field& item, RequestFile& request) {
+  const std::optional<Field> xyzw_field = item.optional_member("orientation_xyzw");
+  if (!xyzw_field) {
+    const Field orientation = item.member("orientation");
+    return unit_quaternion(orientation, read_vector<geometry::Vec4>(orientation));
+  }
+  if (item.optional_member("orientation")) {
+    item.fail("has both orientation and orientation_xyzw; leave one out");
+  }
+  request.says_xyzw = true;
+  const auto xyzw = read_vector<geometry::Vec4>(*xyzw_field);
+  return unit_quaternion(*xyzw_field, {xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
+}
+
+void read_keyframes(const Field& list, RequestFile& request) {
+  const std::size_t count = list.size();
+  if (count > planning::kMaxKeyframes) {
+    list.fail("has " + std::to_string(count) + " keyframes, more than the " +
+              std::to_string(planning::kMaxKeyframes) + " that a request may hold");
+    return;
+  }
+  request.keyframes.reserve(count);
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    // Keyframes copied from a response have an origin, which is then "given".
+    item.allow_only({"time", "position", "orientation", "orientation_xyzw", "origin", "repaired"});
+    Keyframe keyframe;
+    read_time(item, i, request, keyframe);
+    keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
+    keyframe.pose.orientation = read_orientation(item, request);
+    request.keyframes.push_back(keyframe);
+  }
+}
+
+SceneReading read_reading(const Field& root) {
+  SceneReading reading;
+  if (const auto scale = root.optional_member("scale")) {
+    reading.scale = scale->number();
+    if (!(*reading.scale > 0.0)) scale->fail("must be above 0");
+  }
+  if (const auto up = root.optional_member("up")) reading.up = named(*up, scene::kUpAxes);
+  if (const auto unknown = root.optional_member("unknown")) {
+    reading.unknown = named(*unknown, scene::kUnknownSpaces);
+  }
+  return reading;
+}
+
+collision::Witness read_witness(const Field& field, planning::WitnessNames& names) {
+  collision::Witness witness;
+  witness.time_s = field.member("time").number();
+  names.object = field.member("object").text();
+  // Below 0 it is a side of the bounds.
+  constexpr auto kSides = static_cast<std::int64_t>(geometry::Bounds::kSides);
+  witness.triangle = static_cast<std::uint32_t>(
+      field.member("triangle").integer(-kSides, std::numeric_limits<std::uint32_t>::max()));
+  names.feature = field.member("feature").text();
+  witness.depth_m = field.member("depth").number();
+  witness.point_W = read_vector<geometry::Vec3>(field.member("point"));
+  return witness;
+}
+
+void read_intervals(const Field& list, std::vector<CollisionInterval>& intervals,
+                    std::vector<planning::WitnessNames>& names) {
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    intervals.push_back({item.member("t_begin").number(), item.member("t_end").number()});
+    names.emplace_back();
+    if (const auto witness = item.optional_member("witness")) {
+      intervals.back().witness = read_witness(*witness, names.back());
+    }
+  }
+}
+
+std::vector<Keyframe> read_response_keyframes(const Field& list) {
+  std::vector<Keyframe> keyframes;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    Keyframe keyframe;
+    keyframe.time_s = item.member("time").number();
+    keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
+    keyframe.pose.orientation =
+        geometry::from_wxyz(read_vector<geometry::Vec4>(item.member("orientation")));
+    keyframe.origin = read_origin(item.member("origin"));
+    if (const auto repaired = item.optional_member("repaired"))
+      keyframe.is_repaired = repaired->boolean();
+    keyframes.push_back(keyframe);
+  }
+  return keyframes;
+}
+
+void read_timing(const Field& field, planning::Timing& timing) {
+  const std::pair<const char*, double*> members[] = {
+      {"load_scene", &timing.load_scene_ms}, {"motion", &timing.motion_ms},
+      {"detect", &timing.detect_ms},         {"correct", &timing.correct_ms},
+      {"certify", &timing.certify_ms},       {"total", &timing.total_ms}};
+  for (const auto& [name, value] : members) {
+    if (const auto member = field.optional_member(name)) *value = member->number();
+  }
+}
+
+PlanResult read_result(const Field& root) {
+  PlanResult result;
+  const Field status_field = root.member("status");
+  const std::string status_name = status_field.text();
+  const std::optional<planning::Status> status = planning::status_from_string(status_name);
+  if (!status) status_field.fail("'" + status_name + "' is unknown");
+  result.status = status.value_or(result.status);
+  if (const auto message = root.optional_member("message")) result.message = message->text();
+  if (const auto keyframe = root.optional_member("keyframe")) {
+    result.keyframe = static_cast<std::size_t>(keyframe->integer(0, planning::kMaxKeyframes));
+  }
+  std::vector<motion::Segment> segments;
+  if (const auto list = root.optional_member("segments")) segments = read_segments(*list);
+  // Only of good segments: a path has preconditions.
+  if (!root.failed()) result.path = motion::Path(std::move(segments));
+  if (const auto list = root.optional_member("keyframes")) {
+    result.keyframes = read_response_keyframes(*list);
+  }
+  if (const auto list = root.optional_member("collisions")) {
+    read_intervals(*list, result.collisions, result.collision_names);
+  }
+  if (const auto list = root.optional_member("remaining_collisions")) {
+    read_intervals(*list, result.remaining_collisions, result.remaining_names);
+  }
+  if (const auto certificate = root.optional_member("certificate")) {
+    result.certificate.certified = certificate->member("certified").boolean();
+    if (const auto bound = certificate->optional_member("clearance_lower_bound")) {
+      result.certificate.clearance_lower_bound_m = bound->number();
+    }
+  }
+  read_report(root, result);
+  if (const auto timing = root.optional_member("timing_ms")) read_timing(*timing, result.timing);
+  return result;
+}
+
+RequestFile read_request(const Field& root) {
+  root.allow_only({"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "options"});
+  RequestFile request;
+  request.spelling = json_spelling();
+  if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
+  request.reading = read_reading(root);
+  if (const auto body = root.optional_member("body")) request.body = read_body(*body);
+  if (!request.body || root.optional_member("camera")) {
+    request.camera = read_camera(root.member("camera"));
+  }
+  read_keyframes(root.member("keyframes"), request);
+  if (const auto options = root.optional_member("options")) {
+    request.options = read_options(*options);
+  }
+  return request;
+}
+
+}  // namespace
+
+Parsed<RequestFile> parse_plan_request(std::string_view text, std::string_view source) {
+  return parse_as(read_request, text, source);
+}
+
+Parsed<RequestFile> read_plan_request(const std::string& file) {
+  return read_as(read_request, file);
+}
+
+Parsed<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
+  return parse_as(read_result, text, source);
+}
+
+Parsed<PlanResult> read_plan_response(const std::string& file) {
+  return read_as(read_result, file);
+}
+
+}  // namespace camway::tools

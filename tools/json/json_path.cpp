@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "tools/json/json_path.h"
+
+#include <array>
+#include <utility>
+
+#include "tools/json/json_options.h"
+
+namespace camway::tools {
+namespace {
+
+template <std::size_t kCount, typename Vector>
+void read_control_points(const Field& list, std::array<Vector, kCount>& points) {
+  const std::size_t count = list.size();
+  if (!list.failed() && count != kCount) {
+    list.fail("must hold " + std::to_string(kCount) + " control points, not " +
+              std::to_string(count));
+  }
+  if (list.failed()) return;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    list.element(i).numbers(points[i].data(), static_cast<std::size_t>(points[i].size()));
+  }
+}
+
+void refuse_unknown_fields(const Field& segments) {
+  const std::size_t count = segments.size();
+  for (std::size_t i = 0; i < count && !segments.failed(); ++i) {
+    segments.element(i).allow_only({"t0", "t1", "position", "orientation"});
+  }
+}
+
+std::vector<double> read_keyframe_times(const Field& list) {
+  std::vector<double> times_s;
+  bool all_timed = true;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    const auto origin = item.optional_member("origin");
+    if (origin && read_origin(*origin) == motion::KeyframeOrigin::kInserted) continue;
+    const auto time = item.optional_member("time");
+    if (time) times_s.push_back(time->number());
+    all_timed = all_timed && time;
+  }
+  if (!all_timed) times_s.clear();
+  return times_s;
+}
+
+PathFile read_path(const Field& root) {
+  PathFile file;
+  const Field list = root.member("segments");
+  refuse_unknown_fields(list);
+  std::vector<motion::Segment> segments = read_segments(list);
+  // Only of good segments: a path has preconditions.
+  if (!root.failed()) file.path = motion::Path(std::move(segments));
+  if (const auto keyframes = root.optional_member("keyframes")) {
+    file.keyframe_times_s = read_keyframe_times(*keyframes);
+  }
+  if (const auto digest = root.optional_member("scene_digest")) file.scene_digest = digest->text();
+  if (const auto bounds = root.optional_member("bounds")) {
+    file.bounds = read_bounds(*bounds);
+    if (const auto fault = geometry::fault_in(file.bounds))
+      bounds->fail(fault->field + " " + fault->reason);
+  }
+  if (const auto scale = root.optional_member("near_scale")) {
+    file.near_scale = scale->number();
+    if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
+      scale->fail("must be above 0 and at most 1");
+    }
+  }
+  return file;
+}
+
+}  // namespace
+
+std::vector<motion::Segment> read_segments(const Field& list) {
+  std::vector<motion::Segment> segments;
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    const Field item = list.element(i);
+    motion::Segment segment;
+    const Field t0 = item.member("t0");
+    const Field t1 = item.member("t1");
+    segment.t0_s = t0.number();
+    segment.t1_s = t1.number();
+    if (!(segment.t1_s > segment.t0_s)) t1.fail("must be above t0");
+    if (i > 0 && segment.t0_s != segments.back().t1_s) {
+      t0.fail("must equal t1 of the segment before");
+    }
+    read_control_points(item.member("position"), segment.position);
+    read_control_points(item.member("orientation"), segment.orientation);
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+motion::KeyframeOrigin read_origin(const Field& field) {
+  const std::string origin = field.text();
+  if (origin != "given" && origin != "inserted") field.fail("must be \"given\" or \"inserted\"");
+  return origin == "inserted" ? motion::KeyframeOrigin::kInserted : motion::KeyframeOrigin::kGiven;
+}
+
+Parsed<PathFile> parse_path_file(std::string_view text, std::string_view source) {
+  return parse_as(read_path, text, source);
+}
+
+Parsed<PathFile> read_path_file(const std::string& file) { return read_as(read_path, file); }
+
+}  // namespace camway::tools

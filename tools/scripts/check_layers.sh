@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+#
+# Holds every #include against the map in ARCHITECTURE.md: a folder may include itself, what the
+# column "may include" of its row names, and what those may include in turn. Of other libraries, LCM
+# (and the messages generated for it) is for the wire, assimp and OctoMap are for daemon/scene,
+# libsodium, libmicrohttpd and spdlog are for one file each, and FCL, Embree and CGAL are for tests
+# alone. Needs nothing but bash, find and awk.
+#
+#   tools/scripts/check_layers.sh [ROOT]    ROOT: the tree to look at; this one if left out
+#
+# Prints FILE:LINE and why for each that is not allowed. Exit code: 0 none, 1 some, 2 nothing could
+# be checked.
+set -euo pipefail
+
+root=${1:-$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../..}
+cd "$root"
+readonly kMap=ARCHITECTURE.md
+[[ -r $kMap ]] || { echo "check_layers: $root has no $kMap" >&2; exit 2; }
+
+mapfile -t sources < <(find daemon client lcmtypes tools tests -type f \
+  \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.h.in' \) 2>/dev/null | LC_ALL=C sort)
+[[ ${#sources[@]} -gt 0 ]] || { echo "check_layers: $root holds no sources" >&2; exit 2; }
+
+LC_ALL=C exec awk '
+  # Rows of the map look like: | `daemon/collision/` | what it holds | motion, scene |
+  function read_row(line, cells, folder, names, count, i) {
+    split(line, cells, "|")
+    if (!match(cells[2], /`[a-z\/]+\/`/)) return
+    folder = substr(cells[2], RSTART + 1, RLENGTH - 3)
+    known[folder] = 1
+    ++rows
+    if (cells[4] ~ /everything/) { all[folder] = 1; return }
+    count = split(cells[4], names, /[ ,`]+/)
+    for (i = 1; i <= count; ++i) {
+      if (names[i] != "") allowed[folder, full(names[i])] = 1
+    }
+  }
+  function full(name) { return name ~ /^(lcmtypes|client|tools|tests)$/ ? name : "daemon/" name }
+
+  # What may be included may bring in what it may include itself.
+  function close_over(a, b, c, changed) {
+    do {
+      changed = 0
+      for (a in known) for (b in known) if ((a, b) in allowed)
+        for (c in known) if ((b, c) in allowed && !((a, c) in allowed)) {
+          allowed[a, c] = 1
+          changed = 1
+        }
+    } while (changed)
+  }
+
+  # The row of the map that a file belongs to, "" for none.
+  function layer_of(path, parts, name) {
+    split(path, parts, "/")
+    name = parts[1] == "daemon" ? parts[1] "/" parts[2] : parts[1]
+    return name in known ? name : ""
+  }
+
+  function speaks_lcm(layer) { return layer ~ /^(daemon\/service|client|tools|tests|lcmtypes)$/ }
+
+  function fault(why) {
+    printf "%s:%d: %s: %s\n", FILENAME, FNR, $0, why
+    ++faults
+  }
+
+  FILENAME == map { if (/^\| *`/) read_row($0); next }
+  FNR == 1 {
+    if (!closed++) close_over()
+    # main.cpp stands on top of the service and belongs to it.
+    here = FILENAME == "daemon/process/main.cpp" ? "daemon/service" : layer_of(FILENAME)
+    if (here == "") { fault("this folder is not in the map of " map); nextfile }
+  }
+  !/^[ \t]*#[ \t]*include[ \t]*[<"]/ { next }
+  {
+    ++includes
+    file = $0
+    sub(/^[^<"]*[<"]/, "", file)
+    sub(/[>"].*$/, "", file)
+    if (file ~ /^(lcm\/|camway\/[a-z_]+_t\.hpp$)/ && !speaks_lcm(here)) {
+      fault("LCM is for daemon/service, client and tools")
+    } else if (file ~ /^(assimp|octomap|octomath)\// && here !~ /^(daemon\/scene|tests)$/) {
+      fault("assimp and OctoMap are for daemon/scene")
+    } else if (file ~ /^(fcl|embree[0-9]*|CGAL)\// && here != "tests") {
+      fault("FCL, Embree and CGAL are for tests and benchmarks")
+    } else if (file ~ /^sodium/ && FILENAME != "lcmtypes/wire/auth/message_keys.cpp" && here != "tests") {
+      fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp")
+    } else if (file == "microhttpd.h" && FILENAME != "daemon/process/http_page.cpp") {
+      fault("libmicrohttpd is for daemon/process/http_page.cpp")
+    } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {
+      fault("spdlog is for daemon/service/log/log.cpp")
+    } else if (file ~ /^lcmtypes\//) {
+      if (!speaks_lcm(here)) fault("the wire is for daemon/service, client and tools")
+    } else {
+      there = layer_of(file)
+      if (file ~ /^(daemon|client|tools|tests)\// && there == "" ) {
+        fault("that folder is not in the map of " map)
+      } else if (there != "" && there != here && !(here in all) && !((here, there) in allowed)) {
+        fault(here " may not include " there)
+      }
+    }
+  }
+  END {
+    if (rows < 5 || (!includes && !faults)) {
+      printf "check_layers: %d rows of a map in %s, %d includes: nothing checked\n", rows, map,
+             includes > "/dev/stderr"
+      exit 2
+    }
+    if (faults) exit 1
+    printf "check_layers: %d includes, all as the map in %s allows\n", includes, map
+  }
+' map="$kMap" "$kMap" "${sources[@]}"

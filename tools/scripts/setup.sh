@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+#
+# Installs the Debian packages that building and testing need, and only those that are missing.
+# Silent and quick when nothing is. ./check and ./demo call it first.
+#
+#   tools/scripts/setup.sh            install what is missing (as root, or with sudo)
+#   tools/scripts/setup.sh --list     print the packages
+set -euo pipefail
+
+readonly kPackages=(
+  # to build
+  g++ cmake ninja-build ccache git pkg-config python3
+  # the wire
+  liblcm-dev liblcm-bin
+  # what confines the process that reads scene files
+  libseccomp-dev
+  # geometry, scenes, the occupancy map
+  libeigen3-dev liboctomap-dev libassimp-dev libboost-dev libxxhash-dev
+  # logs, flags, JSON, configuration files, pictures
+  libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libcairo2-dev
+  # signed messages
+  libsodium-dev
+  # the page for Prometheus
+  libmicrohttpd-dev
+  # tests
+  libgtest-dev libgmock-dev
+  # the private network namespace, and one that loses packets
+  iproute2 util-linux iptables
+)
+
+say() { printf 'setup: %s\n' "$*" >&2; }
+
+missing_packages() {
+  local installed
+  installed=$(dpkg-query --show --showformat '${Package} ${db:Status-Status}\n' "${kPackages[@]}" \
+    2>/dev/null | sed -n 's/ installed$//p') || true
+  comm -13 <(sort -u <<<"$installed") <(printf '%s\n' "${kPackages[@]}" | sort)
+}
+
+choose_root_command() {
+  if [[ $EUID -eq 0 ]]; then
+    as_root=()
+  elif command -v sudo >/dev/null && { sudo -n true 2>/dev/null || [[ -t 0 ]]; }; then
+    as_root=(sudo)
+  else
+    say "these packages are missing, and installing them needs root or sudo without a password:"
+    say "  apt-get install --no-install-recommends $*"
+    exit 1
+  fi
+}
+
+apt() {
+  # 300 s: a machine that has just started often holds the lock for its own updates.
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 \
+    -o Acquire::Retries=3 "$@" </dev/null
+}
+
+install() {
+  apt install --yes --no-install-recommends "$@"
+}
+
+main() {
+  if [[ ${1:-} == --list ]]; then
+    printf '%s\n' "${kPackages[@]}"
+    return
+  fi
+  if ! command -v dpkg-query >/dev/null; then
+    say "this is not Debian: install the counterparts of these yourself: ${kPackages[*]}"
+    return
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages)
+  [[ ${#missing[@]} -eq 0 ]] && return
+
+  choose_root_command "${missing[@]}"
+  say "installing ${missing[*]}"
+  # Fresh images come without package lists, old ones with stale lists; a good list needs no update.
+  if ! install "${missing[@]}"; then
+    say "that failed; updating the package lists and trying once more"
+    if ! apt update || ! install "${missing[@]}"; then
+      say "could not install: ${missing[*]}"
+      say "apt-get's message is above. Is there a network, and does /etc/apt/sources.list name a mirror?"
+      exit 1
+    fi
+  fi
+}
+
+main "$@"
