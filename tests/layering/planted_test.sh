@@ -39,23 +39,43 @@ forbidden() {
   fi
 }
 
-allowed daemon/motion/a.cpp '"daemon/motion/b.h"'
-allowed daemon/motion/a.cpp '"daemon/geometry/types.h"'
+allowed daemon/motion/path/a.cpp '"daemon/motion/path/b.h"'
+allowed daemon/motion/path/a.cpp '"daemon/geometry/types.h"'
 allowed daemon/planning/a.cpp '"daemon/geometry/types.h"'  # by way of others
 allowed daemon/planning/a.cpp '<vector>'
+allowed daemon/scene/snapshot/a.cpp '"daemon/scene/mesh/mesh.h"'
+allowed daemon/scene/import/child/a.cpp '"daemon/scene/import/readers/decimal.h"'
+allowed daemon/motion/path/below/a.cpp '"daemon/geometry/types.h"'  # the row of the folder above
 allowed daemon/service/a.cpp '<lcm/lcm.h>'
+allowed daemon/messages/a.cpp '<camway/plan_request_t.hpp>'
 allowed daemon/service/a.cpp '"lcmtypes/wire/channels.h"'
 allowed daemon/service/log/log.cpp '<spdlog/spdlog.h>'
-allowed daemon/process/main.cpp '"daemon/process/daemon_run.h"'
-allowed daemon/scene/a.cpp '<octomap/OcTree.h>'
-allowed daemon/scene/a.cpp '<assimp/scene.h>'
-allowed client/a.cpp '"lcmtypes/wire/channels.h"'
+allowed daemon/process/main.cpp '"daemon/service/service.h"'
+allowed daemon/scene/occupancy/a.cpp '<octomap/OcTree.h>'
+allowed daemon/scene/import/child/a.cpp '<assimp/scene.h>'
+allowed client/messages/a.cpp '"lcmtypes/wire/channels.h"'
+allowed client/engine/a.cpp '<camway/client.h>'
 allowed tools/camway/a.cpp '"daemon/messages/convert.h"'
 allowed tests/scene/a.cpp '<octomap/OcTree.h>'
+allowed lcmtypes/wire/auth/message_keys.cpp '<sodium.h>'
+allowed daemon/process/http_page.cpp '<microhttpd.h>'
 
-forbidden daemon/geometry/a.cpp '"daemon/motion/b.h"'
-forbidden daemon/motion/a.h '"daemon/scene/mesh/mesh.h"'
-forbidden daemon/scene/a.cpp '"daemon/motion/b.h"'
+forbidden daemon/geometry/a.cpp '"daemon/motion/path/b.h"'
+forbidden daemon/motion/path/a.cpp '"daemon/motion/spline/b.h"'
+forbidden daemon/motion/path/a.h '"daemon/scene/mesh/mesh.h"'
+forbidden daemon/scene/index/a.cpp '"daemon/motion/path/b.h"'
+# Between the rooms of one folder, upwards and sideways.
+forbidden daemon/scene/mesh/a.cpp '"daemon/scene/snapshot/snapshot.h"'
+forbidden daemon/scene/import/a.cpp '"daemon/scene/import/readers/decimal.h"'
+forbidden daemon/scene/field/a.cpp '"daemon/scene/index/scene_index.h"'
+forbidden daemon/correction/search/a.cpp '"daemon/correction/ladder/ladder.h"'
+forbidden daemon/service/transport/a.cpp '"daemon/service/core/core.h"'
+forbidden daemon/service/scenes/a.cpp '"daemon/service/plans/plan_service.h"'
+forbidden daemon/service/core/a.cpp '"daemon/service/service.h"'
+forbidden daemon/service/a.cpp '"daemon/process/options.h"'
+forbidden client/messages/a.cpp '"client/engine/link.h"'
+forbidden client/include/camway/a.h '"client/messages/bytes.h"'
+forbidden tools/json/a.cpp '"client/engine/link.h"'
 forbidden daemon/collision/a.cpp '"daemon/planning/plan.h"'
 forbidden daemon/planning/a.cpp '"daemon/service/core/core.h"'
 forbidden daemon/planning/a.cpp '"tools/json/json_io.h"'
@@ -64,19 +84,20 @@ forbidden daemon/service/a.cpp '"client/engine/link.h"'
 forbidden daemon/planning/a.cpp '<lcm/lcm-cpp.hpp>'
 forbidden daemon/planning/a.cpp '"lcmtypes/wire/channels.h"'
 forbidden daemon/planning/a.cpp '<camway/plan_request_t.hpp>'
+forbidden client/messages/a.cpp '"lcmtypes/wire/auth/message_auth.h"'
 forbidden daemon/collision/a.cpp '<octomap/OcTree.h>'
+forbidden daemon/scene/snapshot/a.cpp '<octomap/OcTree.h>'
+forbidden daemon/scene/import/a.cpp '<assimp/scene.h>'
 forbidden tools/a.cpp '<assimp/scene.h>'
-forbidden daemon/scene/a.cpp '<embree3/rtcore.h>'
-allowed lcmtypes/wire/auth/message_keys.cpp '<sodium.h>'
-allowed daemon/process/http_page.cpp '<microhttpd.h>'
+forbidden daemon/scene/index/a.cpp '<embree3/rtcore.h>'
 forbidden daemon/service/a.cpp '<sodium.h>'
 forbidden client/a.cpp '<sodium.h>'
 forbidden daemon/service/a.cpp '<microhttpd.h>'
 forbidden daemon/geometry/a.cpp '<spdlog/spdlog.h>'
-forbidden daemon/service/a.cpp '  <spdlog/spdlog.h>'
+forbidden daemon/service/log/a.cpp '  <spdlog/spdlog.h>'
 forbidden tests/service/a.cpp '<spdlog/spdlog.h>'
 forbidden client/a.cpp '"daemon/planning/plan.h"'
-forbidden lcmtypes/a.cpp '"daemon/geometry/types.h"'
+forbidden lcmtypes/wire/a.cpp '"daemon/geometry/types.h"'
 
 # A folder that the map does not know, a map that cannot be read, and a tree without sources are no
 # success.
@@ -89,10 +110,10 @@ fails_with() {
   fi
 }
 fails_with 1 daemon/extra/a.cpp '<vector>'
-fails_with 1 daemon/motion/a.cpp '"daemon/extra/a.h"'
+fails_with 1 daemon/motion/path/a.cpp '"daemon/extra/a.h"'
 fails_with 2 python/a.cpp '<vector>'
 map=/dev/null
-fails_with 2 daemon/motion/a.cpp '<vector>'
+fails_with 2 daemon/motion/path/a.cpp '<vector>'
 
 [[ $failures -eq 0 ]] || exit 1
 echo "all planted includes were judged rightly"

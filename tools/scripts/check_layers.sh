@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 #
-# Holds every #include against the map in ARCHITECTURE.md: a folder may include itself, what the
-# column "may include" of its row names, and what those may include in turn. Of other libraries, LCM
-# (and the messages generated for it) is for the wire, assimp and OctoMap are for daemon/scene,
-# libsodium, libmicrohttpd and spdlog are for one file each, and FCL, Embree and CGAL are for tests
-# alone. Needs nothing but bash, find and awk.
+# Holds every #include against the map in ARCHITECTURE.md: a room may include itself, what the column
+# "may include" of its row names, and what those may include in turn. A file belongs to the row of the
+# nearest folder above it that has one. LCM and the messages generated for it are for the wire; other
+# libraries are for one room or one file each; FCL, Embree and CGAL are for tests alone. Needs nothing
+# but bash, find and awk.
 #
 #   tools/scripts/check_layers.sh [ROOT]    ROOT: the tree to look at; this one if left out
 #
@@ -23,10 +23,10 @@ mapfile -t sources < <(find daemon client lcmtypes tools tests -type f \
 [[ ${#sources[@]} -gt 0 ]] || { echo "check_layers: $root holds no sources" >&2; exit 2; }
 
 LC_ALL=C exec awk '
-  # Rows of the map look like: | `daemon/collision/` | what it holds | motion, scene |
+  # Rows of the map look like: | `daemon/collision/` | what it holds | `motion`, `scene/snapshot` |
   function read_row(line, cells, folder, names, count, i) {
     split(line, cells, "|")
-    if (!match(cells[2], /`[a-z\/]+\/`/)) return
+    if (!match(cells[2], /`[a-z_\/]+\/`/)) return
     folder = substr(cells[2], RSTART + 1, RLENGTH - 3)
     known[folder] = 1
     ++rows
@@ -36,7 +36,7 @@ LC_ALL=C exec awk '
       if (names[i] != "") allowed[folder, full(names[i])] = 1
     }
   }
-  function full(name) { return name ~ /^(lcmtypes|client|tools|tests)$/ ? name : "daemon/" name }
+  function full(name) { return name ~ /^(lcmtypes|client|tools|tests)(\/|$)/ ? name : "daemon/" name }
 
   # What may be included may bring in what it may include itself.
   function close_over(a, b, c, changed) {
@@ -50,14 +50,15 @@ LC_ALL=C exec awk '
     } while (changed)
   }
 
-  # The row of the map that a file belongs to, "" for none.
-  function layer_of(path, parts, name) {
-    split(path, parts, "/")
-    name = parts[1] == "daemon" ? parts[1] "/" parts[2] : parts[1]
-    return name in known ? name : ""
+  # The row of the map that a file belongs to: the longest prefix that has one, "" for none.
+  function layer_of(path) {
+    while (sub(/\/[^\/]*$/, "", path)) if (path in known) return path
+    return ""
   }
 
-  function speaks_lcm(layer) { return layer ~ /^(daemon\/service|client|tools|tests|lcmtypes)$/ }
+  function speaks_lcm(layer) {
+    return layer ~ /^(daemon\/(messages|service|process)|client|tools|tests|lcmtypes)(\/|$)/
+  }
 
   function fault(why) {
     printf "%s:%d: %s: %s\n", FILENAME, FNR, $0, why
@@ -67,8 +68,7 @@ LC_ALL=C exec awk '
   FILENAME == map { if (/^\| *`/) read_row($0); next }
   FNR == 1 {
     if (!closed++) close_over()
-    # main.cpp stands on top of the service and belongs to it.
-    here = FILENAME == "daemon/process/main.cpp" ? "daemon/service" : layer_of(FILENAME)
+    here = layer_of(FILENAME)
     if (here == "") { fault("this folder is not in the map of " map); nextfile }
   }
   !/^[ \t]*#[ \t]*include[ \t]*[<"]/ { next }
@@ -77,10 +77,13 @@ LC_ALL=C exec awk '
     file = $0
     sub(/^[^<"]*[<"]/, "", file)
     sub(/[>"].*$/, "", file)
-    if (file ~ /^(lcm\/|camway\/[a-z_]+_t\.hpp$)/ && !speaks_lcm(here)) {
-      fault("LCM is for daemon/service, client and tools")
-    } else if (file ~ /^(assimp|octomap|octomath)\// && here !~ /^(daemon\/scene|tests)$/) {
-      fault("assimp and OctoMap are for daemon/scene")
+    if (file ~ /^(lcm\/|camway\/([a-z_]+_t\.hpp|max_bytes\.h)$)/ && !speaks_lcm(here)) {
+      fault("LCM is for daemon/messages, daemon/service, daemon/process, client and tools")
+    } else if (file ~ /^assimp\// && here !~ /^(daemon\/scene\/import\/child|tests)$/) {
+      fault("assimp is for daemon/scene/import/child")
+    } else if (file ~ /^octo(map|math)\// &&
+               here !~ /^(daemon\/scene\/(voxels|occupancy|import\/child)|tests)$/) {
+      fault("OctoMap is for daemon/scene/voxels, daemon/scene/occupancy and daemon/scene/import/child")
     } else if (file ~ /^(fcl|embree[0-9]*|CGAL)\// && here != "tests") {
       fault("FCL, Embree and CGAL are for tests and benchmarks")
     } else if (file ~ /^sodium/ && FILENAME != "lcmtypes/wire/auth/message_keys.cpp" && here != "tests") {
@@ -89,11 +92,11 @@ LC_ALL=C exec awk '
       fault("libmicrohttpd is for daemon/process/http_page.cpp")
     } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {
       fault("spdlog is for daemon/service/log/log.cpp")
-    } else if (file ~ /^lcmtypes\//) {
-      if (!speaks_lcm(here)) fault("the wire is for daemon/service, client and tools")
     } else {
+      # The headers of the client are included as users do.
+      if (file ~ /^camway\// && file !~ /(_t\.hpp|\/max_bytes\.h)$/) file = "client/include/" file
       there = layer_of(file)
-      if (file ~ /^(daemon|client|tools|tests)\// && there == "" ) {
+      if (file ~ /^(daemon|client|lcmtypes|tools|tests)\// && there == "") {
         fault("that folder is not in the map of " map)
       } else if (there != "" && there != here && !(here in all) && !((here, there) in allowed)) {
         fault(here " may not include " there)
