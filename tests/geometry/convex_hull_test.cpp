@@ -10,6 +10,8 @@
 namespace camway::motion {
 namespace {
 
+constexpr std::size_t kManyPoints = 512;  // as many as a body may have
+
 using test::exact;
 using test::exact_volume;
 using test::PointSet;
@@ -142,11 +144,11 @@ TEST(ConvexHull, OfEqualPointsIsAPoint) {
 TEST(ConvexHull, OfAPyramidOnAManyCorneredBase) {
   std::vector<Vec3> points{Vec3(0, 0, 1)};
   // Points of a parabola in a tilted plane: all of them corners, exactly coplanar.
-  for (int i = 1; i < static_cast<int>(kMaxBodyPoints); ++i)
+  for (int i = 1; i < static_cast<int>(kManyPoints); ++i)
     points.emplace_back(i, i * i, 3.0 * i + 7.0 * i * i);
   const ConvexHull hull = convex_hull(points);
-  EXPECT_EQ(hull.triangles.size(), 2 * kMaxBodyPoints - 4);
-  EXPECT_EQ(hull.faces.size(), kMaxBodyPoints);
+  EXPECT_EQ(hull.triangles.size(), 2 * kManyPoints - 4);
+  EXPECT_EQ(hull.faces.size(), kManyPoints);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "daemon/messages/bounds.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/scene.h"
 #include "daemon/messages/scene_names.h"
