@@ -81,7 +81,7 @@ class Documents:
     def check_cpp(self, session, block):
         file = session.write("block.cpp", block.text)
         self.expect_success(session, block,
-                            f"c++ -std=c++17 -fsyntax-only -I'{self.source}/client' '{file}'")
+                            f"c++ -std=c++17 -fsyntax-only -I'{self.source}/client/include' '{file}'")
 
     def check_toml(self, session, block):
         session.write("block.toml", block.text)
