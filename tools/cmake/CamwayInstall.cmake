@@ -11,6 +11,8 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
 install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake)
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE SECURITY.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
 
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.
