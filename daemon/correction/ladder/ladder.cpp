@@ -248,9 +248,15 @@ class Ladder {
   // From an earlier gap it may be known that there is no way out of one end.
   [[nodiscard]] bool is_shut_off(std::size_t gap) const {
     return std::ranges::any_of(result_.shut_in, [&](const ShutIn& known) {
-      return (known.keyframe == gap && !known.holds(middle_W(gap + 1))) ||
-             (known.keyframe == gap + 1 && !known.holds(middle_W(gap)));
+      return (known.keyframe == gap && !known.may_hold(middle_W(gap + 1))) ||
+             (known.keyframe == gap + 1 && !known.may_hold(middle_W(gap)));
     });
+  }
+
+  void add_shut_in(std::size_t keyframe, const Pocket& pocket) {
+    const auto same = std::ranges::find(result_.shut_in, keyframe, &ShutIn::keyframe);
+    if (same != result_.shut_in.end()) return;
+    result_.shut_in.push_back({keyframe, pocket.reached_W, pocket.unsure_m});
   }
 
   [[nodiscard]] geometry::Vec3 middle_W(std::size_t keyframe) const {
@@ -284,8 +290,7 @@ class Ladder {
     const std::optional<Candidate> found = go_round(
         problem, search, improvement_, space_, options_.seed, [this] { return is_separated(); },
         deadline_);
-    if (pocket)
-      result_.shut_in.push_back({gaps_[index] + (pocket->is_at_end ? 1 : 0), pocket->reached_W});
+    if (pocket) add_shut_in(gaps_[index] + (pocket->is_at_end ? 1 : 0), *pocket);
     for (const std::size_t i : same_gap) result_.corrections[i].tried += effort;
     if (!accept(index, Rung::kGoRound, found)) {
       for (const std::size_t i : same_gap) is_beyond_limit_[i] = is_beyond_limit_[index];

@@ -8,7 +8,8 @@ namespace camway::correction {
 /// The end of a way from which less can be reached.
 struct Pocket {
   bool is_at_end = false;   ///< or at the begin
-  geometry::Box reached_W;  ///< about all places of the ball's middle that were reached from there
+  geometry::Box reached_W;  ///< about what the ball's middle can reach from there
+  double unsure_m = 0.0;    ///< by how much that may be too small: half of a cell at its walls
 };
 
 }  // namespace camway::correction

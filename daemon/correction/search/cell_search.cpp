@@ -304,17 +304,28 @@ class CellSearch {
   /// no way out of this one either.
   [[nodiscard]] Pocket pocket() const {
     std::array<geometry::Box, 2> boxes;
+    std::array<double, 2> unsure_m = {0.0, 0.0};
     for (std::uint32_t i = 0; i < tree_.size(); ++i) {
       const Cell& cell = tree_[i];
+      if (cell.children != kNone || cell.reached == 0) continue;
       const double half_m = 0.5 * tree_.side_m(cell.level);
       const Vec3 center_W = tree_.center_W(cell);
+      geometry::Box box(center_W.array() - half_m, center_W.array() + half_m);
+      double wall_m = 0.0;
+      // The walls are somewhere in the cells beside it that are not free.
+      tree_.for_each_neighbour(i, [&](std::uint32_t next) {
+        if (tree_[next].state != State::kMixed) return;
+        box.extend(tree_.center_W(tree_[next]));
+        wall_m = std::max(wall_m, 0.5 * tree_.side_m(tree_[next].level));
+      });
       for (std::size_t end = 0; end < kEnds.size(); ++end) {
-        if (cell.children != kNone || (cell.reached & kEnds[end]) == 0) continue;
-        boxes[end].extend(geometry::Box(center_W.array() - half_m, center_W.array() + half_m));
+        if ((cell.reached & kEnds[end]) == 0) continue;
+        boxes[end].extend(box);
+        unsure_m[end] = std::max(unsure_m[end], wall_m);
       }
     }
     const bool is_at_end = boxes[1].diagonal().norm() < boxes[0].diagonal().norm();
-    return {is_at_end, boxes[is_at_end ? 1 : 0]};
+    return {is_at_end, boxes[is_at_end ? 1 : 0], unsure_m[is_at_end ? 1 : 0]};
   }
 
   [[nodiscard]] double step_cost_m(std::uint32_t a, std::uint32_t b) const {

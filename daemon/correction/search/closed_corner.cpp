@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "daemon/geometry/triangle_box.h"
-#include "daemon/geometry/triangle_distance.h"
 
 namespace camway::correction {
 
@@ -147,7 +147,18 @@ class Corner {
   }
 
   [[nodiscard]] double distance_to(std::size_t triangle, const Vec3& point) const {
-    return geometry::triangle_distance({point, point, point}, triangles_[triangle]);
+    const Triangle& t = triangles_[triangle];
+    const Vec3& normal = normals_[triangle];
+    double least_m = std::numeric_limits<double>::infinity();
+    bool is_over = true;  // the inside of the triangle, as seen along the normal
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 along = t[(k + 1) % 3] - t[k];
+      const Vec3 to = point - t[k];
+      const double share = std::clamp(along.dot(to) / along.squaredNorm(), 0.0, 1.0);
+      least_m = std::min(least_m, (to - share * along).norm());
+      is_over = is_over && normal.dot(along.cross(to)) >= 0.0;
+    }
+    return is_over ? std::abs(normal.dot(point - t[0])) : least_m;
   }
 
   [[nodiscard]] bool is_closed_at_edges(std::size_t wall, std::size_t triangle) const {

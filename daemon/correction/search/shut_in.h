@@ -11,10 +11,12 @@ namespace camway::correction {
 /// ball can reach was looked at, as far as searches see: it is no proof.
 struct ShutIn {
   std::size_t keyframe = 0;
-  geometry::Box region_W;  ///< about all places of the middle of the body that were reached
+  geometry::Box region_W;  ///< about all that the middle of the body reached
+  double unsure_m = 0.0;   ///< by how much that may be too small
 
-  [[nodiscard]] bool holds(const geometry::Vec3& point_W) const {
-    return region_W.contains(point_W);
+  /// False only for points that are not in the region.
+  [[nodiscard]] bool may_hold(const geometry::Vec3& point_W) const {
+    return region_W.exteriorDistance(point_W) <= unsure_m;
   }
 };
 
