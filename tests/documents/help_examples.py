@@ -2,9 +2,10 @@
 """The examples that the programs' help shows, with the marks that a document would have for them."""
 import re
 
-_RECORDING = ("lcm-logger --quiet session.lcmlog & sleep 1; camway load --scene "
-              "office=scenes/office.obj --request scenes/requests/office-graze-door.json "
-              "--seconds 1; kill -INT $!; wait")
+# A logger that has just started may miss messages, so requests go on until it has one.
+_RECORDING = ("lcm-logger --quiet session.lcmlog & until grep -qs PLAN_REQUEST session.lcmlog; do "
+              "camway load --scene office=scenes/office.obj --request "
+              "scenes/requests/office-graze-door.json --seconds 1; done; kill -INT $!; wait")
 _MARKS = {
     "camway doctor": {"not run": "it looks at this machine's own configuration"},
     "camway replay": {"run first": _RECORDING},
