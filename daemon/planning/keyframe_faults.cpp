@@ -177,11 +177,10 @@ class Search {
 }  // namespace
 
 KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
-                                                const collision::Obstacles& obstacles,
-                                                const motion::Body& body,
-                                                const collision::DetectOptions& detect,
-                                                const std::vector<Keyframe>& keyframes,
-                                                const Deadline& deadline) {
+                                    const collision::Obstacles& obstacles, const motion::Body& body,
+                                    const collision::DetectOptions& detect,
+                                    const std::vector<Keyframe>& keyframes,
+                                    const Deadline& deadline) {
   return Search(snapshot, obstacles, body, detect, keyframes, deadline).run();
 }
 

@@ -51,7 +51,7 @@ class Planner {
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
 
-  PlanResult run() && {
+  UnsentResult run() && {
     if (prepare()) {
       correct(find_collisions());
       certify();
@@ -60,10 +60,9 @@ class Planner {
       meet_limits();
       add_clearance();
       conclude();
-      to_sent_times(origin_, result_);
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
-    return std::move(result_);
+    return {std::move(result_), origin_, std::move(law_)};
   }
 
  private:
@@ -354,6 +353,7 @@ class Planner {
       result_.remaining_collisions = std::move(slowed.check->collisions);
     }
     result_.measures = motion::measure(result_.path, slowed.interpolated.path());
+    law_ = std::move(slowed.law);
   }
 
   // Fine for a flight around an object, but more often the unit or the axes of the file are not
@@ -551,6 +551,7 @@ class Planner {
   std::optional<motion::CubicPath> corrected_;   ///< what the ladder made of the path, if anything
   std::optional<LimitBreach> breach_;            ///< limits that are not met
   bool slowed_everywhere_ = false;               ///< where `time_scale` is not 1
+  std::optional<motion::TimeLaw> law_;           ///< that slowed the path
   PlanResult result_;
 };
 
@@ -559,8 +560,8 @@ PlanResult plan_among(const scene::Snapshot& snapshot, const collision::Obstacle
   const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
     return Planner(snapshot, obstacles, asked, until).run();
   };
-  return may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
-                             : plan_at_size(request, deadline);
+  return with_sent_times(may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
+                                             : plan_at_size(request, deadline));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace camway::planning {
 /// Builds the path through the request's keyframes, finds its collisions with the scene, corrects
 /// them and checks the result. A pure function without a clock of its own: the same snapshot and
 /// request give a bit-identical result, timing apart, unless the deadline strikes, which
-/// `deadline_reached` says. Every outcome is a result; safe from any thread. It tells the deadline how far it is; told to stop, it ends soon,
-/// with a result that is worth nothing.
+/// `deadline_reached` says. Every outcome is a result; safe from any thread. It tells the deadline
+/// how far it is; told to stop, it ends soon, with a result that is worth nothing.
 ///
 /// `ok` and `certificate.certified` go together: the search for collisions ran on the final
 /// segments exactly as they are returned, and everything it does not list is free, at every instant
