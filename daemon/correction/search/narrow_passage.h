@@ -29,8 +29,7 @@ struct NarrowPassage {
 /// `from` and `to` are the poses at the ends: of all that fit, the one that is turned least from
 /// both is taken. Nothing where one of the places was not passed, where there is none, or where a
 /// rule limits orientations. Deterministic.
-std::vector<NarrowPassage> narrow_passages(FreeSpace& space,
-                                           std::span<const geometry::Vec3> way_W,
+std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const geometry::Vec3> way_W,
                                            const motion::SignedPose& from,
                                            const motion::SignedPose& to, double margin_m,
                                            const collision::Deadline& deadline);
