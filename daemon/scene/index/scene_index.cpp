@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/scene/index/scene_index.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -12,7 +14,6 @@
 #include "daemon/geometry/triangle_intersection.h"
 #include "daemon/scene/index/distance_search.h"
 #include "daemon/scene/index/index_walk.h"
-#include "daemon/scene/index/scene_index.h"
 #include "daemon/scene/index/swept_search.h"
 
 namespace camway::scene {
@@ -332,6 +333,12 @@ Passage SceneIndex::passage(const MovingBody& body) const {
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
                                               double distance_m) const {
   return search(body, distance_m, DistanceGoal::kAny);
+}
+
+LeafTriangles SceneIndex::leaf_triangles(std::uint32_t leaf) const {
+  const auto after = std::ranges::upper_bound(parts_, leaf, {}, &IndexedPart::first_leaf);
+  const IndexedPart& part = *std::prev(after);
+  return {part.first_triangle, part.indexed->tree.leaf(leaf - part.first_leaf)};
 }
 
 bool SceneIndex::visit_touching(const Box& box, bool (*visit)(void*, std::uint32_t),

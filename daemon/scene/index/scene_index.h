@@ -8,7 +8,6 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -86,6 +85,12 @@ struct IndexedPart {
   [[nodiscard]] geometry::Triangle triangle(std::uint32_t index) const {
     return indexed->mesh->triangle(index - first_triangle);
   }
+};
+
+/// The triangles of a leaf: `first + number` for each of `numbers`, which increase.
+struct LeafTriangles {
+  std::uint32_t first = 0;
+  std::span<const std::uint32_t> numbers;
 };
 
 /// The triangles of a scene, found by where they are, on two levels: a tree for each mesh, and one
@@ -191,14 +196,8 @@ class SceneIndex {
   /// Whether the two have equal trees, bit for bit: then they answer everything alike.
   [[nodiscard]] bool has_same_trees_as(const SceneIndex& other) const;
 
-  /// The scene triangles of a leaf, increasing. [Limit: leaf < statistics().leaves]
-  [[nodiscard]] auto leaf_triangles(std::uint32_t leaf) const {
-    const auto after = std::ranges::upper_bound(parts_, leaf, {}, &IndexedPart::first_leaf);
-    const IndexedPart& part = *std::prev(after);
-    return part.indexed->tree.leaf(leaf - part.first_leaf) |
-           std::views::transform(
-               [first = part.first_triangle](std::uint32_t triangle) { return first + triangle; });
-  }
+  /// The scene triangles of a leaf. [Limit: leaf < statistics().leaves]
+  [[nodiscard]] LeafTriangles leaf_triangles(std::uint32_t leaf) const;
 
  private:
   /// Runs `query` through the trees of all parts that it is interested in.

@@ -137,9 +137,9 @@ TEST_P(IndexQueries, LeavesTouchedHoldEveryTriangleTouched) {
     ASSERT_TRUE(std::is_sorted(leaves.begin(), leaves.end()));
     std::set<std::uint32_t> members;
     for (const std::uint32_t leaf : leaves) {
-      const auto in_leaf = tree_.leaf_triangles(leaf);
-      ASSERT_TRUE(std::is_sorted(in_leaf.begin(), in_leaf.end()));
-      members.insert(in_leaf.begin(), in_leaf.end());
+      const LeafTriangles in_leaf = tree_.leaf_triangles(leaf);
+      ASSERT_TRUE(std::ranges::is_sorted(in_leaf.numbers));
+      for (const std::uint32_t number : in_leaf.numbers) members.insert(in_leaf.first + number);
     }
     for (std::uint32_t k = 0; k < tree_.size(); ++k) {
       ASSERT_TRUE(members.contains(k) || !geometry::triangles_touch(t, tree_.triangle(k)));
