@@ -97,9 +97,9 @@ std::optional<VoxelRange> voxels_touching(const VoxelGrid& grid, double low_m, d
 /// octant, so the cost depends on the number of touched voxels, not on the volume of the triangle's
 /// box; for small ones every voxel of the box is tested. Voxels that are not wanted cost less.
 ///
-/// Conservative: never misses a voxel; rounding may add one that is `VoxelGrid::kFaceErrorUnits` and
-/// the error of `triangle_touches_box` away. Returns false if `visit` did, or, without visiting any,
-/// if a touched voxel has no key.
+/// Conservative: never misses a voxel; rounding may add one that is `VoxelGrid::kFaceErrorUnits`
+/// and the error of `triangle_touches_box` away. Returns false if `visit` did, or, without visiting
+/// any, if a touched voxel has no key.
 bool for_each_voxel_touched(const VoxelGrid& grid, const geometry::Triangle& triangle,
                             const std::function<bool(const Voxel&)>& wanted,
                             const std::function<bool(const Voxel&)>& visit);
