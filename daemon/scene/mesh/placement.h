@@ -25,7 +25,7 @@ class Placement {
                         std::string& fault);
 
   [[nodiscard]] const geometry::Vec3& position_W() const { return position_W_; }
-  /// Of unit length, but for rounding.
+  /// The rotation, of unit length but for rounding.
   [[nodiscard]] const geometry::Quat& orientation_WO() const { return orientation_WO_; }
   /// Whether both map every point to the same bits.
   bool operator==(const Placement& other) const {

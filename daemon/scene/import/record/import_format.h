@@ -27,11 +27,11 @@ inline constexpr int kExitNotConfined = 43;  ///< seccomp does not work here, so
 
 struct Header {
   std::uint64_t magic = kMagic;
-  std::uint64_t text_bytes = 0;  ///< of the format's name, or of the error
+  std::uint64_t text_bytes = 0;  ///< size of the format's name, or of the error
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
   std::uint64_t objects = 0;
-  std::uint64_t name_bytes = 0;  ///< of all names, one after the other
+  std::uint64_t name_bytes = 0;  ///< size of all names, one after the other
   std::uint64_t dropped_points_and_lines = 0;
   std::uint64_t dropped_freeform = 0;    ///< curved surfaces that the reader does not know
   std::uint64_t ignored_statements = 0;  ///< statements that no reader knows
