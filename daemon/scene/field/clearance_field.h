@@ -21,9 +21,8 @@ struct PlacedField {
 };
 
 /// A lower bound of the clearance of any point of a scene without a query of its index: the least
-/// over the objects of what the distance field, asked in the object's own frame, and the box of the
-/// object show. So no field is computed again when an object moves.
-/// Immutable. Thread-safe.
+/// over the objects of the better of two bounds, by the object's distance field in its own frame
+/// and by its box. No field is computed again when an object moves. Immutable. Thread-safe.
 class ClearanceField {
  public:
   /// With more objects than this, planning asks the index directly. A look-up takes about 5 ns per

@@ -27,10 +27,9 @@ using CellDistanceCodes = std::array<std::uint8_t, kMaxSquaredCellDistance + 1>;
 /// The squared distance is a sum over the axes (Felzenszwalb & Huttenlocher 2012, "Distance
 /// transforms of sampled functions", section 3). Deviations: distances are between cells, not
 /// between their centres, so that k cells along an axis cost max(|k|-1, 0)²; and instead of the
-/// lower envelope of parabolas it takes the least of the candidates, for 32 columns at a time,
-/// nearest first, until no other can be less. That is not linear in the worst case
-/// (kMaxCellDistance candidates to either side), but needs no division and is several times faster
-/// on scenes.
+/// lower envelope of parabolas it takes the least of the candidates, 32 columns at a time, nearest
+/// first, until none can be less. That is not linear in the worst case (kMaxCellDistance candidates
+/// to either side), but needs no division and is several times faster on scenes.
 void distance_transform(const std::array<std::int32_t, 3>& size, unsigned threads,
                         const CellDistanceCodes& codes, std::span<std::uint8_t> cells);
 

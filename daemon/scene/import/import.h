@@ -34,8 +34,7 @@ struct ImportResult {
 /// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY and STL with our own readers
 /// (`scene/import/readers/mesh_reader.h`), occupancy maps (.bt and .ot) with OctoMap, other formats
 /// with assimp. Checks the result again (indices, finiteness, counts). Never throws for a bad file.
-/// Fails within milliseconds after a stop is requested.
-/// Thread-safe.
+/// Fails within milliseconds after a stop is requested. Thread-safe.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options,
                          const std::stop_token& stop = {});
 

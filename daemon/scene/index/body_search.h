@@ -13,10 +13,9 @@
 
 namespace camway::scene {
 
-/// Base class of searches that test pairs of a body triangle and a scene triangle. It tests the
-/// most promising pairs first and skips pairs whose boxes prove them to be beyond a reach. The
-/// derived class defines the test and shrinks the reach. The body stands still, or is anywhere
-/// between two end positions.
+/// Base class of searches that test pairs of a body triangle and a scene triangle, the most
+/// promising first, and skip those whose boxes prove them to be beyond a reach. The derived class
+/// defines the test and the reach. The body stands still, or is between two end positions.
 class BodySearch {
  public:
   BodySearch(const BodySearch&) = delete;
@@ -32,8 +31,8 @@ class BodySearch {
   }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
-  /// Makes `part` the part that `consider` refers to. Requires that no triangle waits, as after
-  /// `settle`. The part must outlive this object.
+  /// Sets the part that `consider` refers to, which must outlive this object. Requires that no
+  /// triangle waits, as after `settle`.
   void enter(const IndexedPart& part) { part_ = &part; }
 
   /// Lets `triangle` wait for its test, unless a box proves it irrelevant. Requires that it lies in

@@ -44,8 +44,7 @@ struct ByteFrame {
   std::array<std::int16_t, 4> exponent{};  ///< the fourth is 0
 
   ByteFrame() = default;
-  /// A frame with steps so fine that `box` just fits; flat and small boxes get coarser ones.
-  /// Requires that `box` is not empty.
+  /// The finest frame for `box`; a flat or small box gets coarser steps. Requires a nonempty box.
   explicit ByteFrame(const geometry::Box& box);
 
   /// `box` with its sides rounded outwards to steps. A true side may lie up to `kByteBoxError` of a

@@ -13,8 +13,7 @@
 
 namespace camway::scene {
 
-/// How triangles are distributed to the nodes of the tree. Queries return the same with all of
-/// them.
+/// How triangles are distributed to the nodes of the tree. Queries return the same with all.
 enum class Decomposition : std::uint8_t {
   kOctree,  ///< divides space into octants; a triangle goes to every octant that it lies in
   kKdTree,  ///< divides space at the least surface area cost; a triangle goes to each side it is on
@@ -83,8 +82,7 @@ class IndexTree {
   std::vector<IndexNode> nodes_;           ///< nodes, the root first
   std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
   std::vector<std::uint32_t> references_;
-  /// Boxes of references_, eight at a time, in the frame of the parent.
-  std::vector<ByteBoxes> boxes_;
+  std::vector<ByteBoxes> boxes_;  ///< boxes of references_, by eight, in the parent's frame
   std::uint32_t depth_ = 0;
 };
 

@@ -106,9 +106,8 @@ class SceneIndex {
   /// An index without triangles; queries find nothing.
   SceneIndex() = default;
 
-  /// The index of one mesh, which it shares. The result depends on the mesh and the options only,
-  /// not on the number of threads. Requires a mesh that is not null and coordinates below
-  /// geometry::kLargestCoordinate_m.
+  /// The index of one mesh, which it shares. It depends on the mesh and the options, not on the
+  /// threads. Requires a mesh, not null, with coordinates below geometry::kLargestCoordinate_m.
   static SceneIndex build(std::shared_ptr<const Mesh> mesh, const IndexOptions& options = {});
 
   /// The index of a copy of `mesh`, which counts as memory of the index.
@@ -134,8 +133,7 @@ class SceneIndex {
   [[nodiscard]] std::optional<std::uint32_t> first_intersection(
       const geometry::Triangle& triangle) const;
 
-  /// Whether `triangle` touches any scene triangle. Like `first_intersection`, but stops at the
-  /// first one found.
+  /// Whether `triangle` touches any scene triangle; stops at the first one found.
   [[nodiscard]] bool intersects(const geometry::Triangle& triangle) const;
 
   /// The hit closest to `segment.from` (`geometry::hit_fraction`), or nothing. Ties go to the
@@ -183,8 +181,7 @@ class SceneIndex {
         const_cast<void*>(static_cast<const void*>(&visit)));
   }
 
-  /// Bound of the rounding error of the distances that `nearest` and `any_within` return for
-  /// `body`. [Units: metres]
+  /// Error bound of the distances that `nearest` and `any_within` return for `body`, metres.
   [[nodiscard]] double nearest_error_m(std::span<const geometry::Triangle> body) const;
 
   /// Replaces `out` by the ids of all leaves whose cell `triangle` touches, in increasing order.

@@ -5,20 +5,17 @@
 
 namespace camway::scene {
 
-/// Estimates how many times as long as this motion another one may be. The other one begins at a
-/// distance of `room_m` to spare; over this motion, that distance changes by `change_m` and the
-/// bend takes `bend_m` of it.
+/// Estimates how many times as long as this motion another one may be that begins with `room_m` to
+/// spare. Over this motion that room changes by `change_m`, and the bend takes `bend_m` of it.
 double way_ahead(double room_m, double change_m, double bend_m);
 /// Largest ratio of bend to reach at which a motion counts as nearly straight. A motion that bends
 /// more allows no estimate for a shorter one.
 inline constexpr double kStraightWay = 0.3;
 
-/// Tests whether a body keeps its distance from the scene during a motion; see
-/// `SceneIndex::passage`.
+/// The search of `SceneIndex::passage`: whether a moving body keeps its distance from the scene.
 class PassageSearch : public BodySearch {
  public:
-  /// `ends_box` bounds the ends of `body`, which must outlive this object; `error_m` as for
-  /// `BodySearch`.
+  /// `body` must outlive this object. `ends_box` bounds its ends; `error_m` as for `BodySearch`.
   PassageSearch(const MovingBody& body, const geometry::Box& ends_box, double error_m);
 
   [[nodiscard]] Passage passage() const;

@@ -15,8 +15,7 @@ namespace camway::scene {
 /// The OctoMap mirror of a scene of several objects: an occupancy map for each, all of one
 /// resolution. So a change of an object leaves the other maps as they are, and removing it frees
 /// the voxels that no other object touches. A voxel is occupied if any map occupies it. Queries are
-/// those of `OccupancyMap` over all maps.
-/// Immutable. Thread-safe.
+/// those of `OccupancyMap` over all maps. Immutable. Thread-safe.
 class OccupancyMirror {
  public:
   /// The mirror of one map.

@@ -15,8 +15,7 @@ namespace camway::scene {
 /// A set of voxels as the octree that OctoMap makes of it: with the same cubes, eight full octants
 /// always being joined to one. Nodes have eight bytes and lie beside their siblings, so searches
 /// wait little for memory. Space outside its cubes is unoccupied. Trees before and after a change
-/// of the set share the branches in which nothing changed.
-/// Immutable. Thread-safe.
+/// of the set share the branches in which nothing changed. Immutable. Thread-safe.
 class VoxelTree {
  public:
   /// A cube, larger than a voxel, that is neither empty nor full. Octants as in `VoxelCube::child`.

@@ -67,8 +67,8 @@ class BlockKey {
 
 /// A map from block keys to blocks. It stores regions of 8 x 8 x 8 blocks, which copies share until
 /// one of them changes a block there (copy on write). So the cost of a copy depends on the number
-/// of regions, the cost of a change on the number of blocks in its region.
-/// A value type. Const calls, and copying, are thread-safe.
+/// of regions, that of a change on the blocks of its region. A value type. Const calls, and
+/// copying, are thread-safe.
 template <class Block>
 class BlockMap {
  public:
@@ -80,8 +80,8 @@ class BlockMap {
     return found == regions_.end() ? nullptr : found->second->find(BlockKey::within_cube(key));
   }
 
-  /// The block, for changing it; inserted as `Block{}` if there is none. The reference is valid
-  /// until the next call of `at` and until the map is copied.
+  /// The block, for changing it; inserted as `Block{}` if there is none. Valid until the next call
+  /// of `at` and until the map is copied.
   Block& at(std::uint64_t key) {
     std::shared_ptr<Region>& region = regions_[region_of(key)];
     if (!region) {

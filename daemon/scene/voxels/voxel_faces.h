@@ -11,16 +11,14 @@
 
 namespace camway::scene {
 
-/// The mesh of the faces between voxels of `set`, of edge `voxel_m`, and all other voxels. Each
-/// face is two triangles turned outwards, which share vertices with their neighbours: a closed
-/// surface up to the rounding of i * voxel_m. Returns nothing if it would have more than
-/// `max_triangles`.
+/// The mesh of the faces between voxels of `set`, of edge `voxel_m`, and all others. Each is two
+/// triangles turned outwards that share vertices with their neighbours: a closed surface up to the
+/// rounding of i * voxel_m. Returns nothing if it would have more than `max_triangles`.
 std::optional<Mesh> skin_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles);
 
 /// The same faces, with a mesh of its own for each brick of 16 x 16 x 16 voxels that has any.
 /// Bricks share no vertices, but have equal coordinates where they meet. So a change of the set
-/// changes the meshes of few bricks, and the others are shared. The bricks, their meshes and their
-/// order follow from the set alone.
+/// changes few bricks, and the others are shared. The bricks and their order follow from the set.
 /// A value type. Const calls are thread-safe.
 class VoxelSkin {
  public:
@@ -33,9 +31,9 @@ class VoxelSkin {
   static std::optional<VoxelSkin> of(const VoxelSet& set, double voxel_m,
                                      std::size_t max_triangles);
 
-  /// The faces of `after`, equal to those that `of` returns, which share with this object the
-  /// meshes of all bricks that are equal. The cost depends on the difference, with a little for
-  /// each brick. Requires that this object was made from `before` with the same `voxel_m`.
+  /// Returns what `of` returns for `after`, but shares all equal bricks with this object. The cost
+  /// depends on the difference, with a little for each brick. Requires that this object was made
+  /// from `before` with the same `voxel_m`.
   [[nodiscard]] std::optional<VoxelSkin> updated(const VoxelSet& before, const VoxelSet& after,
                                                  double voxel_m, std::size_t max_triangles) const;
 

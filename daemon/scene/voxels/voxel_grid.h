@@ -26,8 +26,7 @@ struct VoxelCube {
 };
 
 /// Maps coordinates to voxels exactly as OctoMap's keys do, and voxels to boxes that are rounded
-/// outwards. Pure arithmetic on the resolution. A value type.
-/// Thread-safe.
+/// outwards. Pure arithmetic on the resolution. A value type. Thread-safe.
 class VoxelGrid {
  public:
   /// OctoMap's keys have 16 bits per axis (Hornung et al. 2013, OctoMap 1.9, `OcTreeKey`); its key

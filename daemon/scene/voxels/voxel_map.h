@@ -63,10 +63,9 @@ struct ScannedBlock {
   std::shared_ptr<const Beliefs> beliefs;
 };
 
-/// An occupancy map as an object of a scene: a solid made of voxels, and the knowledge of the space
-/// around it. Its faces are an ordinary mesh, but lie only between solid voxels and others. So a
-/// body deep inside the solid meets no face, and callers must ask for the inside separately.
-/// Immutable. Thread-safe.
+/// An occupancy map: a solid of voxels, and what is known of the space around it. Its faces are
+/// an ordinary mesh, but lie only between solid voxels and others. So a body deep inside the solid
+/// meets no face, and callers must ask for the inside separately. Immutable. Thread-safe.
 class VoxelMap {
  public:
   /// Builds a map; a voxel in both sets is occupied. Fails if the resolution is invalid or there
@@ -123,8 +122,7 @@ class VoxelMap {
   VoxelSet free_;
   // Used only if unknown space is occupied.
   VoxelSet solid_;
-  /// Box around the voxels that are occupied or free.
-  VoxelSet::Range known_ = VoxelSet::kNoVoxels;
+  VoxelSet::Range known_ = VoxelSet::kNoVoxels;  ///< contains what is occupied or free
   VoxelMapLimits limits_;
   SensorModel sensor_;
   BlockMap<std::shared_ptr<const Beliefs>> beliefs_;
@@ -149,8 +147,7 @@ struct PlacedVoxelMap {
   [[nodiscard]] bool holds(const geometry::Vec3& point_W) const;
 };
 
-/// The solids of a scene: its objects that have an inside.
-/// Immutable. Thread-safe.
+/// The solids of a scene: its objects that have an inside. Immutable. Thread-safe.
 class SceneSolids {
  public:
   explicit SceneSolids(std::vector<PlacedVoxelMap> maps) : maps_(std::move(maps)) {}

@@ -12,9 +12,8 @@
 
 namespace camway::scene {
 
-/// A set of voxels of a grid, stored as bits in blocks of 8 x 8 x 8. A look-up is one in a hash
-/// table, which neighbours in a block can share. Copies share the regions that neither changes
-/// (`BlockMap`).
+/// A set of voxels, stored as bits in blocks of 8 x 8 x 8. A look-up is one in a hash table, which
+/// neighbours can share. Copies share the regions that neither of them changes (`BlockMap`).
 /// A value type. Const calls are thread-safe.
 class VoxelSet {
  public:
@@ -33,8 +32,7 @@ class VoxelSet {
 
   /// Inserts a voxel; returns whether it was new. Requires a voxel within kMostVoxels.
   bool insert(const Voxel& voxel);
-  /// Inserts all voxels of the cube. Requires a cube that is aligned to its size and within
-  /// kMostVoxels.
+  /// Inserts all voxels of a cube. Requires a cube aligned to its size and within kMostVoxels.
   void insert(const VoxelCube& cube);
 
   [[nodiscard]] bool contains(const Voxel& voxel) const;
@@ -102,9 +100,8 @@ class VoxelSet {
   std::uint64_t size_ = 0;
 };
 
-/// Inserts voxels into a set, quickly if each is near the one before. The set must outlive it and
-/// must not be changed or copied by others meanwhile.
-/// Not thread-safe.
+/// Inserts voxels into a set, quickly if each is near the one before. The set must outlive it, and
+/// nothing else may change or copy the set meanwhile. Not thread-safe.
 class VoxelMarker {
  public:
   explicit VoxelMarker(VoxelSet& set) : set_(set) {}

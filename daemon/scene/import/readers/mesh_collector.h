@@ -34,8 +34,7 @@ class MeshCollector {
 
   /// Adds a polygon as triangles; one or two corners count as a point or line. With a corner
   /// `kNoVertex` it becomes one triangle that the receiver drops and counts. With a corner that is
-  /// not finite, or so large that areas overflow, every triangle contains that corner, and the
-  /// receiver decides.
+  /// not finite, or too large for areas, all triangles contain that corner; the receiver decides.
   void add_polygon(std::span<const std::uint32_t> corners);
 
   void add_points_and_lines(std::uint64_t count) {
@@ -46,8 +45,7 @@ class MeshCollector {
   void add_freeform_surface() { ++record_.header.dropped_freeform; }
   void add_ignored_statement() { ++record_.header.ignored_statements; }
 
-  /// Returns the record, with at least one object. `relative_rounding` is that of reading one
-  /// number.
+  /// Returns the record, with at least one object. `relative_rounding`: of reading one number.
   import_format::Record finish(std::string_view format, double relative_rounding);
 
  private:
