@@ -96,9 +96,10 @@ struct IndexedPart {
 /// others with its predecessor. Triangles are numbered through, mesh after mesh.
 ///
 /// The answers do not depend on the trees: they are, bit for bit, the answers of a loop over all
-/// triangles with the kernels of daemon/geometry. Only `near` and `any_within` may choose among
-/// several triangles. Requires finite coordinates below geometry::kLargestCoordinate_m; otherwise
-/// queries return triangle 0 at distance 0, so that invalid input never counts as free space.
+/// triangles with the kernels of daemon/geometry. Exceptions are `near` and `any_within`, which
+/// choose among triangles, and `passage`, which tests a limited number. Requires finite coordinates
+/// below geometry::kLargestCoordinate_m; otherwise queries return triangle 0 at distance 0, so that
+/// invalid input never counts as free space.
 ///
 /// Immutable. Thread-safe. Queries allocate nothing unless they say so.
 class SceneIndex {
