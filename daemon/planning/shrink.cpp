@@ -89,6 +89,8 @@ class Shrinking {
     }
     PlanRequest smaller = request_;
     smaller.camera.near_m *= scales_[index];
+    // It may be proved that there is no path at this size, whatever there is at others.
+    smaller.options.max_shrink = 0.0;
     UnsentResult found = plan_at_size_(smaller, deadline_.share_of_rest(share));
     tried_.push_back(scales_[index]);
     if (found.result.status == Status::kTimeout) cut_off_ = true;

@@ -74,7 +74,7 @@ class Ladder {
     if (any_without_way() && !deadline_.passed()) {
       prove_infeasible();
       if (result_.separation || result_.cage) return false;
-      if (space_.may_turn()) correct_all(Search::kTurning);
+      if (space_.may_turn() && !is_caged_at_this_size_) correct_all(Search::kTurning);
     }
     result_.timed_out = any_open() && deadline_.passed();
     return true;
@@ -155,8 +155,10 @@ class Ladder {
 
   void prove_infeasible() {
     if (is_separated() || deadline_.passed() || !space_.body().is_camera()) return;
-    find_cage_of_camera(*surfaces_, smallest_share());
+    result_.cage = cage_of_camera(*surfaces_, smallest_share());
     if (result_.cage) name_keyframes(*result_.cage);
+    is_caged_at_this_size_ =
+        result_.cage || (options_.max_shrink > 0.0 && cage_of_camera(*surfaces_, 1.0));
   }
 
   [[nodiscard]] double smallest_share() const { return 1.0 - options_.max_shrink; }
@@ -197,15 +199,16 @@ class Ladder {
   }
 
   // The near quadrilateral is a rectangle parallel to two axes of the camera frame.
-  void find_cage_of_camera(const ClosedSurfaces& surfaces, double smallest) {
+  [[nodiscard]] std::optional<Cage> cage_of_camera(const ClosedSurfaces& surfaces,
+                                                   double smallest) const {
     geometry::Box rectangle_C;
     for (const geometry::Triangle& part : space_.body().triangles_C()) {
       rectangle_C.extend(geometry::bounds(part));
     }
     const geometry::Vec3 center_C = rectangle_C.center();
     const double side_m = rectangle_C.sizes().head<2>().minCoeff();
-    result_.cage = find_cage(*mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
-                             kPointRounding_m + (1.0 - smallest) * center_C.norm());
+    return find_cage(*mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
+                     kPointRounding_m + (1.0 - smallest) * center_C.norm());
   }
 
   [[nodiscard]] std::vector<geometry::Vec3> at_keyframes_W(const geometry::Vec3& point_C) const {
@@ -544,6 +547,7 @@ class Ladder {
   Improvement closer_{Objective::kClosest, kCloserSteps, true, kCloserSpread};
   Improvement pursuit_;                     ///< of another objective than the closest
   std::optional<ClosedSurfaces> surfaces_;  ///< of the scene, once somebody asked
+  bool is_caged_at_this_size_ = false;      ///< proved: no path but for a smaller camera
   LadderResult result_;
 };
 
