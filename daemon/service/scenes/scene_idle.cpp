@@ -25,6 +25,13 @@ bool is_set(const double (&numbers)[kCount]) {
   return std::any_of(std::begin(numbers), std::end(numbers), [](double v) { return v != 0.0; });
 }
 
+bool is_set(const bounds_t& bounds) {
+  const auto holds = [](std::int8_t flag) { return flag != 0; };
+  return std::any_of(std::begin(bounds.has_min), std::end(bounds.has_min), holds) ||
+         std::any_of(std::begin(bounds.has_max), std::end(bounds.has_max), holds) ||
+         is_set(bounds.min_m) || is_set(bounds.max_m);
+}
+
 /// Not turned is as good as not set.
 bool is_turned(const double (&wxyz)[4]) {
   return wxyz[1] != 0.0 || wxyz[2] != 0.0 || wxyz[3] != 0.0;
@@ -83,6 +90,7 @@ std::vector<Member> members(const Request& r) {
       {"object", !r.object.empty(),
        counts.in({Request::PUT, Request::MOVE, Request::REMOVE, Request::SCAN})},
       {"occupancy_resolution_m", r.occupancy_resolution_m != 0.0, counts.in({Request::LOAD})},
+      {"body_bounds", is_set(r.body_bounds), counts.in({Request::LOAD})},
       {"kind", r.kind != 0, counts.in({Request::PUT})},
       {"position_m", is_set(r.position_m), is_posed || counts.in({Request::SCAN})},
       {"orientation_wxyz", is_turned(r.orientation_wxyz), is_posed},
