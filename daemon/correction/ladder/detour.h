@@ -18,9 +18,9 @@ enum class Search : std::uint8_t {
 
 /// Replaces the path between the two keyframes about the collision by a detour. A search finds a
 /// free guide: for a ball about the body on a lattice (`lattice_search.h`), or for the body itself
-/// along the way of a smaller ball (`tree_search.h`). Bumps draw the path to the guide, with more
-/// and more knots, until it is proved free; then it is relaxed under the objective
-/// (`relaxation.h`).
+/// along the way of a smaller ball (`narrow_passage.h`, `tree_search.h`). Bumps draw the path to
+/// the guide, with more and more knots, until it is proved free; then it is relaxed under the
+/// objective (`relaxation.h`).
 ///
 /// Returns nothing if the search found no guide within its limits, or the path could not follow
 /// one. Calls `is_hopeless` before a search with room becomes costly, and gives up if it returns
