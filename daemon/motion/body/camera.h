@@ -25,8 +25,8 @@ Corners near_corners_C(const Camera& camera);
 /// The same corners in the world frame for a camera at `pose`.
 Corners corners_W(const Corners& corners_C, const Pose& pose);
 
-/// Largest distance of a corner from the eye: no point of the body moves further under rotation
-/// alone than a point at this radius does.
+/// Largest distance of a corner from the eye: under rotation alone no point of the body moves
+/// farther than a point at this radius.
 double body_radius_m(const Corners& corners_C);
 
 }  // namespace camway::motion
