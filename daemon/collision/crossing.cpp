@@ -15,10 +15,10 @@ using geometry::Vec3;
 
 // Rounding of c·(a×b)/|a×b| for differences a, b, c of coordinates no further apart than S in any
 // axis, with u = 2^-53:
-//     1. Differences round by u, the products and sums of a×b by 3u: |a||b| times 10u in length.
-//     2. The product with c: |c|·(10u·|a||b| + 4u·|a×b|) <= 14u·|c||a||b|.
-//     3. Division by a length with the relative error 10u·k + 4u, k = |a||b| / |a×b|, of a quotient
-//        that is at most |c|: as much again.
+// 1. Differences round by u, the products and sums of a×b by 3u: |a||b| times 10u in length.
+// 2. The product with c: |c|·(10u·|a||b| + 4u·|a×b|) <= 14u·|c||a||b|.
+// 3. Division by a length with the relative error 10u·k + 4u, k = |a||b| / |a×b|, of a quotient
+//    that is at most |c|: as much again.
 // 28u·|c|·k with |c| <= √3·S: 49u·S·k; 64 covers the second order.
 constexpr double kHeightRounding = 64.0 * geometry::kUnitRoundoff;
 
