@@ -278,7 +278,7 @@ class Detector {
   static constexpr double kFinestShare = 0.1;    // share of the tolerance
   static constexpr double kBelow = 0.9;          // keeps rounding from exceeding a limit
   static constexpr double kLargestGrowth = 2.0;  // growth after a stretch proved to collide
-  static constexpr double kLargestStep = 8.0;    // of a width; more is not foreseeable
+  static constexpr double kLargestStep = 8.0;    // largest growth of a width
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
   static constexpr int kMostImpatience = 15;  // checks between attempts to prove a collision

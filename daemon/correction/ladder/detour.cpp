@@ -23,17 +23,17 @@ using motion::SignedPose;
 // Chosen by measurement; none changes what is proved.
 constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32};  // numbers of knots
 constexpr std::array<int, 4> kFine = {8, 16, 32, 64};
-constexpr int kMostRefinements = 40;  // of parts of a row of bumps
+constexpr int kMostRefinements = 40;  // finer rows of bumps
 constexpr int kFinest = 2048;
-constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
+constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // shares of the ball's radius
 constexpr double kLeastMargin = 0.02;
-constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // of the ball's radius
+constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr double kSmallestCell = 0.02;
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
 constexpr int kLegsAsInterpolated = 16;        // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
-constexpr int kJoiningSamples = 1000;     // of trees between narrow places
-constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
+constexpr int kJoiningSamples = 1000;     // samples of trees between narrow places
+constexpr double kLongestStep = 3.0;      // between poses of a guide, in radii of the ball
 
 /// A lattice to be searched.
 struct Level {

@@ -27,18 +27,18 @@ using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
 constexpr int kFan = 8;                   // directions across the way
-constexpr double kLeastStepShare = 0.06;  // of the radius: the first amount that is tried
+constexpr double kLeastStepShare = 0.06;  // first amount tried, as a share of the radius
 constexpr double kGrowth = 2.0;           // from one amount to the next
 constexpr double kFarthest = 4.0;         // radii
-constexpr int kHalvings = 2;              // of the last step
-constexpr double kMarginShare = 0.02;  // of the radius: what a pose keeps beside what is required
+constexpr int kHalvings = 2;              // bisections of the last step
+constexpr double kMarginShare = 0.02;     // margin of a pose, as a share of the radius
 constexpr double kLargestTurn_rad = 0.8;
 constexpr double kLargestTurnStep_rad = 0.08;  // turned too far, the body is stuck again
 constexpr double kMoreEachTime = 1.35;
 constexpr int kMostRaises = 3;
 constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
 constexpr int kMostWidths = 2;
-constexpr double kLeastPeak = 0.1;  // of a bump, after what takes it back at keyframes
+constexpr double kLeastPeak = 0.1;  // least peak of a bump after its cancellation at keyframes
 
 /// A nudge: direction of the translation, or axis of the turn, and amount.
 struct Way {
@@ -251,7 +251,7 @@ CubicPoint scaled(const CubicPoint& point, double factor) {
 }
 
 constexpr int kSingle = 2;  // the knot of the only bump of a row
-constexpr int kSteps = 4;   // of its support
+constexpr int kSteps = 4;   // steps of its support
 
 /// `places`, with the knots of `row` taken as well.
 std::shared_ptr<const motion::KnotPlaces> with_knots_of(

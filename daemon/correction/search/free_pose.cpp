@@ -13,7 +13,7 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kFirstShell = 0.02;  // radii
-constexpr double kGrowth = 1.2;       // of a shell over the one before
+constexpr double kGrowth = 1.2;       // ratio of a shell to the one before
 // Ratio of the last shell to the first with a free pose. The direction found there may be off the
 // nearest by up to 20 degrees, 1 / cos of which is 1.06; the direction of another free region is
 // not limited.
@@ -22,7 +22,7 @@ constexpr int kShellSide = 2;  // half of a shell's points along an edge of a cu
 constexpr std::size_t kMostPlaces = 6;
 constexpr double kSamePlace = 0.75;  // cosine between directions
 
-constexpr double kFirstSwing_rad = 0.3;  // of a direction that is improved
+constexpr double kFirstSwing_rad = 0.3;  // first angle of variations of a direction
 constexpr double kLastSwing_rad = 0.01;
 constexpr int kSwings = 8;  // about the direction
 constexpr int kMostSteps = 40;

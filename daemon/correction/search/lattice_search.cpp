@@ -276,7 +276,7 @@ class LatticeSearch {
   const double horizon_m_;
   std::vector<Leg> legs_;
   std::vector<Point> points_;
-  CellNumbers numbers_;  ///< of points
+  CellNumbers numbers_;  ///< numbers of points
   std::priority_queue<Waiting> queue_;
   std::size_t settled_ = 0;
 };

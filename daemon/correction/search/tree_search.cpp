@@ -21,9 +21,9 @@ using motion::SignedPose;
 // Chosen by measurement.
 constexpr double kStraightShare = 0.25;  // samples whose orientation is between the ends'
 constexpr double kBlockedShare = 0.35;   // samples next to where a motion was blocked
-constexpr double kBackOff = 0.92;        // of the way to an obstacle
-constexpr double kLeastStep = 0.02;      // of the ball's radius
-constexpr double kLeastDot = 0.2;        // of the quaternions of one motion
+constexpr double kBackOff = 0.92;        // share of the way to an obstacle
+constexpr double kLeastStep = 0.02;      // share of the ball's radius
+constexpr double kLeastDot = 0.2;        // least dot product of the quaternions of one motion
 constexpr std::size_t kBlockedKept = 64;
 
 class Tree {

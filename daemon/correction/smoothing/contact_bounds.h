@@ -25,8 +25,6 @@ struct Contact {
 ///     any but kSafest, gap < wanted_m   a share of the gap     wanted_m
 ///     kSafest                           min(gap, least gap),   wanted_m, for the nearest vertex
 ///                                       for near vertices      of each triangle, without turning
-///
-/// Not thread-safe.
 class ContactBounds {
  public:
   ContactBounds(Objective objective, double ball_radius_m);

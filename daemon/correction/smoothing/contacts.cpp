@@ -34,7 +34,7 @@ Turns turns_of(const Vec4& reference, const Vec4& image) {
 
 /// Keeps the tightest of the rows from `first` on, in their order.
 void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
-  constexpr std::size_t kMost = 48;  // of a triangle: more than those of a box
+  constexpr std::size_t kMost = 48;  // rows per obstacle: more than a box has
   if (rows.size() - first <= kMost) return;
   std::vector<double> rooms_m;
   for (std::size_t i = first; i < rows.size(); ++i) rooms_m.push_back(rows[i].room_m);

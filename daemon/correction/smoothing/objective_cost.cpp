@@ -16,13 +16,13 @@ using geometry::Vec3;
 using motion::CubicPiece;
 
 constexpr int kSamplesAPiece = 16;
-constexpr double kSampleStep = 0.25;  // of the ball's radius: how far the body moves between two
+constexpr double kSampleStep = 0.25;  // step between samples, as a share of the ball's radius
 constexpr double kTightStep = 0.05;   // the same
 constexpr double kFewestSamples = 32.0;
 constexpr double kMostSamples = 2000.0;
-constexpr double kTightGap = 0.02;      // in radii of the ball: nobody but `kSafest` asks for more
-constexpr double kSameGap = 0.99;       // of the least gap: samples miss more than the rest of it
-constexpr double kWorthAChange = 1e-3;  // of the cost: less is within what the samples miss
+constexpr double kTightGap = 0.02;      // in radii of the ball: enough for all but `kSafest`
+constexpr double kSameGap = 0.99;       // share of the least gap: samples miss more than the rest
+constexpr double kWorthAChange = 1e-3;  // share of the cost: less is within the error of samples
 
 template <class Use>
 void for_each_sample(const motion::CubicPath& path, const Use& use) {

@@ -14,7 +14,7 @@ using motion::CubicPoint;
 
 constexpr int kBumpReach = 2;      // knots from a bump's peak to the end of its support
 constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
-constexpr double kRounding = 0.1;  // of the gap: how wide `kShortest` turns about a corner
+constexpr double kRounding = 0.1;  // share of the interval: how wide `kShortest` rounds a corner
 
 /// Weights of the squared distance from the original, and of squared first and second differences
 /// of the path's control points.

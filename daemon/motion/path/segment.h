@@ -30,7 +30,7 @@ geometry::Vec3 position_at(const Segment& segment, double u);
 /// The orientation's four-vector (w, x, y, z) at `u`, before division by its length.
 geometry::Vec4 orientation_numerator_at(const Segment& segment, double u);
 
-/// Pose at `u`; the orientation has unit length. Precondition: the numerator is not zero there
+/// Pose at `u`; the orientation has unit length. Requires a numerator that is not zero there
 /// (`smallest_orientation_weight` proves it for whole segments).
 Pose pose_at(const Segment& segment, double u);
 

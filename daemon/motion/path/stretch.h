@@ -71,7 +71,7 @@ class SegmentMotion {
  public:
   explicit SegmentMotion(const Segment& segment);
 
-  /// The stretch u0 <= u <= u1. Precondition: 0 <= u0 <= u1 <= 1.
+  /// The stretch u0 <= u <= u1. Requires 0 <= u0 <= u1 <= 1.
   [[nodiscard]] Stretch around(double u0, double u1) const;
 
  private:

@@ -24,7 +24,7 @@ enum class EndCondition {
 /// The system is diagonally dominant whatever the knots; O(n). Linear in the points, so the curve
 /// is the same in every frame; symmetric under reversal.
 ///
-/// Preconditions: at least two knots, strictly increasing, as many points.
+/// Requires at least two knots, strictly increasing, and as many points.
 template <class Point>
 std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
                                  EndCondition ends);

@@ -40,8 +40,8 @@ std::vector<double> derive_times_s(std::span<const Pose> poses,
 /// The same motion results from every world frame, for q and -q, and (mirrored in time) for the
 /// reversed keyframes, up to rounding; half turns between neighbours have a sense of their own
 /// (quaternion_spline.h). O(n), deterministic.
-/// Preconditions: at least two keyframes, finite, quaternions of unit length to 1e-3 or so (they
-/// are normalised), times strictly increasing, counted from `origin`.
+/// Requires at least two keyframes, finite numbers, quaternions of unit length to 1e-3 or so (they
+/// are normalised) and times strictly increasing, counted from `origin`.
 Path interpolate(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
 
 /// The same path as the cubic spline that corrections work on.

@@ -14,8 +14,8 @@ namespace camway::motion {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kPointRoundings = 4.0;  // of a control point, in epsilons of its size
-constexpr double kMostMoved = 0.125;     // of a step: how far a knot may be from where it is wanted
+constexpr double kPointRoundings = 4.0;  // rounding of a control point, in epsilons of its size
+constexpr double kMostMoved = 0.125;     // largest shift of a knot, as a share of a step
 
 std::array<double, 5> support_s(const KnotRow& row, int bump) {
   return {row.knot_s(bump - 2), row.knot_s(bump - 1), row.knot_s(bump), row.knot_s(bump + 1),

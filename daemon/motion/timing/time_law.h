@@ -43,7 +43,7 @@ class TimeLaw {
   ///   that of stretching all times alike, knots being what is compared.
   ///
   /// Knots are at the ends of segments, and at most `step_s` apart where the rate is below 1.
-  /// O(knots). Preconditions: not empty, `step_s > 0`, limits above 0.
+  /// O(knots). Requires `path` not to be empty, `step_s > 0` and limits above 0.
   static TimeLaw within(const Path& path, const RateLimits& limits, double step_s);
 
   /// Returns the law with new times at knots that are exact as sender's times, with `origin`. The
