@@ -76,7 +76,7 @@ class CageScene {
   geometry::Vec3 margin_m_ = geometry::Vec3::Zero();
   scene::Mesh turned_;
   std::vector<Barrier> barriers_;
-  std::vector<std::uint32_t> barrier_of_;  ///< by triangle
+  std::vector<std::uint32_t> barrier_of_;  ///< barrier of each triangle
   std::array<std::vector<FlatTriangle>, 3> flats_;
 };
 

@@ -33,7 +33,7 @@ struct OrientationPolicy {
   /// For kLevel: the up direction, unit length. The default Y is up in the camera's own frame, so
   /// the identity orientation is level.
   geometry::Vec3 up_W = geometry::Vec3::UnitY();
-  geometry::Vec3 target_W = geometry::Vec3::Zero();  ///< for kTarget
+  geometry::Vec3 target_W = geometry::Vec3::Zero();  ///< for kTarget: the target
   double cone_rad = 0.5;  ///< for kTarget: half angle of the cone [Limit: 0 < value <= pi]
   /// Largest angle from the orientation on the interpolated path at the same time.
   /// [Limit: 0 <= value <= pi]

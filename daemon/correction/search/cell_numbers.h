@@ -19,7 +19,7 @@ using Cell = std::array<std::int32_t, 3>;
 using CellKey = std::uint64_t;
 
 inline constexpr std::int32_t kFarthestCell = (1 << 20) - 1;
-inline constexpr int kCellKeyBits = 21;  // of a coordinate, so that a key takes 63
+inline constexpr int kCellKeyBits = 21;  // bits per coordinate, so that a key takes 63
 
 constexpr CellKey key_of(const Cell& cell) {
   CellKey key = 0;
@@ -56,7 +56,7 @@ inline constexpr std::array<CellKey, kCellSteps> kKeySteps = [] {
 /// are in one block or few. Not thread-safe.
 class CellNumbers {
   static constexpr int kBits = 2;
-  static constexpr std::int32_t kSide = 1 << kBits;  // of a block, in cells
+  static constexpr std::int32_t kSide = 1 << kBits;  // side of a block, in cells
   using Block = std::array<std::uint32_t, kSide * kSide * kSide>;
 
  public:
@@ -86,7 +86,7 @@ class CellNumbers {
   /// Requires the neighbours of `cell` to be in range, too.
   [[nodiscard]] Around around(const Cell& cell) {
     Around result;
-    Cell first;  // of the blocks
+    Cell first;  // first block
     Cell last;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       first[axis] = (cell[axis] - 1) >> kBits;

@@ -7,8 +7,8 @@
 
 namespace camway::motion {
 
-/// The part of a perspective camera that can run into things: its near quadrilateral, the section
-/// of the view frustum with the near clipping plane (Ptacek & Johnstone 2006, section 2).
+/// The part of a perspective camera that can collide: its near quadrilateral, the section of the
+/// view frustum with the near clipping plane (Ptacek & Johnstone 2006, section 2).
 struct Camera {
   double fov_x_rad = 0.0;  ///< full horizontal field of view [Limit: 0 < value < pi]
   double fov_y_rad = 0.0;  ///< full vertical field of view [Limit: 0 < value < pi]
