@@ -9,7 +9,7 @@
 namespace camway::service {
 namespace {
 
-/// The fault is said of the default where that was said, else of the longest.
+/// Blames the default if that was set, else the maximum.
 void check_deadlines(const DaemonOptions& options, const std::string& table,
                      const DeadlineLimits& limits, std::vector<std::string>& faults) {
   if (limits.default_s <= limits.max_s) return;
