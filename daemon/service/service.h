@@ -61,7 +61,8 @@ class Service {
   RunOutcome run();
 
   /// Begins the stop. Planning that is running is finished and answered, within the drain limit;
-  /// requests that wait or still arrive are answered with `overloaded`.
+  /// requests that wait or still arrive are answered with `overloaded`, changes of scenes with
+  /// `stopping`.
   /// Thread-safe.
   void request_stop() noexcept;
 
