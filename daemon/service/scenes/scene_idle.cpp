@@ -25,7 +25,7 @@ bool is_set(const double (&numbers)[kCount]) {
   return std::any_of(std::begin(numbers), std::end(numbers), [](double v) { return v != 0.0; });
 }
 
-/// Not turned is as good as not set.
+/// The identity counts as not set.
 bool is_turned(const double (&wxyz)[4]) {
   return wxyz[1] != 0.0 || wxyz[2] != 0.0 || wxyz[3] != 0.0;
 }
@@ -37,7 +37,7 @@ class Counting {
   [[nodiscard]] bool in(std::initializer_list<std::int8_t> operations) const {
     return std::ranges::count(operations, request_.operation) > 0;
   }
-  /// Whether an object of one of these kinds is put.
+  /// Returns whether the request puts an object of one of these kinds.
   [[nodiscard]] bool of(std::initializer_list<std::int8_t> kinds) const {
     return in({Request::PUT}) && std::ranges::count(kinds, request_.kind) > 0;
   }
@@ -47,7 +47,7 @@ class Counting {
   const Request& request_;
 };
 
-/// What the object is made of.
+/// Returns the members that describe the content of the object.
 std::vector<Member> members_of_content(const Request& r, const Counting& counts) {
   const bool has_upload =
       counts.of_mesh() || counts.in({Request::SCAN}) || counts.of({Request::POINTS});
