@@ -10,8 +10,7 @@
 
 namespace camway::service {
 
-/// Returns the body of a request as a message. The size of a near quadrilateral is in the request's
-/// camera.
+/// Returns the message for a body. A near quadrilateral has its size in the request's camera.
 body_t wire_body(const motion::BodyShape& shape);
 
 /// The shape of a message, or an error about its form, e.g. "body.type: 9 is unknown".

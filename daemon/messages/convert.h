@@ -19,9 +19,8 @@ namespace camway::service {
 
 /// Limits of the time that a request may take from its receipt to the end of planning.
 struct DeadlineLimits {
-  /// For requests whose deadline is 0. [Limit: 0 < value] [Units: seconds]
-  double default_s = 10.0;
-  double max_s = 60.0;  ///< longer deadlines are cut to this [Limit: default_s <= value]
+  double default_s = 10.0;  ///< if the request's is 0 [Limit: 0 < value] [Units: seconds]
+  double max_s = 60.0;      ///< longer deadlines are cut to this [Limit: default_s <= value]
 };
 
 /// Returns the deadline, in seconds, for a request whose deadline is `wire_s`. Only an exact 0 asks

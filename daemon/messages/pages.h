@@ -39,8 +39,7 @@ class PageAssembly {
 
   /// Pages are sent back to back: when none arrived for this long, the missing ones are lost.
   static constexpr std::chrono::milliseconds kGap{100};
-  /// How often missing pages are asked for without any page arriving, each time after twice the
-  /// wait.
+  /// How often missing pages are asked for while none arrives, each time after twice the wait.
   static constexpr int kMostAsked = 5;
 
   struct Limits {

@@ -29,7 +29,7 @@ PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& 
                      const collision::Deadline& deadline,
                      const collision::Deadline& clearance_deadline);
 
-/// Returns the certificate of a path that was searched already, and found to be free of collision.
+/// Returns the certificate of a path that was searched already, and found free of collision.
 Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
                                 const motion::Body& body, const collision::DetectOptions& options,
                                 const collision::Deadline& clearance_deadline);

@@ -46,8 +46,7 @@ const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
 std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
                         bool timed_out);
 
-/// "no path exists: ..." by this proof; with `may_shrink` it is for the smallest camera that is
-/// allowed.
+/// "no path exists: ..." by this proof; with `may_shrink` for the smallest camera that is allowed.
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink);
 
 }  // namespace camway::planning

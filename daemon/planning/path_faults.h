@@ -9,20 +9,19 @@
 #include "daemon/motion/path/path.h"
 #include "daemon/planning/request.h"
 
-/// Checks of a path that was made elsewhere, besides the search for collisions. Pure functions.
+/// Checks of a path that was made elsewhere, besides the search for collisions.
 /// Thread-safe.
 namespace camway::planning {
 
 /// Returns why `segments` cannot be checked, as a sentence that names the segment and the field;
-/// nothing if they can be checked. Segments without a fault can be evaluated in doubles without
-/// overflow or underflow:
+/// nothing if they can. Segments without a fault can be evaluated in doubles without overflow or
+/// underflow:
 /// - there is a segment; times are within `kMaxTime_s` and increase in every segment; each segment
 ///   begins exactly when the one before ends, so that no time is skipped;
 /// - coordinates of positions are within `kMaxCoordinate_m`;
-/// - coefficients of orientations are within `kLargestQuaternionCoefficient`; at both ends of each
-///   segment, where a control point is the orientation, its length is at least
-///   `kLeastQuaternionLength`, and not so small beside the longest control point that rounding
-///   hides it.
+/// - coefficients of orientations are within `kLargestQuaternionCoefficient`; the control points at
+///   both ends, which are orientations, have a length of at least `kLeastQuaternionLength`, and one
+///   that rounding does not hide beside the longest control point.
 ///
 /// An orientation may vanish inside a segment: the search for collisions has to count as colliding
 /// what it cannot evaluate.
@@ -41,18 +40,17 @@ inline constexpr double kLargestQuaternionCoefficient = 1.0 / kLeastQuaternionLe
 double pose_distance_m(const motion::Pose& a, const motion::Pose& b, double body_radius_m);
 
 /// Returns the first join at which the body would jump, as a sentence; nothing if there is none. A
-/// path from elsewhere may be free on every segment and still leap through a wall between two of
-/// them. Two segments meet if the distance of the body at their ends is explained by
-/// `kJoinAgreement` and the rounding of our evaluation. Requires that `find_fault(path.segments())`
-/// finds nothing.
+/// path from elsewhere may be free on every segment and still leap through a wall between two. Two
+/// segments meet if the body is no further apart at their ends than `kJoinAgreement` and the
+/// rounding of our evaluation explain. Requires that `find_fault(path.segments())` finds nothing.
 std::optional<std::string> find_jump(const motion::Path& path, double body_radius_m);
 
 /// Largest distance of two ends that meet, as a share of how far a point of the body can be from
-/// the origin (distance of the eye plus radius). Poses that agree to nine significant digits are
-/// within it: a hundredth of a micrometre ten metres from the origin. A double rounds by 1.1e-16,
-/// so two ends that are computed separately, by up to 10^6 operations each, are within it, and so
-/// are ends written with ten digits. In single precision the two ends have to be the same numbers,
-/// as a common control point is.
+/// the origin (distance of the eye plus radius): nine significant digits, a hundredth of a
+/// micrometre ten metres from the origin. A double rounds by 1.1e-16, so two ends that are computed
+/// separately, by up to 10^6 operations each, are within it, and so are ends written with ten
+/// digits. In single precision the two ends have to be the same numbers, as a common control point
+/// is.
 inline constexpr double kJoinAgreement = 1e-9;
 
 /// A motion over a join whose ends differ by what `find_jump` allows.

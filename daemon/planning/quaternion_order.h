@@ -14,8 +14,8 @@ namespace camway::planning {
 inline constexpr double kRolled_rad = 1.0471975511965976;
 /// A camera whose roll is at most this looks upright: 15 degrees. [Units: radians]
 inline constexpr double kUpright_rad = 0.2617993877991494;
-/// Roll is not defined for a camera that looks along the up axis, up or down, to within this angle:
-/// 10 degrees. [Units: radians]
+/// Roll is not defined for a camera that looks along the up axis to within this angle: 10 degrees.
+/// [Units: radians]
 inline constexpr double kLooksAlong_rad = 0.17453292519943295;
 
 /// Returns whether the quaternions seem to be written x, y, z, w and read as w, x, y, z. They do

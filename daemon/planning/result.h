@@ -32,9 +32,8 @@ enum class Status {
 std::string_view to_string(Status status);
 std::optional<Status> status_from_string(std::string_view text);
 
-/// Whether the returned segments, exactly as sent, are proved free of collision. Certified with
-/// `kOk` always; with `kPartial` and `kTimeout` only where the path fails nothing but motion
-/// limits.
+/// Whether the returned segments, exactly as sent, are proved free of collision. With `kOk` always;
+/// with `kPartial` and `kTimeout` only where the path fails nothing but motion limits.
 struct Certificate {
   bool certified = false;
   double clearance_lower_bound_m = 0.0;
@@ -53,8 +52,7 @@ struct Timing {
 
 /// Names of a collision's witness, for people.
 struct WitnessNames {
-  /// Name of the object of the scene, or of a side of the bounds; may be empty.
-  std::string object;
+  std::string object;   ///< name of the object, or "bounds." and a side; may be empty
   std::string feature;  ///< feature of the body, as named by `motion::Body::feature_name`
 
   bool operator==(const WitnessNames&) const = default;
@@ -80,13 +78,13 @@ struct SlowedStretch {
 
 /// Proof that there is no path: a closed surface of the scene, with one keyframe inside and another
 /// outside. The triangles alone suffice to check it: each edge (by the coordinates of its ends)
-/// belongs to an even number of them, and a ray from one keyframe meets an odd number of them, a
-/// ray from the other keyframe an even number. No continuous motion of a connected body gets from
-/// one side to the other without touching the surface.
+/// belongs to an even number of them; a ray from one keyframe meets an odd number of them, from the
+/// other an even one. A continuous motion of a connected body from one side to the other touches
+/// the surface.
 ///
 /// With `cage`, the proof is a box: the centre of the near quadrilateral is inside it at one
-/// keyframe, outside at the other, and can never be on its surface (`correction::find_cage` has the
-/// reason). Then the triangles are those that close the faces of the box except for its holes.
+/// keyframe, outside at the other, and can never be on its surface (see `correction::find_cage`).
+/// Then the triangles are those that close the faces of the box except for its holes.
 struct Infeasibility {
   std::size_t keyframe_inside = 0;
   std::size_t keyframe_outside = 0;
@@ -97,8 +95,7 @@ struct Infeasibility {
 struct PlanResult {
   Status status = Status::kInternalError;
   std::string message;  ///< one sentence for a person
-  /// Index of the keyframe at fault with kInvalid, or of the first one from which no way out was
-  /// found.
+  /// Index of the keyframe at fault with kInvalid, or of one from which no way out was found.
   std::optional<std::size_t> keyframe;
   motion::Path path;
   std::vector<motion::Keyframe> keyframes;  ///< given and inserted keyframes with their times
@@ -120,14 +117,11 @@ struct PlanResult {
   double near_scale = 1.0;
   /// Bounds that the body had to keep to: those of the request and those of the scene together.
   geometry::Bounds bounds;
-  /// Duration of `path` as a multiple of the requested one. The path is slowed where it has to be,
-  /// or all the way (`planning/limits.h`), to meet motion limits; every time of the result is a
-  /// slowed one.
+  /// Duration of `path` as a multiple of the requested one. To meet motion limits it is slowed in
+  /// part or all the way (`planning/limits.h`); every time of the result is a slowed one.
   double time_scale = 1.0;
-  /// Slowed parts, in order of time; times between them are only shifted.
-  std::vector<SlowedStretch> slowed;
-  /// Faults with kInvalid; otherwise the repaired ones.
-  std::vector<KeyframeFault> keyframe_faults;
+  std::vector<SlowedStretch> slowed;  ///< in order of time; times between them are only shifted
+  std::vector<KeyframeFault> keyframe_faults;  ///< faults with kInvalid; else the repaired ones
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
   /// Keyframes from which no way out was found; no proof. On the wire only a part of `message`.
   std::vector<correction::ShutIn> shut_in;

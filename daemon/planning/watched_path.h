@@ -16,36 +16,34 @@
 namespace camway::planning {
 
 /// A path that was proved free of collision, with all that is needed to tell quickly whether it
-/// still is after a change of its scene. Immutable. Thread-safe.
+/// still is after a change of its scene. Immutable.
+/// Thread-safe.
 ///
 /// Proof: The scene after a change is what stayed, and what was added. A path that was proved free
 /// in the scene before is free of what stayed, since removing triangles brings no triangle nearer,
 /// nor any solid. So it is free in the new scene if it is free of what was added, whose boxes hold
 /// its triangles and its inside. The eye on a segment lies in the convex hull of its four control
-/// points, in exact arithmetic, and every point of the body lies within `Body::radius_m` plus the
-/// ball's radius of the eye. So the body stays in the box of the control points grown by these, by
-/// `Body::slack_m` and by the required clearance, all rounded up. A segment whose grown box does
-/// not meet the box of an added object is free of that object; every other segment has to be proved
-/// free of what was added alone, by `collision::first_collision`. The path stays within the bounds
-/// while these are the same; if the bounds of the scene change, nothing is known.
+/// points, in exact arithmetic, and every body point is within `Body::radius_m` plus the ball's
+/// radius of the eye. So the body stays in the box of the control points grown by these, by
+/// `Body::slack_m` and the required clearance, all rounded up. A segment whose grown box does not
+/// meet the box of an added object is free of it; every other segment has to be proved free of what
+/// was added alone, by `collision::first_collision`. The path stays within the bounds while these
+/// are the same; if those of the scene change, nothing is known.
 class WatchedPath {
  public:
   /// Requires segments with increasing times.
   WatchedPath(motion::Path path, motion::Body body, const collision::DetectOptions& detect,
               const geometry::Bounds& bounds = {});
 
-  /// Returns the path that `result` proves free for the body of `request`; nothing if it proves
-  /// nothing.
+  /// Returns the path that `result` proves free for `request`; nothing if it proves nothing.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
 
   [[nodiscard]] const motion::Path& path() const { return path_; }
 
-  /// Returns whether the change can affect the path. If not, what was known of the path still
-  /// holds.
+  /// Returns whether the change can affect the path. If not, all that was known of it still holds.
   [[nodiscard]] bool may_meet(const scene::SceneDifference& change) const;
 
-  /// Returns true if a path that was free before the change is proved free after it. False proves
-  /// nothing.
+  /// Returns true if a path that was free before is proved free after. False proves nothing.
   [[nodiscard]] bool stays_free(const scene::SceneDifference& change,
                                 const collision::Deadline& deadline) const;
 
@@ -66,9 +64,8 @@ class WatchedPath {
   motion::Path path_;
   motion::Body body_;
   collision::DetectOptions detect_;
-  geometry::Bounds bounds_;  ///< bounds of the request
-  /// For each segment; nothing outside of its box can be too near.
-  std::vector<geometry::Box> swept_;
+  geometry::Bounds bounds_;           ///< bounds of the request
+  std::vector<geometry::Box> swept_;  ///< box of each segment; nothing beyond is too near
   geometry::Box all_swept_;
 };
 

@@ -9,8 +9,7 @@
 
 namespace camway::planning {
 
-/// Returns the names of the object and the body feature of `witness`, which was found with `mesh`
-/// and `body`.
+/// Returns the object and the body feature of `witness`, which was found with `mesh` and `body`.
 WitnessNames describe_witness(const scene::WholeMesh& mesh, const motion::Body& body,
                               const collision::Witness& witness);
 

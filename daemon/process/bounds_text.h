@@ -18,8 +18,7 @@ struct ParsedBounds {
   std::string error;
 };
 
-/// Reads bounds of the form `kBoundsForm`, in metres. A number that is left out means no limit:
-/// "-3..3/0..2.6/..".
+/// Reads `kBoundsForm`, in metres; a number that is left out means no limit: "-3..3/0..2.6/..".
 ParsedBounds parse_bounds(std::string_view text);
 
 /// Writes the same form, with as many digits as it takes to read the same numbers back.

@@ -37,20 +37,20 @@ int workers_for_this_machine() {
       std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMaxWorkers}));
 }
 
-/// What CLI11 fills in, as text where we parse ourselves.
+/// Values that CLI11 sets; texts that are parsed later.
 struct Raw {
   std::string config_file;
   bool check_config = false;
   std::vector<std::string> scenes;
 };
 
-/// The setting of that key. Precondition: there is one.
+/// Returns the setting of that key. Requires that there is one.
 Setting setting_of(std::string_view key, DaemonOptions& options) {
   const std::vector<Setting> settings = settings_of(options);
   return *std::ranges::find(settings, key, &Setting::key);
 }
 
-/// A flag without a value that turns a setting of the configuration file on.
+/// Adds a flag without a value that turns a setting on.
 void declare_switch(CLI::App& app, const std::string& flag, std::string_view key,
                     const std::string& meaning, DaemonOptions& options) {
   const auto turn_on = [&options, key, flag] {
@@ -60,7 +60,7 @@ void declare_switch(CLI::App& app, const std::string& flag, std::string_view key
   app.add_flag_callback(flag, turn_on, meaning);
 }
 
-/// A flag for a setting of the configuration file; `usual` is what help says of its default.
+/// Adds a flag for a setting. `usual` is its default as the help shows it.
 void declare_setting(CLI::App& app, const std::string& flag, std::string_view key,
                      const std::string& meaning, DaemonOptions& options,
                      const std::optional<std::string>& usual = std::nullopt) {

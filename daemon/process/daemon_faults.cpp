@@ -24,8 +24,8 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
   }
 }
 
-/// A share that is larger than the whole, where somebody asked for that share: it could never
-/// count.
+/// Reports a share that is larger than the whole, if it was set explicitly: it could have no
+/// effect.
 void check_share(const DaemonOptions& options, const std::string& share, std::size_t value,
                  const std::string& whole, std::size_t most, std::vector<std::string>& faults) {
   if (value <= most || !options.said_at.contains(share)) return;

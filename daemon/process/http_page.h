@@ -25,8 +25,7 @@ struct HttpAddress {
 
 /// Returns whether `text` is an IPv4 or IPv6 address.
 bool is_ip_address(const std::string& text);
-/// Returns whether `text` is an address that this machine has now, so that it could listen there.
-/// Uses no particular port.
+/// Returns whether this machine could listen on `text` now, whatever the port.
 bool is_address_of_this_machine(const std::string& text);
 
 struct HttpLimits {
@@ -36,11 +35,10 @@ struct HttpLimits {
 
 /// Content of a page. Both functions are called on the page's thread and must not throw.
 struct HttpContent {
-  std::string path;                   ///< "/metrics"
-  std::string type;                   ///< content type of the text
-  std::function<std::string()> text;  ///< called anew for each request
-  /// Called when the last free connection is taken; may be null.
-  std::function<void()> full = nullptr;
+  std::string path;                      ///< "/metrics"
+  std::string type;                      ///< content type of the text
+  std::function<std::string()> text;     ///< called anew for each request
+  std::function<void()> full = nullptr;  ///< called when no connection is free; may be null
 };
 
 /// A page, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in use".

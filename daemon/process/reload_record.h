@@ -14,8 +14,8 @@ namespace camway::service {
 /// Thread-safe.
 class ReloadRecord {
  public:
-  /// Records a reload that failed at `utime`, microseconds since 1970. Keeps the beginning of a
-  /// long reason.
+  /// Records a failed reload. `utime`: microseconds since 1970. Keeps the beginning of a long
+  /// reason.
   void failed(std::int64_t utime, std::string_view reason);
   /// Records a reload that was done, so that the daemon runs with its configuration.
   void succeeded();

@@ -10,8 +10,7 @@
 
 namespace camway::service {
 
-/// A scene as named by the command lines of `camwayd` and `camway replay` and by the daemon's
-/// configuration.
+/// A scene as named by the command lines of `camwayd` and `camway replay` or by the configuration.
 struct SceneArgument {
   std::string name;
   std::filesystem::path file;

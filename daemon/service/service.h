@@ -56,8 +56,8 @@ class Service {
   Service& operator=(const Service&) = delete;
 
   /// Serves until `request_stop`, unless another daemon has the prefix
-  /// (`ServiceConfig::claim_window`). Logs "ready" and publishes a first status when subscriptions
-  /// are in place. Call it once only.
+  /// (`CoreConfig::claim_window`). Logs "ready" and publishes a first status when subscriptions are
+  /// in place. Call it once only.
   RunOutcome run();
 
   /// Begins the stop. Planning that is running is finished and answered, within the drain limit;

@@ -9,9 +9,8 @@
 
 namespace camway::service {
 
-/// Returns the heartbeat. Scenes are listed in the order of their names, as many as keep the
-/// message within `wire::kMaxMessageBytes` (about 200 with the longest names); `total_scenes`
-/// counts all.
+/// Returns the heartbeat. Lists scenes in the order of names, as many as keep the message within
+/// `wire::kMaxMessageBytes` (about 200 with the longest names); `total_scenes` counts all.
 status_t make_status(const Core& core, std::chrono::duration<double> uptime);
 
 }  // namespace camway::service

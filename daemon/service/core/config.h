@@ -38,8 +38,7 @@ struct CoreConfig {
   std::chrono::milliseconds claim_window{0};
   /// How long a stop waits for planning that is running. [Limit: 0 <= value]
   std::chrono::milliseconds drain_limit{15'000};
-  /// For lines that clients can provoke; `log.lines_per_s` and others.
-  LimitedLog::Limits log_limits;
+  LimitedLog::Limits log_limits;  ///< for lines clients can provoke; `log.lines_per_s` and others
 };
 
 }  // namespace camway::service

@@ -32,8 +32,8 @@ using Planner = std::function<planning::PlanResult(
 /// Returns the time in microseconds since 1970.
 std::int64_t utime_now();
 
-/// What the services share. Owned by `Service`. All members except `mailbox`, `workers`, `scenes`
-/// and `log` belong to the loop thread.
+/// State that all services share. Owned by `Service`. All members except `mailbox`, `workers`,
+/// `scenes` and `log` belong to the loop thread.
 struct Core {
   Core(Transport& inner_transport, const scene::SceneStore& scene_store, CoreConfig core_config,
        std::shared_ptr<Log> service_log);

@@ -43,8 +43,8 @@ class PlanService {
   void on_cancel(std::span<const std::uint8_t> message);
   void on_missing_pages(std::span<const std::uint8_t> message);
 
-  /// Sends what is due by `now`: progress reports and questions for missing pages of requests. Has
-  /// watched paths that collide planned again.
+  /// Sends progress reports and questions for missing pages that are due by `now`. Has watched
+  /// paths that collide planned again.
   void tick(Clock::time_point now);
   /// Returns when `tick` is due next; the end of time if never.
   [[nodiscard]] Clock::time_point next_tick() const;

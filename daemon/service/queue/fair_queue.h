@@ -38,8 +38,7 @@ struct Job {
   std::string client;                    ///< client that its time is charged to
   std::optional<std::int64_t> id = {};   ///< identifies it among the jobs of the client
   Priority priority = Priority::kNormal;
-  /// Time from which on it is not worth running.
-  Clock::time_point expires = Clock::time_point::max();
+  Clock::time_point expires = Clock::time_point::max();  ///< not worth running from then on
   /// Jobs of one strand are begun one after the other, each when the one before is done; those of
   /// one client in the order of their arrival. Empty: no strand.
   std::string strand = {};

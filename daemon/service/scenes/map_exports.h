@@ -20,8 +20,7 @@ Pages map_pages(const RequestKey& key, const std::vector<std::uint8_t>& bytes);
 /// Returns the answer to a client that asks for pages of an export that is not there.
 map_page_t no_such_map(const RequestKey& key);
 
-/// Exported maps that clients fetch page by page. To make room, forgets the one that was not asked
-/// for during the longest time.
+/// Exported maps that clients fetch page by page. To make room, forgets the one unused for longest.
 /// Not thread-safe.
 class MapExports {
  public:
@@ -30,8 +29,7 @@ class MapExports {
   struct Limits {
     std::size_t exports = 16;
     std::size_t bytes = std::size_t{256} << 20;  ///< size of all exports
-    /// Time without a request after which an export is forgotten.
-    std::chrono::milliseconds idle{600'000};
+    std::chrono::milliseconds idle{600'000};     ///< time after which an unused one is forgotten
   };
 
   MapExports() : MapExports(Limits{}) {}

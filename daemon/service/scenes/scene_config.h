@@ -19,8 +19,7 @@ struct SceneConfig {
   /// Changes of different scenes that are made at the same time; `scenes.workers`
   /// [Limit: 1 <= value <= kMaxWorkers]
   int scene_workers = 4;
-  /// Changes that wait for earlier ones of their scene, or for a worker.
-  FairQueue::Limits changes;
+  FairQueue::Limits changes;  ///< waiting changes; `scenes.waiting_changes` and others
 };
 
 }  // namespace camway::service

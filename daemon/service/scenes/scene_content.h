@@ -35,8 +35,7 @@ struct Content {
   std::shared_ptr<const scene::VoxelMap> map = nullptr;
 };
 
-/// Returns the source of an object with that content, with all that is built for it. Takes time
-/// proportional to the content.
+/// Returns the source of an object with that content; takes time proportional to the content.
 std::shared_ptr<const scene::ObjectSource> source_of(Content content,
                                                      const scene::ObjectOptions& options);
 
@@ -53,13 +52,11 @@ geometry::Vec3 vec3(const double (&values)[3]);
 Made<Content> read_mesh(const scene_request_t& request, const UploadedBytes& upload,
                         const SceneContext& context);
 
-/// Makes the content of a new object of that kind: reads it, or builds it from the request's
-/// numbers.
+/// Makes the content of a new object: reads it, or builds it from the numbers of the request.
 Made<Content> make_mesh(const scene_request_t& request, scene::ObjectKind kind,
                         const UploadedBytes& upload, const SceneContext& context);
 
-/// Reads the points of an upload of doubles. An error if the size of the upload is not a whole
-/// number of points.
+/// Reads the points of an upload of doubles. An error if its size is not that of whole points.
 Made<std::vector<geometry::Vec3>> read_points(const UploadedBytes& upload);
 
 /// Returns the content of an object that is this map.

@@ -9,11 +9,11 @@
 
 namespace camway::service {
 
-/// What a request is carried out with. All references outlive the call.
+/// References that a request is carried out with. All outlive the call.
 struct SceneContext {
   const SceneRules& rules;
   scene::SceneStore& scenes;
-  /// Held while a file below the roots is written: two requests might name the same file.
+  /// Held while a file below the roots is written: two requests may name the same file.
   std::mutex& writing;
   /// Cancelling it prevents any further change, and ends the reading of files and the building of
   /// mirrors.

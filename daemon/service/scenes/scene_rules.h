@@ -17,9 +17,8 @@ struct SceneRules {
   SceneRoots roots;  ///< folders of the files that clients may name; `scenes.roots`
   /// Whether clients may write maps below the roots, over a file of the same name.
   bool write_maps = false;
-  /// Largest number of voxels that the rays of a scan may pass.
-  double scan_voxels = scene::kMostScanVoxels;
-  scene::VoxelMapLimits maps;  ///< `scenes.map_voxels` and `scenes.map_triangles`
+  double scan_voxels = scene::kMostScanVoxels;  ///< most voxels that the rays of a scan may pass
+  scene::VoxelMapLimits maps;                   ///< `scenes.map_voxels` and `scenes.map_triangles`
   /// Largest number of voxels of the mirror of an object; `scenes.mirror_voxels`.
   std::uint64_t mirror_voxels = scene::OccupancyMap::kUsualMostVoxels;
 };

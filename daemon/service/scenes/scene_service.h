@@ -23,13 +23,13 @@ namespace camway::service {
 /// Lets clients query and change scenes. Queries are answered at once. Changes run on threads of
 /// their own, so that planning does not wait for the import of a large file: changes of different
 /// scenes in parallel, those of one scene one after the other, so that two moves of one client keep
-/// their order. Clients take turns as for planning (`FairQueue`), and no client uses all threads at
-/// a time (unless there is only one), so that imports of one client leave room for moves of others.
+/// their order. Clients take turns as for planning (`FairQueue`), and no client uses all threads
+/// (if there are several), so that imports of one client leave room for moves of others.
 /// Not thread-safe: for the loop thread.
 ///
-/// A change has a deadline that counts from its receipt, and can be cancelled. Then it is answered
-/// at once, whatever a worker is doing, and changes nothing; unless it is committed already, with
-/// its answer on the way.
+/// A change has a deadline from its receipt on, and can be cancelled. Then it is answered at once,
+/// whatever a worker is doing, and changes nothing; unless it is committed already, with its answer
+/// on the way.
 ///
 /// A change that is sent again, with equal ids and content, is not made again: it gets the same
 /// answer.
@@ -102,8 +102,7 @@ class SceneService {
   MapExports exports_;
   AnswerCache cache_;
   std::map<RequestKey, Pending> unanswered_;
-  /// Deadlines of the unanswered changes that have not passed.
-  std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;
+  std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< unanswered changes by time
   /// Changes that were cancelled and answered while a worker is still at them.
   std::set<Request> left_behind_;  ///< called off and answered, but a worker is still at it
   std::mutex writing_;             ///< see `SceneContext`

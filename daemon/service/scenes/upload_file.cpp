@@ -38,7 +38,7 @@ bool lock(int file) {
   return true;
 }
 
-/// Whether somebody removed the file between its making and its locking.
+/// Returns whether another process removed the file between its creation and its locking.
 bool is_gone(int file) {
   struct stat status {};
   return fstat(file, &status) != 0 || status.st_nlink == 0;

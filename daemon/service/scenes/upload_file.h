@@ -31,8 +31,7 @@ class UploadFile {
   bool is_good_ = false;
 };
 
-/// Removes the files of uploads that killed processes of this user left behind, and no others.
-/// Returns how many.
+/// Removes upload files that killed processes of this user left, and no others. Returns how many.
 std::size_t remove_left_upload_files();
 
 }  // namespace camway::service

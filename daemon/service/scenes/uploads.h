@@ -57,13 +57,12 @@ class Uploads {
     std::size_t bytes = std::size_t{64} << 20;  ///< size of one upload
     /// Size of all uploads, including those that are forgotten but still read.
     std::size_t total_bytes = std::size_t{256} << 20;
-    /// Time without a page after which an upload is forgotten.
-    std::chrono::milliseconds idle{600'000};
+    std::chrono::milliseconds idle{600'000};  ///< time after which an untouched one is forgotten
   };
 
   explicit Uploads(const Limits& limits) : limits_(limits) {}
 
-  /// Takes a page. Returns whether to answer it, and the answer: see `upload_status_t`. Requires a
+  /// Takes a page. Returns whether to answer it, and with what (`upload_status_t`). Requires a
   /// valid client id.
   struct Taken {
     bool answer = false;

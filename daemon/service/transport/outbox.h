@@ -24,8 +24,7 @@ class Outbox {
  public:
   /// Bytes that may be sent before the next pause: two messages of full size.
   static constexpr std::size_t kBurstBytes = 120'000;
-  /// Messages that may be sent before the next pause: each takes a place in the receiver's queue,
-  /// of 30 by default.
+  /// Messages that may be sent before the next pause: the receiver's queue holds 30 by default.
   static constexpr int kBurstMessages = 16;
   /// Time that the receiver has to empty its buffer after a burst.
   static constexpr std::chrono::milliseconds kPause{2};
@@ -45,9 +44,9 @@ class Outbox {
   explicit Outbox(Transport& transport) : Outbox(transport, Limits{}) {}
   Outbox(Transport& transport, const Limits& limits) : transport_(transport), limits_(limits) {}
 
-  /// Queues an answer, or only its pages `which`, unless that is empty. Returns false if there is
-  /// no room, or if this very answer is still waiting. Requires that `which` holds indices of
-  /// pages.
+  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. Returns
+  /// false if there is no room, or if this very answer is still waiting. Requires valid indices in
+  /// `which`.
   bool add(const std::string& channel, Pages pages, std::vector<std::size_t> which = {},
            Kind kind = Kind::kAnswer);
 

@@ -37,15 +37,13 @@ class WatchChecker {
     /// The first verdict on a path, and new ones: on paths that were free and are not any more, and
     /// on all paths that were not free and were checked again.
     std::vector<Verdict> verdicts;
-    /// The last news of this revision: the verdicts on all other paths of the scene hold for it,
-    /// too.
+    /// The last news of this revision: verdicts on all other paths of the scene hold for it, too.
     bool is_last = false;
   };
   /// Called on the checker's thread.
   using Tell = std::function<void(News)>;
 
-  /// `scenes` must outlive this. Takes the store's only listener for changes, so nobody else may
-  /// listen.
+  /// `scenes` must outlive this, and must have no other listener for changes.
   WatchChecker(scene::SceneStore& scenes, Tell tell);
   /// Waits for the check that is running.
   ~WatchChecker();
