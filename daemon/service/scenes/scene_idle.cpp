@@ -32,7 +32,7 @@ bool is_set(const bounds_t& bounds) {
          is_set(bounds.min_m) || is_set(bounds.max_m);
 }
 
-/// Not turned is as good as not set.
+/// The identity counts as not set.
 bool is_turned(const double (&wxyz)[4]) {
   return wxyz[1] != 0.0 || wxyz[2] != 0.0 || wxyz[3] != 0.0;
 }
@@ -44,7 +44,7 @@ class Counting {
   [[nodiscard]] bool in(std::initializer_list<std::int8_t> operations) const {
     return std::ranges::count(operations, request_.operation) > 0;
   }
-  /// Whether an object of one of these kinds is put.
+  /// Returns whether the request puts an object of one of these kinds.
   [[nodiscard]] bool of(std::initializer_list<std::int8_t> kinds) const {
     return in({Request::PUT}) && std::ranges::count(kinds, request_.kind) > 0;
   }
@@ -54,7 +54,7 @@ class Counting {
   const Request& request_;
 };
 
-/// What the object is made of.
+/// Returns the members that describe the content of the object.
 std::vector<Member> members_of_content(const Request& r, const Counting& counts) {
   const bool has_upload =
       counts.of_mesh() || counts.in({Request::SCAN}) || counts.of({Request::POINTS});
