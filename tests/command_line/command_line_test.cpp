@@ -95,6 +95,7 @@ TEST(CommandLine, TheNearestWordIsNotFar) {
   EXPECT_EQ(nearest_word("ocupency", words), "occupancy");
   EXPECT_EQ(nearest_word("plan", words), "plan");
   EXPECT_EQ(nearest_word("draw", words), "");
+  EXPECT_EQ(nearest_word("pu", words), "up") << "swapped letters count as one change";
   EXPECT_EQ(nearest_word("xy", words), "") << "two changes make any word of two letters";
   EXPECT_EQ(nearest_word("", words), "");
 }
