@@ -31,7 +31,7 @@ constexpr int kSmallQueue = 256;
 /// What leaves without a breath: two messages of full size fit the usual receive buffer of 208 KiB
 /// with room for others.
 constexpr std::size_t kBurstBytes = 120'000;
-constexpr milliseconds kBreath{1};
+constexpr milliseconds kSendPause{1};
 
 template <class Message>
 std::optional<std::int64_t> request_of(std::span<const std::uint8_t> bytes) {
@@ -156,7 +156,7 @@ std::future<bool> Engine::unwatch(std::int64_t request_id, Clock::time_point unt
   post([this, request_id, until, promise] {
     watches_.remove(request_id);
     if (Call* const call = find(Call::Kind::kPlan, request_id)) call->cancel();
-    leavers_.push_back({request_id, until, std::move(*promise)});
+    pending_unwatches_.push_back({request_id, until, std::move(*promise)});
   });
   return ended;
 }
@@ -164,7 +164,7 @@ std::future<bool> Engine::unwatch(std::int64_t request_id, Clock::time_point unt
 std::future<std::optional<DaemonStatus>> Engine::next_heartbeat(Clock::time_point until) {
   auto promise = std::make_shared<std::promise<std::optional<DaemonStatus>>>();
   std::future<std::optional<DaemonStatus>> heartbeat = promise->get_future();
-  post([this, until, promise] { waiters_.push_back({until, std::move(*promise)}); });
+  post([this, until, promise] { pending_statuses_.push_back({until, std::move(*promise)}); });
   return heartbeat;
 }
 
@@ -250,7 +250,7 @@ void Engine::send_some(Clock::time_point now) {
     if (!link_.publish(outgoing_.front().channel, outgoing_.front().bytes)) broken_ = true;
     outgoing_.pop_front();
   }
-  if (!outgoing_.empty()) send_at_ = now + kBreath;
+  if (!outgoing_.empty()) send_at_ = now + kSendPause;
 }
 
 Clock::time_point Engine::next_wake() const {
@@ -259,27 +259,29 @@ Clock::time_point Engine::next_wake() const {
   for (const auto& [key, call] : calls_) {
     next = std::min(next, call->answered() ? Clock::time_point{} : call->retry().wake());
   }
-  for (const Waiter& waiter : waiters_) next = std::min(next, waiter.until);
-  for (const Leaver& leaver : leavers_) next = std::min(next, leaver.until);
+  for (const PendingStatus& pending_one : pending_statuses_)
+    next = std::min(next, pending_one.until);
+  for (const PendingUnwatch& pending : pending_unwatches_) next = std::min(next, pending.until);
   return next;
 }
 
 void Engine::end_waiters(Clock::time_point now) {
-  const auto over = std::partition(waiters_.begin(), waiters_.end(),
-                                   [now](const Waiter& waiter) { return now < waiter.until; });
-  for (auto waiter = over; waiter != waiters_.end(); ++waiter) {
-    waiter->promise.set_value(std::nullopt);
+  const auto over =
+      std::partition(pending_statuses_.begin(), pending_statuses_.end(),
+                     [now](const PendingStatus& pending_one) { return now < pending_one.until; });
+  for (auto pending_one = over; pending_one != pending_statuses_.end(); ++pending_one) {
+    pending_one->promise.set_value(std::nullopt);
   }
-  waiters_.erase(over, waiters_.end());
+  pending_statuses_.erase(over, pending_statuses_.end());
 }
 
 void Engine::end_leavers(Clock::time_point now) {
-  std::erase_if(leavers_, [&](Leaver& leaver) {
+  std::erase_if(pending_unwatches_, [&](PendingUnwatch& pending) {
     // What is being planned would be watched once it is answered.
-    const bool is_over = find(Call::Kind::kPlan, leaver.request_id) == nullptr &&
-                         !watches_.is_ending(leaver.request_id);
-    if (!is_over && now < leaver.until) return false;
-    leaver.promise.set_value(is_over);
+    const bool is_over = find(Call::Kind::kPlan, pending.request_id) == nullptr &&
+                         !watches_.is_ending(pending.request_id);
+    if (!is_over && now < pending.until) return false;
+    pending.promise.set_value(is_over);
     return true;
   });
 }
@@ -329,9 +331,9 @@ void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
   for (auto& [key, call] : calls_) call->retry().note_heartbeat(status->uptime_s, now);
   is_unheard_ = status->signed_only && !link_.signs();
   watches_.take_heartbeat(status->uptime_s, now);
-  std::vector<Waiter> waiters;
-  waiters.swap(waiters_);
-  for (Waiter& waiter : waiters) waiter.promise.set_value(status);
+  std::vector<PendingStatus> pending;
+  pending.swap(pending_statuses_);
+  for (PendingStatus& pending_one : pending) pending_one.promise.set_value(status);
 }
 
 }  // namespace camway

@@ -61,13 +61,13 @@ class Engine {
 
  private:
   using Key = std::pair<Call::Kind, std::int64_t>;
-  struct Waiter {
+  struct PendingStatus {
     Clock::time_point until;
     std::promise<std::optional<DaemonStatus>> promise;
   };
 
   /// Somebody who waits for the end of a watch.
-  struct Leaver {
+  struct PendingUnwatch {
     std::int64_t request_id;
     Clock::time_point until;
     std::promise<bool> promise;
@@ -103,8 +103,8 @@ class Engine {
   // All else belongs to the thread.
   std::map<Key, std::shared_ptr<Call>> calls_;
   WatchList watches_;
-  std::vector<Waiter> waiters_;
-  std::vector<Leaver> leavers_;
+  std::vector<PendingStatus> pending_statuses_;
+  std::vector<PendingUnwatch> pending_unwatches_;
   std::deque<Outgoing> outgoing_;
   Clock::time_point send_at_{};  ///< no message leaves before
   bool broken_ = false;

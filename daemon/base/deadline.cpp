@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace camway::collision {
+namespace camway::base {
 
 namespace {
 
@@ -89,4 +89,4 @@ void Deadline::report_collisions(std::size_t found, std::size_t corrected) const
   progress_->corrected = static_cast<int>(corrected);
 }
 
-}  // namespace camway::collision
+}  // namespace camway::base

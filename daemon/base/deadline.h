@@ -9,7 +9,7 @@
 
 #include "daemon/base/progress.h"
 
-namespace camway::collision {
+namespace camway::base {
 
 /// The only clock that planning reads: how long it has run, and whether it must stop, because time
 /// is up or the client cancelled. An answer depends on the clock only if the deadline strikes. A
@@ -79,4 +79,4 @@ class Deadline {
   std::shared_ptr<std::atomic<std::int64_t>> looks_;  ///< reads of the test clock; or null
 };
 
-}  // namespace camway::collision
+}  // namespace camway::base

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace camway::collision {
+namespace camway::base {
 
 /// Progress of planning. Planning writes it; any thread may read it at any time. The members are
 /// not updated together.
@@ -15,4 +15,4 @@ struct Progress {
   std::atomic<int> corrected = 0;   ///< those of them that are corrected
 };
 
-}  // namespace camway::collision
+}  // namespace camway::base

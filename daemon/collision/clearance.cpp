@@ -22,7 +22,8 @@ constexpr double kRoundDown = 1.0 - 4.0 * std::numeric_limits<double>::epsilon()
 
 class ClearanceSearch {
  public:
-  ClearanceSearch(const Obstacles& obstacles, const motion::Body& body, const Deadline& deadline)
+  ClearanceSearch(const Obstacles& obstacles, const motion::Body& body,
+                  const base::Deadline& deadline)
       : probe_(obstacles.without_bounds(), body, /*clearance_m=*/0.0), deadline_(deadline) {}
 
   std::optional<PathClearance> run(const motion::Path& path) {
@@ -68,14 +69,14 @@ class ClearanceSearch {
       const Stretch stretch = motion.around(u, end);
       const double reach_m = probe_.reach_m(stretch);
       const bool splittable = 0.5 * (u + end) > u && 0.5 * (u + end) < end;
-      if (std::isfinite(reach_m) && reach_m > kWorthALook * aim_m_ && splittable) {
-        width *= std::max(aim_m_ / reach_m, kLargestShrink);
+      if (std::isfinite(reach_m) && reach_m > kWorthACheck * target_reach_m_ && splittable) {
+        width *= std::max(target_reach_m_ / reach_m, kLargestShrink);
         continue;
       }
       const Verdict verdict = settle(stretch, splittable);
       if (verdict == Verdict::kTouches) return false;
       if (verdict == Verdict::kSettled) u = end;
-      width *= std::clamp(aim_m_ / reach_m, kLargestShrink, kLargestGrowth);
+      width *= std::clamp(target_reach_m_ / reach_m, kLargestShrink, kLargestGrowth);
     }
     return true;
   }
@@ -83,11 +84,11 @@ class ClearanceSearch {
   enum class Verdict { kSettled, kTooLong, kTouches };
 
   Verdict settle(const Stretch& stretch, bool splittable) {
-    const Look seen = look(stretch);
+    const ProbeResult seen = look(stretch);
     const double enough_m = enough();
     if (seen.free) {
       lower_m_ = std::min(lower_m_, asked_m_);
-      aim_m_ = next_reach_m(seen);
+      target_reach_m_ = next_reach_m(seen);
       return Verdict::kSettled;
     }
     const double everywhere_m =
@@ -97,19 +98,20 @@ class ClearanceSearch {
     const bool hopeless = !(seen.reach_m > 2.0 * seen.rounding_m) || !splittable;
     if (hopeless && !(everywhere_m > 0.0)) return Verdict::kTouches;
     if (!(seen.gap_m > 0.0)) return Verdict::kTouches;
-    aim_m_ = std::max(kApproach * (seen.gap_m - enough_m), 1.5 * seen.rounding_m);
+    target_reach_m_ = std::max(kApproach * (seen.gap_m - enough_m), 1.5 * seen.rounding_m);
     if (hopeless || everywhere_m >= enough_m) {
       lower_m_ = std::min({lower_m_, everywhere_m, asked_m_});
       return Verdict::kSettled;
     }
-    aim_m_ = std::min(std::max(aim_m_, next_reach_m(seen)), kLargestShare * seen.reach_m);
+    target_reach_m_ =
+        std::min(std::max(target_reach_m_, next_reach_m(seen)), kLargestShare * seen.reach_m);
     return Verdict::kTooLong;
   }
 
   // Checks whether the distance is at least `enough` all over the stretch.
-  Look look(const Stretch& stretch) {
+  ProbeResult look(const Stretch& stretch) {
     asked_m_ = enough();
-    const Look seen = probe_.look(stretch, asked_m_, kShare);
+    const ProbeResult seen = probe_.check_refined(stretch, asked_m_, kShare);
     if (seen.is_measured)
       upper_m_ = std::min(upper_m_, std::max(0.0, seen.gap_m) + seen.rounding_m);
     return seen;
@@ -123,16 +125,16 @@ class ClearanceSearch {
   // Chosen by measurement: none changes what is proved.
   static constexpr double kShare = 0.93;  // the true distance is at least this share
   static constexpr int kPlacesASegment = 8;
-  static constexpr double kWorthALook = 1.5;  // share of the reach aimed at
-  static constexpr double kApproach = 0.8;    // reach aimed at, as a share of the gap
+  static constexpr double kWorthACheck = 1.5;  // share of the reach aimed at
+  static constexpr double kApproach = 0.8;     // reach aimed at, as a share of the gap
   static constexpr double kLargestGrowth = 4.0;
   static constexpr double kLargestShare = 0.8;  // share of a reach that was too long
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
 
   Probe probe_;
-  const Deadline& deadline_;
-  double aim_m_ = std::numeric_limits<double>::infinity();
+  const base::Deadline& deadline_;
+  double target_reach_m_ = std::numeric_limits<double>::infinity();
   double asked_m_ = 0.0;
   unsigned looks_ = 0;
   bool timed_out_ = false;
@@ -143,7 +145,8 @@ class ClearanceSearch {
 }  // namespace
 
 std::optional<PathClearance> path_clearance(const Obstacles& obstacles, const motion::Path& path,
-                                            const motion::Body& body, const Deadline& deadline) {
+                                            const motion::Body& body,
+                                            const base::Deadline& deadline) {
   return ClearanceSearch(obstacles, body, deadline).run(path);
 }
 

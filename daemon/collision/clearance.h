@@ -30,6 +30,7 @@ inline constexpr double kLargestClearance_m = 100.0;
 /// by more than `kClearanceGap`. Covers every instant, rounding included. Ignores bounds. Returns
 /// nothing if the deadline strikes first.
 std::optional<PathClearance> path_clearance(const Obstacles& obstacles, const motion::Path& path,
-                                            const motion::Body& body, const Deadline& deadline);
+                                            const motion::Body& body,
+                                            const base::Deadline& deadline);
 
 }  // namespace camway::collision

@@ -64,7 +64,7 @@ struct Piece {
 class Detector {
  public:
   Detector(const Obstacles& obstacles, const motion::Body& body, const DetectOptions& options,
-           const Deadline& deadline, bool only_first)
+           const base::Deadline& deadline, bool only_first)
       : probe_(obstacles, body, options.clearance_m),
         options_(options),
         deadline_(deadline),
@@ -101,13 +101,13 @@ class Detector {
       const Stretch stretch = motion.around(piece.u0, piece.u1);
       // Only the motion matters: splitting does not reduce the rounding.
       const double motion_m = probe_.reach_m(stretch) - probe_.rounding_m(stretch);
-      const bool too_long = std::isfinite(motion_m) && motion_m > kWorthALook * aim_m_;
+      const bool too_long = std::isfinite(motion_m) && motion_m > kWorthACheck * target_reach_m_;
       if (too_long && piece.splittable()) {
-        width *= std::max(aim_m_ / motion_m, kLargestShrink);
+        width *= std::max(target_reach_m_ / motion_m, kLargestShrink);
         continue;
       }
       if (settle(piece, stretch)) u = piece.u1;
-      width *= std::clamp(aim_m_ / motion_m, kLargestShrink, kLargestStep);
+      width *= std::clamp(target_reach_m_ / motion_m, kLargestShrink, kLargestStep);
     }
   }
 
@@ -117,39 +117,39 @@ class Detector {
   bool settle(const Piece& piece, const Stretch& stretch) {
     const Verdict inside = last_ ? settle_inside(piece, stretch) : Verdict::kUnknown;
     if (inside != Verdict::kUnknown) return inside == Verdict::kSettled;
-    const Look seen = look(piece, stretch, Probe::Way::kForwards);
+    const ProbeResult seen = look(piece, stretch, Probe::Way::kForwards);
     if (seen.free) {
       close();
-      aim_m_ = std::max(next_reach_m(seen), kBelow * options_.tolerance_m);
+      target_reach_m_ = std::max(next_reach_m(seen), kBelow * options_.tolerance_m);
       return true;
     }
-    if (seen.swallows) {
+    if (seen.contains) {
       extend(piece, seen.gap_m, /*surely=*/true);
-      aim_m_ = kLargestGrowth * seen.reach_m;
+      target_reach_m_ = kLargestGrowth * seen.reach_m;
       return true;
     }
     const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.gap_m;
     if (counts || is_resolved(seen) || !piece.splittable()) {
       extend(piece, seen.gap_m, /*surely=*/false);
-      aim_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
+      target_reach_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
       return true;
     }
     // Must be shorter, or the loop would not end.
-    aim_m_ = std::min(kBelow * seen.motion_m(),
-                      std::max(next_reach_m(seen), kBelow * least_reach_m(seen)));
+    target_reach_m_ = std::min(kBelow * seen.motion_m(),
+                               std::max(next_reach_m(seen), kBelow * least_reach_m(seen)));
     return false;
   }
 
   // Measures the distance at the middle only if the piece will not be split.
-  Look look(const Piece& piece, const Stretch& stretch, Probe::Way way) {
-    Look seen = probe_.glance(stretch, /*margin_m=*/0.0, way);
+  ProbeResult look(const Piece& piece, const Stretch& stretch, Probe::Way way) {
+    ProbeResult seen = probe_.check(stretch, /*margin_m=*/0.0, way);
     const double largest_m = last_ ? options_.gap_m : options_.tolerance_m;
-    if (seen.motion_m() <= largest_m || !piece.splittable()) probe_.measure(stretch, seen);
+    if (seen.motion_m() <= largest_m || !piece.splittable()) probe_.refine(stretch, seen);
     return seen;
   }
 
   // The reach below which a piece need not be split.
-  [[nodiscard]] double least_reach_m(const Look& seen) const {
+  [[nodiscard]] double least_reach_m(const ProbeResult& seen) const {
     return last_ && seen.collides() ? options_.gap_m : finest_m(seen);
   }
 
@@ -162,33 +162,33 @@ class Detector {
     const bool is_short = motion_m <= options_.gap_m || !piece.splittable();
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
-      aim_m_ = kLargestGrowth * reach_m;
+      target_reach_m_ = kLargestGrowth * reach_m;
       return Verdict::kSettled;
     }
     if (!is_short) {
-      aim_m_ = std::max(0.5 * motion_m, kBelow * options_.gap_m);
+      target_reach_m_ = std::max(0.5 * motion_m, kBelow * options_.gap_m);
       return Verdict::kTooLong;
     }
     hit_.reset();
     const std::optional<std::uint32_t> touched = probe_.touched_in_the_middle(stretch, touched_);
     if (!touched) return Verdict::kUnknown;
     touched_ = *touched;
-    if (patience_-- <= 0) {
+    if (checks_left_-- <= 0) {
       hit_ = probe_.surely_hit(stretch);
-      impatience_ = hit_ ? 0 : std::min(2 * impatience_ + 1, kMostImpatience);
-      patience_ = impatience_;
+      backoff_ = hit_ ? 0 : std::min(2 * backoff_ + 1, kMostBackoff);
+      checks_left_ = backoff_;
     }
     extend(piece, 0.0, hit_.has_value());
-    aim_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
+    target_reach_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
     return Verdict::kSettled;
   }
 
   // The reach below which a stretch that is not free counts as colliding.
-  [[nodiscard]] double finest_m(const Look& seen) const {
+  [[nodiscard]] double finest_m(const ProbeResult& seen) const {
     return seen.collides() ? options_.tolerance_m : kFinestShare * options_.tolerance_m;
   }
 
-  [[nodiscard]] bool is_resolved(const Look& seen) const {
+  [[nodiscard]] bool is_resolved(const ProbeResult& seen) const {
     return !(seen.motion_m() > finest_m(seen));
   }
 
@@ -213,7 +213,7 @@ class Detector {
       closest_gap_m_ = std::numeric_limits<double>::infinity();
       contacts_.clear();
       hit_.reset();
-      patience_ = impatience_ = 0;
+      checks_left_ = backoff_ = 0;
     }
     last_ = piece;
     last_is_sure_ = surely;
@@ -246,7 +246,7 @@ class Detector {
     for (double u = piece.u1; u > piece.u0 && !out_of_time();) {
       const double from = std::min(u - width, std::nextafter(u, piece.u0));
       const Piece part{piece.segment, std::max(from, piece.u0), u};
-      const Look seen = look(part, motion.around(part.u0, part.u1), Probe::Way::kBackwards);
+      const ProbeResult seen = look(part, motion.around(part.u0, part.u1), Probe::Way::kBackwards);
       if (seen.free) {
         u = part.u0;
       } else if (is_resolved(seen) || !part.splittable()) {
@@ -274,22 +274,22 @@ class Detector {
   }
 
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
-  static constexpr double kWorthALook = 1.5;     // share of the reach aimed at
+  static constexpr double kWorthACheck = 1.5;    // share of the reach aimed at
   static constexpr double kFinestShare = 0.1;    // share of the tolerance
   static constexpr double kBelow = 0.9;          // keeps rounding from exceeding a limit
   static constexpr double kLargestGrowth = 2.0;  // growth after a stretch proved to collide
   static constexpr double kLargestStep = 8.0;    // largest growth of a width
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
-  static constexpr int kMostImpatience = 15;  // checks between attempts to prove a collision
+  static constexpr int kMostBackoff = 15;  // checks between attempts to prove a collision
 
   Probe probe_;
   const DetectOptions& options_;
-  const Deadline& deadline_;
+  const base::Deadline& deadline_;
   const bool only_first_;
 
   /// Reach of the next step, rounding apart.
-  double aim_m_ = std::numeric_limits<double>::infinity();
+  double target_reach_m_ = std::numeric_limits<double>::infinity();
   unsigned looks_ = 0;
   bool finished_ = false;
   bool timed_out_ = false;
@@ -302,8 +302,8 @@ class Detector {
   double closest_gap_m_ = 0.0;
   std::optional<std::uint32_t> hit_;  ///< obstacle that the last stretch was proved to hit
   std::uint32_t touched_ = 0;         ///< obstacle that was touched last: tried first
-  int patience_ = 0;                  ///< checks until the next attempt of a proof
-  int impatience_ = 0;                ///< checks between attempts after the next failure
+  int checks_left_ = 0;               ///< checks until the next attempt of a proof
+  int backoff_ = 0;                   ///< checks between attempts after the next failure
   std::vector<Piece> contacts_;
 
   std::vector<CollisionInterval> intervals_;
@@ -311,9 +311,12 @@ class Detector {
 
 }  // namespace
 
-std::optional<std::vector<CollisionInterval>> detect_collisions(
-    const Obstacles& obstacles, const motion::Path& path, const motion::Body& body,
-    double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline) {
+std::optional<std::vector<CollisionInterval>> detect_collisions(const Obstacles& obstacles,
+                                                                const motion::Path& path,
+                                                                const motion::Body& body,
+                                                                double t_begin_s, double t_end_s,
+                                                                const DetectOptions& options,
+                                                                const base::Deadline& deadline) {
   Search search = search_collisions(obstacles, path, body, t_begin_s, t_end_s, options, deadline);
   if (!search.complete) return std::nullopt;
   return std::move(search.collisions);
@@ -321,7 +324,7 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(
 
 Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
                          const motion::Body& body, double t_begin_s, double t_end_s,
-                         const DetectOptions& options, const Deadline& deadline) {
+                         const DetectOptions& options, const base::Deadline& deadline) {
   Detector detector(obstacles, body, options, deadline, /*only_first=*/false);
   detector.run(path, t_begin_s, t_end_s);
   Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
@@ -335,7 +338,7 @@ Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
 
 FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,
                                const motion::Body& body, double t_begin_s, double t_end_s,
-                               const DetectOptions& options, const Deadline& deadline) {
+                               const DetectOptions& options, const base::Deadline& deadline) {
   Detector detector(obstacles, body, options, deadline, /*only_first=*/true);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return {false, std::nullopt};

@@ -35,7 +35,7 @@ struct DetectOptions {
 /// Returns nothing if the deadline struck before the end. Requires segments with increasing times.
 std::optional<std::vector<CollisionInterval>> detect_collisions(
     const Obstacles& obstacles, const motion::Path& path, const motion::Body& body,
-    double t_begin_s, double t_end_s, const DetectOptions& options, const Deadline& deadline);
+    double t_begin_s, double t_end_s, const DetectOptions& options, const base::Deadline& deadline);
 
 /// Result of a search that the deadline may have ended.
 struct Search {
@@ -48,7 +48,7 @@ struct Search {
 /// the end.
 Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
                          const motion::Body& body, double t_begin_s, double t_end_s,
-                         const DetectOptions& options, const Deadline& deadline);
+                         const DetectOptions& options, const base::Deadline& deadline);
 
 /// The first collision interval, with its end but without a witness.
 struct FirstCollision {
@@ -57,6 +57,6 @@ struct FirstCollision {
 };
 FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,
                                const motion::Body& body, double t_begin_s, double t_end_s,
-                               const DetectOptions& options, const Deadline& deadline);
+                               const DetectOptions& options, const base::Deadline& deadline);
 
 }  // namespace camway::collision

@@ -79,7 +79,7 @@ double Probe::field_distance_m(const motion::Stretch& stretch) const {
   return clearance_m - center_radius_m_ * kRoundUp;
 }
 
-scene::MovingBody Probe::move(const motion::Stretch& stretch, Way way) {
+scene::SweptBody Probe::move(const motion::Stretch& stretch, Way way) {
   const std::span<const Triangle> triangles_C = body_.triangles_C();
   const std::size_t begin = way == Way::kForwards ? 0 : 1;
   for (std::size_t i = 0; i < triangles_C.size(); ++i) {
@@ -95,41 +95,41 @@ scene::MovingBody Probe::move(const motion::Stretch& stretch, Way way) {
           reach_m(stretch), 0.0};
 }
 
-Look Probe::glance(const motion::Stretch& stretch, double margin_m, Way way) {
-  Look look = glance_at_scene(stretch, margin_m, way);
-  if (has_bounds_) mind_bounds(stretch, margin_m, way, look);
-  return look;
+ProbeResult Probe::check(const motion::Stretch& stretch, double margin_m, Way way) {
+  ProbeResult result = check_scene(stretch, margin_m, way);
+  if (has_bounds_) check_bounds(stretch, margin_m, way, result);
+  return result;
 }
 
-Look Probe::glance_at_scene(const motion::Stretch& stretch, double margin_m, Way way) {
-  Look look;
-  look.reach_m = reach_m(stretch);
-  look.rounding_m = rounding_m(stretch);
+ProbeResult Probe::check_scene(const motion::Stretch& stretch, double margin_m, Way way) {
+  ProbeResult result;
+  result.reach_m = reach_m(stretch);
+  result.rounding_m = rounding_m(stretch);
   // The distance of the ball about the triangles: if it is free, no solid of the body holds a part
   // of the scene, and no solid of the scene a part of the body.
   const double field_m = field_distance_m(stretch);
-  if (field_m > (look.reach_m + margin_m + keep_m_) * kRoundUp) {
-    look.free = true;
-    look.is_measured = false;
-    look.gap_m = field_m - keep_m_;
-    look.ahead = look.gap_m / look.reach_m;
-    return look;
+  if (field_m > (result.reach_m + margin_m + keep_m_) * kRoundUp) {
+    result.free = true;
+    result.is_measured = false;
+    result.gap_m = field_m - keep_m_;
+    result.step_scale = result.gap_m / result.reach_m;
+    return result;
   }
-  scene::MovingBody body = move(stretch, way);
+  scene::SweptBody body = move(stretch, way);
   const double error_m = obstacles_.index.nearest_error_m(body.ends);
-  look.rounding_m += error_m;
+  result.rounding_m += error_m;
   body.keep_m = (margin_m + error_m + keep_m_) * kRoundUp;
   // If the motion is too large or not a number, nothing is known.
-  if (!(body.bend_m + body.reach_m + body.keep_m < geometry::kLargestCoordinate_m)) return look;
-  const scene::Passage passage = obstacles_.index.passage(body);
-  look.swallows = passage.is_clear && (holds_scene(stretch) || is_in_solid());
-  look.free = passage.is_clear && !look.swallows;
-  look.is_measured = passage.nearest.has_value() || !look.free;
-  look.ahead = passage.ahead;
+  if (!(body.bend_m + body.reach_m + body.keep_m < geometry::kLargestCoordinate_m)) return result;
+  const scene::SweptResult swept = obstacles_.index.swept(body);
+  result.contains = swept.is_clear && (holds_scene(stretch) || is_in_solid());
+  result.free = swept.is_clear && !result.contains;
+  result.is_measured = swept.nearest.has_value() || !result.free;
+  result.step_scale = swept.step_scale;
   // Inside of a solid the gap stays 0, however far the surface is.
-  if (look.swallows) return look;
-  look.gap_m = passage.nearest ? passage.nearest->distance_m - keep_m_ : margin_m;
-  return look;
+  if (result.contains) return result;
+  result.gap_m = swept.nearest ? swept.nearest->distance_m - keep_m_ : margin_m;
+  return result;
 }
 
 double Probe::ball_depth_m(const motion::Stretch& stretch) const {
@@ -137,16 +137,18 @@ double Probe::ball_depth_m(const motion::Stretch& stretch) const {
   return depth_m - center_radius_m_ * kRoundUp;
 }
 
-void Probe::mind_bounds(const motion::Stretch& stretch, double margin_m, Way way, Look& look) {
+void Probe::check_bounds(const motion::Stretch& stretch, double margin_m, Way way,
+                         ProbeResult& result) {
   const double ball_m = body_.ball_radius_m();
   const double keep_m = (margin_m + ball_m) * kRoundUp;
   const double all_inside_m = ball_depth_m(stretch);
-  if (all_inside_m > (look.reach_m + keep_m) * kRoundUp) {
-    if (look.free) look.ahead = std::min(look.ahead, (all_inside_m - keep_m) / look.reach_m);
-    if (!look.is_measured) look.gap_m = std::min(look.gap_m, all_inside_m - ball_m);
+  if (all_inside_m > (result.reach_m + keep_m) * kRoundUp) {
+    if (result.free)
+      result.step_scale = std::min(result.step_scale, (all_inside_m - keep_m) / result.reach_m);
+    if (!result.is_measured) result.gap_m = std::min(result.gap_m, all_inside_m - ball_m);
     return;
   }
-  const scene::MovingBody body = move(stretch, way);
+  const scene::SweptBody body = move(stretch, way);
   double middle_m = std::numeric_limits<double>::infinity();
   double first_m = middle_m;
   double last_m = middle_m;
@@ -158,21 +160,22 @@ void Probe::mind_bounds(const motion::Stretch& stretch, double margin_m, Way way
     }
   }
   // A reach that is not a number fails both conditions.
-  const bool is_inside = look.reach_m < std::numeric_limits<double>::infinity() &&
-                         (middle_m > (look.reach_m + keep_m) * kRoundUp ||
+  const bool is_inside = result.reach_m < std::numeric_limits<double>::infinity() &&
+                         (middle_m > (result.reach_m + keep_m) * kRoundUp ||
                           std::min(first_m, last_m) > (body.bend_m + keep_m) * kRoundUp);
-  const bool is_bent = body.bend_m > scene::kStraightWay * look.reach_m;
+  const bool is_bent = body.bend_m > scene::kStraightWay * result.reach_m;
   const double change_m = last_m - first_m;
   const double room_m = (is_inside ? last_m : first_m) - keep_m;
-  const double ahead =
+  const double step_scale =
       !is_inside && is_bent ? 0.5 : scene::way_ahead(room_m, change_m, body.bend_m);
-  if (look.free || !is_inside) {
-    look.ahead = look.free != is_inside ? ahead : std::min(look.ahead, ahead);
+  if (result.free || !is_inside) {
+    result.step_scale =
+        result.free != is_inside ? step_scale : std::min(result.step_scale, step_scale);
   }
-  look.swallows = look.swallows || surely_leaves(look.reach_m);
-  look.gap_m = std::min(look.gap_m, middle_m - ball_m);
-  look.is_measured = look.is_measured || !is_inside;
-  look.free = look.free && is_inside;
+  result.contains = result.contains || surely_leaves(result.reach_m);
+  result.gap_m = std::min(result.gap_m, middle_m - ball_m);
+  result.is_measured = result.is_measured || !is_inside;
+  result.free = result.free && is_inside;
 }
 
 std::optional<Probe::Edge> Probe::nearest_edge() const {
@@ -188,17 +191,17 @@ std::optional<Probe::Edge> Probe::nearest_edge() const {
   return nearest;
 }
 
-void Probe::measure(const motion::Stretch& stretch, Look& look, double share) {
-  if (look.free || look.swallows || !(look.gap_m + keep_m_ > 0.0)) return;
+void Probe::refine(const motion::Stretch& stretch, ProbeResult& result, double share) {
+  if (result.free || result.contains || !(result.gap_m + keep_m_ > 0.0)) return;
   // If no triangle is nearer, the gap found before holds.
   const std::optional<scene::Nearest> nearest =
-      obstacles_.index.near(place(stretch), look.gap_m + keep_m_, /*certain_m=*/0.0, share);
-  if (nearest) look.gap_m = nearest->distance_m - keep_m_;
+      obstacles_.index.near(place(stretch), result.gap_m + keep_m_, /*certain_m=*/0.0, share);
+  if (nearest) result.gap_m = nearest->distance_m - keep_m_;
 }
 
-Look Probe::look(const motion::Stretch& stretch, double margin_m, double share) {
-  Look seen = glance(stretch, margin_m);
-  measure(stretch, seen, share);
+ProbeResult Probe::check_refined(const motion::Stretch& stretch, double margin_m, double share) {
+  ProbeResult seen = check(stretch, margin_m);
+  refine(stretch, seen, share);
   return seen;
 }
 

@@ -14,14 +14,14 @@
 namespace camway::collision {
 
 /// Result of checking one stretch.
-struct Look {
+struct ProbeResult {
   /// Proved: everywhere on the stretch the body keeps the required clearance, and all of it is
   /// within the bounds.
   bool free = false;
   /// Proved: everywhere on the stretch a part of the scene is inside a solid of the body, or a part
   /// of the body is inside a solid of the scene, away from its surface, or a point of the body is
   /// beyond the bounds. If false, the body may still collide everywhere.
-  bool swallows = false;
+  bool contains = false;
   /// Bound of the distance of the body's points from their places at the middle of the stretch,
   /// rounding included.
   double reach_m = 0.0;
@@ -31,11 +31,11 @@ struct Look {
   bool is_measured = true;
   /// How far the body is from colliding with something near at the middle of the stretch, as
   /// computed: distance less the required clearance, or depth inside the bounds. Another obstacle
-  /// may be nearer, unless `Probe::measure` was called.
+  /// may be nearer, unless `Probe::refine` was called.
   double gap_m = 0.0;
   /// Estimated factor from this stretch's length to that of a free stretch: the next one if this is
   /// free, otherwise one with the same beginning. Infinite if no obstacle was met.
-  double ahead = 0.0;
+  double step_scale = 0.0;
 
   /// Whether the body collides at the middle; known once the gap is measured.
   [[nodiscard]] bool collides() const { return !free && gap_m <= 0.0; }
@@ -53,7 +53,7 @@ struct Look {
 /// reach. If that is more than the radius of the body's ball plus the required clearance, the whole
 /// surface keeps the required clearance. Otherwise the direction of motion is used: a point is also
 /// within `motion::Stretch::bend_m`, which is much less, of the line between its two ends, and the
-/// hulls of these lines may keep away all the same (`scene::SceneIndex::passage`). A part inside a
+/// hulls of these lines may keep away all the same (`scene::SceneIndex::swept`). A part inside a
 /// solid, of the body or of the scene, that does not touch its surface is checked separately: if
 /// the surface is free all the time, nothing can have entered or left. Source: He & van den Berg
 /// 2014, "Efficient exact collision-checking of 3-D rigid body motions using linear transformations
@@ -72,22 +72,24 @@ class Probe {
   /// clearance_m] [Units: metres]
   Probe(const Obstacles& obstacles, const motion::Body& body, double clearance_m);
 
-  /// Default `share` of `measure`: a distance within a factor of 2 is enough to choose the next
+  /// Default `share` of `refine`: a distance within a factor of 2 is enough to choose the next
   /// step.
   static constexpr double kRough = 0.5;
 
   enum class Way { kForwards, kBackwards };
 
-  /// Checks a stretch, with `margin_m` added to the required clearance. `Look::ahead` refers to the
-  /// direction `way`. If the stretch is not free, `gap_m` is not yet measured.
-  Look glance(const motion::Stretch& stretch, double margin_m = 0.0, Way way = Way::kForwards);
+  /// Checks a stretch, with `margin_m` added to the required clearance. `ProbeResult::step_scale`
+  /// refers to the direction `way`. If the stretch is not free, `gap_m` is not yet measured.
+  ProbeResult check(const motion::Stretch& stretch, double margin_m = 0.0,
+                    Way way = Way::kForwards);
 
-  /// Measures `gap_m` after a `glance` at the same stretch, unless that is free: afterwards the
+  /// Measures `gap_m` after a `check` at the same stretch, unless that is free: afterwards the
   /// true distance is at least `share` of the one used, and exactly 0 if that is 0.
-  void measure(const motion::Stretch& stretch, Look& look, double share = kRough);
+  void refine(const motion::Stretch& stretch, ProbeResult& result, double share = kRough);
 
-  /// `glance`, then `measure`.
-  Look look(const motion::Stretch& stretch, double margin_m = 0.0, double share = kRough);
+  /// `check`, then `refine`.
+  ProbeResult check_refined(const motion::Stretch& stretch, double margin_m = 0.0,
+                            double share = kRough);
 
   /// Returns an obstacle that the body touches at the middle of the stretch, or is too close to;
   /// nothing if there is none. The triangle `guess` is tried first. Cheaper than a look if there is
@@ -104,9 +106,9 @@ class Probe {
   /// triangles that the body touches at the middle. Nothing returned proves nothing.
   std::optional<std::uint32_t> surely_hit(const motion::Stretch& stretch);
 
-  /// `Look::reach_m` of that stretch.
+  /// `ProbeResult::reach_m` of that stretch.
   [[nodiscard]] double reach_m(const motion::Stretch& stretch) const;
-  /// `Look::rounding_m` of that stretch, without the rounding of distances.
+  /// `ProbeResult::rounding_m` of that stretch, without the rounding of distances.
   [[nodiscard]] double rounding_m(const motion::Stretch& stretch) const;
   /// Lower bound of the gap at the middle of `stretch` from the distance field; negative if the
   /// field cannot tell.
@@ -131,13 +133,13 @@ class Probe {
   [[nodiscard]] double keep_m() const { return keep_m_; }
 
  private:
-  [[nodiscard]] Look glance_at_scene(const motion::Stretch& stretch, double margin_m, Way way);
+  [[nodiscard]] ProbeResult check_scene(const motion::Stretch& stretch, double margin_m, Way way);
   /// Adds the check of the bounds to that of the scene.
-  void mind_bounds(const motion::Stretch& stretch, double margin_m, Way way, Look& look);
+  void check_bounds(const motion::Stretch& stretch, double margin_m, Way way, ProbeResult& result);
   /// Lower bound of the depth of the body's triangles inside the bounds.
   [[nodiscard]] double ball_depth_m(const motion::Stretch& stretch) const;
   /// The body on the stretch; valid until it is placed again.
-  scene::MovingBody move(const motion::Stretch& stretch, Way way);
+  scene::SweptBody move(const motion::Stretch& stretch, Way way);
   [[nodiscard]] double field_distance_m(const motion::Stretch& stretch) const;
   [[nodiscard]] bool holds_scene(const motion::Stretch& stretch);
   /// Whether a part of the body as it was placed last is inside a solid of the scene. Requires that

@@ -15,9 +15,9 @@ constexpr double kLargestShare = 0.8;   // share of a reach that was too long
 
 }  // namespace
 
-double next_reach_m(const Look& seen) {
-  if (!seen.free) return std::min(kTrust * seen.ahead, kLargestShare) * seen.reach_m;
-  if (seen.is_measured) return std::min(kTrust * seen.ahead, kLargestGrowth) * seen.reach_m;
+double next_reach_m(const ProbeResult& seen) {
+  if (!seen.free) return std::min(kTrust * seen.step_scale, kLargestShare) * seen.reach_m;
+  if (seen.is_measured) return std::min(kTrust * seen.step_scale, kLargestGrowth) * seen.reach_m;
   return std::max(kLargestGrowth * seen.reach_m, kFieldTrust * seen.gap_m);
 }
 

@@ -11,10 +11,9 @@
 #include "daemon/geometry/exact_points.h"
 #include "daemon/geometry/rounding.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 namespace {
 
-using geometry::Vec3;
 using Index = std::uint32_t;
 using Indices = std::array<Index, 3>;
 using Edge = std::pair<Index, Index>;
@@ -152,11 +151,11 @@ class Quickhull {
 };
 
 /// The half-space below a face, with its offset rounded up until it holds all points.
-geometry::HalfSpace half_space(const ExactPoints& points, const Indices& v) {
+HalfSpace half_space(const ExactPoints& points, const Indices& v) {
   // A scalar product has 3 roundings in sequence, relative to the product of lengths at most; the
   // fourth is that of the sum below, and the rest is for second order.
   constexpr double kRounding = 5.0 * geometry::kUnitRoundoff;
-  geometry::HalfSpace face{points.unit_normal(v[0], v[1], v[2]), 0.0};
+  HalfSpace face{points.unit_normal(v[0], v[1], v[2]), 0.0};
   double highest = face.normal.dot(points[v[0]]);
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -235,4 +234,4 @@ ConvexHull convex_hull(std::span<const Vec3> given) {
   return hull;
 }
 
-}  // namespace camway::motion
+}  // namespace camway::geometry

@@ -8,7 +8,7 @@
 
 #include "daemon/geometry/half_space.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 
 /// The convex hull of a set of points.
 struct ConvexHull {
@@ -18,7 +18,7 @@ struct ConvexHull {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// The faces, with coplanar triangles counted once; none for a set without volume. All points
   /// satisfy each half-space exactly, by its numbers as stored.
-  std::vector<geometry::HalfSpace> faces;
+  std::vector<HalfSpace> faces;
 };
 
 /// Computes the hull exactly: no point is outside of it by any amount, so every object that touches
@@ -31,6 +31,6 @@ struct ConvexHull {
 /// of the faces bounds the error. Expected O(n log n). Deterministic.
 ///
 /// Requires at least one point; all must be finite and at most kMaxBodyCoordinate_m.
-ConvexHull convex_hull(std::span<const geometry::Vec3> points);
+ConvexHull convex_hull(std::span<const Vec3> points);
 
-}  // namespace camway::motion
+}  // namespace camway::geometry

@@ -10,10 +10,9 @@
 
 #include "daemon/geometry/rounding.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 namespace {
 
-using geometry::Vec3;
 using Integer = boost::multiprecision::cpp_int;
 using IntegerVec = std::array<Integer, 3>;
 
@@ -125,4 +124,4 @@ Vec3 ExactPoints::unit_normal(std::size_t a, std::size_t b, std::size_t c) const
   return direction.normalized();
 }
 
-}  // namespace camway::motion
+}  // namespace camway::geometry

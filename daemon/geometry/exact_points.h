@@ -9,7 +9,7 @@
 
 #include "daemon/geometry/types.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 
 /// Points whose relative positions are decided without rounding: in doubles where their error bound
 /// allows it (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
@@ -17,13 +17,13 @@ namespace camway::motion {
 /// which must outlive it. Requires coordinates to be finite and at most kMaxBodyCoordinate_m.
 class ExactPoints {
  public:
-  explicit ExactPoints(std::span<const geometry::Vec3> points);
+  explicit ExactPoints(std::span<const Vec3> points);
   ~ExactPoints();
   ExactPoints(const ExactPoints&) = delete;
   ExactPoints& operator=(const ExactPoints&) = delete;
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
-  [[nodiscard]] const geometry::Vec3& operator[](std::size_t i) const { return points_[i]; }
+  [[nodiscard]] const Vec3& operator[](std::size_t i) const { return points_[i]; }
 
   /// The side of the plane through a, b and c on which point d lies: 1 on the side to which (b - a)
   /// × (c - a) points, -1 on the other, 0 in the plane, or if the three points define no plane.
@@ -39,13 +39,13 @@ class ExactPoints {
   /// Unit vector along (b - a) × (c - a), of unit length to within 4·2^-53, however thin the
   /// triangle. Each coordinate is within 2^-51 of the true one. Requires that the points are not
   /// collinear.
-  [[nodiscard]] geometry::Vec3 unit_normal(std::size_t a, std::size_t b, std::size_t c) const;
+  [[nodiscard]] Vec3 unit_normal(std::size_t a, std::size_t b, std::size_t c) const;
 
  private:
   struct Integers;  ///< the points, times a common power of two
 
-  std::span<const geometry::Vec3> points_;
+  std::span<const Vec3> points_;
   std::unique_ptr<const Integers> integers_;
 };
 
-}  // namespace camway::motion
+}  // namespace camway::geometry

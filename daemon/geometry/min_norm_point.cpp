@@ -9,10 +9,8 @@
 
 #include <Eigen/QR>
 
-namespace camway::motion {
+namespace camway::geometry {
 namespace {
-
-using geometry::Vec4;
 
 // Limit of major steps. Real data needs a handful; the limit only stops cycles due to rounding.
 constexpr int kMaxMajorSteps = 200;
@@ -106,4 +104,4 @@ Vec4 min_norm_point(std::span<const Vec4> points) {
   return best;
 }
 
-}  // namespace camway::motion
+}  // namespace camway::geometry

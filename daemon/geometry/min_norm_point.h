@@ -5,7 +5,7 @@
 
 #include "daemon/geometry/types.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 
 /// The point of the convex hull of `points` that is closest to the origin (Wolfe, "Finding the
 /// nearest point in a polytope", Mathematical Programming 11, 1976). It is unique, so independent
@@ -18,9 +18,9 @@ namespace camway::motion {
 /// steps are limited, as rounding may make a finite method cycle; the iterate with the least
 /// possible improvement is returned, and each iterate is a point of the hull. A step is O(n).
 /// Requires `points` not to be empty, and each point to have about unit length.
-geometry::Vec4 min_norm_point(std::span<const geometry::Vec4> points);
+Vec4 min_norm_point(std::span<const Vec4> points);
 
 /// Sixteen units of rounding of a squared unit length.
 inline constexpr double kMinNormGap = 8.0 * 2.220446049250313e-16;
 
-}  // namespace camway::motion
+}  // namespace camway::geometry

@@ -27,7 +27,7 @@ class Corrector {
  public:
   Corrector(const scene::SceneIndex& index, std::vector<Keyframe> keyframes,
             const motion::Corners& corners_C, const KeyframeInsertionOptions& options,
-            const collision::Deadline& deadline)
+            const base::Deadline& deadline)
       : index_(index),
         corners_C_(corners_C),
         options_(options),
@@ -152,7 +152,7 @@ class Corrector {
   const scene::SceneIndex& index_;
   const motion::Corners& corners_C_;
   const KeyframeInsertionOptions& options_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const double radius_m_;
 
   std::vector<Keyframe> keyframes_;
@@ -167,7 +167,7 @@ KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
                                          const std::vector<motion::Keyframe>& keyframes,
                                          const motion::Corners& corners_C,
                                          const KeyframeInsertionOptions& options,
-                                         const collision::Deadline& deadline) {
+                                         const base::Deadline& deadline) {
   return Corrector(index, keyframes, corners_C, options, deadline).run();
 }
 

@@ -55,6 +55,6 @@ KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
                                          const std::vector<motion::Keyframe>& keyframes,
                                          const motion::Corners& corners_C,
                                          const KeyframeInsertionOptions& options,
-                                         const collision::Deadline& deadline);
+                                         const base::Deadline& deadline);
 
 }  // namespace camway::correction

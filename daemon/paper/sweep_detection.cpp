@@ -43,7 +43,7 @@ class SweepWalk {
         segment_(path.segment_index(t_begin_s)) {}
 
   // The next run, or nothing at the end of the path or when the deadline strikes.
-  std::optional<HitRun> next_run(const Deadline& deadline) {
+  std::optional<HitRun> next_run(const base::Deadline& deadline) {
     std::optional<HitRun> run;
     while (!deadline.passed()) {
       const std::optional<Step> step = take_step();
@@ -153,7 +153,7 @@ class Bisection {
 FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motion::Path& path,
                                      const motion::Corners& corners_C, double t_begin_s,
                                      double t_end_s, const SweepOptions& options,
-                                     const Deadline& deadline) {
+                                     const base::Deadline& deadline) {
   SweepWalk walk(index, path, corners_C, options.chord_error_m, t_begin_s, t_end_s);
   const Bisection bisection(index, path, corners_C, options.detect.tolerance_m);
   while (const std::optional<HitRun> run = walk.next_run(deadline)) {

@@ -32,6 +32,6 @@ struct SweepOptions {
 FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motion::Path& path,
                                      const motion::Corners& corners_C, double t_begin_s,
                                      double t_end_s, const SweepOptions& options,
-                                     const Deadline& deadline);
+                                     const base::Deadline& deadline);
 
 }  // namespace camway::collision

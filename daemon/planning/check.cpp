@@ -18,8 +18,7 @@ collision::DetectOptions detect_options(const PlanOptions& options) {
 
 PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,
                      const motion::Body& body, const collision::DetectOptions& options,
-                     const collision::Deadline& deadline,
-                     const collision::Deadline& clearance_deadline) {
+                     const base::Deadline& deadline, const base::Deadline& clearance_deadline) {
   PathCheck check;
   auto found = collision::detect_collisions(obstacles, path, body, path.begin_s(), path.end_s(),
                                             options, deadline);
@@ -34,7 +33,7 @@ PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& 
 
 Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
                                 const motion::Body& body, const collision::DetectOptions& options,
-                                const collision::Deadline& clearance_deadline) {
+                                const base::Deadline& clearance_deadline) {
   // The proof shows the required clearance, whatever the bound comes to.
   Certificate certificate{true, options.clearance_m};
   const auto clearance = collision::path_clearance(obstacles, path, body, clearance_deadline);

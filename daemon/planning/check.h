@@ -26,12 +26,11 @@ struct PathCheck {
 /// clearance.
 PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,
                      const motion::Body& body, const collision::DetectOptions& options,
-                     const collision::Deadline& deadline,
-                     const collision::Deadline& clearance_deadline);
+                     const base::Deadline& deadline, const base::Deadline& clearance_deadline);
 
 /// Returns the certificate of a path that was searched already, and found free of collision.
 Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
                                 const motion::Body& body, const collision::DetectOptions& options,
-                                const collision::Deadline& clearance_deadline);
+                                const base::Deadline& clearance_deadline);
 
 }  // namespace camway::planning

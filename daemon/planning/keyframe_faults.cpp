@@ -12,7 +12,7 @@ namespace camway::planning {
 
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using correction::FreePose;
 using correction::IndexSet;
 using geometry::Vec3;

@@ -38,6 +38,6 @@ KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
                                     const collision::Obstacles& obstacles, const motion::Body& body,
                                     const collision::DetectOptions& detect,
                                     const std::vector<motion::Keyframe>& keyframes,
-                                    const collision::Deadline& deadline);
+                                    const base::Deadline& deadline);
 
 }  // namespace camway::planning

@@ -87,7 +87,7 @@ std::vector<Sample> samples_of(const Path& path, const RateLimits& limits) {
 
 /// The largest of the same samples; nothing if the deadline struck first.
 std::optional<double> largest_needed_stretch(const Path& path, const RateLimits& limits,
-                                             const collision::Deadline& deadline) {
+                                             const base::Deadline& deadline) {
   double largest = motion::needed_stretch(path.segments().front(), 0.0, limits);
   for (const Segment& segment : path.segments()) {
     if (deadline.passed()) return std::nullopt;
@@ -101,7 +101,7 @@ std::optional<double> largest_needed_stretch(const Path& path, const RateLimits&
 
 /// How far any point of the body is, at samples between the knots of `law`, from where it was.
 bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw& law,
-                 const collision::Deadline& deadline) {
+                 const base::Deadline& deadline) {
   const std::span<const double> knots_s = law.knots_s();
   for (std::size_t i = 0; i + 1 < knots_s.size(); ++i) {
     if (deadline.passed()) return false;
@@ -121,8 +121,7 @@ bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw&
 /// The spline through the points of the path at the law's knots, if it meets the limits, stays
 /// close to the path and keeps to the rule for orientations. Searched for collisions, unless the
 /// deadline strikes; free if the path was.
-std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law,
-                              const collision::Deadline& deadline) {
+std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law, const base::Deadline& deadline) {
   CubicPath slowed = motion::retimed(problem.path, law);
   const Path slowed_path = slowed.path();
   if (deadline.passed() || !motion::meets(slowed_path, problem.limits) ||
@@ -142,7 +141,7 @@ std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law,
 
 /// The path by a law with knots `step_s` apart, if it is as it has to be.
 std::optional<Retimed> slowed_with_step(const TooFast& problem, const Path& path, double step_s,
-                                        const collision::Deadline& deadline) {
+                                        const base::Deadline& deadline) {
   std::optional<TimeLaw> law =
       TimeLaw::within(path, stretched(problem.limits, 1.0 / kSlowerThanAllowed), step_s)
           .sendable(problem.origin, problem.keyframes_s);
@@ -159,7 +158,7 @@ std::vector<double> joints_of(const Path& path) {
 
 /// The path with all times stretched by `factor`.
 std::optional<Retimed> slowed_by(double factor, const TooFast& problem, const Path& path,
-                                 const collision::Deadline& deadline) {
+                                 const base::Deadline& deadline) {
   std::optional<TimeLaw> law =
       TimeLaw::alike(joints_of(path), factor).sendable(problem.origin, problem.keyframes_s);
   if (!law) return std::nullopt;
@@ -214,8 +213,7 @@ std::optional<LimitBreach> find_limit_breach(const Path& path, const RateLimits&
   return breach;
 }
 
-std::optional<Retimed> slowed_where_needed(const TooFast& problem,
-                                           const collision::Deadline& deadline) {
+std::optional<Retimed> slowed_where_needed(const TooFast& problem, const base::Deadline& deadline) {
   const Path path = problem.path.path();
   const auto pieces = static_cast<double>(path.segments().size());
   const double mean_s = (path.end_s() - path.begin_s()) / pieces;
@@ -227,7 +225,7 @@ std::optional<Retimed> slowed_where_needed(const TooFast& problem,
   return std::nullopt;
 }
 
-std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Deadline& deadline) {
+std::optional<Retimed> slowed_alike(const TooFast& problem, const base::Deadline& deadline) {
   const Path path = problem.path.path();
   const std::optional<double> needed = largest_needed_stretch(path, problem.limits, deadline);
   if (!needed) return std::nullopt;

@@ -64,13 +64,12 @@ struct Retimed {
 /// it was; corrections keep to the orientation policy, compared with the interpolated path by the
 /// same law; it is proved free of collision. Nothing if that is not reached within bounds or the
 /// deadline. Precondition: the path is free, and breaks the limits.
-std::optional<Retimed> slowed_where_needed(const TooFast& problem,
-                                           const collision::Deadline& deadline);
+std::optional<Retimed> slowed_where_needed(const TooFast& problem, const base::Deadline& deadline);
 
 /// The path with all times stretched alike. Far from time 0, where times cannot be stretched alike
 /// but for their rounding, it is the spline through the same joints, and searched anew. Nothing if
 /// the deadline struck first, or if that is not as free as it was.
-std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Deadline& deadline);
+std::optional<Retimed> slowed_alike(const TooFast& problem, const base::Deadline& deadline);
 
 /// Moves the times of keyframes and remaining collisions, and says in the result where and by how
 /// much its path was slowed.

@@ -29,8 +29,8 @@ namespace camway::planning {
 
 namespace {
 
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using motion::Keyframe;
 
 double colliding_s(const std::vector<CollisionInterval>& intervals) {
@@ -68,7 +68,7 @@ class Planner {
  private:
   // Motion through the keyframes; false if the request cannot be planned.
   bool prepare() {
-    deadline_.report(collision::Progress::Stage::kPreparing);
+    deadline_.report(base::Progress::Stage::kPreparing);
     if (std::optional<InvalidRequest> fault = validate(request_)) {
       refuse(std::move(fault->message), fault->keyframe);
       return false;
@@ -130,7 +130,7 @@ class Planner {
 
   // Returns the collisions of the path as interpolated; nothing if the deadline struck.
   std::optional<std::vector<CollisionInterval>> find_collisions() {
-    deadline_.report(collision::Progress::Stage::kDetecting);
+    deadline_.report(base::Progress::Stage::kDetecting);
     std::optional<std::vector<CollisionInterval>> found = detect();
     if (found) result_.collisions = *found;
     deadline_.report_collisions(result_.collisions.size(), 0);
@@ -146,7 +146,7 @@ class Planner {
       return;
     }
     if (found->empty()) return;
-    deadline_.report(collision::Progress::Stage::kCorrecting);
+    deadline_.report(base::Progress::Stage::kCorrecting);
     if (request_.options.method == Method::kLadder) {
       correct_by_ladder(*found);
     } else if (body_->is_camera()) {
@@ -223,7 +223,7 @@ class Planner {
   // time: an answer without it would be worth nothing.
   void certify() {
     if (result_.path.empty() || !result_.remaining_collisions.empty()) return;
-    deadline_.report(collision::Progress::Stage::kCertifying);
+    deadline_.report(base::Progress::Stage::kCertifying);
     const Deadline budget = deadline_.sooner_by_s(rest_s()).not_before_s(kLeastBudget_s);
     // As interpolated, these very segments were searched already.
     result_.remaining_collisions = is_as_interpolated_ ? result_.collisions : final_search(budget);

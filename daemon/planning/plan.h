@@ -20,7 +20,7 @@ namespace camway::planning {
 /// with the rounding of the computation bounded (`collision/probe.h` has the proof, ARCHITECTURE.md
 /// its assumptions).
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
-                const collision::Deadline& deadline);
+                const base::Deadline& deadline);
 
 /// Plans with the request's own deadline, counted from the call.
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request);

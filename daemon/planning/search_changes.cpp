@@ -72,7 +72,7 @@ class Intervals {
 collision::Search search_changes(const collision::Obstacles& obstacles, const motion::Path& path,
                                  const motion::Body& body, const collision::DetectOptions& options,
                                  const SearchedPath& known, const collision::Search& begun,
-                                 const collision::Deadline& deadline) {
+                                 const base::Deadline& deadline) {
   const std::span<const Segment> segments = path.segments();
   const std::vector<bool> is_known = known_segments(segments, known.path.segments());
   std::size_t first = path.segment_index(begun.until_s);

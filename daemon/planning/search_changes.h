@@ -27,7 +27,7 @@ struct SearchedPath {
 collision::Search search_changes(const collision::Obstacles& obstacles, const motion::Path& path,
                                  const motion::Body& body, const collision::DetectOptions& options,
                                  const SearchedPath& known, const collision::Search& begun,
-                                 const collision::Deadline& deadline);
+                                 const base::Deadline& deadline);
 
 /// Returns `path` up to `from_s` and `rest` from there on. Requires that pieces of both begin
 /// there, and meet C².

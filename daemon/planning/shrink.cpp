@@ -18,7 +18,7 @@ namespace camway::planning {
 
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using correction::Rung;
 
 constexpr double kStep = 0.85;       // from one scale to the next

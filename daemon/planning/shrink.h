@@ -25,7 +25,7 @@ struct UnsentResult {
 PlanResult with_sent_times(UnsentResult unsent);
 
 /// Plans for the camera as it is in the request.
-using PlanAtSize = std::function<UnsentResult(const PlanRequest&, const collision::Deadline&)>;
+using PlanAtSize = std::function<UnsentResult(const PlanRequest&, const base::Deadline&)>;
 
 /// Plans; where that leaves collisions, again with smaller and smaller near distances, down to what
 /// `max_shrink` allows, and answers with the largest for which all is free. Which that is, is
@@ -39,7 +39,7 @@ using PlanAtSize = std::function<UnsentResult(const PlanRequest&, const collisio
 /// was tried, and its status `timeout` if one of them was cut off. What collided, and what became
 /// of it, is told of the camera that was asked for. Precondition: 0 < max_shrink, and the camera is
 /// what moves.
-UnsentResult plan_with_shrinking(const PlanRequest& request, const collision::Deadline& deadline,
+UnsentResult plan_with_shrinking(const PlanRequest& request, const base::Deadline& deadline,
                                  const PlanAtSize& plan_at_size);
 
 }  // namespace camway::planning

@@ -72,7 +72,7 @@ bool WatchedPath::may_meet(const scene::SceneDifference& change) const {
 }
 
 bool WatchedPath::stays_free(const scene::SceneDifference& change,
-                             const collision::Deadline& deadline) const {
+                             const base::Deadline& deadline) const {
   if (change.other_bounds) return false;
   if (!meets_added(all_swept_, change)) return true;
   collision::Obstacles added(change.index);
@@ -95,7 +95,7 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
 }
 
 std::vector<collision::CollisionInterval> WatchedPath::collisions(
-    const collision::Obstacles& obstacles, const collision::Deadline& deadline) const {
+    const collision::Obstacles& obstacles, const base::Deadline& deadline) const {
   auto found = collision::detect_collisions(obstacles.within(bounds_), path_, body_,
                                             path_.begin_s(), path_.end_s(), detect_, deadline);
   return found ? std::move(*found) : std::vector{everywhere()};

@@ -45,13 +45,13 @@ class WatchedPath {
 
   /// Returns true if a path that was free before is proved free after. False proves nothing.
   [[nodiscard]] bool stays_free(const scene::SceneDifference& change,
-                                const collision::Deadline& deadline) const;
+                                const base::Deadline& deadline) const;
 
   /// Returns where the path collides, or leaves the bounds of its request or of `obstacles`,
   /// searched from scratch by `collision::detect_collisions`. Returns all of it if the deadline
   /// struck.
   [[nodiscard]] std::vector<collision::CollisionInterval> collisions(
-      const collision::Obstacles& obstacles, const collision::Deadline& deadline) const;
+      const collision::Obstacles& obstacles, const base::Deadline& deadline) const;
 
   /// Returns the whole path, as the collision of a path of which nothing is known.
   [[nodiscard]] collision::CollisionInterval everywhere() const {

@@ -164,7 +164,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   };
   hooks.alive_period = manager.alive_period();
   const Planner planner = [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
-                             const collision::Deadline& deadline) {
+                             const base::Deadline& deadline) {
     return planning::plan(snapshot, request, deadline);
   };
   if (const std::size_t files = remove_left_upload_files(); files > 0) {

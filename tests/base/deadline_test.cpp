@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace camway::collision {
+namespace camway::base {
 namespace {
 
 TEST(Deadline, StrikesWhenToldToStopWhateverTheTime) {
@@ -72,4 +72,4 @@ TEST(Deadline, HandsOnWhatIsReported) {
 }
 
 }  // namespace
-}  // namespace camway::collision
+}  // namespace camway::base

@@ -31,7 +31,7 @@ planning::PathCheck check_whole(const collision::Obstacles& obstacles, const mot
                                 const motion::Camera& camera,
                                 const collision::DetectOptions& options) {
   return planning::check_path(obstacles, path, motion::Body(camera), options,
-                              collision::Deadline::never(), collision::Deadline::never());
+                              base::Deadline::never(), base::Deadline::never());
 }
 
 bool touches_at(const scene::SceneIndex& index, const motion::Camera& camera,

@@ -196,20 +196,20 @@ TEST_P(Analytic, PoleOfKnownPlace) {
     }
     const double yaw_rad = 0.9 * share(random);
     const Quat orientation(Eigen::AngleAxisd(yaw_rad, Vec3::UnitY()));
-    const Vec3 ahead = orientation * Vec3(0, 0, -1);
+    const Vec3 step_scale = orientation * Vec3(0, 0, -1);
     const Vec3 aside = orientation * Vec3(1, 0, 0);
-    const Vec3 start = -ahead + 0.5 * half_width_m_ * share(random) * aside;
+    const Vec3 start = -step_scale + 0.5 * half_width_m_ * share(random) * aside;
     double first_m = 1.0;
     double last_m = -1.0;
     for (const Vec3& point : profile) {
-      first_m = std::min(first_m, ahead.dot(point - start) - camera_.near_m);
-      last_m = std::max(last_m, ahead.dot(point - start) - camera_.near_m);
+      first_m = std::min(first_m, step_scale.dot(point - start) - camera_.near_m);
+      last_m = std::max(last_m, step_scale.dot(point - start) - camera_.near_m);
     }
     const auto travelled_m = [](double t) { return 2.0 * (3.0 * t * t - 2.0 * t * t * t); };
     SCOPED_TRACE(run);
     expect_one_interval(
-        detect(mesh, eased(start, start + 2.0 * ahead, orientation)), ease_time_s(first_m / 2.0),
-        ease_time_s(last_m / 2.0),
+        detect(mesh, eased(start, start + 2.0 * step_scale, orientation)),
+        ease_time_s(first_m / 2.0), ease_time_s(last_m / 2.0),
         [&](double t) {
           return std::max({0.0, first_m - travelled_m(t), travelled_m(t) - last_m});
         },
@@ -218,14 +218,14 @@ TEST_P(Analytic, PoleOfKnownPlace) {
 }
 
 // Looking round by 175° about the upright, a side of the quadrilateral swings through a circle of
-// its own radius; a wall ahead is met while the angle between side and wall is small enough.
+// its own radius; a wall step_scale is met while the angle between side and wall is small enough.
 TEST_P(Analytic, SpinningQuadrilateralReachesAWall) {
   const double angle_rad = 175.0 * kPi / 180.0;
   const double radius_m = std::hypot(half_width_m_, camera_.near_m);
   const double side_rad = std::atan2(half_width_m_, camera_.near_m);
   const Path path = chord_turn(Vec3::UnitY(), angle_rad);
-  // A turn about +Y leads from -Z to -X. The right side is ahead of it by `side_rad`, towards +X,
-  // and so meets a wall at -X last; the left side is the first to come.
+  // A turn about +Y leads from -Z to -X. The right side is step_scale of it by `side_rad`, towards
+  // +X, and so meets a wall at -X last; the left side is the first to come.
   const double wall_rad = 0.5 * kPi;
   for (const double share : {0.3, 0.9, 0.9999}) {
     const double wall_m = camera_.near_m + share * (radius_m - camera_.near_m);

@@ -37,7 +37,7 @@ std::vector<CollisionInterval> detect(const SceneIndex& index, const Bounds& bou
                                       const Path& path, const Body& body,
                                       const DetectOptions& options = {}) {
   const auto found = detect_collisions(Obstacles(index).within(bounds), path, body, path.begin_s(),
-                                       path.end_s(), options, Deadline::never());
+                                       path.end_s(), options, base::Deadline::never());
   return found.value();
 }
 
@@ -164,8 +164,8 @@ TEST(BoundsOfAPath, AddToWhatTheSceneAsks) {
   const Path aside = motion::interpolate(std::vector<motion::Keyframe>{
       {0.0, {Vec3(2, 0, 3), Quat::Identity()}}, {6.0, {Vec3(2, 0, -3), Quat::Identity()}}});
   const Obstacles near_bounds = Obstacles(index).within(with_limit(3, 2.2));
-  const auto with = path_clearance(near_bounds, aside, body, Deadline::never());
-  const auto without = path_clearance(index, aside, body, Deadline::never());
+  const auto with = path_clearance(near_bounds, aside, body, base::Deadline::never());
+  const auto without = path_clearance(index, aside, body, base::Deadline::never());
   EXPECT_EQ(with->lower_bound_m, without->lower_bound_m);
   EXPECT_GT(with->lower_bound_m, 1.0);
 }

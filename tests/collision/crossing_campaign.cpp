@@ -16,7 +16,7 @@ namespace camway::testing {
 
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 
 constexpr std::size_t kMostFaultsNamed = 20;
 constexpr std::uint64_t kCasesPerTurn = 256;
@@ -70,13 +70,13 @@ std::vector<collision::CollisionInterval> certified_intervals(
     const collision::Obstacles& obstacles, const motion::Path& path, const motion::Camera& camera,
     const collision::DetectOptions& options) {
   return collision::detect_collisions(obstacles, path, motion::Body(camera), path.begin_s(),
-                                      path.end_s(), options, Deadline::never())
+                                      path.end_s(), options, base::Deadline::never())
       .value();
 }
 
 double certified_clearance_m(const collision::Obstacles& obstacles, const motion::Path& path,
                              const motion::Camera& camera) {
-  return collision::path_clearance(obstacles, path, motion::Body(camera), Deadline::never())
+  return collision::path_clearance(obstacles, path, motion::Body(camera), base::Deadline::never())
       .value()
       .lower_bound_m;
 }

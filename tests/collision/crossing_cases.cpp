@@ -197,8 +197,8 @@ class CaseMaker {
   // of a piece before the plate and half of it behind are as far away as the camera moves.
   bool make_on_piece() {
     const motion::Pose from{place_W_, random_.rotation()};
-    const Vec3 ahead = from.orientation * Vec3(0.0, 0.0, random_.chance(0.5) ? -1.0 : 1.0);
-    case_.path = uniform_path(from, place_W_ + size_m_ * ahead);
+    const Vec3 step_scale = from.orientation * Vec3(0.0, 0.0, random_.chance(0.5) ? -1.0 : 1.0);
+    case_.path = uniform_path(from, place_W_ + size_m_ * step_scale);
     choose_instant();
     add_parallel_plate(pose_.to_world(choose_point()));
     return finish_colliding();

@@ -9,15 +9,15 @@
 namespace camway::collision {
 namespace {
 
-/// What is seen of a plane `gap_m` ahead of the beginning of a stretch, when every point moves
+/// What is seen of a plane `gap_m` step_scale of the beginning of a stretch, when every point moves
 /// towards it by `slope` of its motion.
-Look look_at_plane(double gap_m, double slope, double reach_m) {
+ProbeResult look_at_plane(double gap_m, double slope, double reach_m) {
   const double closing_m = 2.0 * slope * reach_m;
-  Look seen;
+  ProbeResult seen;
   seen.reach_m = reach_m;
   seen.free = gap_m > closing_m;
   seen.gap_m = gap_m - 0.5 * closing_m;
-  seen.ahead = (seen.free ? gap_m - closing_m : gap_m) / closing_m;
+  seen.step_scale = (seen.free ? gap_m - closing_m : gap_m) / closing_m;
   return seen;
 }
 
@@ -25,7 +25,7 @@ Look look_at_plane(double gap_m, double slope, double reach_m) {
 int looks_until(double gap_m, double slope, double finest_m) {
   double reach_m = 1.0;
   for (int looks = 1; looks < 10'000; ++looks) {
-    const Look seen = look_at_plane(gap_m, slope, reach_m);
+    const ProbeResult seen = look_at_plane(gap_m, slope, reach_m);
     if (seen.free) {
       gap_m -= 2.0 * slope * reach_m;
     } else if (reach_m <= finest_m) {
@@ -46,14 +46,14 @@ TEST(Pace, ClosesInOnAPlaneByOrdersOfMagnitude) {
 }
 
 TEST(Pace, IsNotTemptedFarBeyondWhatWasSeen) {
-  Look seen = look_at_plane(1e6, 1e-3, 0.1);
+  ProbeResult seen = look_at_plane(1e6, 1e-3, 0.1);
   ASSERT_TRUE(seen.free);
   EXPECT_GT(next_reach_m(seen), 0.1);
   EXPECT_LE(next_reach_m(seen), 1.0);
 }
 
 TEST(Pace, GrowsByTheLowerBoundOfAGapThatWasNotMeasured) {
-  Look seen;
+  ProbeResult seen;
   seen.free = true;
   seen.is_measured = false;
   seen.reach_m = 0.1;

@@ -106,7 +106,7 @@ inline bool is_proved_free(const SearchScene& scene, const Guide& guide, double 
   for (std::size_t i = 1; i < guide.size(); ++i) {
     const motion::Path path({motion::straight_motion(guide[i - 1], guide[i])});
     const auto found = collision::detect_collisions(scene.index, path, scene.body, 0.0, 1.0, detect,
-                                                    collision::Deadline::never());
+                                                    base::Deadline::never());
     if (!found || !found->empty()) return false;
   }
   return true;

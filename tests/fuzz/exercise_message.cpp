@@ -79,7 +79,7 @@ void exercise(const scene_request_t& message) {
   const service::SceneRules rules;
   std::mutex writing;
   const scene_response_t answer =
-      service::perform(message, nullptr, {rules, scenes, writing, {}}).answer;
+      service::execute(message, nullptr, {rules, scenes, writing, {}}).answer;
   promise(answer.status == scene_response_t::STATUS_OK || !answer.message.empty(),
           "a refusal has a reason");
 }

@@ -7,23 +7,22 @@
 #include "daemon/geometry/triangle_intersection.h"
 #include "tests/geometry/point_sets.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 namespace {
 
 constexpr std::size_t kManyPoints = 512;  // as many as a body may have
 
+using motion::test::Random;
 using test::exact;
 using test::exact_volume;
 using test::PointSet;
-using test::Random;
 using test::Rational;
-using test::Vec3;
 
-geometry::Triangle triangle(const PointSet& set, const std::array<std::uint32_t, 3>& t) {
+Triangle triangle(const PointSet& set, const std::array<std::uint32_t, 3>& t) {
   return {set.points[t[0]], set.points[t[1]], set.points[t[2]]};
 }
 
-bool holds(const geometry::HalfSpace& face, const Vec3& point) {
+bool holds(const HalfSpace& face, const Vec3& point) {
   return dot(exact(face.normal), exact(point)) <= Rational(face.offset_m);
 }
 
@@ -58,7 +57,7 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
     ASSERT_GE(hull.faces.size(), 4U);
     double size = 0.0;
     for (const Vec3& point : set.points) size = std::max(size, point.lpNorm<1>());
-    for (const geometry::HalfSpace& face : hull.faces) {
+    for (const HalfSpace& face : hull.faces) {
       for (const Vec3& point : set.points) ASSERT_TRUE(holds(face, point));
       // And touch some: 5 units for the scalar product, 5 that are added, one for the sum here.
       double highest = -std::numeric_limits<double>::infinity();
@@ -79,7 +78,7 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
       mean /= sum;
       const double rounding =
           (2.0 * static_cast<double>(set.points.size()) + 8.0) * test::kEpsilon * size;
-      for (const geometry::HalfSpace& face : hull.faces)
+      for (const HalfSpace& face : hull.faces)
         ASSERT_LE(face.normal.dot(mean), face.offset_m + rounding);
     }
   }
@@ -152,4 +151,4 @@ TEST(ConvexHull, OfAPyramidOnAManyCorneredBase) {
 }
 
 }  // namespace
-}  // namespace camway::motion
+}  // namespace camway::geometry

@@ -4,15 +4,14 @@
 #include "daemon/geometry/rounding.h"
 #include "tests/geometry/point_sets.h"
 
-namespace camway::motion {
+namespace camway::geometry {
 namespace {
 
+using motion::test::Random;
 using test::exact;
 using test::exact_volume;
 using test::PointSet;
-using test::Random;
 using test::Rational;
-using test::Vec3;
 
 std::vector<PointSet> all_sets(Random& random) {
   std::vector<PointSet> sets = test::solid_point_sets(random);
@@ -89,4 +88,4 @@ TEST(ExactPoints, NormalsAreTrueHoweverThinTheTriangle) {
 }
 
 }  // namespace
-}  // namespace camway::motion
+}  // namespace camway::geometry

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/geometry/point_sets.h"
 
-namespace camway::motion::test {
+namespace camway::geometry::test {
 namespace {
 
-Vec3 on_grid(Random& random, int most) {
+Vec3 on_grid(motion::test::Random& random, int most) {
   return {static_cast<double>(random.integer(0, most)),
           static_cast<double>(random.integer(0, most)),
           static_cast<double>(random.integer(0, most))};
@@ -19,7 +19,7 @@ std::vector<Vec3> many(int count, const Make& make) {
 
 }  // namespace
 
-std::vector<PointSet> solid_point_sets(Random& random) {
+std::vector<PointSet> solid_point_sets(motion::test::Random& random) {
   std::vector<PointSet> sets;
   for (int round = 0; round < 3; ++round) {
     const int count = random.integer(5, 120);
@@ -45,7 +45,7 @@ std::vector<PointSet> solid_point_sets(Random& random) {
   return sets;
 }
 
-std::vector<PointSet> flat_point_sets(Random& random) {
+std::vector<PointSet> flat_point_sets(motion::test::Random& random) {
   std::vector<PointSet> sets;
   for (int round = 0; round < 10; ++round) {
     // x, y and a sum of multiples of them are exact for small integers.
@@ -82,4 +82,4 @@ Rational exact_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
   return dot(cross(exact(b) - from, exact(c) - from), exact(d) - from);
 }
 
-}  // namespace camway::motion::test
+}  // namespace camway::geometry::test

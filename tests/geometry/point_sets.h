@@ -10,7 +10,7 @@
 #include "tests/motion/random_motion.h"
 
 /// Sets of points that are hard for hulls, and arithmetic without rounding to judge them by.
-namespace camway::motion::test {
+namespace camway::geometry::test {
 
 struct PointSet {
   std::string what;
@@ -19,10 +19,10 @@ struct PointSet {
 
 /// Sets with volume: in general position, on small grids (coplanar, collinear and equal points
 /// everywhere), spheres, needles and plates of nearly no thickness, far from the origin, tiny.
-std::vector<PointSet> solid_point_sets(Random& random);
+std::vector<PointSet> solid_point_sets(motion::test::Random& random);
 
 /// Sets exactly in one plane that is parallel to no axis, with grid points and repetitions.
-std::vector<PointSet> flat_point_sets(Random& random);
+std::vector<PointSet> flat_point_sets(motion::test::Random& random);
 
 using Rational = boost::multiprecision::cpp_rational;
 struct RationalVec : std::array<Rational, 3> {};
@@ -36,4 +36,4 @@ Rational dot(const RationalVec& a, const RationalVec& b);
 /// (b - a) × (c - a) points.
 Rational exact_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-}  // namespace camway::motion::test
+}  // namespace camway::geometry::test

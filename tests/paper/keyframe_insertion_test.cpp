@@ -11,8 +11,8 @@
 namespace camway::correction {
 namespace {
 
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
 using motion::Corners;
@@ -32,12 +32,12 @@ std::vector<Keyframe> bulging_tour() {
 
 KeyframeInsertionResult correct(const SceneIndex& index, const std::vector<Keyframe>& keyframes,
                                 const KeyframeInsertionOptions& options = {}) {
-  return insert_keyframes(index, keyframes, corners_C(), options, Deadline::never());
+  return insert_keyframes(index, keyframes, corners_C(), options, base::Deadline::never());
 }
 
 std::vector<CollisionInterval> collisions(const SceneIndex& index, const motion::Path& path) {
   return *collision::detect_collisions(index, path, motion::Body(corners_C()), path.begin_s(),
-                                       path.end_s(), {}, Deadline::never());
+                                       path.end_s(), {}, base::Deadline::never());
 }
 
 SceneIndex column_at(double x_min, double z) {
@@ -116,8 +116,8 @@ TEST(KeyframeInsertion, TheCutOffOnKeyframesHolds) {
 }
 
 TEST(KeyframeInsertion, StopsAtTheDeadline) {
-  const KeyframeInsertionResult result = insert_keyframes(column_at(0.31, -0.1), bulging_tour(),
-                                                          corners_C(), {}, Deadline::after_s(0.0));
+  const KeyframeInsertionResult result = insert_keyframes(
+      column_at(0.31, -0.1), bulging_tour(), corners_C(), {}, base::Deadline::after_s(0.0));
   EXPECT_TRUE(result.timed_out);
   EXPECT_EQ(result.keyframes.size(), bulging_tour().size());
 }

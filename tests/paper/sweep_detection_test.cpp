@@ -24,7 +24,7 @@ Path straight(double z_from, double z_to) {
 
 FirstCollision sweep(const SceneIndex& index, const Path& path, double from_s = 0.0) {
   return first_sweep_collision(index, path, motion::near_corners_C(testing::small_camera()), from_s,
-                               path.end_s(), {}, Deadline::never());
+                               path.end_s(), {}, base::Deadline::never());
 }
 
 TEST(SweepDetection, BracketsACuboidInTheWay) {
@@ -58,8 +58,8 @@ TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
                                {{0.1 * place(random), 0.2 * place(random), 0.1},
                                 Quat(Eigen::AngleAxisd(0.6 * place(random), Vec3::UnitY()))}},
                               {2.0, {{0, 0, -1}, Quat::Identity()}}});
-    const FirstCollision by_distance =
-        first_collision(index, path, motion::Body(corners_C), 0.0, 2.0, {}, Deadline::never());
+    const FirstCollision by_distance = first_collision(index, path, motion::Body(corners_C), 0.0,
+                                                       2.0, {}, base::Deadline::never());
     const FirstCollision by_sweep = sweep(index, path);
     ASSERT_TRUE(by_distance.decided && by_sweep.decided);
     ASSERT_EQ(by_distance.interval.has_value(), by_sweep.interval.has_value()) << "run " << run;
@@ -102,11 +102,11 @@ TEST(SweepDetection, WorksOnNegativeTimesAndFromTheMiddle) {
       {-8.0, {{0, 0, 2}, Quat::Identity()}}, {-4.0, {{0, 0, -2}, Quat::Identity()}}});
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const FirstCollision first =
-      first_sweep_collision(index, path, corners_C, -8.0, -4.0, {}, Deadline::never());
+      first_sweep_collision(index, path, corners_C, -8.0, -4.0, {}, base::Deadline::never());
   ASSERT_TRUE(first.decided && first.interval);
   EXPECT_NEAR(first.interval->t_begin_s, -8.0 + (2.0 - 0.1 - 1.05), 1e-3);
   const FirstCollision second =
-      first_sweep_collision(index, path, corners_C, -6.5, -4.0, {}, Deadline::never());
+      first_sweep_collision(index, path, corners_C, -6.5, -4.0, {}, base::Deadline::never());
   ASSERT_TRUE(second.decided && second.interval);
   EXPECT_NEAR(second.interval->t_begin_s, -8.0 + (2.0 - 0.1 + 0.95), 1e-3);
 }

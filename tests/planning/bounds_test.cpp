@@ -34,7 +34,7 @@ std::shared_ptr<const scene::Snapshot> snapshot_of(scene::Mesh mesh, const Bound
 }
 
 PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, collision::Deadline::never());
+  return plan(snapshot, request, base::Deadline::never());
 }
 
 /// A strip of floor, and a wall across it that ends at z = 2: the way under the floor is shorter
@@ -237,7 +237,7 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
     const motion::Body body(request.camera);
     const PathCheck check = check_path(collision::Obstacles(*snapshot).within(bounds), result.path,
                                        body, detect_options(request.options),
-                                       collision::Deadline::never(), collision::Deadline::never());
+                                       base::Deadline::never(), base::Deadline::never());
     EXPECT_TRUE(check.certificate.certified) << "run " << run;
   }
   EXPECT_GT(proved, 10);
@@ -251,15 +251,15 @@ TEST(WatchedPathWithinBounds, IsCheckedAnewWhereTheSceneHasOthers) {
   const PlanResult result = planned(*before, request);
   const auto watched = WatchedPath::of(request, result);
   ASSERT_TRUE(watched);
-  EXPECT_TRUE(watched->collisions(*before, collision::Deadline::never()).empty());
+  EXPECT_TRUE(watched->collisions(*before, base::Deadline::never()).empty());
   Bounds low;
   low.max_W.y() = 0.4;
   const auto after = snapshot_of({}, low);
   const scene::SceneDifference change = scene::difference(*before, *after);
   EXPECT_FALSE(change.empty());
   EXPECT_TRUE(watched->may_meet(change));
-  EXPECT_FALSE(watched->stays_free(change, collision::Deadline::never()));
-  EXPECT_EQ(watched->collisions(*after, collision::Deadline::never()).size(), 1u);
+  EXPECT_FALSE(watched->stays_free(change, base::Deadline::never()));
+  EXPECT_EQ(watched->collisions(*after, base::Deadline::never()).size(), 1u);
   EXPECT_TRUE(scene::difference(*before, *snapshot_of({})).empty());
 }
 

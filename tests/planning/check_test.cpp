@@ -9,7 +9,7 @@
 namespace camway::planning {
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
 using motion::Keyframe;

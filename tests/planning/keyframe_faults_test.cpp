@@ -14,7 +14,7 @@ using geometry::Vec3;
 constexpr double kRadius_m = 0.1;
 
 std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<Vec3>& positions,
-                                     const collision::Deadline& deadline) {
+                                     const base::Deadline& deadline) {
   std::string error;
   const auto snapshot = scene::make_snapshot("test", mesh).snapshot;
   const auto body = motion::Body::make(motion::SphereShape{Vec3::Zero(), kRadius_m}, error);
@@ -26,7 +26,7 @@ std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<
 }
 
 std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<Vec3>& positions) {
-  return faults_of(mesh, positions, collision::Deadline::never());
+  return faults_of(mesh, positions, base::Deadline::never());
 }
 
 // The floor's top is at y = 0, and it is thick enough for the sphere to be inside.
@@ -123,14 +123,14 @@ TEST(KeyframeFaults, HaveNoFreePoseOnTheWrongSide) {
 }
 
 TEST(KeyframeFaults, AreNamedWhenThereIsNoTimeToRepairThem) {
-  const auto faults = faults_of(floor(), {{0, 1, 0}, {0, 0, 0}}, collision::Deadline::after_s(0.0));
+  const auto faults = faults_of(floor(), {{0, 1, 0}, {0, 0, 0}}, base::Deadline::after_s(0.0));
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_FALSE(faults[0].free_pose);
 }
 
 TEST(KeyframeFaults, AreNotCountedOnAndOn) {
   const std::vector<Vec3> positions(kMostKeyframeFaults + 20, Vec3(0, 0, 0));
-  EXPECT_EQ(faults_of(floor(), positions, collision::Deadline::after_s(0.0)).size(),
+  EXPECT_EQ(faults_of(floor(), positions, base::Deadline::after_s(0.0)).size(),
             kMostKeyframeFaults);
 }
 

@@ -22,7 +22,7 @@ using motion::Keyframe;
 using motion::KeyframeOrigin;
 
 PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, collision::Deadline::never());
+  return plan(snapshot, request, base::Deadline::never());
 }
 
 constexpr int kCells = 5;  // in a row of columns, 2 m apart

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, collision::Deadline::never());
+  return plan(snapshot, request, base::Deadline::never());
 }
 
 // A column that the tour below grazes.
@@ -108,7 +108,7 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
     std::string fault;
     const auto body = motion::Body::make(request.camera, fault);
     const PathCheck check = check_path(collision::Obstacles(*snapshot), slower.path, *body, {},
-                                       collision::Deadline::never(), collision::Deadline::never());
+                                       base::Deadline::never(), base::Deadline::never());
     EXPECT_TRUE(check.certificate.certified);
     EXPECT_EQ(slower.certificate.clearance_lower_bound_m,
               check.certificate.clearance_lower_bound_m);
@@ -209,9 +209,9 @@ TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
                         origin,
                         keyframes_s,
                         /*is_free=*/true};
-  EXPECT_FALSE(slowed_where_needed(problem, collision::Deadline::after_s(0.0)));
-  EXPECT_FALSE(slowed_alike(problem, collision::Deadline::after_s(0.0)));
-  const std::optional<Retimed> slowed = slowed_alike(problem, collision::Deadline::never());
+  EXPECT_FALSE(slowed_where_needed(problem, base::Deadline::after_s(0.0)));
+  EXPECT_FALSE(slowed_alike(problem, base::Deadline::after_s(0.0)));
+  const std::optional<Retimed> slowed = slowed_alike(problem, base::Deadline::never());
   ASSERT_TRUE(slowed);
   EXPECT_TRUE(motion::meets(slowed->path.path(), request.options.limits));
   EXPECT_FALSE(slowed->check);

@@ -207,7 +207,7 @@ TEST(Bridges, ShowAWallOfNoThicknessInTheGap) {
   ASSERT_FALSE(find_jump(path, radius_m()));
   const scene::SceneIndex index = scene::SceneIndex::build(wall);
   const auto check = [&](const Path& part) {
-    const auto never = collision::Deadline::never();
+    const auto never = base::Deadline::never();
     return check_path(index, part, motion::Body(testing::small_camera()), {}, never, never);
   };
   EXPECT_TRUE(check(path).certificate.certified);

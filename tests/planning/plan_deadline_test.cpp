@@ -13,8 +13,8 @@
 namespace camway::planning {
 namespace {
 
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using geometry::Quat;
 using ::testing::HasSubstr;
 

@@ -26,7 +26,7 @@ std::shared_ptr<const Snapshot> snapshot_of(Mesh mesh) {
 
 // What is planned does not depend on how fast the machine is, or how busy: no deadline.
 PlanResult planned(const Snapshot& snapshot, const PlanRequest& request) {
-  return plan(snapshot, request, collision::Deadline::never());
+  return plan(snapshot, request, base::Deadline::never());
 }
 
 // A column that the bulging tour below grazes.
@@ -225,7 +225,7 @@ TEST(Plan, ACageWithHolesTooNarrowIsProvedInfeasible) {
   EXPECT_FALSE(result.certificate.certified);
   // Its holes are 31 cm wide, so a camera of 30 cm may get through, for all that is proved.
   request.options.max_shrink = 0.25;
-  const auto soon = collision::Deadline::after_s(1.0);  // whether it does is not asked here
+  const auto soon = base::Deadline::after_s(1.0);  // whether it does is not asked here
   EXPECT_NE(plan(*snapshot, request, soon).status, Status::kInfeasible);
   request.options.max_shrink = 0.1;
   EXPECT_EQ(planned(*snapshot, request).status, Status::kInfeasible);
@@ -538,8 +538,7 @@ TEST(Plan, AnInvalidRequestIsAResult) {
 }
 
 TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
-  const PlanResult result =
-      plan(*column_scene(), bulging_tour(), collision::Deadline::after_s(0.0));
+  const PlanResult result = plan(*column_scene(), bulging_tour(), base::Deadline::after_s(0.0));
   EXPECT_EQ(result.status, Status::kTimeout);
   ASSERT_EQ(result.remaining_collisions.size(), 1u);
   EXPECT_EQ(result.remaining_collisions[0], (collision::CollisionInterval{0.0, 4.0}));
@@ -549,15 +548,15 @@ TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
 }
 
 TEST(Plan, SaysHowFarItIs) {
-  const auto progress = std::make_shared<collision::Progress>();
+  const auto progress = std::make_shared<base::Progress>();
   const PlanResult result =
-      plan(*column_scene(), bulging_tour(), collision::Deadline::never().watched({}, progress));
+      plan(*column_scene(), bulging_tour(), base::Deadline::never().watched({}, progress));
   ASSERT_FALSE(result.corrections.empty());
   const auto corrected =
       std::ranges::count_if(result.corrections, [](const correction::Correction& correction) {
         return correction.rung != correction::Rung::kNone;
       });
-  EXPECT_EQ(progress->stage, collision::Progress::Stage::kCertifying);
+  EXPECT_EQ(progress->stage, base::Progress::Stage::kCertifying);
   EXPECT_EQ(progress->collisions, static_cast<int>(result.corrections.size()));
   EXPECT_EQ(progress->corrected, static_cast<int>(corrected));
 }
@@ -565,9 +564,9 @@ TEST(Plan, SaysHowFarItIs) {
 TEST(Plan, ToldToStopItChecksNothingAnyMore) {
   std::stop_source stop;
   stop.request_stop();
-  const auto progress = std::make_shared<collision::Progress>();
+  const auto progress = std::make_shared<base::Progress>();
   const PlanResult result = plan(*column_scene(), bulging_tour(),
-                                 collision::Deadline::never().watched(stop.get_token(), progress));
+                                 base::Deadline::never().watched(stop.get_token(), progress));
   EXPECT_EQ(result.status, Status::kTimeout);
   EXPECT_FALSE(result.certificate.certified);
   ASSERT_EQ(result.remaining_collisions.size(), 1u);

@@ -17,7 +17,7 @@
 namespace camway::planning {
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using geometry::Vec3;
 using scene::VoxelMap;
 using testing::random_path_request;

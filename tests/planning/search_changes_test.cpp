@@ -11,8 +11,8 @@
 namespace camway::planning {
 namespace {
 
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using collision::Search;
 using geometry::Quat;
 

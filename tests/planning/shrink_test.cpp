@@ -14,7 +14,7 @@
 namespace camway::planning {
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using ::testing::HasSubstr;
 using ::testing::Not;
 

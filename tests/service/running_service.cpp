@@ -11,7 +11,7 @@
 namespace camway::testing {
 
 planning::PlanResult FakePlanner::plan(const planning::PlanRequest& request,
-                                       const collision::Deadline& deadline) {
+                                       const base::Deadline& deadline) {
   std::unique_lock lock(mutex_);
   ++calls_;
   last_budget_s_ = deadline.remaining_s();
@@ -74,7 +74,7 @@ RunningService::RunningService(const service::ServiceConfig& config, FakePlanner
   service_.emplace(
       transport, scenes, config,
       [this](const scene::Snapshot&, const planning::PlanRequest& request,
-             const collision::Deadline& deadline) { return planner.plan(request, deadline); },
+             const base::Deadline& deadline) { return planner.plan(request, deadline); },
       log_.log(), std::move(hooks));
   loop_ = std::thread([this] { outcome_ = service_->run(); });
 }

@@ -24,8 +24,7 @@ class FakePlanner {
 
   explicit FakePlanner(Result result) : result_(std::move(result)) {}
 
-  planning::PlanResult plan(const planning::PlanRequest& request,
-                            const collision::Deadline& deadline);
+  planning::PlanResult plan(const planning::PlanRequest& request, const base::Deadline& deadline);
 
   void hold();
   void release();

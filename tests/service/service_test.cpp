@@ -385,7 +385,7 @@ TEST(Service, SaysWhenNothingCanBeSubscribed) {
   const testing::CapturedLog log;
   Service service(
       transport, scenes, {},
-      [](const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&) {
+      [](const scene::Snapshot&, const planning::PlanRequest&, const base::Deadline&) {
         return planning::PlanResult{};
       },
       log.log());

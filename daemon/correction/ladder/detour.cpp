@@ -54,7 +54,7 @@ constexpr std::size_t kFinestLevel = kLevels.size() - 1;
 class Detour {
  public:
   Detour(const Problem& problem, Improvement& improvement, FreeSpace& space, std::uint64_t seed,
-         const std::function<bool()>& is_hopeless, const collision::Deadline& deadline)
+         const std::function<bool()>& is_hopeless, const base::Deadline& deadline)
       : problem_(problem),
         improvement_(improvement),
         space_(space),
@@ -394,7 +394,7 @@ class Detour {
   FreeSpace& space_;
   const std::uint64_t seed_;
   const std::function<bool()>& is_hopeless_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const double radius_m_;
   Turning turning_ = Turning::kAsGuide;
   const SignedPose from_;
@@ -407,7 +407,7 @@ class Detour {
 std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
                                   FreeSpace& space, std::uint64_t seed,
                                   const std::function<bool()>& is_hopeless,
-                                  const collision::Deadline& deadline) {
+                                  const base::Deadline& deadline) {
   return Detour(problem, improvement, space, seed, is_hopeless, deadline).run(search);
 }
 

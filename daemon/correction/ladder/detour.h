@@ -28,6 +28,6 @@ enum class Search : std::uint8_t {
 std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
                                   FreeSpace& space, std::uint64_t seed,
                                   const std::function<bool()>& is_hopeless,
-                                  const collision::Deadline& deadline);
+                                  const base::Deadline& deadline);
 
 }  // namespace camway::correction

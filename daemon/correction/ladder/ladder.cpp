@@ -27,7 +27,7 @@ class Ladder {
   Ladder(const scene::WholeMesh& mesh, FreeSpace& space,
          const std::vector<motion::Keyframe>& keyframes, const CubicPath& path,
          const std::vector<CollisionInterval>& collisions, const LadderOptions& options,
-         const collision::Deadline& deadline)
+         const base::Deadline& deadline)
       : mesh_(mesh),
         space_(space),
         options_(options),
@@ -55,7 +55,7 @@ class Ladder {
     if (options_.max_inserted_keyframes == 0) return std::move(result_);
     if (correct()) {
       polish();
-      come_closer();
+      pull_to_reference();
       if (options_.objective != Objective::kClosest) pursue_objective();
       measure_corrections();
       if (!beyond_limit_s_.empty()) {
@@ -106,7 +106,7 @@ class Ladder {
     Problem problem = problem_of_gap(gaps_[index]);
     problem.effort = &result_.corrections[index].tried;
     problem.interval = open_[index];
-    std::erase(problem.others, open_[index]);
+    std::erase(problem.foreign_collisions, open_[index]);
     return problem;
   }
 
@@ -127,7 +127,8 @@ class Ladder {
     auto next =
         std::ranges::lower_bound(open_, problem.path.begin_s(), {}, &CollisionInterval::t_end_s);
     for (; next != open_.end() && next->t_begin_s <= problem.path.end_s(); ++next) {
-      if (is_open(static_cast<std::size_t>(next - open_.begin()))) problem.others.push_back(*next);
+      if (is_open(static_cast<std::size_t>(next - open_.begin())))
+        problem.foreign_collisions.push_back(*next);
     }
     return problem;
   }
@@ -283,7 +284,7 @@ class Ladder {
       const auto i = static_cast<std::size_t>(gap - gaps_.begin());
       if (is_open(i)) same_gap.push_back(i);
     }
-    std::erase_if(problem.others, [&](const CollisionInterval& other) {
+    std::erase_if(problem.foreign_collisions, [&](const CollisionInterval& other) {
       return std::ranges::any_of(same_gap, [&](std::size_t i) { return open_[i] == other; });
     });
     Effort effort;
@@ -310,19 +311,19 @@ class Ladder {
   // Relaxes every corrected interval again, now that its neighbours are final, and once more where
   // a neighbour changed.
   void polish() {
-    std::vector<bool> is_worn = corrected_gaps();
+    std::vector<bool> needs_polish = corrected_gaps();
     for (int round = 0; round < kPolishingRounds; ++round) {
-      for (std::size_t gap = 0; gap < is_worn.size() && !deadline_.passed(); ++gap) {
-        if (!is_worn[gap]) continue;
+      for (std::size_t gap = 0; gap < needs_polish.size() && !deadline_.passed(); ++gap) {
+        if (!needs_polish[gap]) continue;
         const std::optional<Candidate> better =
             polished(problem_of_gap(gap), kPolishedKnots, improvement_, space_, deadline_);
         if (better && take(*better)) {
           for (const motion::BumpRow& row : better->rows) {
-            mark_gaps(row.begin_s(), row.end_s(), is_worn);
+            mark_gaps(row.begin_s(), row.end_s(), needs_polish);
             widen_corrections(gap, row);
           }
         }
-        is_worn[gap] = false;
+        needs_polish[gap] = false;
       }
     }
   }
@@ -337,30 +338,30 @@ class Ladder {
 
   // Relaxation of detours favours smoothness. Intervals that ended far from the interpolated path
   // are pulled closer in a few more steps, the farthest first; most paths have none.
-  void come_closer() {
-    struct Astray {
+  void pull_to_reference() {
+    struct FarGap {
       double deviation_m;
       std::size_t gap;
     };
-    std::vector<Astray> astray;
+    std::vector<FarGap> far;
     const std::vector<bool> gaps = corrected_gaps();
     for (std::size_t gap = 0; gap < gaps.size() && !deadline_.passed(); ++gap) {
       if (!gaps[gap]) continue;
       const Problem problem = problem_of_gap(gap);
       const CubicPath part = problem.path.around(problem.gap_begin_s(), problem.gap_end_s());
       const double deviation_m = cost(Objective::kClosest, part, problem).value;
-      if (deviation_m > kAstray * space_.ball_radius_m()) astray.push_back({deviation_m, gap});
+      if (deviation_m > kFarFromReference * space_.ball_radius_m())
+        far.push_back({deviation_m, gap});
     }
-    std::ranges::stable_sort(astray, std::greater(), &Astray::deviation_m);
-    for (const Astray& place : astray) {
-      if (!deadline_.passed()) come_closer(place.gap);
+    std::ranges::stable_sort(far, std::greater(), &FarGap::deviation_m);
+    for (const FarGap& place : far) {
+      if (!deadline_.passed()) pull_to_reference(place.gap);
     }
   }
 
-  void come_closer(std::size_t gap) {
+  void pull_to_reference(std::size_t gap) {
     const Problem problem = problem_of_gap(gap);
-    const std::optional<Candidate> other =
-        polished(problem, kCloserKnots, closer_, space_, deadline_);
+    const std::optional<Candidate> other = polished(problem, kPullKnots, pull_, space_, deadline_);
     if (!other) return;
     if (bending_energy(other->path) > kMostBending * bending_energy(problem.path)) return;
     take_if_better(gap, Objective::kClosest, *other, problem);
@@ -515,10 +516,11 @@ class Ladder {
   static constexpr int kPolishingRounds = 2;
   static constexpr int kStepsAGap = 12;  ///< steps of relaxation per interval with a collision
   static constexpr int kPolishedKnots = 12;
-  static constexpr double kAstray = 3.0;  ///< distance from the original, in radii of the ball
-  static constexpr double kCloserSpread = 0.25;
-  static constexpr int kCloserKnots = 16;
-  static constexpr int kCloserSteps = 24;  ///< for the whole path
+  static constexpr double kFarFromReference =
+      3.0;  ///< distance from the original, in radii of the ball
+  static constexpr double kPullSpread = 0.25;
+  static constexpr int kPullKnots = 16;
+  static constexpr int kPullSteps = 24;  ///< for the whole path
   /// Largest growth of bending energy for coming closer.
   static constexpr double kMostBending = 1.5;
   static constexpr int kPursuitStepsAGap = 40;
@@ -531,8 +533,8 @@ class Ladder {
   const scene::WholeMesh& mesh_;
   FreeSpace& space_;
   const LadderOptions& options_;
-  const collision::Deadline& whole_deadline_;
-  collision::Deadline deadline_;  ///< deadline of corrections
+  const base::Deadline& whole_deadline_;
+  base::Deadline deadline_;  ///< deadline of corrections
   const CubicPath& original_;
   std::vector<double> keyframes_s_;
   /// Indices of the keyframes that proofs use: repaired keyframes prove nothing about the request.
@@ -546,7 +548,7 @@ class Ladder {
   std::vector<double> beyond_limit_s_;
   std::set<double> inserted_s_;  ///< times of the inserted keyframes
   Improvement improvement_;
-  Improvement closer_{Objective::kClosest, kCloserSteps, true, kCloserSpread};
+  Improvement pull_{Objective::kClosest, kPullSteps, true, kPullSpread};
   Improvement pursuit_;                     ///< budget for an objective other than the closest path
   std::optional<ClosedSurfaces> surfaces_;  ///< closed surfaces of the scene, once computed
   bool is_caged_at_this_size_ = false;      ///< proved: no path but for a smaller camera
@@ -560,7 +562,7 @@ LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Ob
                                const std::vector<motion::Keyframe>& keyframes,
                                const CubicPath& path,
                                const std::vector<CollisionInterval>& collisions,
-                               const LadderOptions& options, const collision::Deadline& deadline) {
+                               const LadderOptions& options, const base::Deadline& deadline) {
   FreeSpace space(obstacles, body, options.detect, options.orientation);
   return Ladder(mesh, space, keyframes, path, collisions, options, deadline).run();
 }

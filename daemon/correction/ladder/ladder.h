@@ -66,6 +66,6 @@ LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Ob
                                const std::vector<motion::Keyframe>& keyframes,
                                const motion::CubicPath& path,
                                const std::vector<collision::CollisionInterval>& collisions,
-                               const LadderOptions& options, const collision::Deadline& deadline);
+                               const LadderOptions& options, const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -48,8 +48,7 @@ struct Way {
 
 class Nudger {
  public:
-  Nudger(const Problem& problem, NudgeKind kind, FreeSpace& space,
-         const collision::Deadline& deadline)
+  Nudger(const Problem& problem, NudgeKind kind, FreeSpace& space, const base::Deadline& deadline)
       : problem_(problem),
         kind_(kind),
         space_(space),
@@ -238,7 +237,7 @@ class Nudger {
   const Problem& problem_;
   const NudgeKind kind_;
   FreeSpace& space_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const double middle_s_;
   const double length_s_;
   const double radius_m_;
@@ -293,7 +292,7 @@ std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spac
 }  // namespace
 
 std::optional<Candidate> nudge(const Problem& problem, NudgeKind kind, FreeSpace& space,
-                               const collision::Deadline& deadline) {
+                               const base::Deadline& deadline) {
   return Nudger(problem, kind, space, deadline).run();
 }
 

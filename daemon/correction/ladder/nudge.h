@@ -22,6 +22,6 @@ enum class NudgeKind { kMove, kTurn };
 ///
 /// Returns nothing if no such bump is free.
 std::optional<Candidate> nudge(const Problem& problem, NudgeKind kind, FreeSpace& space,
-                               const collision::Deadline& deadline);
+                               const base::Deadline& deadline);
 
 }  // namespace camway::correction

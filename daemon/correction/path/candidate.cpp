@@ -88,7 +88,7 @@ std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, cons
 std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& path,
                                                      double t_begin_s, double t_end_s,
                                                      const Problem& problem, const FreeSpace& space,
-                                                     const collision::Deadline& deadline) {
+                                                     const base::Deadline& deadline) {
   const motion::Path segments = path.around(t_begin_s, t_end_s).path();
   const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
     if (!(from_s < to_s)) return std::nullopt;
@@ -98,7 +98,7 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
     return found.interval;
   };
   double from_s = t_begin_s;
-  for (const CollisionInterval& other : problem.others) {
+  for (const CollisionInterval& other : problem.foreign_collisions) {
     if (other.t_end_s <= from_s) continue;
     if (other.t_begin_s >= t_end_s) break;
     if (auto found = search(from_s, other.t_begin_s)) return found;
@@ -108,7 +108,7 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
 }
 
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
-                const collision::Deadline& deadline) {
+                const base::Deadline& deadline) {
   if (problem.effort != nullptr) ++problem.effort->paths;
   // Rows without bumps change nothing, and end before they begin.
   std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });

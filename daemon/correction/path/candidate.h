@@ -27,7 +27,7 @@ struct Problem {
   collision::CollisionInterval interval;
   /// Other collisions in this part. A correction of this problem may leave them, but must not
   /// enlarge them.
-  std::vector<collision::CollisionInterval> others;
+  std::vector<collision::CollisionInterval> foreign_collisions;
   Effort* effort = nullptr;  ///< counters of the effort spent; may be null
   /// Times allowed for the knots of bumps; null allows any time.
   std::shared_ptr<const motion::KnotPlaces> places = nullptr;
@@ -49,12 +49,14 @@ struct Candidate {
   std::vector<motion::BumpRow> rows;  ///< the bumps that were added to it
 };
 
-/// Returns the first collision of `path` in [t_begin_s, t_end_s] outside `problem.others`; nothing
-/// if `path` is proved free there. If the deadline strikes, the part not searched counts as
-/// colliding.
-std::optional<collision::CollisionInterval> first_new_collision(
-    const motion::CubicPath& path, double t_begin_s, double t_end_s, const Problem& problem,
-    const FreeSpace& space, const collision::Deadline& deadline);
+/// Returns the first collision of `path` in [t_begin_s, t_end_s] outside
+/// `problem.foreign_collisions`; nothing if `path` is proved free there. If the deadline strikes,
+/// the part not searched counts as colliding.
+std::optional<collision::CollisionInterval> first_new_collision(const motion::CubicPath& path,
+                                                                double t_begin_s, double t_end_s,
+                                                                const Problem& problem,
+                                                                const FreeSpace& space,
+                                                                const base::Deadline& deadline);
 
 /// Result of adding bumps to the path of a problem.
 struct Attempt {
@@ -68,6 +70,6 @@ struct Attempt {
 /// knots, all keyframes are still met, and everything that `rows` change is proved to meet the
 /// orientation policy and to be free.
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
-                const collision::Deadline& deadline);
+                const base::Deadline& deadline);
 
 }  // namespace camway::correction

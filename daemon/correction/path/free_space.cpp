@@ -41,12 +41,13 @@ FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& 
 }
 
 bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
-  return probe_.glance(motion::standing_at(pose), margin_m).free;
+  return probe_.check(motion::standing_at(pose), margin_m).free;
 }
 
 double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
   constexpr double kExact = 1.0;  // a body that is barely too close must not count as free
-  const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m, kExact);
+  const collision::ProbeResult seen =
+      probe_.check_refined(motion::standing_at(pose), up_to_m, kExact);
   return seen.free ? up_to_m : std::min(seen.gap_m, up_to_m);
 }
 
@@ -74,7 +75,7 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
   obstacles.bounds = obstacles.bounds.shrunk_by(margin_m);
   const motion::Path path({motion::straight_motion(from, to)});
   const collision::FirstCollision found = collision::first_collision(
-      obstacles, path, body_, 0.0, 1.0, options, collision::Deadline::never());
+      obstacles, path, body_, 0.0, 1.0, options, base::Deadline::never());
   if (!found.interval) return std::nullopt;
   return found.interval->t_begin_s;
 }

@@ -179,7 +179,7 @@ class CellTree {
 class CellSearch {
  public:
   CellSearch(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
-             const CellOptions& options, const collision::Deadline& deadline)
+             const CellOptions& options, const base::Deadline& deadline)
       : options_(options),
         deadline_(deadline),
         from_W_(from_W),
@@ -394,7 +394,7 @@ class CellSearch {
   }
 
   const CellOptions& options_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const Vec3 from_W_;
   const Vec3 to_W_;
   const double apart_m_;
@@ -409,7 +409,7 @@ class CellSearch {
 }  // namespace
 
 CellResult cell_way(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
-                    const CellOptions& options, const collision::Deadline& deadline) {
+                    const CellOptions& options, const base::Deadline& deadline) {
   return CellSearch(space, from_W, to_W, options, deadline).run();
 }
 

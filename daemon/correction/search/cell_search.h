@@ -47,6 +47,6 @@ struct CellResult {
 /// right. Deterministic, unless the deadline strikes. Requires the ball to be free at both ends.
 CellResult cell_way(const FreeSpace& space, const geometry::Vec3& from_W,
                     const geometry::Vec3& to_W, const CellOptions& options,
-                    const collision::Deadline& deadline);
+                    const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -38,7 +38,7 @@ constexpr double kHorizon = 0.9;  // share of a step: two gaps exceed the longes
 class LatticeSearch {
  public:
   LatticeSearch(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
-                const LatticeOptions& options, const collision::Deadline& deadline)
+                const LatticeOptions& options, const base::Deadline& deadline)
       : space_(space),
         from_W_(from_W),
         to_W_(to_W),
@@ -271,7 +271,7 @@ class LatticeSearch {
   const Vec3 from_W_;
   const Vec3 to_W_;
   const LatticeOptions& options_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const double comfort_m_;
   const double horizon_m_;
   std::vector<Leg> legs_;
@@ -284,7 +284,7 @@ class LatticeSearch {
 }  // namespace
 
 LatticeResult lattice_way(const FreeSpace& space, const Vec3& from_W, const Vec3& to_W,
-                          const LatticeOptions& options, const collision::Deadline& deadline) {
+                          const LatticeOptions& options, const base::Deadline& deadline) {
   return LatticeSearch(space, from_W, to_W, options, deadline).run();
 }
 

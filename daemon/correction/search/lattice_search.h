@@ -39,6 +39,6 @@ struct LatticeResult {
 /// the ball to be free at both ends.
 LatticeResult lattice_way(const FreeSpace& space, const geometry::Vec3& from_W,
                           const geometry::Vec3& to_W, const LatticeOptions& options,
-                          const collision::Deadline& deadline);
+                          const base::Deadline& deadline);
 
 }  // namespace camway::correction

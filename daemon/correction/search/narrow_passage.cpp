@@ -62,7 +62,7 @@ struct Side {
 class Threader {
  public:
   Threader(FreeSpace& space, const SignedPose& from, const SignedPose& to, double margin_m,
-           const collision::Deadline& deadline)
+           const base::Deadline& deadline)
       : space_(space),
         from_(from),
         to_(to),
@@ -281,7 +281,7 @@ class Threader {
   const SignedPose from_;
   const SignedPose to_;
   const double margin_m_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const double radius_m_;
   double farthest_m_ = 0.0;  ///< largest motion to either side
 };
@@ -339,7 +339,7 @@ std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const Place>
 
 std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec3> way_W,
                                            const SignedPose& from, const SignedPose& to,
-                                           double margin_m, const collision::Deadline& deadline) {
+                                           double margin_m, const base::Deadline& deadline) {
   if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
   const std::vector<Place> places = places_of(way_W, kStep * space.ball_radius_m());
   Threader threader(space, from, to, margin_m, deadline);

@@ -34,6 +34,6 @@ struct NarrowPassage {
 std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const geometry::Vec3> way_W,
                                            const motion::SignedPose& from,
                                            const motion::SignedPose& to, double margin_m,
-                                           const collision::Deadline& deadline);
+                                           const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -80,7 +80,7 @@ class TreeSearch {
         trees_{Tree(from), Tree(to)},
         random_(options.seed) {}
 
-  Guide run(const collision::Deadline& deadline) {
+  Guide run(const base::Deadline& deadline) {
     std::size_t side = 0;
     if (grow(side, to_).reached) return {from_, to_};
     for (int i = 0; i < options_.max_samples && !deadline.passed(); ++i, side = 1 - side) {
@@ -231,7 +231,7 @@ class TreeSearch {
 }  // namespace
 
 Guide tree_way(FreeSpace& space, const SignedPose& from, const SignedPose& to,
-               const TreeOptions& options, const collision::Deadline& deadline) {
+               const TreeOptions& options, const base::Deadline& deadline) {
   return TreeSearch(space, from, to, options).run(deadline);
 }
 

@@ -36,6 +36,6 @@ struct TreeOptions {
 /// Returns the poses from `from` to `to`, both included; empty if none was found. Deterministic for
 /// a seed, unless the deadline strikes.
 Guide tree_way(FreeSpace& space, const motion::SignedPose& from, const motion::SignedPose& to,
-               const TreeOptions& options, const collision::Deadline& deadline);
+               const TreeOptions& options, const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -28,7 +28,7 @@ void ContactBounds::clear() {
   forces_.clear();
 }
 
-void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double reply,
+void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double response,
                         std::span<Contact> contacts) {
   if (!is_safest_) {
     for (Contact& contact : contacts) add_kept(sample, moved, contact);
@@ -48,10 +48,10 @@ void ContactBounds::add(std::size_t sample, const StackedPoint& moved, double re
     // Room is made by moving: turning away from what is near finds no end.
     StackedPoint away = contact.row.direction;
     away.tail<4>().setZero();
-    const double stiffness = reply * away.squaredNorm();
+    const double stiffness = response * away.squaredNorm();
     if (!(stiffness > 0.0)) continue;
     add_soft(sample, away, away.dot(moved) - contact.row.room_m + wanted_m_,
-             1.0 / (kUrge * stiffness), contact.soft_force);
+             1.0 / (kUrge * stiffness), contact.soft_multiplier);
   }
 }
 
@@ -61,9 +61,9 @@ void ContactBounds::add_kept(std::size_t sample, const StackedPoint& moved, Cont
   const bool has_room = row.room_m >= wanted_m_;
   add_hard(sample, offset_m + (has_room ? wanted_m_ : kKeptShare * row.room_m), contact);
   if (has_room) {
-    contact.soft_force = 0.0;
+    contact.soft_multiplier = 0.0;
   } else {
-    add_soft(sample, row.direction, offset_m + wanted_m_, kEven, contact.soft_force);
+    add_soft(sample, row.direction, offset_m + wanted_m_, kEven, contact.soft_multiplier);
   }
 }
 
@@ -73,13 +73,13 @@ void ContactBounds::add_hard(std::size_t sample, double bound_m, Contact& contac
 }
 
 void ContactBounds::add_soft(std::size_t sample, const StackedPoint& direction, double bound_m,
-                             double softness, double& force) {
-  bounds_.push_back({sample, direction, bound_m, softness, force});
+                             double compliance, double& force) {
+  bounds_.push_back({sample, direction, bound_m, compliance, force});
   forces_.push_back(&force);
 }
 
 void ContactBounds::remember() const {
-  for (std::size_t i = 0; i < bounds_.size(); ++i) *forces_[i] = bounds_[i].force;
+  for (std::size_t i = 0; i < bounds_.size(); ++i) *forces_[i] = bounds_[i].multiplier;
 }
 
 }  // namespace camway::correction

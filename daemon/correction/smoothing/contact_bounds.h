@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "daemon/correction/path/constraints.h"
-#include "daemon/correction/smoothing/contact_forces.h"
+#include "daemon/correction/smoothing/contact_qp.h"
 #include "daemon/correction/smoothing/contacts.h"
 
 namespace camway::correction {
@@ -13,8 +13,8 @@ namespace camway::correction {
 /// A contact with its last multipliers, from which the next solution starts.
 struct Contact {
   ContactRow row;
-  double hard_force = 0.0;  ///< multiplier of the hard bound
-  double soft_force = 0.0;  ///< multiplier of the soft bound
+  double hard_force = 0.0;       ///< multiplier of the hard bound
+  double soft_multiplier = 0.0;  ///< multiplier of the soft bound
 };
 
 /// The bounds that an objective derives from contacts, where a *gap* is the room of a contact and
@@ -36,25 +36,25 @@ class ContactBounds {
 
   void clear();
   /// Adds the bounds of `contacts` on a sample whose displacement is `moved`. Requires contacts of
-  /// one triangle to be adjacent, and `contacts` to stay in place until `remember`. `reply`: the
-  /// compliance of the sample, its displacement per unit force.
-  void add(std::size_t sample, const StackedPoint& moved, double reply,
+  /// one triangle to be adjacent, and `contacts` to stay in place until `remember`. `response`: the
+  /// displacement of the sample per unit force on it.
+  void add(std::size_t sample, const StackedPoint& moved, double response,
            std::span<Contact> contacts);
-  [[nodiscard]] std::span<ForcedBound> bounds() { return bounds_; }
+  [[nodiscard]] std::span<BoundConstraint> bounds() { return bounds_; }
   /// Stores the multipliers of `bounds()` in the contacts.
   void remember() const;
 
  private:
   void add_kept(std::size_t sample, const StackedPoint& moved, Contact& contact);
   void add_hard(std::size_t sample, double bound_m, Contact& contact);
-  void add_soft(std::size_t sample, const StackedPoint& direction, double bound_m, double softness,
-                double& force);
+  void add_soft(std::size_t sample, const StackedPoint& direction, double bound_m,
+                double compliance, double& force);
 
   const bool is_safest_;
   const double wanted_m_;
   const double hard_reach_m_;
   double least_gap_m_ = 0.0;
-  std::vector<ForcedBound> bounds_;
+  std::vector<BoundConstraint> bounds_;
   std::vector<double*> forces_;  ///< the multiplier in the contact of each bound
 };
 

@@ -90,7 +90,7 @@ double least_gap_m(const motion::CubicPath& path, FreeSpace& space) {
 // Integrates over the curve's length and not over time: otherwise lingering in a safe place would
 // lower the cost of danger elsewhere.
 ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
-                     const collision::Deadline& deadline) {
+                     const base::Deadline& deadline) {
   const double comfort_m = kComfort * space.ball_radius_m();
   ObjectiveCost cost{0.0, comfort_m};
   for_each_gap(path, kSampleStep * space.ball_radius_m(), comfort_m, space,
@@ -116,7 +116,7 @@ double bending_energy(const motion::CubicPath& path) {
 
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
                              const motion::CubicPath& original, FreeSpace& space,
-                             const collision::Deadline& deadline) {
+                             const base::Deadline& deadline) {
   switch (objective) {
     case Objective::kClosest:
       return {largest_deviation_m(path, original), 0.0};

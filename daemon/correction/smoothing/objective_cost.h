@@ -31,7 +31,7 @@ inline constexpr double kComfort = 3.0;
 /// the value is infinite if the deadline strikes; other objectives ignore the deadline.
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
                              const motion::CubicPath& original, FreeSpace& space,
-                             const collision::Deadline& deadline);
+                             const base::Deadline& deadline);
 
 /// Integral of the squared acceleration of the eye over time. [Units: m²/s³]
 double bending_energy(const motion::CubicPath& path);

@@ -97,7 +97,7 @@ class Relaxation {
                              form_.value(free_.variables_of(before, lever_m_));
   }
 
-  void run(const collision::Deadline& deadline) {
+  void run(const base::Deadline& deadline) {
     const double first_value = form_.value(variables_);
     double trust_m = kFirstTrust * radius_m_;
     while (steps_left_ > 0 && trust_m > kLeastTrust * radius_m_ && !deadline.passed()) {
@@ -133,7 +133,7 @@ class Relaxation {
  private:
   void add_sample(double time_s) {
     if (time_s <= problem_.path.begin_s() || time_s >= problem_.path.end_s()) return;
-    if (is_others(time_s)) return;
+    if (in_foreign_collision(time_s)) return;
     Sample sample;
     sample.path = stacked(problem_.path.at(time_s), lever_m_);
     sample.terms = free_.at(time_s);
@@ -179,10 +179,11 @@ class Relaxation {
     for (Sample& sample : samples_) look(sample);
   }
 
-  [[nodiscard]] bool is_others(double time_s) const {
-    return std::ranges::any_of(problem_.others, [&](const collision::CollisionInterval& other) {
-      return other.t_begin_s <= time_s && time_s <= other.t_end_s;
-    });
+  [[nodiscard]] bool in_foreign_collision(double time_s) const {
+    return std::ranges::any_of(problem_.foreign_collisions,
+                               [&](const collision::CollisionInterval& other) {
+                                 return other.t_begin_s <= time_s && time_s <= other.t_end_s;
+                               });
   }
 
   [[nodiscard]] StackedPoint point(const Sample& sample) const {
@@ -210,11 +211,11 @@ class Relaxation {
     if (at_least_m > kFarEnough * horizon_m_) return at_least_m;
     const std::optional<scene::Nearest> nearest = space_.nearest(pose, horizon_m_);
     if (!nearest) return horizon_m_;
-    mind(sample, nearest->triangle);
+    add_contact(sample, nearest->triangle);
     return nearest->distance_m;
   }
 
-  void mind(Sample& sample, std::uint32_t triangle) {
+  void add_contact(Sample& sample, std::uint32_t triangle) {
     if (std::ranges::find(sample.contacts, triangle) != sample.contacts.end()) return;
     finds_contacts_ = true;
     sample.has_rows = false;
@@ -290,15 +291,15 @@ class Relaxation {
     StackedPoints result = form_.minimum();
     if (!may_turn_) result.rightCols<4>() = variables_.rightCols<4>();
     find_bounds();
-    const std::span<ForcedBound> bounds = bounds_.bounds();
+    const std::span<BoundConstraint> bounds = bounds_.bounds();
     if (bounds.empty()) return result;
-    find_forces(bounds, unforced(result), replies(), kForceSettled * radius_m_);
+    solve_qp(bounds, unforced(result), response(), kForceSettled * radius_m_);
     std::map<Eigen::Index, StackedPoint> forces;
-    for (const ForcedBound& bound : bounds) {
-      if (bound.force == 0.0) continue;
+    for (const BoundConstraint& bound : bounds) {
+      if (bound.multiplier == 0.0) continue;
       for (const Term& term : samples_[bound.sample].terms) {
         auto [force, is_new] = forces.try_emplace(term.variable, StackedPoint::Zero());
-        force->second += term.share * bound.force * bound.direction;
+        force->second += term.share * bound.multiplier * bound.direction;
       }
     }
     for (const auto& [variable, force] : forces) {
@@ -320,23 +321,23 @@ class Relaxation {
     return unforced_;
   }
 
-  /// The compliance matrix: displacement of each sample per unit force on each.
-  const Eigen::MatrixXd& replies() {
+  /// The response matrix: displacement of each sample per unit force on each.
+  const Eigen::MatrixXd& response() {
     const auto count = static_cast<Eigen::Index>(samples_.size());
-    const Eigen::Index known = replies_.cols();
-    replies_.conservativeResize(count, count);
+    const Eigen::Index known = response_.cols();
+    response_.conservativeResize(count, count);
     for (Eigen::Index j = known; j < count; ++j) {
-      Eigen::VectorXd reply = Eigen::VectorXd::Zero(free_.size());
+      Eigen::VectorXd moved = Eigen::VectorXd::Zero(free_.size());
       for (const Term& term : samples_[static_cast<std::size_t>(j)].terms)
-        reply += term.share * form_.inverse().col(term.variable);
+        moved += term.share * form_.inverse().col(term.variable);
       for (Eigen::Index i = 0; i <= j; ++i) {
         double sum = 0.0;
         for (const Term& term : samples_[static_cast<std::size_t>(i)].terms)
-          sum += term.share * reply[term.variable];
-        replies_(i, j) = replies_(j, i) = sum;
+          sum += term.share * moved[term.variable];
+        response_(i, j) = response_(j, i) = sum;
       }
     }
-    return replies_;
+    return response_;
   }
 
   void find_bounds() {
@@ -346,7 +347,7 @@ class Relaxation {
       if (sample.contacts.empty()) continue;
       update_rows(sample);
       const auto place = static_cast<Eigen::Index>(i);
-      bounds_.add(i, combined(sample.terms, variables_), replies()(place, place), sample.rows);
+      bounds_.add(i, combined(sample.terms, variables_), response()(place, place), sample.rows);
     }
   }
 
@@ -379,7 +380,7 @@ class Relaxation {
   StackedPoints variables_;
   std::vector<Sample> samples_;
   StackedPoints unforced_{0, 7};
-  Eigen::MatrixXd replies_;
+  Eigen::MatrixXd response_;
   std::vector<ContactRow> rows_;  ///< buffer
   bool finds_contacts_ = false;
   bool breaks_rule_ = false;
@@ -398,7 +399,7 @@ Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
 }
 
 Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
-               FreeSpace& space, const collision::Deadline& deadline) {
+               FreeSpace& space, const base::Deadline& deadline) {
   Offsets better = free.offsets;
   for (int i = 0; i < kRounds && !deadline.passed(); ++i) {
     relaxation.run(deadline);
@@ -424,7 +425,7 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
 }  // namespace
 
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
-                FreeSpace& space, const collision::Deadline& deadline) {
+                FreeSpace& space, const base::Deadline& deadline) {
   int steps_left = std::min(kMostSteps, improvement.steps_left);
   if (steps_left == 0) return free;
   improvement.steps_left -= steps_left;
@@ -435,7 +436,7 @@ Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& im
 }
 
 std::optional<Candidate> polished(const Problem& problem, int knots, Improvement& improvement,
-                                  FreeSpace& space, const collision::Deadline& deadline) {
+                                  FreeSpace& space, const base::Deadline& deadline) {
   int steps_left = std::min(kMostSteps, improvement.steps_left);
   if (steps_left == 0) return std::nullopt;
   const Offsets none{problem.knots(knots), 1, {}};

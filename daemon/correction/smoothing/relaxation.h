@@ -37,12 +37,12 @@ struct Relaxed {
 /// the change is reverted as far as needed. Returns `free` where no proof succeeds or the objective
 /// became worse.
 Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
-                FreeSpace& space, const collision::Deadline& deadline);
+                FreeSpace& space, const base::Deadline& deadline);
 
 /// Improves a path that is free already, between the two keyframes of the problem's interval and a
 /// little beyond, by a row of bumps on `knots` steps. Returns nothing if nothing better was found.
 /// Spends steps of `improvement`. [Limit: knots >= 4]
 std::optional<Candidate> polished(const Problem& problem, int knots, Improvement& improvement,
-                                  FreeSpace& space, const collision::Deadline& deadline);
+                                  FreeSpace& space, const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -112,7 +112,7 @@ void Body::add(const SphereShape& sphere) {
 
 void Body::add(const ConvexShape& convex) {
   for (const std::vector<Vec3>& points : convex.pieces_C) {
-    ConvexHull hull = convex_hull(points);
+    geometry::ConvexHull hull = geometry::convex_hull(points);
     for (const std::array<std::uint32_t, 3>& t : hull.triangles)
       triangles_C_.push_back({points[t[0]], points[t[1]], points[t[2]]});
     if (!hull.faces.empty()) solids_C_.push_back({std::move(hull.faces)});

@@ -194,7 +194,7 @@ double least_dot_with_polygon(const Vec4& r, std::span<const Vec4> orientations)
 }
 
 Vec4 reference_frame(std::span<const Vec4> orientations) {
-  const Vec4 nearest = min_norm_point(orientations);
+  const Vec4 nearest = geometry::min_norm_point(orientations);
   const double distance = nearest.norm();
   if (distance > kOpenHemisphere) return nearest / distance;
   return Search(orientations).best();

@@ -75,7 +75,7 @@ struct Chunk {
 /// Builds chunks on several threads.
 class ChunkBuilder {
  public:
-  explicit ChunkBuilder(const IndexDealer& dealer) : dealer_(dealer) {}
+  explicit ChunkBuilder(const NodeSplitter& splitter) : splitter_(splitter) {}
 
   std::unique_ptr<Chunk> build(IndexPart all, unsigned threads) {
     auto root = std::make_unique<Chunk>();
@@ -124,7 +124,7 @@ class ChunkBuilder {
   }
 
   void build_chunk(Chunk& chunk, IndexPart part) {
-    std::vector<IndexPart> children = dealer_.deal(part);
+    std::vector<IndexPart> children = splitter_.split(part);
     // A part that cannot be split is the only leaf of its node.
     if (children.empty()) {
       part.is_final = true;
@@ -170,7 +170,7 @@ class ChunkBuilder {
     for (IndexPart& part : parts) {
       const bool is_large = part.entries.size() > kChunkEntries && !part.is_final;
       std::vector<IndexPart> children;
-      if (!is_large) children = dealer_.deal(part);
+      if (!is_large) children = splitter_.split(part);
       if (is_large || !children.empty()) {
         inner.push_back({std::move(part), std::move(children)});
       } else {
@@ -201,7 +201,7 @@ class ChunkBuilder {
     chunk.leaf_ends.push_back(static_cast<std::uint32_t>(chunk.references.size()));
   }
 
-  const IndexDealer& dealer_;
+  const NodeSplitter& splitter_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Task> tasks_;     ///< guarded by mutex_
@@ -209,17 +209,17 @@ class ChunkBuilder {
   std::exception_ptr failure_;  ///< guarded by mutex_
 };
 
-std::unique_ptr<IndexDealer> make_dealer(const Mesh& mesh, const Box& bounds,
-                                         const IndexOptions& options) {
+std::unique_ptr<NodeSplitter> make_splitter(const Mesh& mesh, const Box& bounds,
+                                            const IndexOptions& options) {
   switch (options.decomposition) {
     case Decomposition::kKdTree:
-      return make_kd_tree_dealer(mesh, bounds, options);
+      return make_kd_tree_splitter(mesh, bounds, options);
     case Decomposition::kBvh:
-      return make_bvh_dealer(options);
+      return make_bvh_splitter(options);
     case Decomposition::kOctree:
       break;
   }
-  return make_octree_dealer(mesh, bounds, options);
+  return make_octree_splitter(mesh, bounds, options);
 }
 
 unsigned threads_for(const IndexOptions& options) {
@@ -321,8 +321,8 @@ class IndexAssembler {
 
 namespace {
 
-IndexTree assembled(const IndexDealer& dealer, IndexPart all, unsigned threads, IndexTree tree) {
-  const std::unique_ptr<Chunk> root = ChunkBuilder(dealer).build(std::move(all), threads);
+IndexTree assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads, IndexTree tree) {
+  const std::unique_ptr<Chunk> root = ChunkBuilder(splitter).build(std::move(all), threads);
   IndexAssembler(tree, *root).fill(threads);
   return tree;
 }
@@ -336,8 +336,8 @@ IndexTree IndexTree::of_triangles(const Mesh& mesh, const IndexOptions& options)
   const unsigned threads = threads_for(options);
   IndexPart all = all_of(entries_of(mesh, threads), options);
   tree.bounds_ = all.box;
-  const std::unique_ptr<IndexDealer> dealer = make_dealer(mesh, all.box, options);
-  return assembled(*dealer, std::move(all), threads, std::move(tree));
+  const std::unique_ptr<NodeSplitter> splitter = make_splitter(mesh, all.box, options);
+  return assembled(*splitter, std::move(all), threads, std::move(tree));
 }
 
 IndexTree IndexTree::of_boxes(std::span<const Box> boxes) {
@@ -351,7 +351,7 @@ IndexTree IndexTree::of_boxes(std::span<const Box> boxes) {
   const IndexOptions options{.decomposition = Decomposition::kBvh, .threshold = 1, .threads = 1};
   IndexPart all = all_of(std::move(entries), options);
   tree.bounds_ = all.box;
-  return assembled(*make_bvh_dealer(options), std::move(all), 1, std::move(tree));
+  return assembled(*make_bvh_splitter(options), std::move(all), 1, std::move(tree));
 }
 
 std::shared_ptr<const IndexedMesh> IndexedMesh::build(std::shared_ptr<const Mesh> mesh,

@@ -94,21 +94,21 @@ struct IndexPart {
 /// Node splitter: distributes the entries of a part to the children of a node. The result depends
 /// on the arguments only.
 /// Thread-safe.
-class IndexDealer {
+class NodeSplitter {
  public:
-  virtual ~IndexDealer() = default;
+  virtual ~NodeSplitter() = default;
 
   /// Moves the contents of `part` to at most `kNodeWidth` parts, none of them empty, and returns
   /// these. Returns none, and leaves the contents in `part`, if it shall not be split.
-  [[nodiscard]] virtual std::vector<IndexPart> deal(IndexPart& part) const = 0;
+  [[nodiscard]] virtual std::vector<IndexPart> split(IndexPart& part) const = 0;
 };
 
 /// Requires that `mesh` outlives the splitter and that `bounds` holds all of its triangles.
-std::unique_ptr<IndexDealer> make_octree_dealer(const Mesh& mesh, const geometry::Box& bounds,
-                                                const IndexOptions& options);
-std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const geometry::Box& bounds,
-                                                 const IndexOptions& options);
-std::unique_ptr<IndexDealer> make_bvh_dealer(const IndexOptions& options);
+std::unique_ptr<NodeSplitter> make_octree_splitter(const Mesh& mesh, const geometry::Box& bounds,
+                                                   const IndexOptions& options);
+std::unique_ptr<NodeSplitter> make_kd_tree_splitter(const Mesh& mesh, const geometry::Box& bounds,
+                                                    const IndexOptions& options);
+std::unique_ptr<NodeSplitter> make_bvh_splitter(const IndexOptions& options);
 
 /// Cuts entries by a plane `x[axis] = at`.
 class TriangleCutter {

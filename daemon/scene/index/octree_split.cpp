@@ -61,12 +61,12 @@ bool shrink_to_octant(const Box& box, const Vec3& middle, Box& cell) {
 /// every octant that it lies in. Deviations: a triangle in the plane between octants goes to the
 /// lower side only; a triangle is distributed by the box of its piece in the cell, so it sometimes
 /// goes to an octant that it only comes close to.
-class OctreeDealer : public IndexDealer {
+class OctreeSplitter : public NodeSplitter {
  public:
-  OctreeDealer(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
+  OctreeSplitter(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
       : options_(options), root_(root_cell(bounds)), cutter_(mesh, bounds) {}
 
-  [[nodiscard]] std::vector<IndexPart> deal(IndexPart& part) const override {
+  [[nodiscard]] std::vector<IndexPart> split(IndexPart& part) const override {
     if (part.is_final || part.entries.size() <= options_.threshold ||
         part.depth >= options_.max_depth) {
       return {};
@@ -79,7 +79,7 @@ class OctreeDealer : public IndexDealer {
     } while (shrink_to_octant(part.box, middle, cell));
     Octants octants;
     reserve(part, middle, octants);
-    for (const IndexEntry& entry : part.entries) deal_entry(entry, middle, 0, 0, octants);
+    for (const IndexEntry& entry : part.entries) split_entry(entry, middle, 0, 0, octants);
     std::vector<IndexPart> parts = parts_of(octants, cell, middle, part);
     if (!worth_splitting(parts, part)) return {};
     part.entries = {};
@@ -102,8 +102,8 @@ class OctreeDealer : public IndexDealer {
 
   /// Distributes `entry` by the planes of the axes from `axis` on; `octant` has the bits of the
   /// axes before.
-  void deal_entry(const IndexEntry& entry, const Vec3& middle, int axis, std::size_t octant,
-                  Octants& octants) const {
+  void split_entry(const IndexEntry& entry, const Vec3& middle, int axis, std::size_t octant,
+                   Octants& octants) const {
     for (int k = axis; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);
       if (entry.high_m[at] <= middle[k]) continue;
@@ -112,8 +112,8 @@ class OctreeDealer : public IndexDealer {
         IndexEntry low;
         IndexEntry high;
         cutter_.cut(entry, k, middle[k], low, high);
-        if (!low.is_empty()) deal_entry(low, middle, k + 1, octant, octants);
-        if (!high.is_empty()) deal_entry(high, middle, k + 1, upper, octants);
+        if (!low.is_empty()) split_entry(low, middle, k + 1, octant, octants);
+        if (!high.is_empty()) split_entry(high, middle, k + 1, upper, octants);
         return;
       }
       octant = upper;
@@ -178,9 +178,9 @@ class OctreeDealer : public IndexDealer {
 
 }  // namespace
 
-std::unique_ptr<IndexDealer> make_octree_dealer(const Mesh& mesh, const Box& bounds,
-                                                const IndexOptions& options) {
-  return std::make_unique<OctreeDealer>(mesh, bounds, options);
+std::unique_ptr<NodeSplitter> make_octree_splitter(const Mesh& mesh, const Box& bounds,
+                                                   const IndexOptions& options) {
+  return std::make_unique<OctreeSplitter>(mesh, bounds, options);
 }
 
 }  // namespace camway::scene

@@ -47,11 +47,11 @@ class Bins {
 /// Splits parts in two until a node is full, always the part of highest cost. Binned surface area
 /// heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies", section
 /// 3.3). Deviation: a node has up to eight children at once.
-class SurfaceAreaDealer : public IndexDealer {
+class SahSplitter : public NodeSplitter {
  public:
-  explicit SurfaceAreaDealer(const IndexOptions& options) : options_(options) {}
+  explicit SahSplitter(const IndexOptions& options) : options_(options) {}
 
-  [[nodiscard]] std::vector<IndexPart> deal(IndexPart& part) const override {
+  [[nodiscard]] std::vector<IndexPart> split(IndexPart& part) const override {
     if (!may_split(part) || part.depth >= options_.max_depth) return {};
     std::vector<IndexPart> parts;
     parts.reserve(kNodeWidth);
@@ -61,7 +61,7 @@ class SurfaceAreaDealer : public IndexDealer {
           parts.begin(), parts.end(),
           [&](const IndexPart& a, const IndexPart& b) { return urgency(a) < urgency(b); });
       if (!may_split(*costliest)) break;
-      std::optional<IndexPart> upper = split(*costliest);
+      std::optional<IndexPart> upper = split_in_two(*costliest);
       costliest->is_final = !upper;
       if (upper) parts.insert(costliest + 1, std::move(*upper));
     }
@@ -75,7 +75,7 @@ class SurfaceAreaDealer : public IndexDealer {
 
  protected:
   /// Moves the upper side out of `part` and returns it. Returns nothing if no split pays.
-  [[nodiscard]] virtual std::optional<IndexPart> split(IndexPart& part) const = 0;
+  [[nodiscard]] virtual std::optional<IndexPart> split_in_two(IndexPart& part) const = 0;
 
   /// Cost of one more split for a query, in tests of entries.
   static constexpr double kSplitCost = 1.0;
@@ -113,9 +113,9 @@ class SurfaceAreaDealer : public IndexDealer {
 };
 
 /// BVH splitter: a triangle belongs to the side that contains the centre of its box.
-class BvhDealer : public SurfaceAreaDealer {
+class BvhSplitter : public SahSplitter {
  public:
-  using SurfaceAreaDealer::SurfaceAreaDealer;
+  using SahSplitter::SahSplitter;
 
  private:
   struct Bin {
@@ -166,7 +166,7 @@ class BvhDealer : public SurfaceAreaDealer {
     }
   }
 
-  [[nodiscard]] std::optional<IndexPart> split(IndexPart& part) const override {
+  [[nodiscard]] std::optional<IndexPart> split_in_two(IndexPart& part) const override {
     const Box middle_box = middles(part);
     const Split best = best_split(part, middle_box, try_axis);
     if (!pays(best, part)) return std::nullopt;
@@ -191,10 +191,10 @@ class BvhDealer : public SurfaceAreaDealer {
 };
 
 /// k-d tree splitter: a triangle belongs to every side that it lies on.
-class KdTreeDealer : public SurfaceAreaDealer {
+class KdTreeSplitter : public SahSplitter {
  public:
-  KdTreeDealer(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
-      : SurfaceAreaDealer(options), cutter_(mesh, bounds) {}
+  KdTreeSplitter(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
+      : SahSplitter(options), cutter_(mesh, bounds) {}
 
  private:
   /// Counts the entries that begin, and those that end, in each bin: their sums are the numbers of
@@ -223,7 +223,7 @@ class KdTreeDealer : public SurfaceAreaDealer {
     }
   }
 
-  [[nodiscard]] std::optional<IndexPart> split(IndexPart& part) const override {
+  [[nodiscard]] std::optional<IndexPart> split_in_two(IndexPart& part) const override {
     const Split best = best_split(part, part.box, try_axis);
     if (!pays(best, part)) return std::nullopt;
     std::array<IndexPart, 2> sides;
@@ -264,13 +264,13 @@ class KdTreeDealer : public SurfaceAreaDealer {
 
 }  // namespace
 
-std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const Box& bounds,
-                                                 const IndexOptions& options) {
-  return std::make_unique<KdTreeDealer>(mesh, bounds, options);
+std::unique_ptr<NodeSplitter> make_kd_tree_splitter(const Mesh& mesh, const Box& bounds,
+                                                    const IndexOptions& options) {
+  return std::make_unique<KdTreeSplitter>(mesh, bounds, options);
 }
 
-std::unique_ptr<IndexDealer> make_bvh_dealer(const IndexOptions& options) {
-  return std::make_unique<BvhDealer>(options);
+std::unique_ptr<NodeSplitter> make_bvh_splitter(const IndexOptions& options) {
+  return std::make_unique<BvhSplitter>(options);
 }
 
 }  // namespace camway::scene

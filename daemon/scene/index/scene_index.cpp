@@ -321,14 +321,14 @@ std::optional<Nearest> SceneIndex::near(std::span<const Triangle> body, double c
   return search(body, cutoff_m, DistanceGoal::kNear, certain_m, share);
 }
 
-Passage SceneIndex::passage(const MovingBody& body) const {
+SweptResult SceneIndex::swept(const SweptBody& body) const {
   if (size() == 0 || body.middle.empty()) {
     return {true, std::nullopt, std::numeric_limits<double>::infinity()};
   }
   if (!is_usable(body.middle) || !is_usable(body.ends)) return {false, Nearest{0.0, 0}, 0.0};
-  WalkedBy<PassageSearch> query(body, bounds_of(body.ends), nearest_error_m(body.ends));
+  WalkedBy<SweptSearch> query(body, bounds_of(body.ends), nearest_error_m(body.ends));
   run(query);
-  return query.passage();
+  return query.result();
 }
 
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,

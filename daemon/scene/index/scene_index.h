@@ -52,7 +52,7 @@ enum class DistanceGoal : std::uint8_t {
 };
 
 /// A body on a short motion. The triangles must outlive it.
-struct MovingBody {
+struct SweptBody {
   /// The triangles of the body at the middle of the motion.
   std::span<const geometry::Triangle> middle;
   /// For each triangle its position at the beginning and its position at the end. Every point of
@@ -66,7 +66,7 @@ struct MovingBody {
 };
 
 /// The answer to a swept query: whether a moving body keeps its distance from the scene.
-struct Passage {
+struct SweptResult {
   /// True if it is proved that every point of the body always keeps the required distance.
   bool is_clear = false;
   /// The nearest triangle among those tested, measured from the body at the middle of the motion.
@@ -75,7 +75,7 @@ struct Passage {
   /// An estimate, not a proof: how many times as long as this motion another one may be. If this
   /// one is clear, the other one begins at its end; else it begins where this one begins. Infinity
   /// if no triangle was near.
-  double ahead = 0.0;
+  double step_scale = 0.0;
 };
 
 /// A mesh in a scene, with the numbers of its first triangle and its first leaf there.
@@ -166,7 +166,7 @@ class SceneIndex {
   /// is clear of a scene triangle if both ends lie beyond a slab wider than `bend_m + keep_m`; the
   /// slab tried is perpendicular to the shortest line at the middle of the motion. It is also clear
   /// if it is farther away than `reach_m + keep_m` at the middle of the motion.
-  [[nodiscard]] Passage passage(const MovingBody& body) const;
+  [[nodiscard]] SweptResult swept(const SweptBody& body) const;
 
   /// A scene triangle nearer to the body than `distance_m`, with its distance. The search ends at
   /// the first one that it meets, which depends on the index alone. Returns nothing if it finds

@@ -18,18 +18,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-PassageSearch::PassageSearch(const MovingBody& body, const geometry::Box& ends_box, double error_m)
+SweptSearch::SweptSearch(const SweptBody& body, const geometry::Box& ends_box, double error_m)
     : BodySearch(body.ends, 2, ends_box, error_m), body_(body), nearest_{kInfinity, kNone} {
   shrink_to(body.bend_m + body.keep_m);
 }
 
-Passage PassageSearch::passage() const {
-  Passage passage{is_clear_, std::nullopt, ahead_};
+SweptResult SweptSearch::result() const {
+  SweptResult passage{is_clear_, std::nullopt, ahead_};
   if (nearest_.triangle != kNone) passage.nearest = nearest_;
   return passage;
 }
 
-void PassageSearch::ask_pair(std::size_t part, const Triangle& triangle, std::uint32_t index) {
+void SweptSearch::ask_pair(std::size_t part, const Triangle& triangle, std::uint32_t index) {
   const double far_m = body_.reach_m + body_.keep_m;
   const TriangleGap gap = geometry::triangle_gap(body_.middle[part], triangle, far_m);
   if (gap.distance_m > far_m) return;
@@ -44,8 +44,8 @@ void PassageSearch::ask_pair(std::size_t part, const Triangle& triangle, std::ui
   finish();
 }
 
-bool PassageSearch::passes(std::span<const Triangle> ends, const Triangle& triangle,
-                           const Vec3& direction) {
+bool SweptSearch::passes(std::span<const Triangle> ends, const Triangle& triangle,
+                         const Vec3& direction) {
   const double first_m = geometry::slab_width_m(ends[0], triangle, direction);
   const double last_m = geometry::slab_width_m(ends[1], triangle, direction);
   if (!(std::min(first_m, last_m) > body_.bend_m + body_.keep_m)) return false;
@@ -53,7 +53,7 @@ bool PassageSearch::passes(std::span<const Triangle> ends, const Triangle& trian
   return true;
 }
 
-void PassageSearch::stop_before(std::span<const Triangle> ends, const Triangle& triangle) {
+void SweptSearch::stop_before(std::span<const Triangle> ends, const Triangle& triangle) {
   ahead_ = 0.5;
   if (body_.bend_m > kStraightWay * body_.reach_m) return;
   const TriangleGap gap = geometry::triangle_gap(ends[0], triangle, kInfinity);

@@ -12,13 +12,13 @@ double way_ahead(double room_m, double change_m, double bend_m);
 /// more allows no estimate for a shorter one.
 inline constexpr double kStraightWay = 0.3;
 
-/// The search of `SceneIndex::passage`: whether a moving body keeps its distance from the scene.
-class PassageSearch : public BodySearch {
+/// The search of `SceneIndex::swept`: whether a moving body keeps its distance from the scene.
+class SweptSearch : public BodySearch {
  public:
   /// `body` must outlive this object. `ends_box` bounds its ends; `error_m` as for `BodySearch`.
-  PassageSearch(const MovingBody& body, const geometry::Box& ends_box, double error_m);
+  SweptSearch(const SweptBody& body, const geometry::Box& ends_box, double error_m);
 
-  [[nodiscard]] Passage passage() const;
+  [[nodiscard]] SweptResult result() const;
 
  private:
   /// Most near triangles that are proved clear one by one; with more in reach, shorter motions are
@@ -31,7 +31,7 @@ class PassageSearch : public BodySearch {
               const geometry::Vec3& direction);
   void stop_before(std::span<const geometry::Triangle> ends, const geometry::Triangle& triangle);
 
-  const MovingBody& body_;
+  const SweptBody& body_;
   int passed_ = 0;
   bool is_clear_ = true;
   Nearest nearest_;

@@ -178,7 +178,7 @@ MirrorVoxels mirror_voxels(const MirrorTask& task) {
       result.voxels = std::move(voxels);
     }
   }
-  result.is_called_off = !result.voxels && task.stop.stop_requested();
+  result.is_cancelled = !result.voxels && task.stop.stop_requested();
   return result;
 }
 

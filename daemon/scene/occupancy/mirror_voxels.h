@@ -25,7 +25,7 @@ struct MirrorTask {
 
 struct MirrorVoxels {
   std::optional<VoxelSet> voxels;  ///< nothing if there are too many, or a stop was requested
-  bool is_called_off = false;      ///< whether the stop was the reason
+  bool is_cancelled = false;       ///< whether the stop was the reason
 };
 
 /// A lower bound of the number of voxels of the mirror, at the cost of one pass over the triangles.

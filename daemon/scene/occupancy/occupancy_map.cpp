@@ -112,7 +112,7 @@ class CheapestCube {
   std::optional<double> best_;
 };
 
-constexpr const char* kCalledOff = "making its occupancy map was called off";
+constexpr const char* kCancelled = "making its occupancy map was called off";
 
 std::string describe(const Box& box) {
   std::ostringstream text;
@@ -148,7 +148,7 @@ std::string refusal(Meshes meshes, double resolution_m, const std::stop_token& s
   std::size_t number = 0;
   for (const Mesh* mesh : meshes) {
     for (std::size_t i = 0; i < mesh->triangles.size(); ++i, ++number) {
-      if (stop.stop_requested()) return kCalledOff;
+      if (stop.stop_requested()) return kCancelled;
       for (const Vec3& vertex : mesh->triangle(i)) {
         if (!vertex.allFinite()) return "triangle " + std::to_string(number) + " is not finite";
         bounds.extend(vertex);
@@ -176,7 +176,7 @@ OccupancyMap::BuildResult OccupancyMap::build(Meshes meshes, double resolution_m
   }
   const VoxelGrid grid(resolution_m);
   const MirrorVoxels made = mirror_voxels({meshes, solid, grid, max_voxels, stop});
-  if (made.is_called_off) return {nullptr, kCalledOff};
+  if (made.is_cancelled) return {nullptr, kCancelled};
   if (!made.voxels) {
     Box bounds;
     for (const Mesh* mesh : meshes) {
@@ -205,7 +205,7 @@ OccupancyMap::BuildResult OccupancyMap::of_map(const VoxelMap& map, const Box& b
 
 OccupancyMap::BuildResult OccupancyMap::made_of(VoxelTree tree, const VoxelGrid& grid,
                                                 const std::stop_token& stop) {
-  if (stop.stop_requested()) return {nullptr, kCalledOff};
+  if (stop.stop_requested()) return {nullptr, kCancelled};
   return {std::shared_ptr<const OccupancyMap>(new OccupancyMap(std::move(tree), grid)), {}};
 }
 

@@ -11,28 +11,28 @@ namespace camway::scene {
 /// thread that makes the change commits it; any thread may cancel it before. The first of the two
 /// wins, so a change that was reported as cancelled never takes effect. Copies share the state.
 /// Thread-safe.
-class Undertaking {
+class ChangeTicket {
  public:
-  Undertaking() : shared_(std::make_shared<Shared>()) {}
+  ChangeTicket() : shared_(std::make_shared<Shared>()) {}
 
   /// Cancels the change and requests a stop of the work on it. Returns false if it was committed or
   /// cancelled before.
-  bool call_off() const {
-    if (!leave(State::kCalledOff)) return false;
+  bool cancel() const {
+    if (!leave(State::kCancelled)) return false;
     shared_->stop.request_stop();
     return true;
   }
 
   /// Commits the change. Returns false if it was cancelled: then it must change nothing.
-  [[nodiscard]] bool come_into_force() const {
+  [[nodiscard]] bool try_commit() const {
     return leave(State::kInForce) || shared_->state.load() == State::kInForce;
   }
 
-  [[nodiscard]] bool is_called_off() const { return shared_->state.load() == State::kCalledOff; }
+  [[nodiscard]] bool is_cancelled() const { return shared_->state.load() == State::kCancelled; }
   [[nodiscard]] std::stop_token stop() const { return shared_->stop.get_token(); }
 
  private:
-  enum class State { kBegun, kInForce, kCalledOff };
+  enum class State { kBegun, kInForce, kCancelled };
   struct Shared {
     std::atomic<State> state = State::kBegun;
     std::stop_source stop;

@@ -185,7 +185,7 @@ ImportReport report_of(const VoxelMap& map, std::string format) {
   ImportReport report;
   report.format = std::move(format);
   report.objects = 1;
-  for (const MeshPart& part : map.skin()->parts()) {
+  for (const MeshPart& part : map.faces()->parts()) {
     report.vertices += part.mesh->vertices.size();
     report.triangles += part.mesh->triangles.size();
     report.bounds_m.extend(part.bounds);
@@ -214,11 +214,11 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
 std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
                                                     ImportReport report,
                                                     const ObjectOptions& options) {
-  assert(map_O && map_O->skin());
+  assert(map_O && map_O->faces());
   auto source = std::make_shared<ObjectSource>();
   source->kind = ObjectKind::kMap;
   source->report = std::move(report);
-  source->parts_O = map_O->skin()->parts();
+  source->parts_O = map_O->faces()->parts();
   for (const MeshPart& part : source->parts_O) source->bounds_O.extend(part.bounds);
   source->why_no_field =
       options.field ? "occupancy maps have none, so that scans are quick" : "it was not asked for";

@@ -62,14 +62,14 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
 
 /// The same for an occupancy map; `report` counts its faces. It has no distance field: a field
 /// depends on the whole map, so each scan would rebuild it, and measured on maps of buildings,
-/// planning is no more than a tenth faster with one. Requires that the map has a `skin`.
+/// planning is no more than a tenth faster with one. Requires that the map has a `faces`.
 std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
                                                     ImportReport report,
                                                     const ObjectOptions& options);
 
 /// The report that an import of this mesh would have made.
 ImportReport report_of(const Mesh& mesh, std::string format);
-/// The same for the faces of a map. Requires that the map has a `skin`.
+/// The same for the faces of a map. Requires that the map has a `faces`.
 ImportReport report_of(const VoxelMap& map, std::string format);
 
 /// A mesh of an object, placed in the world. Immutable.

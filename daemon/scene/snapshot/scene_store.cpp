@@ -11,7 +11,7 @@
 namespace camway::scene {
 namespace {
 
-StoreResult called_off() { return {nullptr, StoreFault::kCalledOff, "it was called off"}; }
+StoreResult cancelled() { return {nullptr, StoreFault::kCancelled, "it was called off"}; }
 
 StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
   const std::vector<KeptRevision> kept = history.revisions();
@@ -23,13 +23,13 @@ StoreResult not_kept(std::string_view scene, std::uint64_t revision, const Scene
 
 }  // namespace
 
-SceneStore::Turn::Turn(SceneStore& store, std::string_view scene) : store_(store) {
+SceneStore::ChangeLock::ChangeLock(SceneStore& store, std::string_view scene) : store_(store) {
   std::unique_lock lock(store_.mutex_);
   store_.turn_ended_.wait(lock, [&] { return !store_.changing_.contains(scene); });
   scene_ = store_.changing_.emplace(scene).first;
 }
 
-SceneStore::Turn::~Turn() {
+SceneStore::ChangeLock::~ChangeLock() {
   {
     const std::lock_guard lock(store_.mutex_);
     store_.changing_.erase(scene_);
@@ -81,11 +81,11 @@ void SceneStore::count(const Load& before, const Load& after) {
 }
 
 StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note,
-                            const Undertaking& undertaking) {
+                            const ChangeTicket& ticket) {
   assert(snapshot);
   note.when = std::chrono::system_clock::now();
   std::optional<Entry> old;  // destroyed after the lock is released, since that takes time
-  const Turn turn(*this, snapshot->name);
+  const ChangeLock turn(*this, snapshot->name);
   if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
     auto numbered = std::make_shared<Snapshot>(*snapshot);
     numbered->revision = next;
@@ -96,7 +96,7 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
   {
     const std::lock_guard lock(mutex_);
     if (StoreResult over = over_limit(*snapshot, entry.load); !over.error.empty()) return over;
-    if (!undertaking.come_into_force()) return called_off();
+    if (!ticket.try_commit()) return cancelled();
     if (const auto found = scenes_.find(snapshot->name); found != scenes_.end()) {
       old = std::move(found->second);
     }
@@ -113,44 +113,43 @@ StoreResult SceneStore::unknown(std::string_view scene) const {
 }
 
 StoreResult SceneStore::change(std::string_view scene, SceneChange change, ChangeNote note,
-                               const Undertaking& undertaking) {
-  const Turn turn(*this, scene);
+                               const ChangeTicket& ticket) {
+  const ChangeLock turn(*this, scene);
   const std::shared_ptr<const Snapshot> before = find(scene);
   if (!before) return unknown(scene);
-  return make_next(*before, {std::move(change)}, std::move(note), undertaking);
+  return make_next(*before, {std::move(change)}, std::move(note), ticket);
 }
 
 StoreResult SceneStore::restore(std::string_view scene, std::uint64_t revision, ChangeNote note,
-                                const Undertaking& undertaking) {
-  const Turn turn(*this, scene);
+                                const ChangeTicket& ticket) {
+  const ChangeLock turn(*this, scene);
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
   std::optional<SceneChanges> changes = known->changes_back_to(revision);
   if (!changes) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   const std::shared_ptr<const Snapshot> before = find(scene);
-  return make_next(*before, *std::move(changes), std::move(note), undertaking);
+  return make_next(*before, *std::move(changes), std::move(note), ticket);
 }
 
 StoreResult SceneStore::restore_as(std::string_view scene, std::uint64_t revision,
-                                   std::string other, ChangeNote note,
-                                   const Undertaking& undertaking) {
+                                   std::string other, ChangeNote note, const ChangeTicket& ticket) {
   const std::optional<SceneHistory> known = history(scene);
   if (!known) return unknown(scene);
-  const std::shared_ptr<const Snapshot> then = known->rebuild(revision, undertaking.stop());
-  if (undertaking.is_called_off()) return called_off();
+  const std::shared_ptr<const Snapshot> then = known->rebuild(revision, ticket.stop());
+  if (ticket.is_cancelled()) return cancelled();
   if (!then) return not_kept(scene, revision, *known);
   note.restored_revision = revision;
   auto renamed = std::make_shared<Snapshot>(*then);
   renamed->name = std::move(other);
   renamed->revision = 1;
-  return put(std::move(renamed), std::move(note), undertaking);
+  return put(std::move(renamed), std::move(note), ticket);
 }
 
 StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
-                                  const Undertaking& undertaking) {
-  SnapshotResult result = changed(before, changes, before.revision + 1, undertaking.stop());
-  if (undertaking.is_called_off()) return called_off();
+                                  const ChangeTicket& ticket) {
+  SnapshotResult result = changed(before, changes, before.revision + 1, ticket.stop());
+  if (ticket.is_cancelled()) return cancelled();
   if (!result.snapshot) {
     const bool is_limit = result.limit != Limit::kNone;
     return {nullptr, is_limit ? StoreFault::kLimit : StoreFault::kInvalid, std::move(result.error),
@@ -161,7 +160,7 @@ StoreResult SceneStore::make_next(const Snapshot& before, SceneChanges changes, 
   {
     const std::lock_guard lock(mutex_);
     if (StoreResult over = over_limit(*result.snapshot, load); !over.error.empty()) return over;
-    if (!undertaking.come_into_force()) return called_off();
+    if (!ticket.try_commit()) return cancelled();
     Entry& entry = scenes_.find(before.name)->second;
     entry.newest = result.snapshot;
     count(std::exchange(entry.load, load), load);
@@ -185,13 +184,13 @@ void SceneStore::forget_history() {
   }
 }
 
-bool SceneStore::remove(std::string_view scene, const Undertaking& undertaking) {
+bool SceneStore::remove(std::string_view scene, const ChangeTicket& ticket) {
   std::optional<Entry> old;
-  const Turn turn(*this, scene);
+  const ChangeLock turn(*this, scene);
   {
     const std::lock_guard lock(mutex_);
     const auto found = scenes_.find(scene);
-    if (found == scenes_.end() || !undertaking.come_into_force()) return false;
+    if (found == scenes_.end() || !ticket.try_commit()) return false;
     highest_removed_ = std::max(highest_removed_, found->second.newest->revision);
     old = std::move(found->second);
     count(old->load, {});

@@ -32,7 +32,7 @@ struct SceneStoreLimits {
 };
 
 /// The reason why the store refused a change.
-enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit, kCalledOff };
+enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit, kCancelled };
 
 struct StoreResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< newest snapshot; null on error
@@ -48,7 +48,7 @@ struct StoreResult {
 /// Thread-safe. Changes of one scene are serialised; different scenes change in parallel. The
 /// global lock is held only to publish a finished snapshot, so readers never wait for a build.
 /// Limits across scenes are checked on publication, so no limit is ever exceeded, but unfinished
-/// changes do not count. A change that is cancelled before (`Undertaking`, the change ticket)
+/// changes do not count. A change that is cancelled before (`ChangeTicket`, the change ticket)
 /// changes nothing.
 class SceneStore {
  public:
@@ -57,23 +57,23 @@ class SceneStore {
   /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is that
   /// of the snapshot or, if that is higher, the next one of the name.
   StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {},
-                  const Undertaking& undertaking = {});
+                  const ChangeTicket& ticket = {});
 
   /// Changes one object of a scene. Requires the same as `changed`.
   StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {},
-                     const Undertaking& undertaking = {});
+                     const ChangeTicket& ticket = {});
 
   /// Makes a new revision with the objects of a kept one. If it is not kept, the error names those
   /// that are.
   StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {},
-                      const Undertaking& undertaking = {});
+                      const ChangeTicket& ticket = {});
 
   /// Like `restore`, but puts the objects into scene `other`, as `put` does.
   StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
-                         ChangeNote note = {}, const Undertaking& undertaking = {});
+                         ChangeNote note = {}, const ChangeTicket& ticket = {});
 
   /// Returns whether the scene was removed: false if it does not exist or the change was cancelled.
-  bool remove(std::string_view scene, const Undertaking& undertaking = {});
+  bool remove(std::string_view scene, const ChangeTicket& ticket = {});
 
   /// Replaces the listener, which is called after each change, on the thread that made the change
   /// and never on two threads at a time. It must not change scenes. When this returns, the old
@@ -116,12 +116,12 @@ class SceneStore {
   using Scenes = std::map<std::string, Entry, std::less<>>;
 
   /// Lock on changes of the scene of that name, which need not exist. Held while this object lives.
-  class Turn {
+  class ChangeLock {
    public:
-    Turn(SceneStore& store, std::string_view scene);
-    ~Turn();
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    ChangeLock(SceneStore& store, std::string_view scene);
+    ~ChangeLock();
+    ChangeLock(const ChangeLock&) = delete;
+    ChangeLock& operator=(const ChangeLock&) = delete;
 
    private:
     SceneStore& store_;
@@ -130,12 +130,13 @@ class SceneStore {
 
   static Load load_of(const Snapshot& snapshot);
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
-  /// Requires that the caller holds the scene's `Turn` and that `before` is its newest snapshot.
+  /// Requires that the caller holds the scene's `ChangeLock` and that `before` is its newest
+  /// snapshot.
   StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
-                        const Undertaking& undertaking);
+                        const ChangeTicket& ticket);
 
-  /// The lowest revision that the next scene of that name may have. Stays valid while its `Turn` is
-  /// held.
+  /// The lowest revision that the next scene of that name may have. Stays valid while its
+  /// `ChangeLock` is held.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
   /// The fault of putting `next` in the place of the scene of its name; without an error if there
@@ -153,7 +154,7 @@ class SceneStore {
   std::function<void()> listener_;  ///< guarded by telling_
   mutable std::mutex mutex_;        ///< guards all below; held for short times only
   std::condition_variable turn_ended_;
-  std::set<std::string, std::less<>> changing_;  ///< scenes whose `Turn` is held
+  std::set<std::string, std::less<>> changing_;  ///< scenes whose `ChangeLock` is held
   Scenes scenes_;
   Load total_;                         ///< sum over `scenes_`
   std::uint64_t highest_removed_ = 0;  ///< highest revision of removed scenes

@@ -213,7 +213,7 @@ ShapeMesh cloud_mesh(std::span<const Vec3> points, double cell_m) {
     }
     cells.insert(*cell);
   }
-  std::optional<Mesh> mesh = skin_of(cells, cell_m, kMaxShapeTriangles);
+  std::optional<Mesh> mesh = faces_of(cells, cell_m, kMaxShapeTriangles);
   if (!mesh) {
     return {std::nullopt, "cell_m: the points need more than " +
                               std::to_string(kMaxShapeTriangles) + " triangles"};

@@ -22,7 +22,7 @@ inline constexpr double kMostScanVoxels = 5e7;
 /// misses; a voxel that is both is a hit. A ray longer than the sensor's range makes misses within
 /// the range only. Voxels of blocks that were never scanned begin with the clamping probability of
 /// their state if it is known, else with even odds. Both maps share what the scan does not change.
-/// The cost depends on the voxels that rays pass and on the faces that change (`VoxelSkin`).
+/// The cost depends on the voxels that rays pass and on the faces that change (`VoxelFaces`).
 ///
 /// Fails if a point or the origin is not finite or beyond OctoMap's keys, if a ray is too long for
 /// OctoMap, or if the rays pass through more than `most_voxels` voxels.

@@ -22,10 +22,10 @@ using Bits = VoxelSet::Bits;
 constexpr std::uint64_t kLowestX = 0x0101'0101'0101'0101;
 constexpr std::uint64_t kHighestX = 0x8080'8080'8080'8080;
 
-constexpr std::int32_t kBrickVoxels = BlockKey::kBlockSize << VoxelSkin::kBrickLevels;
+constexpr std::int32_t kBrickVoxels = BlockKey::kBlockSize << VoxelFaces::kBrickLevels;
 
 std::uint64_t brick_of(std::uint64_t block) {
-  return BlockKey::first_of_cube(block, VoxelSkin::kBrickLevels);
+  return BlockKey::first_of_cube(block, VoxelFaces::kBrickLevels);
 }
 
 /// The block beside the block that begins at `low`.
@@ -175,7 +175,7 @@ class FaceBuilder {
 
 Mesh mesh_of_brick(const VoxelSet& set, double voxel_m, std::uint64_t brick) {
   FaceBuilder builder(set, voxel_m, BrickCorners(BlockKey::low_of(brick)));
-  constexpr unsigned kSide = 1U << VoxelSkin::kBrickLevels;
+  constexpr unsigned kSide = 1U << VoxelFaces::kBrickLevels;
   for (unsigned z = 0; z < kSide; ++z) {
     for (unsigned y = 0; y < kSide; ++y) {
       for (unsigned x = 0; x < kSide; ++x) {
@@ -229,7 +229,7 @@ bool are_equal(const Mesh& a, const Mesh& b) {
 
 }  // namespace
 
-std::optional<Mesh> skin_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles) {
+std::optional<Mesh> faces_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles) {
   FaceBuilder builder(set, voxel_m, HashedCorners());
   for (const std::uint64_t key : set.sorted_keys()) {
     builder.add_block(key);
@@ -238,8 +238,8 @@ std::optional<Mesh> skin_of(const VoxelSet& set, double voxel_m, std::size_t max
   return builder.take();
 }
 
-std::optional<VoxelSkin> VoxelSkin::of(const VoxelSet& set, double voxel_m,
-                                       std::size_t max_triangles) {
+std::optional<VoxelFaces> VoxelFaces::of(const VoxelSet& set, double voxel_m,
+                                         std::size_t max_triangles) {
   std::vector<std::uint64_t> bricks = set.sorted_keys();
   for (std::uint64_t& key : bricks) key = brick_of(key);
   std::ranges::sort(bricks);
@@ -247,23 +247,23 @@ std::optional<VoxelSkin> VoxelSkin::of(const VoxelSet& set, double voxel_m,
   bricks.erase(rest.begin(), rest.end());
   std::optional<std::vector<MeshPart>> parts = parts_of(set, voxel_m, bricks, max_triangles);
   if (!parts) return std::nullopt;
-  VoxelSkin skin;
-  skin.parts_ = *std::move(parts);
-  return skin;
+  VoxelFaces made_faces;
+  made_faces.parts_ = *std::move(parts);
+  return made_faces;
 }
 
-std::optional<VoxelSkin> VoxelSkin::updated(const VoxelSet& before, const VoxelSet& after,
-                                            double voxel_m, std::size_t max_triangles) const {
+std::optional<VoxelFaces> VoxelFaces::updated(const VoxelSet& before, const VoxelSet& after,
+                                              double voxel_m, std::size_t max_triangles) const {
   const std::set<std::uint64_t> touched = bricks_touched(before, after);
   const std::vector<std::uint64_t> bricks(touched.begin(), touched.end());
   std::optional<std::vector<MeshPart>> made = parts_of(after, voxel_m, bricks, max_triangles);
   if (!made) return std::nullopt;
-  VoxelSkin skin;
-  skin.parts_.reserve(parts_.size() + made->size());
+  VoxelFaces made_faces;
+  made_faces.parts_.reserve(parts_.size() + made->size());
   std::size_t triangles = 0;
   auto fresh = made->begin();
   const auto take = [&](const MeshPart& part) {
-    skin.parts_.push_back(part);
+    made_faces.parts_.push_back(part);
     triangles += part.mesh->triangles.size();
   };
   for (const MeshPart& old : parts_) {
@@ -275,7 +275,7 @@ std::optional<VoxelSkin> VoxelSkin::updated(const VoxelSet& before, const VoxelS
   }
   for (; fresh != made->end(); ++fresh) take(*fresh);
   if (triangles > max_triangles) return std::nullopt;
-  return skin;
+  return made_faces;
 }
 
 }  // namespace camway::scene

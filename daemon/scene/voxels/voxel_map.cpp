@@ -95,7 +95,7 @@ VoxelMapResult VoxelMap::build(double resolution_m, VoxelSet occupied, VoxelSet 
     return {nullptr, std::move(fault), Limit::kMapVoxels};
   }
   map->fill_beyond(VoxelSet::kNoVoxels);
-  map->skin_ = VoxelSkin::of(map->solid(), resolution_m, limits.triangles);
+  map->faces_ = VoxelFaces::of(map->solid(), resolution_m, limits.triangles);
   return {std::move(map), ""};
 }
 
@@ -116,8 +116,8 @@ VoxelMapResult VoxelMap::with(std::span<const ScannedBlock> blocks) const {
     for (const ScannedBlock& block : blocks) next->fill(block.key);
     next->fill_beyond(box());
   }
-  next->skin_ = skin_ ? skin_->updated(solid(), next->solid(), resolution_m_, limits_.triangles)
-                      : VoxelSkin::of(next->solid(), resolution_m_, limits_.triangles);
+  next->faces_ = faces_ ? faces_->updated(solid(), next->solid(), resolution_m_, limits_.triangles)
+                        : VoxelFaces::of(next->solid(), resolution_m_, limits_.triangles);
   return {std::move(next), ""};
 }
 

@@ -69,7 +69,7 @@ struct ScannedBlock {
 class VoxelMap {
  public:
   /// Builds a map; a voxel in both sets is occupied. Fails if the resolution is invalid or there
-  /// are too many voxels. Too many triangles are no failure: then `skin` is empty. Requires voxels
+  /// are too many voxels. Too many triangles are no failure: then `faces` is empty. Requires voxels
   /// within the limits of `VoxelGrid` and a sensor without `fault_in`.
   static VoxelMapResult build(double resolution_m, VoxelSet occupied, VoxelSet free,
                               UnknownSpace unknown, const VoxelMapLimits& limits = {},
@@ -101,7 +101,7 @@ class VoxelMap {
   [[nodiscard]] std::uint64_t memory_bytes_beside(const VoxelMap& other) const;
 
   /// The faces of the solid in the frame of the map; nothing if they exceed the limit of triangles.
-  [[nodiscard]] const std::optional<VoxelSkin>& skin() const { return skin_; }
+  [[nodiscard]] const std::optional<VoxelFaces>& faces() const { return faces_; }
 
   /// Whether a point of the solid is, or may be, within `error_m` of `point_O` on every axis. True
   /// for a point that is not finite.
@@ -126,7 +126,7 @@ class VoxelMap {
   VoxelMapLimits limits_;
   SensorModel sensor_;
   BlockMap<std::shared_ptr<const Beliefs>> beliefs_;
-  std::optional<VoxelSkin> skin_;
+  std::optional<VoxelFaces> faces_;
 };
 
 /// A map, or the reason why there is none.

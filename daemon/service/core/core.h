@@ -27,7 +27,7 @@ namespace camway::service {
 
 /// `planning::plan`, or a substitute in tests. Called on several threads at a time.
 using Planner = std::function<planning::PlanResult(
-    const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&)>;
+    const scene::Snapshot&, const planning::PlanRequest&, const base::Deadline&)>;
 
 /// Returns the time in microseconds since 1970.
 std::int64_t utime_now();

@@ -74,7 +74,7 @@ std::string list_fault(std::string_view name, const std::vector<Numbers>& list, 
 /// answered.
 template <class Answer, class Ask>
 std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer>& answers,
-                         const collision::Deadline& deadline, const Ask& ask) {
+                         const base::Deadline& deadline, const Ask& ask) {
   answers.reserve(queries.size());
   for (const Numbers& query : queries) {
     if (deadline.passed()) break;
@@ -87,7 +87,7 @@ std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer
 double wire_distance(const std::optional<double>& distance_m) { return distance_m.value_or(-1.0); }
 
 void answer_on(const scene::OccupancyMirror& map, const occupancy_request_t& request,
-               const collision::Deadline& deadline, occupancy_response_t& answer) {
+               const base::Deadline& deadline, occupancy_response_t& answer) {
   const auto at = [&](const auto& queries, auto& answers, const auto& ask) {
     return answer_list(queries, answers, deadline, ask);
   };
@@ -128,7 +128,7 @@ std::string batch_fault(const occupancy_request_t& request) {
 
 occupancy_response_t answer_batch(const scene::Snapshot& snapshot,
                                   const occupancy_request_t& request,
-                                  const collision::Deadline& deadline) {
+                                  const base::Deadline& deadline) {
   const auto refused = [&](std::int32_t status, std::string_view message) {
     occupancy_response_t answer = plain_occupancy_answer(request, status, message);
     answer.scene_revision = static_cast<std::int64_t>(snapshot.revision);

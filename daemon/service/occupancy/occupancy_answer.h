@@ -21,7 +21,7 @@ std::string batch_fault(const occupancy_request_t& request);
 /// further query, and answers that it struck. A pure function otherwise.
 occupancy_response_t answer_batch(const scene::Snapshot& snapshot,
                                   const occupancy_request_t& request,
-                                  const collision::Deadline& deadline);
+                                  const base::Deadline& deadline);
 
 /// Returns the number of queries of all kinds in a batch, or in an answer.
 template <class Message>

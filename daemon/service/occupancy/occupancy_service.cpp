@@ -18,7 +18,7 @@ using Response = occupancy_response_t;
 
 /// Returns the answer of the map. Does not throw.
 Response answer_of(const scene::Snapshot& snapshot, const occupancy_request_t& request,
-                   const collision::Deadline& deadline) {
+                   const base::Deadline& deadline) {
   try {
     return answer_batch(snapshot, request, deadline);
   } catch (const std::exception& exception) {
@@ -134,7 +134,7 @@ void OccupancyService::begin(const Request& request,
   const std::stop_source stop;
   flights_.insert_or_assign(key_of(*request), Flight{request, stop});
   const double deadline_s = deadline_of(request->deadline_s, deadline_);
-  const auto deadline = collision::Deadline::after_s(deadline_s).watched(stop.get_token(), nullptr);
+  const auto deadline = base::Deadline::after_s(deadline_s).watched(stop.get_token(), nullptr);
   Job work;
   work.client = request->client_id;
   work.expires = Job::Clock::now() + std::chrono::duration_cast<Job::Clock::duration>(

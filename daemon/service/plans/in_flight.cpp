@@ -8,17 +8,17 @@
 namespace camway::service {
 namespace {
 
-std::int8_t wire_stage(collision::Progress::Stage stage) {
+std::int8_t wire_stage(base::Progress::Stage stage) {
   switch (stage) {
-    case collision::Progress::Stage::kWaiting:
+    case base::Progress::Stage::kWaiting:
       return plan_progress_t::WAITING;
-    case collision::Progress::Stage::kPreparing:
+    case base::Progress::Stage::kPreparing:
       return plan_progress_t::PREPARING;
-    case collision::Progress::Stage::kDetecting:
+    case base::Progress::Stage::kDetecting:
       return plan_progress_t::DETECTING;
-    case collision::Progress::Stage::kCorrecting:
+    case base::Progress::Stage::kCorrecting:
       return plan_progress_t::CORRECTING;
-    case collision::Progress::Stage::kCertifying:
+    case base::Progress::Stage::kCertifying:
       return plan_progress_t::CERTIFYING;
   }
   return plan_progress_t::WAITING;
@@ -29,11 +29,10 @@ constexpr double kLongestPeriod_s = 1e6;
 
 }  // namespace
 
-collision::Deadline InFlight::begin(const RequestKey& key, double deadline_s,
-                                    double progress_period_s) {
+base::Deadline InFlight::begin(const RequestKey& key, double deadline_s, double progress_period_s) {
   const std::stop_source stop;
-  auto progress = std::make_shared<collision::Progress>();
-  Flight flight{collision::Deadline::after_s(deadline_s).watched(stop.get_token(), progress),
+  auto progress = std::make_shared<base::Progress>();
+  Flight flight{base::Deadline::after_s(deadline_s).watched(stop.get_token(), progress),
                 deadline_s,
                 stop,
                 progress,

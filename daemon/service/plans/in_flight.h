@@ -30,7 +30,7 @@ class InFlight {
   /// Adds a request. Returns its deadline, `deadline_s` from now, which `cancel` ends and to which
   /// planning reports its progress. `progress_period_s` is the period of progress reports; none if
   /// it is not above 0.
-  collision::Deadline begin(const RequestKey& key, double deadline_s, double progress_period_s);
+  base::Deadline begin(const RequestKey& key, double deadline_s, double progress_period_s);
 
   /// Tells planning to stop. Returns false if no such request is in flight.
   bool cancel(const RequestKey& key);
@@ -45,10 +45,10 @@ class InFlight {
 
  private:
   struct Flight {
-    collision::Deadline deadline;
+    base::Deadline deadline;
     double deadline_s;
     std::stop_source stop;
-    std::shared_ptr<collision::Progress> progress;
+    std::shared_ptr<base::Progress> progress;
     Clock::duration period;
     std::optional<Clock::time_point> due;
   };

@@ -47,7 +47,7 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
 
 plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                           const plan_request_t& wire, const DeadlineLimits& limits,
-                          const collision::Deadline& deadline) {
+                          const base::Deadline& deadline) {
   std::string error;
   try {
     const ConvertedRequest converted = from_wire(wire, limits);

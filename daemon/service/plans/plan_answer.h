@@ -24,7 +24,7 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
 /// error.
 plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                           const plan_request_t& wire, const DeadlineLimits& limits,
-                          const collision::Deadline& deadline);
+                          const base::Deadline& deadline);
 
 /// Returns the path of an answer for watching; null unless the request asks for that and the answer
 /// proves a path.

@@ -61,14 +61,14 @@ struct PlanService::Pending {
   std::shared_ptr<const scene::Snapshot> snapshot;
   std::size_t bytes;  ///< size of the request
   double deadline_s;
-  collision::Deadline deadline;
+  base::Deadline deadline;
 };
 
 /// A watched path that collides, or for which there may be a better one, and is planned again.
 struct PlanService::Replan {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
-  collision::Deadline deadline;
+  base::Deadline deadline;
   bool for_offer;
 };
 
@@ -339,8 +339,7 @@ void PlanService::plan_improvable(Clock::time_point now) {
 
 void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
   const double deadline_s = deadline_of(watched.request->deadline_s, config_.deadline);
-  const Replan replan{watched.key, watched.request, collision::Deadline::after_s(deadline_s),
-                      for_offer};
+  const Replan replan{watched.key, watched.request, base::Deadline::after_s(deadline_s), for_offer};
   Job job;
   job.run = [this, replan] { run_again(replan); };
   job.abandon = [this, replan](Refusal) { give_up(replan); };

@@ -181,7 +181,7 @@ void FairQueue::charge(Client& client, double charge_s, bool of_newcomer) {
   if (of_newcomer) newcomers_s_ += charge_s / static_cast<double>(limits_.newcomers_count_as);
 }
 
-std::optional<FairQueue::Clients::iterator> FairQueue::crowd() {
+std::optional<FairQueue::Clients::iterator> FairQueue::largest_newcomer() {
   std::size_t jobs = 0;
   Clients::iterator longest = clients_.end();
   for (const Turn& turn : newcomers_) {
@@ -207,7 +207,7 @@ std::optional<FairQueue::Victim> FairQueue::victim_for(Clients::iterator client,
         });
     if (longest->second.waiting.size() > own.size() + 1) return Victim{why, longest};
     if (!client->second.is_newcomer) {
-      if (const auto newcomer = crowd()) return Victim{why, *newcomer};
+      if (const auto newcomer = largest_newcomer()) return Victim{why, *newcomer};
     }
   }
   if (!own.empty() && std::prev(own.end())->second.job.priority < priority) {

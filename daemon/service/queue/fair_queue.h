@@ -147,7 +147,7 @@ class FairQueue {
   };
   std::optional<Victim> victim_for(Clients::iterator client, Priority priority);
   /// Returns the newcomer with most jobs, if newcomers have more than half of the places.
-  std::optional<Clients::iterator> crowd();
+  std::optional<Clients::iterator> largest_newcomer();
   Job take(Clients::iterator client, std::map<Place, Waiting>::iterator position);
   void unlink(Clients::iterator client);
   void link(Clients::iterator client);

@@ -133,7 +133,7 @@ Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
     const RootedFile rooted = context.rules.roots.resolve(request.file);
     if (!rooted.error.empty()) return {std::nullopt, rooted.error};
     return imported(rooted.file, wire::printable(request.file), *options.value,
-                    context.undertaking.stop());
+                    context.ticket.stop());
   }
   if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
   if (!is_extension(request.upload_format)) {
@@ -142,7 +142,7 @@ Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
   const UploadFile file(*upload, request.upload_format);
   if (!file.is_good()) return {std::nullopt, "upload: the daemon has no room for the file"};
   return imported(file.path(), "upload." + request.upload_format, *options.value,
-                  context.undertaking.stop());
+                  context.ticket.stop());
 }
 
 Made<std::vector<Vec3>> read_points(const UploadedBytes& upload) {
@@ -179,7 +179,7 @@ std::optional<scene::ObjectKind> kind_of(const Request& request) {
 }
 
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
-  if (!map->skin()) {
+  if (!map->faces()) {
     return {std::nullopt,
             fmt::format("the map has more than {} triangles", map->limits().triangles),
             scene::Limit::kMapTriangles};

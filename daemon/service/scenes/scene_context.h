@@ -17,7 +17,7 @@ struct SceneContext {
   std::mutex& writing;
   /// Cancelling it prevents any further change, and ends the reading of files and the building of
   /// mirrors.
-  scene::Undertaking undertaking;
+  scene::ChangeTicket ticket;
 };
 
 }  // namespace camway::service

@@ -40,10 +40,10 @@ scene_request_t request_of(const RequestKey& key) {
 }
 
 /// Returns the answer. Does not throw.
-Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
+SceneReply reply_to(const scene_request_t& request, const UploadedBytes& upload,
                     const SceneContext& context) {
   try {
-    return perform(request, upload, context);
+    return execute(request, upload, context);
   } catch (const std::exception& exception) {
     return {plain_scene_answer(request, scene_response_t::STATUS_INTERNAL_ERROR,
                                std::string("internal error: ") + exception.what()),
@@ -109,7 +109,7 @@ void SceneService::on_request(std::span<const std::uint8_t> message) {
   if (const std::string idle = idle_member(*request); !idle.empty()) {
     send(plain_scene_answer(*request, scene_response_t::STATUS_INVALID, idle));
   } else if (only_looks(*request)) {
-    finish(*request, answer_of(*request, nullptr, context({})).answer);
+    finish(*request, reply_to(*request, nullptr, context({})).answer);
   } else if (!(request->deadline_s >= 0.0)) {
     send(plain_scene_answer(
         *request, scene_response_t::STATUS_INVALID,
@@ -156,8 +156,8 @@ void SceneService::begin(const Request& request) {
   work.client = request->client_id;
   work.id = request->request_id;
   work.strand = target_of(*request);
-  work.run = [this, request, upload, undertaking = pending.undertaking] {
-    auto done = std::make_shared<Performed>(answer_of(*request, upload, context(undertaking)));
+  work.run = [this, request, upload, ticket = pending.ticket] {
+    auto done = std::make_shared<SceneReply>(reply_to(*request, upload, context(ticket)));
     Pages map;
     if (!done->map.empty()) map = map_pages(key_of(*request), done->map);
     core_.mailbox.post([this, request, done, map] { take_done(request, std::move(*done), map); });
@@ -168,7 +168,7 @@ void SceneService::begin(const Request& request) {
   }
 }
 
-void SceneService::take_done(const Request& request, Performed done, const Pages& map) {
+void SceneService::take_done(const Request& request, SceneReply done, const Pages& map) {
   left_behind_.erase(request);
   const RequestKey key = key_of(*request);
   const auto pending = unanswered_.find(key);
@@ -189,7 +189,7 @@ void SceneService::on_cancel(std::span<const std::uint8_t> message) {
   const RequestKey key{cancel->client_id, cancel->request_id};
   if (const auto found = unanswered_.find(key); found != unanswered_.end()) {
     const Pending pending = found->second;
-    if (!call_off(pending)) return;  // its answer is on the way
+    if (!cancel_pending(pending)) return;  // its answer is on the way
     finish(*pending.request,
            plain_scene_answer(*pending.request, scene_response_t::STATUS_CANCELLED,
                               "cancelled by its client; nothing was changed"));
@@ -201,8 +201,8 @@ void SceneService::on_cancel(std::span<const std::uint8_t> message) {
   }
 }
 
-bool SceneService::call_off(const Pending& pending) {
-  if (!pending.undertaking.call_off()) return false;
+bool SceneService::cancel_pending(const Pending& pending) {
+  if (!pending.ticket.cancel()) return false;
   const RequestKey key = key_of(*pending.request);
   if (!workers_.take(key.client_id, key.request_id)) left_behind_.insert(pending.request);
   return true;
@@ -212,7 +212,7 @@ void SceneService::tick(Clock::time_point now) {
   while (!deadlines_.empty() && deadlines_.begin()->first <= now) {
     const Pending pending = unanswered_.at(deadlines_.begin()->second);
     deadlines_.erase(deadlines_.begin());
-    if (!call_off(pending)) continue;  // committed, and its answer is on the way
+    if (!cancel_pending(pending)) continue;  // committed, and its answer is on the way
     finish(*pending.request,
            plain_scene_answer(*pending.request, scene_response_t::STATUS_TIMEOUT,
                               "the deadline passed before the change was in force, and nothing was "
@@ -334,8 +334,8 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
   if (!which.empty()) core_.outbox.add(channel, pages, {which.begin(), which.end()});
 }
 
-SceneContext SceneService::context(const scene::Undertaking& undertaking) {
-  return {config_.scene_rules, scenes_, writing_, undertaking};
+SceneContext SceneService::context(const scene::ChangeTicket& ticket) {
+  return {config_.scene_rules, scenes_, writing_, ticket};
 }
 
 void SceneService::close() {
@@ -343,7 +343,7 @@ void SceneService::close() {
   std::vector<Pending> begun;
   for (const auto& [key, pending] : unanswered_) begun.push_back(pending);
   for (const Pending& pending : begun) {
-    if (call_off(pending)) refuse(*pending.request, Refusal::kStopping);
+    if (cancel_pending(pending)) refuse(*pending.request, Refusal::kStopping);
   }
 }
 
@@ -357,7 +357,7 @@ void SceneService::give_up() {
 }
 
 void SceneService::stop() {
-  for (const auto& [key, pending] : unanswered_) pending.undertaking.call_off();
+  for (const auto& [key, pending] : unanswered_) pending.ticket.cancel();
   workers_.stop();
 }
 

@@ -73,7 +73,7 @@ class SceneService {
   /// A change that is not answered yet.
   struct Pending {
     Request request;
-    scene::Undertaking undertaking;
+    scene::ChangeTicket ticket;
     Clock::time_point deadline;
   };
 
@@ -85,15 +85,15 @@ class SceneService {
   void take_change(const Request& request);
   void begin(const Request& request);
   /// Handles the result of a worker.
-  void take_done(const Request& request, Performed done, const Pages& map);
+  void take_done(const Request& request, SceneReply done, const Pages& map);
   /// Cancels a change, wherever it is. Returns false if it is committed already.
-  bool call_off(const Pending& pending);
+  bool cancel_pending(const Pending& pending);
   void finish(const scene_request_t& request, scene_response_t answer);
   void refuse(const scene_request_t& request, Refusal why);
   /// Forgets a change that is answered.
   void forget(const RequestKey& key);
   Pages send(scene_response_t answer);
-  [[nodiscard]] SceneContext context(const scene::Undertaking& undertaking);
+  [[nodiscard]] SceneContext context(const scene::ChangeTicket& ticket);
 
   Core& core_;
   scene::SceneStore& scenes_;

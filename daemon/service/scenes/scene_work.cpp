@@ -53,7 +53,7 @@ std::int32_t status_of(scene::StoreFault fault) {
       return Answer::STATUS_INVALID;
     case scene::StoreFault::kLimit:
       return Answer::STATUS_LIMIT;
-    case scene::StoreFault::kCalledOff:
+    case scene::StoreFault::kCancelled:
       return Answer::STATUS_CANCELLED;
   }
   return Answer::STATUS_INTERNAL_ERROR;
@@ -69,9 +69,9 @@ std::string warnings_of(const scene::ImportReport& report) {
 }
 
 /// Carries out one request.
-class Work {
+class SceneOperation {
  public:
-  Work(const Request& request, const UploadedBytes& upload, const SceneContext& context)
+  SceneOperation(const Request& request, const UploadedBytes& upload, const SceneContext& context)
       : request_(request),
         upload_(upload),
         context_(context),
@@ -162,25 +162,25 @@ class Work {
           !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
         return invalid(std::string("occupancy_resolution_m: ") + kResolutionRule);
       }
-      return answer_to(scenes_.put(scene::assemble(request_.scene, 1, {}, options), note(""),
-                                   context_.undertaking),
-                       "");
+      return answer_to(
+          scenes_.put(scene::assemble(request_.scene, 1, {}, options), note(""), context_.ticket),
+          "");
     }
     Made<Content> made = read_mesh(request_, upload_, context_);
     if (!made.value) return refused(made.error, made.limit);
     const std::string warnings = warnings_of(made.value->report);
     scene::ObjectResult placed =
         scene::place_object(request_.scene, source_of(*std::move(made.value), options), {}, options,
-                            nullptr, context_.undertaking.stop());
+                            nullptr, context_.ticket.stop());
     if (!placed.object) return refused(placed.error, placed.limit);
     return answer_to(
         scenes_.put(scene::assemble(request_.scene, 1, {std::move(placed.object)}, options),
-                    note(""), context_.undertaking),
+                    note(""), context_.ticket),
         warnings);
   }
 
   Answer unload() {
-    if (!scenes_.remove(request_.scene, context_.undertaking)) return unknown();
+    if (!scenes_.remove(request_.scene, context_.ticket)) return unknown();
     return plain_scene_answer(request_, Answer::STATUS_OK, "");
   }
 
@@ -223,14 +223,13 @@ class Work {
   Answer restore() {
     const auto revision = static_cast<std::uint64_t>(std::max<std::int64_t>(request_.revision, 0));
     if (request_.restore_as.empty() || request_.restore_as == request_.scene) {
-      return answer_to(scenes_.restore(request_.scene, revision, note(""), context_.undertaking),
-                       "");
+      return answer_to(scenes_.restore(request_.scene, revision, note(""), context_.ticket), "");
     }
     if (!is_scene_name(request_.restore_as)) {
       return invalid("restore_as: must be of [A-Za-z0-9_.-]{1,128}");
     }
     return answer_to(scenes_.restore_as(request_.scene, revision, request_.restore_as, note(""),
-                                        context_.undertaking),
+                                        context_.ticket),
                      "");
   }
 
@@ -302,7 +301,7 @@ class Work {
       return answer;
     }
     const std::lock_guard writing(context_.writing);
-    if (!context_.undertaking.come_into_force()) {
+    if (!context_.ticket.try_commit()) {
       return plain_scene_answer(request_, Answer::STATUS_CANCELLED, "it was called off");
     }
     const std::string fault = rules_.roots.write(request_.file, ".bt", bytes);
@@ -312,8 +311,7 @@ class Work {
   Answer change(SceneChange change, std::string_view message) {
     const std::string object = change.object;
     return answer_to(
-        scenes_.change(request_.scene, std::move(change), note(object), context_.undertaking),
-        message);
+        scenes_.change(request_.scene, std::move(change), note(object), context_.ticket), message);
   }
 
   const Request& request_;
@@ -377,11 +375,11 @@ const char* operation_name(const scene_request_t& request) {
   }
 }
 
-Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneContext& context) {
-  Work work(request, upload, context);
-  Answer answer = work.run();
-  return {std::move(answer), work.take_map()};
+SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
+                   const SceneContext& context) {
+  SceneOperation operation(request, upload, context);
+  Answer answer = operation.run();
+  return {std::move(answer), operation.take_map()};
 }
 
 }  // namespace camway::service

@@ -28,7 +28,7 @@ const std::string& target_of(const scene_request_t& request);
 const char* operation_name(const scene_request_t& request);
 
 /// Result of a request.
-struct Performed {
+struct SceneReply {
   scene_response_t answer;
   std::vector<std::uint8_t> map;  ///< exported map, if it goes to the client
 };
@@ -38,7 +38,7 @@ struct Performed {
 /// fails; its message is discarded. May take as long as the import of a file. Thread-safe, but the
 /// changes of one scene must be made one after the other, or a change that is made in between may
 /// be lost.
-Performed perform(const scene_request_t& request, const UploadedBytes& upload,
-                  const SceneContext& context);
+SceneReply execute(const scene_request_t& request, const UploadedBytes& upload,
+                   const SceneContext& context);
 
 }  // namespace camway::service

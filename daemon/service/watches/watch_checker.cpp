@@ -7,7 +7,7 @@
 namespace camway::service {
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 
 /// A path whose check takes longer counts as colliding, so that it does not delay all others.
 constexpr double kCheckBudget_s = 1.0;

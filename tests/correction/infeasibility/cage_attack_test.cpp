@@ -70,7 +70,7 @@ class Attack {
     options.interpolated = {from, to};
     options.seed = random_();
     return !tree_way(space_, motion::signed_pose(from), motion::signed_pose(to), options,
-                     collision::Deadline::never())
+                     base::Deadline::never())
                 .empty();
   }
 

@@ -16,8 +16,8 @@
 namespace camway::correction {
 namespace {
 
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
 using motion::CubicPath;

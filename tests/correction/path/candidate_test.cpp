@@ -11,8 +11,8 @@ namespace camway::correction {
 namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using motion::BumpRow;
 using motion::CubicPath;
 using motion::CubicPoint;
@@ -212,16 +212,16 @@ TEST(Attempt, OthersMayStayAndMustNotGrow) {
   // The bump stands over the plate at z = 1 and hardly reaches the other.
   const BumpRow row{{2.4, 3.6, 4}, 2, {{Vec3(0.6, 0, 0), Vec4::Zero()}}};
   EXPECT_FALSE(attempt(problem, {row}, space, Deadline::never()).candidate);
-  problem.others = {(*found)[0]};
+  problem.foreign_collisions = {(*found)[0]};
   const Attempt tried = attempt(problem, {row}, space, Deadline::never());
   ASSERT_TRUE(tried.candidate);
   EXPECT_GT(least_distance_m(scene, tried.candidate->path, (*found)[0].t_end_s, row.end_s()), 0.0);
   // As if the other had been found a little shorter than it is.
-  problem.others[0].t_end_s -= 0.02;
+  problem.foreign_collisions[0].t_end_s -= 0.02;
   const Attempt grown = attempt(problem, {row}, space, Deadline::never());
   EXPECT_FALSE(grown.candidate);
   ASSERT_TRUE(grown.collision);
-  EXPECT_NEAR(grown.collision->t_begin_s, problem.others[0].t_end_s, 1e-9);
+  EXPECT_NEAR(grown.collision->t_begin_s, problem.foreign_collisions[0].t_end_s, 1e-9);
 }
 
 // As where all bumps of a row came out as nothing: nothing is corrected then.
@@ -258,14 +258,15 @@ TEST(FirstNewCollision, IsTheFirstOfThemAll) {
   ASSERT_TRUE(all);
   ASSERT_EQ(all->size(), 3U);
   for (std::size_t known = 0; known <= 3; ++known) {
-    problem.others.assign(all->begin(), all->begin() + static_cast<std::ptrdiff_t>(known));
+    problem.foreign_collisions.assign(all->begin(),
+                                      all->begin() + static_cast<std::ptrdiff_t>(known));
     const auto found =
         first_new_collision(problem.path, 0.0, 6.0, problem, space, Deadline::never());
     ASSERT_EQ(found.has_value(), known < 3);
     if (known == 3) continue;
     EXPECT_NEAR(found->t_begin_s, (*all)[known].t_begin_s, 2e-3);
   }
-  problem.others.clear();
+  problem.foreign_collisions.clear();
   // Between the plates nothing is found.
   EXPECT_FALSE(first_new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem,
                                    space, Deadline::never()));

@@ -11,7 +11,7 @@ namespace camway::correction {
 namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
-using collision::Deadline;
+using base::Deadline;
 using geometry::Bounds;
 
 constexpr double kBall_m = 0.02;

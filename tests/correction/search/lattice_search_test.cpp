@@ -12,7 +12,7 @@ namespace camway::correction {
 namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
-using collision::Deadline;
+using base::Deadline;
 using Cell = std::array<int, 3>;
 
 // Of the ball's radius: more than distances of a few metres are rounded by.
@@ -262,7 +262,7 @@ TEST(LatticeWay, KeepsToAWayWhereThatCostsLittle) {
   }
 }
 
-// Being astray makes a step cost at most 15 % more, so a way that is much shorter is taken.
+// Being far makes a step cost at most 15 % more, so a way that is much shorter is taken.
 TEST(LatticeWay, DoesNotGoFarForKeepingToAWay) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-0.2, -0.2, -3.0}, {0.2, 4.0, 3.0});

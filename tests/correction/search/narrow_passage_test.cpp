@@ -9,7 +9,7 @@ namespace camway::correction {
 namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
-using collision::Deadline;
+using base::Deadline;
 
 constexpr double kMargin_m = 0.002;
 constexpr double kShortSide_m = 0.3;

@@ -30,7 +30,7 @@ std::vector<Contact> contacts(Draw& draw, const std::vector<double>& rooms_m) {
 }
 
 /// How far beyond the plane the vertex is where the bound just holds.
-double room_at(const ForcedBound& bound, const Contact& contact, const StackedPoint& moved) {
+double room_at(const BoundConstraint& bound, const Contact& contact, const StackedPoint& moved) {
   return contact.row.room_m + bound.bound_m - bound.direction.dot(moved);
 }
 
@@ -43,17 +43,17 @@ TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
     std::vector<Contact> near = contacts(draw, {2.0, 0.01, -0.02});
     bounds.add(4, moved, kReply, near);
     ASSERT_EQ(bounds.bounds().size(), 5U);
-    for (const ForcedBound& bound : bounds.bounds()) EXPECT_EQ(bound.sample, 4U);
+    for (const BoundConstraint& bound : bounds.bounds()) EXPECT_EQ(bound.sample, 4U);
     const auto& all = bounds.bounds();
     EXPECT_NEAR(room_at(all[0], near[0], moved), bounds.wanted_m(), 1e-12);
-    EXPECT_EQ(all[0].softness, 0.0);
+    EXPECT_EQ(all[0].compliance, 0.0);
     for (const std::size_t i : {1U, 2U}) {
-      const ForcedBound& hard = all[2 * i - 1];
-      const ForcedBound& soft = all[2 * i];
-      EXPECT_EQ(hard.softness, 0.0);
+      const BoundConstraint& hard = all[2 * i - 1];
+      const BoundConstraint& soft = all[2 * i];
+      EXPECT_EQ(hard.compliance, 0.0);
       EXPECT_LE(room_at(hard, near[i], moved), std::max(0.01, near[i].row.room_m));
       EXPECT_GE(room_at(hard, near[i], moved), near[i].row.room_m - 0.01);
-      EXPECT_GT(soft.softness, 0.0);
+      EXPECT_GT(soft.compliance, 0.0);
       EXPECT_NEAR(room_at(soft, near[i], moved), bounds.wanted_m(), 1e-12);
     }
   }
@@ -68,34 +68,34 @@ TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   // Hard only for what is near; less than the least there was where it is nearer than that.
   std::vector<Contact> near = contacts(draw, {1.2, 0.9, 1.1, 0.2, 0.03, 3.0});
   bounds.add(0, moved, kReply, near);
-  std::vector<ForcedBound> hard;
-  std::vector<ForcedBound> soft;
-  for (const ForcedBound& bound : bounds.bounds())
-    (bound.softness > 0.0 ? soft : hard).push_back(bound);
+  std::vector<BoundConstraint> hard;
+  std::vector<BoundConstraint> soft;
+  for (const BoundConstraint& bound : bounds.bounds())
+    (bound.compliance > 0.0 ? soft : hard).push_back(bound);
   ASSERT_EQ(hard.size(), 2U);
   EXPECT_NEAR(room_at(hard[0], near[3], moved), 0.05, 1e-12);
   EXPECT_NEAR(room_at(hard[1], near[4], moved), 0.03, 1e-12);
   ASSERT_EQ(soft.size(), 2U);
   EXPECT_NEAR(room_at(soft[0], near[1], moved), bounds.wanted_m(), 1e-12);
   EXPECT_NEAR(room_at(soft[1], near[4], moved), bounds.wanted_m(), 1e-12);
-  for (const ForcedBound& bound : soft) EXPECT_TRUE(bound.direction.tail<4>().isZero(0.0));
+  for (const BoundConstraint& bound : soft) EXPECT_TRUE(bound.direction.tail<4>().isZero(0.0));
   EXPECT_EQ(soft[0].direction.head<3>(), near[1].row.direction.head<3>());
 }
 
 // The weight of a gap does not depend on how much the path gives way: a stiff one moves less.
 TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
   Draw draw(6203);
-  const auto moved_m = [](double reply) {
+  const auto moved_m = [](double response) {
     ContactBounds bounds(Objective::kSafest, kRadius_m);
     StackedPoint along = StackedPoint::Zero();
     along[0] = 1.0;
     std::vector<Contact> near = {contact(along, 0.6, 0, 0)};
-    bounds.add(0, StackedPoint::Zero(), reply, near);
+    bounds.add(0, StackedPoint::Zero(), response, near);
     const StackedPoints unforced = StackedPoints::Zero(1, 7);
-    find_forces(bounds.bounds(), unforced, Eigen::MatrixXd::Constant(1, 1, reply), 1e-9);
+    solve_qp(bounds.bounds(), unforced, Eigen::MatrixXd::Constant(1, 1, response), 1e-9);
     bounds.remember();
-    EXPECT_EQ(near[0].soft_force, bounds.bounds()[0].force);
-    return reply * near[0].soft_force;
+    EXPECT_EQ(near[0].soft_multiplier, bounds.bounds()[0].multiplier);
+    return response * near[0].soft_multiplier;
   };
   EXPECT_LT(moved_m(0.01), 0.5 * moved_m(0.1));
   EXPECT_LT(moved_m(0.1), 0.5 * moved_m(1.0));
@@ -110,15 +110,15 @@ TEST(ContactBounds, RememberForcesForTheNextTime) {
   std::vector<Contact> near = contacts(draw, {0.01, 0.2});
   bounds.add(0, StackedPoint::Zero(), kReply, near);
   double force = 1.0;
-  for (ForcedBound& bound : bounds.bounds()) bound.force = force++;
+  for (BoundConstraint& bound : bounds.bounds()) bound.multiplier = force++;
   bounds.remember();
   EXPECT_EQ(near[0].hard_force, 1.0);
-  EXPECT_EQ(near[0].soft_force, 2.0);
+  EXPECT_EQ(near[0].soft_multiplier, 2.0);
   EXPECT_EQ(near[1].hard_force, 3.0);
   bounds.clear();
   EXPECT_TRUE(bounds.bounds().empty());
   bounds.add(0, StackedPoint::Zero(), kReply, near);
-  EXPECT_EQ(bounds.bounds()[1].force, 2.0);
+  EXPECT_EQ(bounds.bounds()[1].multiplier, 2.0);
 }
 
 }  // namespace

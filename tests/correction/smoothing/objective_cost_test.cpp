@@ -32,7 +32,7 @@ struct Case {
   [[nodiscard]] ObjectiveCost cost(Objective objective, const CubicPath& path,
                                    const CubicPath& original) const {
     FreeSpace space = this->space();
-    return objective_cost(objective, path, original, space, collision::Deadline::never());
+    return objective_cost(objective, path, original, space, base::Deadline::never());
   }
 };
 

@@ -16,7 +16,7 @@
 namespace camway::correction {
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
 using motion::CubicPath;
@@ -129,11 +129,12 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
     c.detect.clearance_m = draw.integer(0, 1) * 0.01;
     swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
     // What the swing leaves as it was may collide, and is not to be corrected.
-    c.problem.others = collision::detect_collisions(
-                           c.index, c.problem.path.path(), c.body, c.problem.path.begin_s(),
-                           c.problem.path.end_s(), c.detect, Deadline::never())
-                           .value();
-    std::erase_if(c.problem.others, [&](const collision::CollisionInterval& other) {
+    c.problem.foreign_collisions =
+        collision::detect_collisions(c.index, c.problem.path.path(), c.body,
+                                     c.problem.path.begin_s(), c.problem.path.end_s(), c.detect,
+                                     Deadline::never())
+            .value();
+    std::erase_if(c.problem.foreign_collisions, [&](const collision::CollisionInterval& other) {
       return other.t_end_s > c.problem.gap_begin_s() && other.t_begin_s < c.problem.gap_end_s();
     });
     const int count = 8 << draw.integer(0, 2);
@@ -151,11 +152,11 @@ void expect_free(const Case& c, const CubicPath& path) {
   constexpr int kTimes = 3000;
   for (int i = 0; i <= kTimes; ++i) {
     const double time_s = std::lerp(path.begin_s(), path.end_s(), static_cast<double>(i) / kTimes);
-    const bool is_others =
-        std::ranges::any_of(c.problem.others, [&](const collision::CollisionInterval& other) {
+    const bool in_foreign_collision = std::ranges::any_of(
+        c.problem.foreign_collisions, [&](const collision::CollisionInterval& other) {
           return other.t_begin_s <= time_s && time_s <= other.t_end_s;
         });
-    if (is_others) continue;
+    if (in_foreign_collision) continue;
     const motion::Pose pose = path.pose(time_s);
     ASSERT_FALSE(collision::collides(c.index, corners_C, pose)) << "at " << time_s;
     const auto gap_m =

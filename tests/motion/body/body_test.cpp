@@ -13,9 +13,9 @@ namespace camway::motion {
 namespace {
 
 using geometry::Triangle;
-using test::exact;
+using geometry::test::exact;
+using geometry::test::Rational;
 using test::Random;
-using test::Rational;
 using test::Vec3;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -41,10 +41,10 @@ TEST(MinNormPoint, IsOptimal) {
   for (int i = 0; i < 2000; ++i) {
     const std::vector<Vec4> points =
         random_orientations(random, random.integer(1, 60), random.log_uniform(1e-7, 1.5));
-    const Vec4 x = min_norm_point(points);
+    const Vec4 x = geometry::min_norm_point(points);
     double least = 2.0;
     for (const Vec4& p : points) least = std::min(least, x.dot(p));
-    EXPECT_LE(x.squaredNorm() - least, 2.0 * kMinNormGap) << "set " << i;
+    EXPECT_LE(x.squaredNorm() - least, 2.0 * geometry::kMinNormGap) << "set " << i;
   }
 }
 
@@ -60,7 +60,7 @@ TEST(MinNormPoint, IsNoLongerThanAnyPointOfTheHull) {
                                                     [&](const Vec4& p) { return slow.dot(p); });
       slow += 2.0 / (k + 2.0) * (lowest - slow);
     }
-    const double length = min_norm_point(points).norm();
+    const double length = geometry::min_norm_point(points).norm();
     EXPECT_LE(length, slow.norm() + 4.0 * kEpsilon);
     EXPECT_GE(length, slow.norm() - 0.05) << "and not outside the hull";
   }
@@ -70,8 +70,9 @@ TEST(MinNormPoint, OfTwoIsTheirMiddle) {
   Random random(83);
   const Vec4 a = random.unit_four_vector();
   const Vec4 b = random.unit_four_vector();
-  EXPECT_LT((min_norm_point(std::vector<Vec4>{a, b}) - 0.5 * (a + b)).norm(), 4.0 * kEpsilon);
-  EXPECT_EQ(min_norm_point(std::vector<Vec4>{a, a, a}), a);
+  EXPECT_LT((geometry::min_norm_point(std::vector<Vec4>{a, b}) - 0.5 * (a + b)).norm(),
+            4.0 * kEpsilon);
+  EXPECT_EQ(geometry::min_norm_point(std::vector<Vec4>{a, a, a}), a);
 }
 
 TEST(LeastDot, IsThatOfDenseSamplesOfTheArcs) {

@@ -224,12 +224,12 @@ TEST_P(IndexQueries, AClearPassageKeepsAwayAllTheWay) {
       ends.push_back(moved(t, -step));
       ends.push_back(moved(t, step));
     }
-    MovingBody body{middle, ends, random_.log_uniform(1e-6, 0.02), step.norm(), 0.0};
+    SweptBody body{middle, ends, random_.log_uniform(1e-6, 0.02), step.norm(), 0.0};
     body.reach_m += body.bend_m;
     const double error_m = tree_.nearest_error_m(ends);
     const double clearance_m = random_.log_uniform(1e-6, 0.1);
     body.keep_m = clearance_m + error_m;
-    const Passage passage = tree_.passage(body);
+    const SweptResult passage = tree_.swept(body);
     const bool near = comes_near(tree_, ends, clearance_m + body.bend_m);
     ASSERT_FALSE(passage.is_clear && near) << "run " << run;
     clear += passage.is_clear ? 1 : 0;

@@ -31,7 +31,7 @@ struct PlacedMap {
     const std::shared_ptr<const VoxelMap> map =
         VoxelMap::build(cell_m, voxels, {}, UnknownSpace::kFree).map;
     geometry::Box bounds_W;
-    for (const MeshPart& part : map->skin()->parts()) {
+    for (const MeshPart& part : map->faces()->parts()) {
       faces_W.push_back(placed_mesh(*part.mesh, placement));
       bounds_W.extend(faces_W.back().bounds());
     }
@@ -121,7 +121,7 @@ TEST(MirrorVoxels, RefusesWhatPassesTheLimitAndNothingElse) {
       EXPECT_TRUE(mirror_voxels(map.task(resolution_m, voxels)).voxels) << "never too early";
       const MirrorVoxels refused = mirror_voxels(map.task(resolution_m, voxels - 1));
       EXPECT_FALSE(refused.voxels);
-      EXPECT_FALSE(refused.is_called_off);
+      EXPECT_FALSE(refused.is_cancelled);
     }
   }
 }
@@ -155,7 +155,7 @@ void expect_called_off(const Work& work) {
     stop.request_stop();
   });
   const MirrorVoxels made = work(stop.get_token());
-  EXPECT_TRUE(made.is_called_off);
+  EXPECT_TRUE(made.is_cancelled);
   EXPECT_FALSE(made.voxels);
 }
 

@@ -9,38 +9,38 @@
 namespace camway::scene {
 namespace {
 
-TEST(Undertaking, IsInForceOrCalledOffAsTheFirstSays) {
-  const Undertaking made;
+TEST(ChangeTicket, IsCommittedOrCancelledAsTheFirstCallSays) {
+  const ChangeTicket made;
   EXPECT_FALSE(made.stop().stop_requested());
-  EXPECT_TRUE(made.come_into_force());
-  EXPECT_FALSE(made.call_off());
-  EXPECT_FALSE(made.is_called_off());
+  EXPECT_TRUE(made.try_commit());
+  EXPECT_FALSE(made.cancel());
+  EXPECT_FALSE(made.is_cancelled());
   EXPECT_FALSE(made.stop().stop_requested());
-  EXPECT_TRUE(made.come_into_force()) << "it still is";
+  EXPECT_TRUE(made.try_commit()) << "it still is";
 
-  const Undertaking left;
-  const Undertaking& same = Undertaking(left);
-  EXPECT_TRUE(same.call_off());
-  EXPECT_FALSE(left.call_off()) << "only one may say so";
-  EXPECT_FALSE(left.come_into_force());
-  EXPECT_TRUE(left.is_called_off());
+  const ChangeTicket left;
+  const ChangeTicket& same = ChangeTicket(left);
+  EXPECT_TRUE(same.cancel());
+  EXPECT_FALSE(left.cancel()) << "only one may say so";
+  EXPECT_FALSE(left.try_commit());
+  EXPECT_TRUE(left.is_cancelled());
   EXPECT_TRUE(left.stop().stop_requested());
-  EXPECT_FALSE(Undertaking().is_called_off()) << "another one";
+  EXPECT_FALSE(ChangeTicket().is_cancelled()) << "another one";
 }
 
-TEST(Undertaking, IsNeverBoth) {
+TEST(ChangeTicket, IsNeverBoth) {
   for (int run = 0; run < 300; ++run) {
-    const Undertaking undertaking;
+    const ChangeTicket ticket;
     std::latch begin(2);
-    bool is_called_off = false;
+    bool is_cancelled = false;
     std::jthread other([&] {
       begin.arrive_and_wait();
-      is_called_off = undertaking.call_off();
+      is_cancelled = ticket.cancel();
     });
     begin.arrive_and_wait();
-    const bool is_in_force = undertaking.come_into_force();
+    const bool is_committed = ticket.try_commit();
     other.join();
-    ASSERT_NE(is_in_force, is_called_off);
+    ASSERT_NE(is_committed, is_cancelled);
   }
 }
 

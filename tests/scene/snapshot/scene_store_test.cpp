@@ -83,14 +83,14 @@ TEST(SceneStore, WhatIsCalledOffChangesNothing) {
   store.put(revision_of("room", 1));
   store.change("room", put_box("a"));
   const std::shared_ptr<const Snapshot> before = store.find("room");
-  const Undertaking off;
-  ASSERT_TRUE(off.call_off());
+  const ChangeTicket off;
+  ASSERT_TRUE(off.cancel());
   for (const StoreResult& result :
        {store.change("room", put_box("b"), {}, off), store.restore("room", 1, {}, off),
         store.restore_as("room", 2, "hall", {}, off), store.put(revision_of("room", 9), {}, off),
         store.put(revision_of("hall", 1), {}, off)}) {
     EXPECT_EQ(result.snapshot, nullptr);
-    EXPECT_EQ(result.fault, StoreFault::kCalledOff);
+    EXPECT_EQ(result.fault, StoreFault::kCancelled);
     EXPECT_THAT(result.error, HasSubstr("called off"));
   }
   EXPECT_FALSE(store.remove("room", off));
@@ -104,16 +104,16 @@ TEST(SceneStore, AChangeIsCalledOffOrInForceAndNeverBoth) {
   store.put(revision_of("room", 1));
   std::uint64_t expected = 1;
   for (int run = 0; run < 200; ++run) {
-    const Undertaking undertaking;
-    bool is_called_off = false;
+    const ChangeTicket ticket;
+    bool is_cancelled = false;
     std::jthread other([&] {
       if (run % 2 == 0) std::this_thread::yield();
-      is_called_off = undertaking.call_off();
+      is_cancelled = ticket.cancel();
     });
-    const StoreResult result = store.change("room", put_box("a"), {}, undertaking);
+    const StoreResult result = store.change("room", put_box("a"), {}, ticket);
     other.join();
-    ASSERT_NE(result.snapshot != nullptr, is_called_off);
-    expected += is_called_off ? 0 : 1;
+    ASSERT_NE(result.snapshot != nullptr, is_cancelled);
+    expected += is_cancelled ? 0 : 1;
     ASSERT_EQ(store.find("room")->revision, expected);
     ASSERT_EQ(store.kept("room").revisions.size(), expected);
   }

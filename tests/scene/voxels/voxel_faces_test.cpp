@@ -42,11 +42,11 @@ TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
         }
       }
     }
-    const std::optional<Mesh> skin = skin_of(sample.set, 1.0, 2 * faces);
-    ASSERT_TRUE(skin);
-    ASSERT_EQ(skin->triangles.size(), 2 * faces);
+    const std::optional<Mesh> built = faces_of(sample.set, 1.0, 2 * faces);
+    ASSERT_TRUE(built);
+    ASSERT_EQ(built->triangles.size(), 2 * faces);
     std::map<std::array<std::uint32_t, 2>, int> edges;
-    for (const auto& t : skin->triangles) {
+    for (const auto& t : built->triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         ++edges[{t[k], t[(k + 1) % 3]}];
         --edges[{t[(k + 1) % 3], t[k]}];
@@ -54,11 +54,11 @@ TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
     }
     for (const auto& [edge, surplus] : edges) ASSERT_EQ(surplus, 0);
     // Coordinates are whole numbers below 2^20, so doubles hold the products of a test nearby.
-    if (std::abs(skin->bounds().sizes().maxCoeff()) < 1000.0) {
-      EXPECT_EQ(volume_sixfold(*skin), 6.0L * static_cast<long double>(sample.reference.size()));
+    if (std::abs(built->bounds().sizes().maxCoeff()) < 1000.0) {
+      EXPECT_EQ(volume_sixfold(*built), 6.0L * static_cast<long double>(sample.reference.size()));
     }
     if (faces > 0) {
-      EXPECT_FALSE(skin_of(sample.set, 1.0, 2 * faces - 1));
+      EXPECT_FALSE(faces_of(sample.set, 1.0, 2 * faces - 1));
     }
   }
 }
@@ -71,8 +71,8 @@ TEST(SkinOf, DependsOnTheSetOnly) {
     for (auto voxel = sample.reference.rbegin(); voxel != sample.reference.rend(); ++voxel) {
       other.insert(*voxel);
     }
-    const std::optional<Mesh> a = skin_of(sample.set, 0.1, 1'000'000);
-    const std::optional<Mesh> b = skin_of(other, 0.1, 1'000'000);
+    const std::optional<Mesh> a = faces_of(sample.set, 0.1, 1'000'000);
+    const std::optional<Mesh> b = faces_of(other, 0.1, 1'000'000);
     EXPECT_EQ(a->vertices, b->vertices);
     EXPECT_EQ(a->triangles, b->triangles);
   }
@@ -93,36 +93,36 @@ Corners sorted_triangles(const Mesh& mesh) {
   return triangles;
 }
 
-TEST(VoxelSkin, HasTheFacesOfTheWholeByBricks) {
+TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
   std::mt19937_64 random(kSeed + 5);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
-    const Mesh whole = *skin_of(sample.set, 0.1, 1'000'000);
-    const std::optional<VoxelSkin> skin = VoxelSkin::of(sample.set, 0.1, whole.triangles.size());
-    ASSERT_TRUE(skin);
-    ASSERT_EQ(sorted_triangles(joined(skin->parts())), sorted_triangles(whole));
-    for (std::size_t i = 0; i < skin->parts().size(); ++i) {
-      const MeshPart& part = skin->parts()[i];
+    const Mesh whole = *faces_of(sample.set, 0.1, 1'000'000);
+    const std::optional<VoxelFaces> built = VoxelFaces::of(sample.set, 0.1, whole.triangles.size());
+    ASSERT_TRUE(built);
+    ASSERT_EQ(sorted_triangles(joined(built->parts())), sorted_triangles(whole));
+    for (std::size_t i = 0; i < built->parts().size(); ++i) {
+      const MeshPart& part = built->parts()[i];
       ASSERT_FALSE(part.mesh->triangles.empty());
-      ASSERT_TRUE(i == 0 || skin->parts()[i - 1].key < part.key);
+      ASSERT_TRUE(i == 0 || built->parts()[i - 1].key < part.key);
       ASSERT_LE(part.bounds.sizes().maxCoeff(), 16 * 0.1 + 1e-9);
       ASSERT_TRUE(part.bounds.isApprox(part.mesh->bounds(), 0.0));
     }
     if (!whole.triangles.empty()) {
-      EXPECT_FALSE(VoxelSkin::of(sample.set, 0.1, whole.triangles.size() - 1));
+      EXPECT_FALSE(VoxelFaces::of(sample.set, 0.1, whole.triangles.size() - 1));
     }
   }
 }
 
 /// After any changes it is what is made anew, and shares all that is equal to what was before.
-TEST(VoxelSkin, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
+TEST(VoxelFaces, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
   std::cout << "seed " << kSeed + 6 << '\n';
   std::mt19937_64 random(kSeed + 6);
   int shared = 0;
   int others = 0;
   for (int trial = 0; trial < 30; ++trial) {
     VoxelSet set = VoxelSample(random).set;
-    VoxelSkin skin = *VoxelSkin::of(set, 0.1, 1'000'000);
+    VoxelFaces built = *VoxelFaces::of(set, 0.1, 1'000'000);
     for (int step = 0; step < 10; ++step) {
       VoxelSet next = set;
       for (int i = static_cast<int>(random() % 4); i >= 0; --i) {
@@ -132,12 +132,12 @@ TEST(VoxelSkin, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
         bits[random() % 8] ^= std::uint64_t{1} << random() % 64;
         next.set_block(key, bits);
       }
-      const VoxelSkin anew = *VoxelSkin::of(next, 0.1, 1'000'000);
+      const VoxelFaces anew = *VoxelFaces::of(next, 0.1, 1'000'000);
       const std::size_t triangles = joined(anew.parts()).triangles.size();
-      const std::optional<VoxelSkin> updated = skin.updated(set, next, 0.1, triangles);
+      const std::optional<VoxelFaces> updated = built.updated(set, next, 0.1, triangles);
       ASSERT_TRUE(updated);
       if (triangles > 0) {
-        ASSERT_FALSE(skin.updated(set, next, 0.1, triangles - 1));
+        ASSERT_FALSE(built.updated(set, next, 0.1, triangles - 1));
       }
       ASSERT_EQ(updated->parts().size(), anew.parts().size());
       for (std::size_t i = 0; i < anew.parts().size(); ++i) {
@@ -145,15 +145,15 @@ TEST(VoxelSkin, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
         ASSERT_EQ(part.key, anew.parts()[i].key);
         ASSERT_EQ(part.mesh->vertices, anew.parts()[i].mesh->vertices);
         ASSERT_EQ(part.mesh->triangles, anew.parts()[i].mesh->triangles);
-        const auto old = std::ranges::find(skin.parts(), part.key, &MeshPart::key);
-        const bool is_equal = old != skin.parts().end() &&
+        const auto old = std::ranges::find(built.parts(), part.key, &MeshPart::key);
+        const bool is_equal = old != built.parts().end() &&
                               old->mesh->vertices == part.mesh->vertices &&
                               old->mesh->triangles == part.mesh->triangles;
-        ASSERT_EQ(is_equal, old != skin.parts().end() && old->mesh == part.mesh);
+        ASSERT_EQ(is_equal, old != built.parts().end() && old->mesh == part.mesh);
         (is_equal ? shared : others) += 1;
       }
       set = std::move(next);
-      skin = *updated;
+      built = *updated;
     }
   }
   EXPECT_GT(shared, 500);

@@ -264,8 +264,8 @@ TEST(VoxelMap, KeepsWithinItsLimits) {
   // With a layer about it, four on each side.
   EXPECT_TRUE(build({.voxels = 64}, UnknownSpace::kOccupied).map);
   EXPECT_THAT(build({.voxels = 63}, UnknownSpace::kOccupied).error, HasSubstr("more than 63"));
-  EXPECT_TRUE(build({.triangles = 48}, UnknownSpace::kFree).map->skin());
-  EXPECT_FALSE(build({.triangles = 47}, UnknownSpace::kFree).map->skin());
+  EXPECT_TRUE(build({.triangles = 48}, UnknownSpace::kFree).map->faces());
+  EXPECT_FALSE(build({.triangles = 47}, UnknownSpace::kFree).map->faces());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 using testing::RunningService;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const collision::Deadline kNever = collision::Deadline::never();
+const base::Deadline kNever = base::Deadline::never();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A wall in the plane x = 0.25 that spans 4 x 4 m about the x axis, mirrored at 0.5 m: its voxels
@@ -93,7 +93,7 @@ TEST(AnswerBatch, AnswersEveryListInOrder) {
 
 TEST(AnswerBatch, BeginsNoQueryAfterItsDeadline) {
   const occupancy_response_t answer =
-      answer_batch(*wall_scene(), mixed_batch("wall"), collision::Deadline::after_s(0.0));
+      answer_batch(*wall_scene(), mixed_batch("wall"), base::Deadline::after_s(0.0));
   EXPECT_EQ(answer.status, occupancy_response_t::STATUS_TIMEOUT);
   EXPECT_EQ(queries_of(answer), 0);
   EXPECT_TRUE(answer.points_occupied.empty());

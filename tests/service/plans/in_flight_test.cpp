@@ -15,8 +15,8 @@ const RequestKey kKey{"tester", 3};
 TEST(InFlight, CancelStopsTheDeadlineOfThatRequestAlone) {
   InFlight flights;
   const RequestKey other{"tester", 4};
-  const collision::Deadline deadline = flights.begin(kKey, 10.0, 0.0);
-  const collision::Deadline other_deadline = flights.begin(other, 10.0, 0.0);
+  const base::Deadline deadline = flights.begin(kKey, 10.0, 0.0);
+  const base::Deadline other_deadline = flights.begin(other, 10.0, 0.0);
   EXPECT_FALSE(flights.cancelled(kKey));
   EXPECT_TRUE(flights.cancel(kKey));
   EXPECT_TRUE(flights.cancel(kKey)) << "twice is as good as once";
@@ -31,14 +31,14 @@ TEST(InFlight, CancelStopsTheDeadlineOfThatRequestAlone) {
 
 TEST(InFlight, TellsWhatPlanningReported) {
   InFlight flights;
-  const collision::Deadline deadline = flights.begin(kKey, 10.0, 0.5);
+  const base::Deadline deadline = flights.begin(kKey, 10.0, 0.5);
   const InFlight::Clock::time_point due = flights.next_due();
   EXPECT_TRUE(flights.take_due(due - milliseconds(1)).empty());
   std::vector<plan_progress_t> told = flights.take_due(due);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].stage, plan_progress_t::WAITING);
   EXPECT_EQ(told[0].deadline_s, 10.0);
-  deadline.report(collision::Progress::Stage::kCorrecting);
+  deadline.report(base::Progress::Stage::kCorrecting);
   deadline.report_collisions(5, 2);
   EXPECT_EQ(flights.next_due(), due + milliseconds(500));
   told = flights.take_due(flights.next_due());

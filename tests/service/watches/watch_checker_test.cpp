@@ -15,7 +15,7 @@
 namespace camway::service {
 namespace {
 
-using collision::Deadline;
+using base::Deadline;
 using geometry::Quat;
 using geometry::Vec3;
 using planning::WatchedPath;

@@ -44,7 +44,7 @@ class WatchesTest : public ::testing::Test {
     service_.emplace(
         transport_, scenes_, config,
         [this](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
-               const collision::Deadline& deadline) {
+               const base::Deadline& deadline) {
           ++planned_;
           return planning::plan(snapshot, request, deadline);
         },

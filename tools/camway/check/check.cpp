@@ -85,7 +85,7 @@ Parsed<CheckInput> read_input(const CheckFlags& flags) {
 PathSearch search(const CheckInput& input) {
   return search_path(collision::Obstacles(*input.snapshot).within(input.bounds), input.path,
                      *input.body, planning::detect_options(input.request.options),
-                     collision::Deadline::after_s(input.request.options.deadline_s));
+                     base::Deadline::after_s(input.request.options.deadline_s));
 }
 
 ExitCode run_check(const CheckFlags& flags) {

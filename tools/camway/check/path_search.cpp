@@ -39,7 +39,7 @@ class Searcher {
  public:
   Searcher(const collision::Obstacles& obstacles, const motion::Path& path,
            const motion::Body& body, const collision::DetectOptions& options,
-           const collision::Deadline& deadline)
+           const base::Deadline& deadline)
       : obstacles_(obstacles),
         path_(path),
         body_(body),
@@ -107,7 +107,7 @@ class Searcher {
   const motion::Path& path_;
   const motion::Body& body_;
   const collision::DetectOptions& options_;
-  const collision::Deadline& deadline_;
+  const base::Deadline& deadline_;
   const std::vector<planning::Bridge> bridges_;  ///< in order of time
   std::size_t next_bridge_ = 0;
 };
@@ -116,7 +116,7 @@ class Searcher {
 
 PathSearch search_path(const collision::Obstacles& obstacles, const motion::Path& path,
                        const motion::Body& body, const collision::DetectOptions& options,
-                       const collision::Deadline& deadline) {
+                       const base::Deadline& deadline) {
   return Searcher(obstacles, path, body, options, deadline).run();
 }
 

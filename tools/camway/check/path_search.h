@@ -31,6 +31,6 @@ struct PathSearch {
 /// Precondition: `planning::find_fault` and `find_jump` find nothing.
 PathSearch search_path(const collision::Obstacles& obstacles, const motion::Path& path,
                        const motion::Body& body, const collision::DetectOptions& options,
-                       const collision::Deadline& deadline);
+                       const base::Deadline& deadline);
 
 }  // namespace camway::tools

@@ -224,11 +224,11 @@ std::string read_map(const Record& record, const ImportOptions& options,
                       *std::move(free), options.unknown, options.map_limits);
   result.limit = built.limit;
   if (!built.map) return built.error;
-  if (!built.map->skin()) {
+  if (!built.map->faces()) {
     result.limit = Limit::kMapTriangles;
     return "has more than " + std::to_string(options.map_limits.triangles) + " triangles";
   }
-  result.mesh = joined(built.map->skin()->parts());
+  result.mesh = joined(built.map->faces()->parts());
   result.map = std::move(built.map);
   return {};
 }

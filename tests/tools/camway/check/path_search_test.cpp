@@ -15,8 +15,8 @@
 namespace camway::tools {
 namespace {
 
+using base::Deadline;
 using collision::CollisionInterval;
-using collision::Deadline;
 using collision::DetectOptions;
 
 constexpr unsigned kSeed = 20260914;

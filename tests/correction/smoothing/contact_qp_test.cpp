@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/smoothing/contact_forces.h"
+#include "daemon/correction/smoothing/contact_qp.h"
 
 #include <gtest/gtest.h>
 
@@ -16,14 +16,14 @@ namespace {
 
 using testing::Draw;
 
-/// Samples that reply to each other as points of a spline do: symmetric, positive semidefinite.
+/// Samples that response to each other as points of a spline do: symmetric, positive semidefinite.
 struct Case {
   StackedPoints unforced;
-  Eigen::MatrixXd reply;
-  std::vector<ForcedBound> bounds;
+  Eigen::MatrixXd response;
+  std::vector<BoundConstraint> bounds;
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(bounds.size()); }
-  [[nodiscard]] const ForcedBound& bound(Eigen::Index i) const {
+  [[nodiscard]] const BoundConstraint& bound(Eigen::Index i) const {
     return bounds[static_cast<std::size_t>(i)];
   }
 };
@@ -33,14 +33,14 @@ Case random_case(Draw& draw, int samples, int bounds_of_sample, double share_sof
   c.unforced = draw.points(samples, 1.0);
   const Eigen::MatrixXd shares =
       Eigen::MatrixXd::NullaryExpr(samples, samples + 1, [&]() { return draw.number(-0.3, 1.0); });
-  c.reply = shares * shares.transpose() / samples;
+  c.response = shares * shares.transpose() / samples;
   for (int s = 0; s < samples; ++s) {
     for (int i = 0; i < bounds_of_sample; ++i) {
-      ForcedBound bound;
+      BoundConstraint bound;
       bound.sample = static_cast<std::size_t>(s);
       bound.direction = draw.stacked(1.0);
       bound.bound_m = c.unforced.row(s).dot(bound.direction) + draw.number(-0.5, 0.5);
-      bound.softness = draw.number(0.0, 1.0) < share_soft ? draw.number(0.2, 2.0) : 0.0;
+      bound.compliance = draw.number(0.0, 1.0) < share_soft ? draw.number(0.2, 2.0) : 0.0;
       c.bounds.push_back(bound);
     }
   }
@@ -54,10 +54,10 @@ Eigen::MatrixXd matrix_of(const Case& c) {
     for (Eigen::Index j = 0; j < c.size(); ++j) {
       const auto a = static_cast<Eigen::Index>(c.bound(i).sample);
       const auto b = static_cast<Eigen::Index>(c.bound(j).sample);
-      matrix(i, j) = c.reply(a, b) * c.bound(i).direction.dot(c.bound(j).direction);
+      matrix(i, j) = c.response(a, b) * c.bound(i).direction.dot(c.bound(j).direction);
     }
   }
-  for (Eigen::Index i = 0; i < c.size(); ++i) matrix(i, i) *= 1.0 + c.bound(i).softness;
+  for (Eigen::Index i = 0; i < c.size(); ++i) matrix(i, i) *= 1.0 + c.bound(i).compliance;
   return matrix;
 }
 
@@ -72,7 +72,7 @@ Eigen::VectorXd missing_in(const Case& c) {
 
 Eigen::VectorXd forces_of(const Case& c) {
   Eigen::VectorXd forces(c.size());
-  for (Eigen::Index i = 0; i < c.size(); ++i) forces[i] = c.bound(i).force;
+  for (Eigen::Index i = 0; i < c.size(); ++i) forces[i] = c.bound(i).multiplier;
   return forces;
 }
 
@@ -103,7 +103,7 @@ void find_until_settled(Case& c) {
   constexpr double kUnchanged = 1e-14;
   for (int i = 0; i < 3000; ++i) {
     const Eigen::VectorXd before = forces_of(c);
-    find_forces(c.bounds, c.unforced, c.reply, 0.0);
+    solve_qp(c.bounds, c.unforced, c.response, 0.0);
     const Eigen::VectorXd now = forces_of(c);
     if ((now - before).norm() <= kUnchanged * now.norm()) return;
   }
@@ -151,7 +151,8 @@ TEST(ContactForces, FromAnyGuessAreTheSame) {
   for (int run = 0; run < 50; ++run) {
     Case cold = random_case(draw, 12, 2, 1.0);
     Case warm = cold;
-    for (ForcedBound& bound : warm.bounds) bound.force = draw.integer(0, 1) * draw.number(0.0, 3.0);
+    for (BoundConstraint& bound : warm.bounds)
+      bound.multiplier = draw.integer(0, 1) * draw.number(0.0, 3.0);
     find_until_settled(cold);
     find_until_settled(warm);
     const double size = 1.0 + forces_of(cold).maxCoeff();
@@ -163,9 +164,10 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
   Draw draw(4204);
   for (int run = 0; run < 300; ++run) {
     Case c = random_case(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
-    for (ForcedBound& bound : c.bounds) bound.force = draw.integer(0, 1) * draw.number(0.0, 1.0);
+    for (BoundConstraint& bound : c.bounds)
+      bound.multiplier = draw.integer(0, 1) * draw.number(0.0, 1.0);
     const double before = dual_of(c, forces_of(c));
-    find_forces(c.bounds, c.unforced, c.reply, 1e-3);
+    solve_qp(c.bounds, c.unforced, c.response, 1e-3);
     const double after = dual_of(c, forces_of(c));
     EXPECT_GE(after, before - 1e-12 * (1.0 + std::abs(before))) << run;
     EXPECT_GE(forces_of(c).minCoeff(), 0.0);
@@ -176,26 +178,26 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
 TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
   Case c;
   c.unforced = StackedPoints::Zero(1, 7);
-  c.reply = Eigen::MatrixXd::Constant(1, 1, 4.0);
-  for (const double softness : {0.0, 1.0, 3.0}) {
-    c.bounds = {{0, 0.5 * StackedPoint::Unit(2), 6.0, softness, 0.0}};
-    find_forces(c.bounds, c.unforced, c.reply, 0.0);
-    EXPECT_DOUBLE_EQ(c.bounds[0].force, 6.0 / (1.0 + softness));  // 4 · 0.5² is 1
+  c.response = Eigen::MatrixXd::Constant(1, 1, 4.0);
+  for (const double compliance : {0.0, 1.0, 3.0}) {
+    c.bounds = {{0, 0.5 * StackedPoint::Unit(2), 6.0, compliance, 0.0}};
+    solve_qp(c.bounds, c.unforced, c.response, 0.0);
+    EXPECT_DOUBLE_EQ(c.bounds[0].multiplier, 6.0 / (1.0 + compliance));  // 4 · 0.5² is 1
   }
   c.bounds = {{0, 0.5 * StackedPoint::Unit(2), -1.0, 0.0, 0.0}};
-  find_forces(c.bounds, c.unforced, c.reply, 0.0);
-  EXPECT_EQ(c.bounds[0].force, 0.0) << "it holds already";
+  solve_qp(c.bounds, c.unforced, c.response, 0.0);
+  EXPECT_EQ(c.bounds[0].multiplier, 0.0) << "it holds already";
 }
 
 // A sample that no variable moves: nothing helps there, and nobody else must suffer for it.
-// What they reply to each other is kept as a matrix, which must not grow with bodies of thousands
-// of triangles.
+// What they response to each other is kept as a matrix, which must not grow with bodies of
+// thousands of triangles.
 TEST(ContactForces, AreOfLimitedNumber) {
   Draw draw(4407);
   Case c = random_case(draw, 40, 100, 0.0);
-  find_forces(c.bounds, c.unforced, c.reply, 0.0);
-  const auto felt =
-      std::ranges::count_if(c.bounds, [](const ForcedBound& bound) { return bound.force > 0.0; });
+  solve_qp(c.bounds, c.unforced, c.response, 0.0);
+  const auto felt = std::ranges::count_if(
+      c.bounds, [](const BoundConstraint& bound) { return bound.multiplier > 0.0; });
   EXPECT_GT(felt, 100);
   EXPECT_LE(felt, 1024);
   // And those first that miss most, so the worst of all feels one or holds.
@@ -203,10 +205,10 @@ TEST(ContactForces, AreOfLimitedNumber) {
   Eigen::Index worst = 0;
   missing_m.maxCoeff(&worst);
   StackedPoint moved = StackedPoint::Zero();
-  for (const ForcedBound& bound : c.bounds) {
-    moved += bound.force *
-             c.reply(static_cast<Eigen::Index>(bound.sample),
-                     static_cast<Eigen::Index>(c.bound(worst).sample)) *
+  for (const BoundConstraint& bound : c.bounds) {
+    moved += bound.multiplier *
+             c.response(static_cast<Eigen::Index>(bound.sample),
+                        static_cast<Eigen::Index>(c.bound(worst).sample)) *
              bound.direction;
   }
   EXPECT_LT(missing_m[worst] - moved.dot(c.bound(worst).direction), missing_m[worst]);
@@ -218,17 +220,17 @@ TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
   Case without = c;
   without.bounds.erase(without.bounds.begin() + 1);
   for (Case* changed : {&c, &without}) {
-    changed->reply.row(1).setZero();
-    changed->reply.col(1).setZero();
+    changed->response.row(1).setZero();
+    changed->response.col(1).setZero();
     changed->bounds[0].bound_m += 2.0;
   }
   c.bounds[1].bound_m = c.unforced.row(1).dot(c.bounds[1].direction) + 1.0;
   find_until_settled(c);
   find_until_settled(without);
-  EXPECT_EQ(c.bounds[1].force, 0.0);
-  EXPECT_GT(c.bounds[0].force, 0.0);
-  EXPECT_DOUBLE_EQ(c.bounds[0].force, without.bounds[0].force);
-  EXPECT_DOUBLE_EQ(c.bounds[2].force, without.bounds[1].force);
+  EXPECT_EQ(c.bounds[1].multiplier, 0.0);
+  EXPECT_GT(c.bounds[0].multiplier, 0.0);
+  EXPECT_DOUBLE_EQ(c.bounds[0].multiplier, without.bounds[0].multiplier);
+  EXPECT_DOUBLE_EQ(c.bounds[2].multiplier, without.bounds[1].multiplier);
 }
 
 }  // namespace
