@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kProvider = "udpm://";
-constexpr int kDefaultPort = 7667;  ///< LCM's
+constexpr int kDefaultPort = 7667;  ///< default of LCM
 constexpr const char* kDescriptors = "/proc/self/fd";
 
-/// What follows `name=` among the options of a URL; empty if it is not there.
+/// Returns the value of the option `name` of a URL; empty if it is not there.
 std::string option(std::string_view options, std::string_view name) {
   while (!options.empty()) {
     const std::string_view one = options.substr(0, options.find('&'));
@@ -58,11 +58,11 @@ bool is_bound_to(int socket, int port) {
 
 struct Socket {
   int descriptor = -1;
-  std::uint64_t cookie = 0;  ///< of this socket alone, for as long as the machine runs
+  std::uint64_t cookie = 0;  ///< unique among all sockets since the machine started
 };
 
-/// Every descriptor that stands for a socket bound to `port` for as long as this looks, and maybe
-/// some that are opened, closed or used again meanwhile. Only reads.
+/// Returns every descriptor of a socket that is bound to `port` throughout the scan, and perhaps
+/// some that other threads open, close or reuse meanwhile. Only reads.
 std::vector<Socket> sockets_bound_to(int port, std::error_code& failed) {
   std::vector<Socket> sockets;
   for (const fs::directory_entry& entry : fs::directory_iterator(kDescriptors, failed)) {
@@ -76,8 +76,8 @@ std::vector<Socket> sockets_bound_to(int port, std::error_code& failed) {
   return sockets;
 }
 
-/// Lets pass what the kernel looped back on its way out, and what came by the loopback device. No
-/// other host can make its packets look like that.
+/// Attaches a filter that passes packets that the kernel looped back while sending, and packets of
+/// the loopback device. Packets of other hosts cannot have these marks.
 bool attach_filter(int socket) {
   constexpr auto kPacketType = static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_PKTTYPE);
   constexpr auto kDeviceType = static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_HATYPE);
