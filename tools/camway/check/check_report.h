@@ -23,10 +23,9 @@ struct CheckInput {
   std::vector<motion::Keyframe> keyframes;  ///< with times; empty if the times are unknown
   std::optional<motion::Body> body;         ///< always set
   std::shared_ptr<const scene::Snapshot> snapshot;
-  std::string
-      made_for_digest;      ///< digest of the scene that the path was made for; empty if unknown
-  double near_scale = 1.0;  ///< near distance that it was made for, divided by the request's
-  geometry::Bounds bounds;  ///< box that the body must not leave
+  std::string made_for_digest;  ///< digest of the scene of the response; empty if unknown
+  double near_scale = 1.0;      ///< near distance that it was made for, divided by the request's
+  geometry::Bounds bounds;      ///< box that the body must not leave
 };
 
 /// Returns warnings beside the verdict, a sentence each: that the path was made for another scene,
