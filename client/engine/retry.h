@@ -83,8 +83,7 @@ class Retry {
   Clock::time_point sent_at_{};
   Clock::time_point again_at_{};
   Clock::time_point missing_at_{};
-  Clock::time_point give_up_at_ =
-      Clock::time_point::max();  ///< set when a daemon announced its end
+  Clock::time_point give_up_at_ = Clock::time_point::max();  ///< set when a daemon stops
 };
 
 }  // namespace camway

@@ -73,8 +73,8 @@ struct KeyframeFault {
 /// A box whose faces have no hole that the near quadrilateral can pass, in any orientation.
 /// Coordinates are in a rotated frame with the world's origin.
 struct Cage {
-  std::array<double, 4> orientation_wxyz = {1, 0, 0,
-                                            0};  ///< rotates vectors of that frame into the world
+  /// Rotates vectors of that frame into the world.
+  std::array<double, 4> orientation_wxyz = {1, 0, 0, 0};
   std::array<double, 3> min_m = {};
   std::array<double, 3> max_m = {};
   double widest_hole_m = 0.0;  ///< upper bound of the distance between two points of one hole
