@@ -44,7 +44,8 @@ struct Correction {
 /// small. Only the clearance is proved.
 struct PathMeasures {
   double length_m = 0.0;  ///< length of the eye's way
-  /// Largest distance of the eye from the path as interpolated, at equal fractions of the duration.
+  /// Largest distance of the eye from the path as interpolated at the same time. If the path was
+  /// slowed, the interpolated path is slowed alike.
   double largest_deviation_m = 0.0;
   double bending_energy_m2_per_s3 = 0.0;  ///< integral of the squared acceleration
   double largest_speed_m_per_s = 0.0;
