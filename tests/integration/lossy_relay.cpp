@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bad network between clients and a daemon:
+// A relay that makes a bad network between clients and a daemon:
 //
 //   lossy_relay CLIENTS_PORT DAEMON_PORT LOSS DUPLICATES REORDERED SEED
 //
