@@ -100,7 +100,7 @@ std::optional<int> port_of_local_network(std::string_view url) {
   url.remove_prefix(kProvider.size());
   const std::string_view host = url.substr(0, url.find('?'));
   const std::string_view options = url.substr(std::min(url.size(), host.size() + 1));
-  // As LCM reads it: what is no number is 0, and what is too large is cut.
+  // The same as in LCM: a text that is no number is 0, and a large number is truncated to 8 bits.
   const long ttl = std::strtol(option(options, "ttl").c_str(), nullptr, 0);
   if (static_cast<std::uint8_t>(ttl) != 0) return std::nullopt;
   const std::size_t colon = host.find(':');
@@ -110,7 +110,7 @@ std::optional<int> port_of_local_network(std::string_view url) {
 
 LocalTraffic::LocalTraffic(std::string_view url) : port_(port_of_local_network(as_lcm_has(url))) {
   if (!port_) return;
-  std::error_code unseen;  // then `guard` finds too many, or says so itself
+  std::error_code unseen;  // after a failure `guard` finds too many, or fails as well
   for (const Socket& socket : sockets_bound_to(*port_, unseen)) others_.insert(socket.cookie);
 }
 
@@ -118,7 +118,7 @@ LocalTraffic::Guarded LocalTraffic::guard() const {
   if (!port_) return {};
   std::error_code failed;
   std::vector<Socket> found = sockets_bound_to(*port_, failed);
-  // A look that was cut short may have missed LCM's.
+  // An incomplete scan may have missed LCM's socket.
   if (failed) return {std::string(kDescriptors) + ": " + failed.message()};
   std::erase_if(found, [this](const Socket& socket) { return others_.contains(socket.cookie); });
   const std::string port = "UDP port " + std::to_string(*port_);
@@ -131,10 +131,10 @@ LocalTraffic::Guarded LocalTraffic::guard() const {
 }
 
 OpenedLcm open_lcm(const std::string& url) {
-  // Descriptors are the process's, so what keeps our own LCMs from opening theirs at the same time
-  // is, too.
+  // Descriptors belong to the process, so one lock for the process keeps Camway's LCMs from opening
+  // theirs at the same time.
   static std::mutex one_at_a_time;
-  // What else opens such sockets is rare: LCMs of the program that uses ours.
+  // Other LCMs of the program may open such sockets, which is rare.
   constexpr int kMostTries = 5;
   std::unique_lock lock(one_at_a_time, std::defer_lock);
   if (port_of_local_network(as_lcm_has(url))) lock.lock();
@@ -143,8 +143,7 @@ OpenedLcm open_lcm(const std::string& url) {
     opened = {};
     const LocalTraffic local(url);
     opened.lcm = std::make_unique<lcm::LCM>(url);
-    // getFileno makes the receiving half set itself up and test itself, which is when LCM finds
-    // out.
+    // getFileno makes LCM set up and test its receiver, which is when it detects failures.
     if (!opened.lcm->good() || opened.lcm->getFileno() < 0) return {};
     const LocalTraffic::Guarded guarded = local.guard();
     opened.unguarded = guarded.fault;

@@ -42,7 +42,7 @@ struct Scans {
   std::size_t voxels = 0;
   std::size_t triangles = 0;
   std::size_t parts = 0;
-  double changed_parts = 0.0;  ///< of a scan, on average
+  double changed_parts = 0.0;  ///< bricks that a scan changes, on average
   double map_s = 0.0;
   double median_s = 0.0;
   double p99_s = 0.0;

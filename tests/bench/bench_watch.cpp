@@ -48,7 +48,7 @@ struct Watching {
   std::size_t paths = 0;
   double rate_hz = 0.0;
   double broken = 0.0;      ///< paths that collide after a change, on average
-  double core_share = 0.0;  ///< of the checker's thread
+  double core_share = 0.0;  ///< processor use of the checker's thread, in cores
   double median_s = 0.0;    ///< from the change to the last verdict about it
   double p99_s = 0.0;
 };

@@ -57,7 +57,7 @@ class Expected {
   }
 
  private:
-  std::shared_ptr<const scene::Snapshot> office_;  ///< as in the file
+  std::shared_ptr<const scene::Snapshot> office_;  ///< the scene as in the file
   std::map<std::int64_t, std::shared_ptr<const scene::Snapshot>> revisions_;
 };
 

@@ -126,7 +126,7 @@ double acceleration_noise(const PlanResult& result) {
 struct Tally {
   int corrected = 0;
   double jump = 0.0;
-  double shortest_share = 1.0;  ///< of the gap
+  double shortest_share = 1.0;  ///< shortest segment divided by its interval
 };
 
 void look_at(const PlanRequest& request, const PlanResult& result, double gap_s, Tally& tally) {

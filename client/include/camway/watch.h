@@ -20,8 +20,8 @@ struct WatchEvent {
     kAnswer,
     kBroken,  ///< a change of the scene makes the path of the last answer collide, as `broken` says
     kFree,    ///< a broken path is proved free again, unchanged
-    /// The path is not watched for now; `status` and `error` say why. Reported once, within 3.5 s
-    /// after the last sign of life of the daemon. The client keeps trying.
+    /// The path is not watched for now; `status` and `error` say why. Reported once; silence of the
+    /// daemon within 3.5 s. The client keeps trying, and the next event has the result.
     kLost,
     kWatched,  ///< after kLost: watched again; the last event before kLost still holds
     kEnded,    ///< the watch has ended, because the last answer proves no path or `error` says why

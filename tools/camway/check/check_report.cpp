@@ -71,7 +71,7 @@ struct Miss {
 /// The keyframes that the path meets and misses.
 struct KeyframeReport {
   std::vector<Miss> missed;
-  std::size_t outside = 0;  ///< of those: at times that the path does not have
+  std::size_t outside = 0;  ///< missed ones whose time is outside of the path
   double largest_miss_m = 0.0;
 };
 

@@ -31,7 +31,7 @@ using OrderedJson = nlohmann::ordered_json;
 struct LoadFlags {
   std::string scene;
   std::vector<std::string> requests;
-  std::size_t occupancy_queries = 0;  ///< of a batch; 0: plan requests are asked
+  std::size_t occupancy_queries = 0;  ///< queries of a batch; 0: plan requests
   LoadOptions run;
   std::string key_file;
   double warm_up_s = 0.0;

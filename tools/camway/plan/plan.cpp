@@ -56,9 +56,9 @@ struct Answer {
   PlanResult result;
   std::string scene_file;
   std::string scene_digest;
-  std::vector<std::string> scene_warnings;    ///< of its import
+  std::vector<std::string> scene_warnings;    ///< warnings of the scene's import
   std::vector<std::string> request_warnings;  ///< a sentence each
-  std::shared_ptr<const scene::Mesh> mesh;    ///< of the scene; null if it was not loaded
+  std::shared_ptr<const scene::Mesh> mesh;    ///< mesh of the scene; null if it was not loaded
 };
 
 PlanResult invalid(std::string message) {
