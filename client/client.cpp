@@ -16,7 +16,7 @@
 namespace camway {
 namespace {
 
-/// How often progress is told where the request does not say.
+/// Period of progress reports if the request has none.
 constexpr double kProgressPeriod_s = 0.5;
 
 template <class Answer>
@@ -54,13 +54,13 @@ class Client::Impl {
     if (error.empty()) engine.emplace(link, context);
   }
 
-  /// Why a call cannot be made, if it cannot.
+  /// Returns why no call can be made, or nothing.
   std::optional<Failure> failure() const {
     if (!error.empty()) return Failure{error_status, error};
     return std::nullopt;
   }
 
-  /// The same for a call that waits.
+  /// Returns why no call can be made that waits for its answer, or nothing.
   std::optional<Failure> failure_to_wait() const {
     if (engine && engine->is_this_thread()) {
       return Failure{Status::kBusy,
@@ -87,14 +87,14 @@ class Client::Impl {
   std::string warning;
   Status error_status = Status::kInvalid;
   SceneCancel scene_cancel;
-  std::optional<Engine> engine;  ///< last: its thread uses all else
+  std::optional<Engine> engine;  ///< last member: its thread uses the others
 };
 
 Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 
 Client::~Client() {
   if (!impl_->engine || !impl_->engine->is_this_thread()) return;
-  // The thread that is here uses all of it until the handler has returned to it.
+  // The engine's thread uses `impl_` until the handler has returned, so it destroys it at its end.
   Engine& engine = *impl_->engine;
   engine.close_from_handler(
       [impl = std::shared_ptr<Impl>(std::move(impl_))]() mutable { impl.reset(); });

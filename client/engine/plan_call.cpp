@@ -16,7 +16,7 @@
 namespace camway {
 namespace {
 
-/// The sentence for a person about an answer that is not ok.
+/// Returns the sentence for the user about an answer that is not ok.
 std::string explain(const PlanResponse& response) {
   const std::string said = response.message.empty() ? "(no reason given)" : response.message;
   switch (response.status) {
@@ -33,8 +33,8 @@ std::string explain(const PlanResponse& response) {
   }
 }
 
-/// A call ends by then. Not before the request's own deadline, and the answer needs some time to
-/// travel.
+/// Returns when a call ends: not before the request's own deadline plus the time for the answer to
+/// arrive.
 Clock::time_point deadline_of(const PlanRequest& request, const ClientOptions& options) {
   const double planning_s = std::isfinite(request.deadline_s) ? request.deadline_s : 0.0;
   return after(std::max(options.deadline_s, planning_s + options.try_timeout_s));
@@ -49,14 +49,14 @@ std::vector<Outgoing> question_of(const Context& context, const PlanRequest& req
   return question;
 }
 
-/// What users do in their handlers must not end our thread.
+/// Calls a handler of the user, whose exceptions must not end the thread.
 template <class Handler, class Argument>
 void call_handler(const Handler& handler, const Argument& argument) {
   if (!handler) return;
   try {
     handler(argument);
   } catch (...) {
-    // There is nobody to tell: the handler's own affair.
+    // Ignored: nothing could report it.
   }
 }
 

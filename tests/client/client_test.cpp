@@ -137,7 +137,7 @@ TEST_F(ClientTest, AsksAgainForLostPagesAndKeepsThoseThatCame) {
   FakeDaemon daemon;
   daemon.on_plan = [&](const plan_request_t& request) {
     std::vector<Bytes> pages = encode_all(answer_pages(request, 40, 10));
-    // First the even pages, then the odd ones: complete only for a client that keeps what it has.
+    // The even pages come first, then the odd ones: only a client that keeps pages gets them all.
     ++calls;
     return calls == 1 ? std::vector<Bytes>{pages[0], pages[2]}
                       : std::vector<Bytes>{pages[3], pages[1]};
@@ -193,7 +193,7 @@ TEST_F(ClientTest, PagesALargeRequest) {
   };
   daemon.start();
   ClientOptions options = quick();
-  // So many pages take their time on a busy machine.
+  // On a busy machine this many pages take some time.
   options.try_timeout_s = 2.0;
   options.max_try_timeout_s = 4.0;
   Client client(options);
@@ -205,7 +205,7 @@ TEST_F(ClientTest, PagesALargeRequest) {
 }
 
 TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
-  // 188 pages; a tenth of them gets lost each time, others than the time before.
+  // 188 pages; a different tenth of them is lost each time.
   std::mt19937 random(kSeed);
   FakeDaemon daemon;
   daemon.on_plan = [&](const plan_request_t& request) {
@@ -276,8 +276,8 @@ TEST_F(ClientTest, SurvivesAHostilePeer) {
   daemon.on_plan = [](const plan_request_t& request) {
     const Bytes good = encode_all(answer_pages(request, 3, 3))[0];
     Bytes huge = good;
-    // The count of segments, which stands right before the first: 2^31 - 1. Behind them stand the
-    // counts of the seven other lists, which are empty.
+    // The count of segments, which is directly before the first one: 2^31 - 1. Behind the segments
+    // are the counts of the seven other lists, which are empty.
     const std::size_t count_at = good.size() - 3 * 42 * 8 - 7 * 4 - 4;
     huge[count_at] = 0x7f;
     huge[count_at + 1] = huge[count_at + 2] = huge[count_at + 3] = 0xff;

@@ -53,7 +53,7 @@ std::vector<PlanBox> places_of_collision(const FloorPlan& plan) {
   return places;
 }
 
-/// Everything that moves, with some of what is around it.
+/// Returns the bounds of all paths and keyframes, with a margin.
 PlanBox world_shown(const FloorPlan& plan) {
   PlanBox box;
   for (const motion::Keyframe& k : plan.keyframes) box.extend(to_plan(k.pose.position, plan.up));
@@ -80,7 +80,7 @@ struct Layout {
   std::vector<View> details;
 };
 
-/// With a column of details at the right if there are `places`.
+/// Returns the layout, with a column of details at the right if there are `places`.
 Layout lay_out_with(const FloorPlan& plan, const std::vector<PlanBox>& places) {
   const PlanBox world = world_shown(plan);
   Layout layout{plan.width_px, 0.0, {}, {}};
@@ -129,7 +129,7 @@ void draw_details(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
               palette::kInk, 0.0, true);
     const PlanPoint half =
         PlanPoint(detail.frame.width, detail.frame.height) / (2 * detail.px_per_m);
-    // A narrow column shows more above and below than there is in the plan.
+    // A narrow column would show more height than the plan has.
     const Frame& plan_frame = layout.main.frame;
     const PlanPoint begin(plan_frame.x, plan_frame.y);
     const PlanPoint end = begin + PlanPoint(plan_frame.width, plan_frame.height);
@@ -170,7 +170,7 @@ void draw_area_sample(cairo_t* cr, const PlanPoint& at, const Color& fill, const
   cairo_stroke(cr);
 }
 
-/// Four columns of three samples with their meaning.
+/// Draws the legend: four columns of three samples with their meaning.
 void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section) {
   constexpr std::array kColumns{0.0, 390.0, 720.0, 1040.0};
   const double top = layout.height_px - kLegend_px + 40;
@@ -208,7 +208,7 @@ void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section)
   label(3, 1, "lower, above the floor");
 }
 
-/// A bar of 1, 2 or 5 times a power of ten, and the two axes of the paper.
+/// Draws a scale bar of 1, 2 or 5 times a power of ten, and the two axes of the paper.
 void draw_scale(cairo_t* cr, const Layout& layout, SceneUp up) {
   constexpr double kLongest_px = 190.0;
   const double most_m = kLongest_px / layout.main.px_per_m;
@@ -249,7 +249,7 @@ void draw_all(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-/// Draws on `surface`; returns cairo's reason if that failed.
+/// Draws on `surface`. Returns cairo's error text, empty on success.
 std::string draw_on(cairo_surface_t* surface, const Layout& layout, const FloorPlan& plan,
                     const FloorSection& section) {
   const Context context(cairo_create(surface), &cairo_destroy);
@@ -259,7 +259,7 @@ std::string draw_on(cairo_surface_t* surface, const Layout& layout, const FloorP
   return status == CAIRO_STATUS_SUCCESS ? "" : cairo_status_to_string(status);
 }
 
-/// What cairo writes a picture to: a `std::string`.
+/// Write function for cairo that appends to a `std::string`.
 cairo_status_t append(void* picture, const unsigned char* bytes, unsigned size) {
   static_cast<std::string*>(picture)->append(reinterpret_cast<const char*>(bytes), size);
   return CAIRO_STATUS_SUCCESS;

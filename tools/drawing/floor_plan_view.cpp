@@ -29,7 +29,7 @@ void stroke(cairo_t* cr, const Color& color, double width_px) {
 
 void draw_scene(cairo_t* cr, const View& view, const FloorSection& section) {
   set_color(cr, palette::kTop);
-  // Each triangle alone: in one path, faces seen from below would cancel those seen from above.
+  // Each triangle is filled on its own: in one path, faces of opposite orientation would cancel.
   for (const std::array<PlanPoint, 3>& top : section.tops) {
     trace(cr, view, {top[0], top[1], top[2]});
     cairo_close_path(cr);
@@ -58,7 +58,7 @@ std::vector<PlanPoint> quad_on_paper(const FloorPlan& plan, const motion::Pose& 
   return points;
 }
 
-/// The line of the near quadrilateral's middle, and the curves of its corners.
+/// Draws the curve of the near quadrilateral's centre, and the corner curves.
 void draw_path(cairo_t* cr, const View& view, const FloorPlan& plan, const SampledPath& path,
                const Color& color, double width_px) {
   Color light = color;
