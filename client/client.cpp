@@ -9,6 +9,7 @@
 #include "client/engine/ask_scene.h"
 #include "client/engine/context.h"
 #include "client/engine/engine.h"
+#include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
 #include "client/messages/constraints.h"
 #include "client/messages/scene.h"
@@ -118,7 +119,7 @@ PendingPlan Client::plan_async(const PlanRequest& request, PlanHandlers handlers
   }
   if (failure) {
     const auto response = failed<PlanResponse>(*failure);
-    if (handlers.on_answer) handlers.on_answer(response);
+    call_handler(handlers.on_answer, response);
     return {0, ready(response)};
   }
   PlanRequest sent = request;
@@ -145,8 +146,9 @@ std::int64_t Client::watch(const PlanRequest& request, WatchHandler on_event) {
   if (failure) {
     WatchEvent event;
     event.kind = WatchEvent::Kind::kEnded;
+    event.status = failure->status;
     event.error = failure->error;
-    if (on_event) on_event(event);
+    call_handler(on_event, event);
     return 0;
   }
   PlanRequest sent = request;

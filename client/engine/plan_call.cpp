@@ -10,6 +10,7 @@
 #include <camway/missing_pages_t.hpp>
 #include <camway/plan_progress_t.hpp>
 
+#include "client/engine/handler.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 
@@ -47,17 +48,6 @@ std::vector<Outgoing> question_of(const Context& context, const PlanRequest& req
     question.push_back({context.channels().plan_request(), std::move(page)});
   }
   return question;
-}
-
-/// Calls a handler of the user, whose exceptions must not end the thread.
-template <class Handler, class Argument>
-void call_handler(const Handler& handler, const Argument& argument) {
-  if (!handler) return;
-  try {
-    handler(argument);
-  } catch (...) {
-    // Ignored: nothing could report it.
-  }
 }
 
 }  // namespace

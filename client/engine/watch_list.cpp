@@ -6,6 +6,7 @@
 
 #include <camway/watch_t.hpp>
 
+#include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
@@ -468,13 +469,9 @@ void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double 
 void WatchList::tell(Watched& watched, WatchEvent event) {
   watched.is_lost = event.kind == WatchEvent::Kind::kLost;
   if (!watched.is_lost) watched.scene_revision = event.scene_revision;
-  if (!watched.handler || is_closed_) return;
+  if (is_closed_) return;
   event.request_id = watched.request.request_id;
-  try {
-    watched.handler(event);
-  } catch (...) {
-    // Ignored: nothing could report it.
-  }
+  call_handler(watched.handler, event);
 }
 
 void WatchList::tell_lost(Watched& watched, const Failure& why) {

@@ -12,6 +12,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -597,6 +598,30 @@ TEST(ClientOptionsTest, WrongOnesAreNamed) {
   EXPECT_THAT(error_of([](auto& o) { o.backoff = 0.5; }), HasSubstr("backoff"));
   EXPECT_THAT(error_of([](auto& o) { o.retries = -1; }), HasSubstr("retries"));
   EXPECT_THAT(error_of([](auto& o) { o.jitter = 1.0; }), HasSubstr("jitter"));
+}
+
+// As those that run later, on the client's own thread.
+TEST(ClientOptionsTest, HandlersOfWhatCannotBeSentMayThrow) {
+  ClientOptions options;
+  options.prefix = "A B";
+  Client client(options);
+  int answers = 0;
+  PlanHandlers handlers;
+  handlers.on_answer = [&](const PlanResponse&) {
+    ++answers;
+    throw std::runtime_error("of the user");
+  };
+  EXPECT_EQ(client.plan_async({}, handlers).answer.get().status, Status::kInvalid);
+  EXPECT_EQ(answers, 1);
+  WatchEvent last;
+  const std::int64_t id = client.watch({}, [&](const WatchEvent& event) {
+    last = event;
+    throw std::runtime_error("of the user");
+  });
+  EXPECT_EQ(id, 0);
+  EXPECT_EQ(last.kind, WatchEvent::Kind::kEnded);
+  EXPECT_EQ(last.status, Status::kInvalid);
+  EXPECT_THAT(last.error, HasSubstr("prefix"));
 }
 
 TEST(ClientOptionsTest, AnUnusableNetworkIsAnError) {

@@ -36,7 +36,7 @@ struct WatchEvent {
   std::vector<CollisionInterval> broken;  ///< kBroken: all collisions, without witnesses
   std::optional<PlanResponse> answer;     ///< set with kAnswer and kBetter
   /// kLost: `kNoDaemon` if no daemon is heard, otherwise the refusal, such as `kLimit` or
-  /// `kOverloaded`. Other events: kOk.
+  /// `kOverloaded`. kEnded: why the request cannot be sent, if it cannot. Other events: kOk.
   Status status = Status::kOk;
   std::string error;  ///< kLost, kEnded: the reason
 };
