@@ -7,7 +7,7 @@
 
 #include "tools/drawing/floor_plan.h"
 
-/// The inside of a floor plan's frames. Used by floor_plan.cpp only.
+/// The inside of a floor plan's frames. Used by the sources of this folder only.
 namespace camway::draw {
 
 struct Color {
@@ -45,6 +45,14 @@ struct View {
   }
 };
 
+using PlanBox = Eigen::AlignedBox2d;
+
+/// The keyframes and both paths, with a margin; the whole scene if there are none.
+PlanBox world_shown(const FloorPlan& plan);
+
+/// Returns the view of the whole `box`, as large as `frame` allows.
+View fitted(const Frame& frame, const PlanBox& box);
+
 void set_color(cairo_t* cr, const Color& color);
 /// Text with a light rim, so that it stays legible on lines; `anchor` 0 left, 0.5 centred, 1 right.
 void draw_text(cairo_t* cr, const PlanPoint& at, const std::string& text, double size_px,
@@ -55,6 +63,9 @@ void draw_keyframe_mark(cairo_t* cr, const PlanPoint& at, double direction_rad, 
 
 /// A place of collision's mark: an open circle, with a cross if the correction did not mend it.
 void draw_collision_mark(cairo_t* cr, const PlanPoint& at, bool remains);
+
+/// A bar that ends at `right`, of 1, 2 or 5 times a power of ten metres, with its length above it.
+void draw_scale_bar(cairo_t* cr, const PlanPoint& right, double px_per_m, double letters_px);
 
 /// Scene, paths and keyframes in one view, with a border.
 void draw_view(cairo_t* cr, const View& view, const FloorPlan& plan, const FloorSection& section);
