@@ -9,6 +9,7 @@ import unittest
 
 from blocks import blocks_of
 from check_documents import Documents
+from check_links import faults_of
 
 _SOURCE = pathlib.Path(__file__).resolve().parents[2]
 _PROGRAMS = None
@@ -86,6 +87,15 @@ class PlantedTest(unittest.TestCase):
         self.assert_passes("    $ camwayd --scene maze=scenes/maze.obj\n\n"
                            "    $ camway scene describe maze\n")
         self.assert_fails("    $ camwayd --scene maze=nothing.obj\n", "nothing.obj")
+
+    def test_links_have_to_lead_somewhere(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder)
+            (source / "a.md").write_text("# A path, in `ten` lines\n\n[b](b.md) [c](b.md#c) [here](#a-path-in-ten-lines)\n")
+            (source / "b.md").write_text("# B\n")
+            self.assertEqual(list(faults_of(source, "a.md")), ["a.md: b.md#c: there is no such heading"])
+            (source / "b.md").unlink()
+            self.assertEqual(len(list(faults_of(source, "a.md"))), 2)
 
     def test_indented_paragraphs_are_no_blocks(self):
         text = "- a list\n    goes on\n\n    $ code\n\n    of one block\n\ntext\n    goes on\n"
