@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Two versions of a function, and the loader takes the one for this processor. Without fused
-// multiplication in either they compute the same bits. Sanitizers run before they can cope with it.
+// Compiles a function in two versions; the loader chooses the one for this processor. Neither
+// version uses fused multiplication, so both compute the same bits. Disabled under sanitizers,
+// which cannot run this early.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CAMWAY_FOR_EVERY_PROCESSOR __attribute__((target_clones("avx2", "default")))

@@ -8,7 +8,7 @@ namespace camway::collision {
 
 namespace {
 
-// Longer than any process lives, short enough that no duration arithmetic overflows.
+// Longer than any process runs, and short enough that no duration overflows.
 constexpr double kLongest_s = 1e8;
 
 std::chrono::steady_clock::duration duration_of(double seconds) {

@@ -12,18 +12,18 @@
 
 namespace camway::scene {
 
-/// More threads than this do not make the passes over a scene faster: they wait for memory.
+/// Largest useful number of threads: passes over a scene are then limited by memory bandwidth.
 inline constexpr unsigned kMaxChunkThreads = 8;
 
-/// How many threads to use where `asked` is what the caller wants, 0 for one a processor.
+/// Number of threads to use if the caller asks for `asked`, where 0 means one per processor.
 inline unsigned chunk_threads(unsigned asked) {
   return std::clamp(asked != 0 ? asked : std::thread::hardware_concurrency(), 1U, kMaxChunkThreads);
 }
 
 /// Calls `work(worker, chunk)` once for every chunk in [0, chunks) and returns when all are done.
-/// Chunks are handed out in order to `workers` threads, the caller's included; who gets which is
-/// chance, so `work` must give the same for any. If `work` throws, no more chunks are begun and one
-/// of the exceptions comes out here. Precondition: workers >= 1.
+/// Chunks are handed out in order to `workers` threads, the caller's included; which thread gets a
+/// chunk is not deterministic, so the result of `work` must not depend on it. If `work` throws, no
+/// more chunks are started and one of the exceptions is rethrown here. Requires workers >= 1.
 template <class Work>
 void for_each_chunk(unsigned workers, std::size_t chunks, const Work& work) {
   std::atomic<std::size_t> next{0};
@@ -48,7 +48,7 @@ void for_each_chunk(unsigned workers, std::size_t chunks, const Work& work) {
     try {
       helpers.emplace_back(take_chunks, worker);
     } catch (const std::system_error&) {
-      break;  // the system has no more threads: those that there are do all of it
+      break;  // the system has no more threads: the existing ones do the work
     }
   }
   take_chunks(0);

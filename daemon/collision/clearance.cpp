@@ -17,7 +17,7 @@ using motion::Segment;
 using motion::SegmentMotion;
 using motion::Stretch;
 
-// Rounding makes a computed bound too large by a few units of it at most: sums and a product.
+// Upper bound of the rounding of a bound: sums and a product.
 constexpr double kRoundDown = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
 
 class ClearanceSearch {
@@ -34,7 +34,8 @@ class ClearanceSearch {
   }
 
  private:
-  // A small upper bound spares the rest of the path: the closest of a few places is a good guess.
+  // Finds a first upper bound at the closest of a few places; a small one excludes most of the
+  // path.
   void seed(const motion::Path& path) {
     Stretch closest;
     double least_m = std::numeric_limits<double>::infinity();
@@ -53,7 +54,7 @@ class ClearanceSearch {
     if (least_m < std::numeric_limits<double>::infinity()) look(closest);
   }
 
-  // False where no distance above 0 can be proved, or when the deadline struck.
+  // Returns false where no positive distance can be proved, or when the deadline struck.
   bool walk(const Segment& segment) {
     const SegmentMotion motion(segment);
     double width = 1.0;
@@ -92,7 +93,7 @@ class ClearanceSearch {
     const double everywhere_m =
         kRoundDown * (kShare * (seen.gap_m + probe_.keep_m()) - probe_.keep_m()) -
         (seen.reach_m + seen.rounding_m) / kRoundDown;
-    // Where rounding alone hides the difference, splitting shows nothing more.
+    // If rounding alone hides the difference, splitting does not help.
     const bool hopeless = !(seen.reach_m > 2.0 * seen.rounding_m) || !splittable;
     if (hopeless && !(everywhere_m > 0.0)) return Verdict::kTouches;
     if (!(seen.gap_m > 0.0)) return Verdict::kTouches;
@@ -105,7 +106,7 @@ class ClearanceSearch {
     return Verdict::kTooLong;
   }
 
-  // Looks for whether the distance is `enough` all over the stretch.
+  // Checks whether the distance is at least `enough` all over the stretch.
   Look look(const Stretch& stretch) {
     asked_m_ = enough();
     const Look seen = probe_.look(stretch, asked_m_, kShare);
@@ -120,12 +121,12 @@ class ClearanceSearch {
   [[nodiscard]] PathClearance touch() const { return {0.0, upper_m_}; }
 
   // Chosen by measurement: none changes what is proved.
-  static constexpr double kShare = 0.93;  // of the distance given, is the true one at least
+  static constexpr double kShare = 0.93;  // the true distance is at least this share
   static constexpr int kPlacesASegment = 8;
-  static constexpr double kWorthALook = 1.5;  // of the reach that was aimed at
-  static constexpr double kApproach = 0.8;    // reach aimed at, of the gap that was seen
+  static constexpr double kWorthALook = 1.5;  // share of the reach aimed at
+  static constexpr double kApproach = 0.8;    // reach aimed at, as a share of the gap
   static constexpr double kLargestGrowth = 4.0;
-  static constexpr double kLargestShare = 0.8;  // of a reach that was too long
+  static constexpr double kLargestShare = 0.8;  // share of a reach that was too long
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
 

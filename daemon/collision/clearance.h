@@ -10,24 +10,25 @@
 
 namespace camway::collision {
 
-/// Least distance between the body and the scene over a whole path.
+/// Bounds of the least distance between the body and the scene over a whole path.
 struct PathClearance {
-  /// Never above the true least distance; 0 if no distance above 0 could be proved.
+  /// Never above the true least distance; 0 if no positive distance could be proved.
   double lower_bound_m = 0.0;
-  /// Where it was found to be this or less.
+  /// Somewhere the distance was found to be this or less; at most `kLargestClearance_m`.
   double upper_bound_m = 0.0;
 };
 
-/// How far the lower bound may stay below the upper one, as a share of it, rounding apart.
+/// Largest gap between the two bounds, as a share of the upper one, rounding apart.
 inline constexpr double kClearanceGap = 0.18;
 
-/// A clearance of more than this is reported as this. Who keeps a hundred metres away from
-/// everything does not ask how far exactly, and a scene may be empty. [Units: metres]
+/// Largest clearance that is reported; a scene may be empty, and larger values are of no use.
+/// [Units: metres]
 inline constexpr double kLargestClearance_m = 100.0;
 
-/// Branch and bound over the path with the bound of `Probe::look`: a stretch is final when its
-/// distance is proved to stay within `kClearanceGap` of the least found so far, or above. Covers
-/// every instant, rounding included. Bounds do not count. Nothing if the deadline struck first.
+/// Computes the clearance by branch and bound over the path, with the bound of `Probe::look`: a
+/// stretch is final when its distance is proved to be nowhere below the least distance found so far
+/// by more than `kClearanceGap`. Covers every instant, rounding included. Ignores bounds. Returns
+/// nothing if the deadline strikes first.
 std::optional<PathClearance> path_clearance(const Obstacles& obstacles, const motion::Path& path,
                                             const motion::Body& body, const Deadline& deadline);
 

@@ -13,18 +13,17 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-// c·(a×b)/|a×b| for differences a, b, c of coordinates no further apart than S in any axis, u =
-// 2^-53:
-//  1. Differences round by u, the products and sums of a×b by 3u: |a||b| times 10u in length.
-//  2. The product with c: |c|·(10u·|a||b| + 4u·|a×b|) <= 14u·|c||a||b|.
-//  3. Division by a length with the relative error 10u·k + 4u, k = |a||b| / |a×b|, of a quotient
-//  that
-//     is at most |c|: as much again.
+// Rounding of c·(a×b)/|a×b| for differences a, b, c of coordinates no further apart than S in any
+// axis, with u = 2^-53:
+// 1. Differences round by u, the products and sums of a×b by 3u: |a||b| times 10u in length.
+// 2. The product with c: |c|·(10u·|a||b| + 4u·|a×b|) <= 14u·|c||a||b|.
+// 3. Division by a length with the relative error 10u·k + 4u, k = |a||b| / |a×b|, of a quotient
+//    that is at most |c|: as much again.
 // 28u·|c|·k with |c| <= √3·S: 49u·S·k; 64 covers the second order.
 constexpr double kHeightRounding = 64.0 * geometry::kUnitRoundoff;
 
-// Distance, with a sign, of a point from the plane through the directions a and b, or between lines
-// of these directions, and what rounding may have added to it.
+// Signed distance of a point from the plane through the directions a and b, or between lines with
+// these directions, and a bound of its rounding.
 struct Height {
   double value_m;
   double error_m;
@@ -35,7 +34,7 @@ struct Height {
 Height height_m(const Vec3& c, const Vec3& a, const Vec3& b, double scale_m) {
   const Vec3 normal = a.cross(b);
   const double length = normal.norm();
-  // Where they are parallel this is infinite or not a number, and then nothing is sure.
+  // For parallel directions the error is infinite or not a number: nothing is proved.
   const double error_m = kHeightRounding * scale_m * (a.norm() * b.norm() / length);
   return {c.dot(normal) / length, error_m};
 }
@@ -49,16 +48,16 @@ double scale_of(const Triangle& a, const Triangle& b) {
   return 2.0 * scale_m;  // between any two of the six points
 }
 
-// The margin with which the segment from p to q passes through `disc`. Its ends are no nearer to
-// the disc than to the plane of it, and it is no nearer to a side than its line is to the line of
-// the side. It passes through the inside if its ends lie on two sides of the plane, and if its line
-// passes all three sides in the same sense.
+// Margin with which the segment from p to q passes through `disc`. Its ends are at least as far
+// from the disc as from the plane of the disc, and the segment is at least as far from a side as
+// their lines are from each other. It passes through the inside if its ends lie on opposite sides
+// of the plane and its line passes all three sides in the same sense.
 double passing_margin_m(const Vec3& p, const Vec3& q, const Triangle& disc, double scale_m,
                         double enough_m) {
   const Vec3 e = disc[1] - disc[0];
   const Vec3 f = disc[2] - disc[0];
   const Vec3 normal = e.cross(f);
-  // Most do not reach from one side to the other: signs alone tell, without a square root.
+  // Most segments do not cross the plane: signs alone tell, without a square root.
   if (!(normal.dot(p - disc[0]) * normal.dot(q - disc[0]) < 0.0)) return 0.0;
   const Height from = height_m(p - disc[0], e, f, scale_m);
   const Height to = height_m(q - disc[0], e, f, scale_m);
@@ -68,7 +67,7 @@ double passing_margin_m(const Vec3& p, const Vec3& q, const Triangle& disc, doub
     const Height side = height_m(p - disc[i], q - p, disc[(i + 1) % 3] - disc[i], scale_m);
     if (side.value_m * sense < 0.0) return 0.0;
     sense = side.value_m;
-    // In this order "not a number" counts as nothing.
+    // In this order "not a number" yields no margin.
     margin_m = side.surely_m() < margin_m ? side.surely_m() : margin_m;
     if (!(side.surely_m() > enough_m)) return 0.0;
   }

@@ -5,8 +5,9 @@
 
 namespace camway::collision {
 
-/// How far the points of one triangle may be moved, each by its own way, and the two still touch:
-/// proved, rounding included. 0 if they do not touch or if nothing can be said. [Units: metres]
+/// Returns a distance by which the points of one triangle may move, each in its own way, with the
+/// two triangles still touching: proved, rounding included. 0 if they do not touch or if nothing
+/// can be said. [Units: metres]
 ///
 /// The proof: let an edge of one triangle pass through the inside of the other. If every point
 /// moves by less than the distances between the edge's ends and the pierced triangle, and between
@@ -16,7 +17,7 @@ namespace camway::collision {
 /// change otherwise (Guillemin & Pollack 1974, "Differential topology", section 2.4), so it stays
 /// odd. It does not matter which of the two moves, nor whether it moves rigidly.
 ///
-/// Only a margin above `enough_m` is worked out; 0 may be returned for any other.
+/// Computes only margins above `enough_m`; for a smaller one it may return 0.
 double crossing_margin_m(const geometry::Triangle& a, const geometry::Triangle& b, double enough_m);
 
 }  // namespace camway::collision

@@ -18,7 +18,7 @@ using motion::Segment;
 using motion::SegmentMotion;
 using motion::Stretch;
 
-// How far a point of the body travels at the most.
+// Upper bound of how far a point of the body travels.
 double travel_bound_m(const motion::Path& path, double radius_m) {
   double travel_m = 0.0;
   for (const Segment& segment : path.segments()) {
@@ -44,23 +44,23 @@ void join_close_intervals(std::vector<CollisionInterval>& intervals, double gap_
   if (!intervals.empty()) intervals.resize(kept + 1);
 }
 
-/// A stretch u0 <= u <= u1 of a segment. Kept as parameters of the whole, not as control points of
-/// its own, so that rounding does not add up over sub-divisions.
+/// A stretch u0 <= u <= u1 of a segment, as parameters of the whole segment and not as control
+/// points of its own, so that rounding does not add up over subdivisions.
 struct Piece {
   const Segment* segment;
   double u0;
   double u1;
 
   [[nodiscard]] double middle() const { return 0.5 * (u0 + u1); }
-  /// A piece so short that its middle is one of its ends cannot be split.
+  /// False for a piece so short that its middle is one of its ends.
   [[nodiscard]] bool splittable() const { return middle() > u0 && middle() < u1; }
   [[nodiscard]] double begin_s() const { return motion::segment_time_s(*segment, u0); }
   [[nodiscard]] double end_s() const { return motion::segment_time_s(*segment, u1); }
 };
 
-// Walks the path from left to right in steps whose reach follows the distance of the scene, and
-// strings the colliding pieces together to intervals. (Splitting in halves from above spends most
-// of its queries on pieces that are far too long.)
+// Walks the path from beginning to end in steps whose length follows the distance to the scene, and
+// joins the colliding pieces to intervals. (Recursive bisection would spend most queries on pieces
+// that are far too long.)
 class Detector {
  public:
   Detector(const Obstacles& obstacles, const motion::Body& body, const DetectOptions& options,
@@ -83,7 +83,7 @@ class Detector {
   }
 
   [[nodiscard]] bool timed_out() const { return timed_out_; }
-  /// Up to when all is known.
+  /// End of the time that was searched.
   [[nodiscard]] double until_s() const { return until_s_; }
   [[nodiscard]] std::vector<CollisionInterval>& intervals() { return intervals_; }
 
@@ -99,7 +99,7 @@ class Detector {
       const Piece piece{all.segment, u, end_of_step(u, width, all.u1)};
       width = piece.u1 - u;
       const Stretch stretch = motion.around(piece.u0, piece.u1);
-      // What rounding adds to the reach does not go away by splitting.
+      // Only the motion matters: splitting does not reduce the rounding.
       const double motion_m = probe_.reach_m(stretch) - probe_.rounding_m(stretch);
       const bool too_long = std::isfinite(motion_m) && motion_m > kWorthALook * aim_m_;
       if (too_long && piece.splittable()) {
@@ -113,7 +113,7 @@ class Detector {
 
   enum class Verdict { kSettled, kTooLong, kUnknown };
 
-  // Looks at a piece and chooses the reach of the next; false if the piece was too long.
+  // Checks a piece and chooses the reach of the next; returns false if the piece was too long.
   bool settle(const Piece& piece, const Stretch& stretch) {
     const Verdict inside = last_ ? settle_inside(piece, stretch) : Verdict::kUnknown;
     if (inside != Verdict::kUnknown) return inside == Verdict::kSettled;
@@ -134,13 +134,13 @@ class Detector {
       aim_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
       return true;
     }
-    // Shorter in any case, or it would be looked at for ever.
+    // Must be shorter, or the loop would not end.
     aim_m_ = std::min(kBelow * seen.motion_m(),
                       std::max(next_reach_m(seen), kBelow * least_reach_m(seen)));
     return false;
   }
 
-  // Whether the middle collides is of no interest where the piece is split in any case.
+  // Measures the distance at the middle only if the piece will not be split.
   Look look(const Piece& piece, const Stretch& stretch, Probe::Way way) {
     Look seen = probe_.glance(stretch, /*margin_m=*/0.0, way);
     const double largest_m = last_ ? options_.gap_m : options_.tolerance_m;
@@ -148,13 +148,13 @@ class Detector {
     return seen;
   }
 
-  // Finer is of no use.
+  // The reach below which a piece need not be split.
   [[nodiscard]] double least_reach_m(const Look& seen) const {
     return last_ && seen.collides() ? options_.gap_m : finest_m(seen);
   }
 
-  // Inside a collision: a stretch of which a collision all over can be proved, or one that is short
-  // enough to count if its middle collides.
+  // Within a collision: extends it by a stretch that is proved to collide everywhere, or one that
+  // is short enough and collides at its middle.
   Verdict settle_inside(const Piece& piece, const Stretch& stretch) {
     const double reach_m = probe_.reach_m(stretch);
     if (!std::isfinite(reach_m)) return Verdict::kUnknown;
@@ -183,7 +183,7 @@ class Detector {
     return Verdict::kSettled;
   }
 
-  // The reach at which a stretch that is not free counts as colliding.
+  // The reach below which a stretch that is not free counts as colliding.
   [[nodiscard]] double finest_m(const Look& seen) const {
     return seen.collides() ? options_.tolerance_m : kFinestShare * options_.tolerance_m;
   }
@@ -193,7 +193,7 @@ class Detector {
   }
 
   bool out_of_time() {
-    // Asking the clock takes as long as a lookup in the distance field.
+    // Reading the clock takes as long as a look-up in the distance field.
     if (looks_++ % kLooksPerClock != 0 || !deadline_.passed()) return false;
     timed_out_ = finished_ = true;
     return true;
@@ -202,7 +202,7 @@ class Detector {
   static double end_of_step(double u, double width, double u1) {
     const double left = u1 - u;
     if (!(width < left)) return u1;
-    // Two halves rather than a sliver at the end of a segment.
+    // Avoid a sliver at the end of a segment: take two halves.
     const double end = u + (1.25 * width < left ? width : 0.5 * left);
     return end > u ? end : std::nextafter(u, u1);
   }
@@ -239,8 +239,8 @@ class Detector {
     finished_ = finished_ || only_first_;
   }
 
-  // Where, at the finest resolution, the last part of `piece` ends that is not free: walked from
-  // its end, which is free, backwards. Nothing if all of it is free.
+  // Walks `piece` backwards from its end, which is free, and returns the end of the last part that
+  // is not free at the finest resolution. Nothing if all of it is free.
   std::optional<double> last_not_free(const SegmentMotion& motion, const Piece& piece) {
     double width = piece.u1 - piece.u0;
     for (double u = piece.u1; u > piece.u0 && !out_of_time();) {
@@ -259,7 +259,7 @@ class Detector {
     return std::nullopt;
   }
 
-  // What is touched deepest at the contact next to `time_s`.
+  // The deepest contact of the piece whose middle is nearest to `time_s`.
   std::optional<Witness> witness(double time_s) {
     const auto distance_s = [&](const Piece& piece) {
       return std::abs(motion::segment_time_s(*piece.segment, piece.middle()) - time_s);
@@ -274,14 +274,14 @@ class Detector {
   }
 
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
-  static constexpr double kWorthALook = 1.5;     // of the reach that was aimed at
-  static constexpr double kFinestShare = 0.1;    // of the tolerance
-  static constexpr double kBelow = 0.9;          // so that rounding does not lift it above a limit
-  static constexpr double kLargestGrowth = 2.0;  // of a stretch proved to collide
-  static constexpr double kLargestStep = 8.0;    // of a width; more is not foreseeable
+  static constexpr double kWorthALook = 1.5;     // share of the reach aimed at
+  static constexpr double kFinestShare = 0.1;    // share of the tolerance
+  static constexpr double kBelow = 0.9;          // keeps rounding from exceeding a limit
+  static constexpr double kLargestGrowth = 2.0;  // growth after a stretch proved to collide
+  static constexpr double kLargestStep = 8.0;    // largest growth of a width
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
-  static constexpr int kMostImpatience = 15;  // looks between attempts to prove a collision
+  static constexpr int kMostImpatience = 15;  // checks between attempts to prove a collision
 
   Probe probe_;
   const DetectOptions& options_;
@@ -295,15 +295,15 @@ class Detector {
   bool timed_out_ = false;
   double until_s_ = 0.0;
 
-  // Of the interval that is open.
+  // State of the open interval.
   std::optional<Piece> last_;
   bool last_is_sure_ = false;
   double begin_s_ = 0.0;
   double closest_gap_m_ = 0.0;
-  std::optional<std::uint32_t> hit_;  ///< with which the last stretch was proved to collide
-  std::uint32_t touched_ = 0;         ///< was touched last, so probably again
-  int patience_ = 0;                  ///< looks until a proof is attempted again
-  int impatience_ = 0;                ///< and after the next failure
+  std::optional<std::uint32_t> hit_;  ///< obstacle that the last stretch was proved to hit
+  std::uint32_t touched_ = 0;         ///< obstacle that was touched last: tried first
+  int patience_ = 0;                  ///< checks until the next attempt of a proof
+  int impatience_ = 0;                ///< checks between attempts after the next failure
   std::vector<Piece> contacts_;
 
   std::vector<CollisionInterval> intervals_;

@@ -12,7 +12,7 @@ namespace camway::collision {
 /// The filled near quadrilateral as two triangles that share a diagonal.
 std::array<geometry::Triangle, 2> near_quad_triangles(const motion::Corners& corners);
 
-/// Whether the filled near quadrilateral at `pose` touches the scene: an object that slips through
+/// Whether the filled near quadrilateral at `pose` touches the scene. An object that passes through
 /// its interior counts, not only one that crosses its outline.
 bool collides(const scene::SceneIndex& index, const motion::Corners& corners_C,
               const motion::Pose& pose);

@@ -17,27 +17,28 @@ struct Snapshot;
 
 namespace camway::collision {
 
-/// What a path is checked against. Refers to what it was made from, which must outlive it.
+/// The scene and the bounds that a path is checked against. Refers to its sources, which must
+/// outlive it.
 struct Obstacles {
-  // Implicit on purpose: wherever a scene is asked for, an index or a snapshot will do.
+  // Implicit on purpose: an index or a snapshot may be passed where obstacles are expected.
   Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
   Obstacles(const scene::Snapshot& snapshot);                              // NOLINT
 
-  /// The same, and nothing beyond `limits` either.
+  /// These obstacles with the bounds reduced to `limits`.
   [[nodiscard]] Obstacles within(const geometry::Bounds& limits) const {
     Obstacles both = *this;
     both.bounds = bounds.within(limits);
     return both;
   }
-  /// The scene alone.
+  /// The same scene without bounds.
   [[nodiscard]] Obstacles without_bounds() const {
     Obstacles scene = *this;
     scene.bounds = {};
     return scene;
   }
 
-  /// Obstacles have numbers: the scene's triangles theirs, sides of the bounds the highest there
-  /// are, which as signed numbers are -1 to -6.
+  /// Each obstacle has a number: triangles of the scene their index, sides of the bounds the
+  /// highest numbers, which `signed_number` maps to -1 to -6.
   static constexpr std::uint32_t number_of_side(std::size_t side) {
     return std::numeric_limits<std::uint32_t>::max() - static_cast<std::uint32_t>(side);
   }
@@ -50,13 +51,14 @@ struct Obstacles {
   static constexpr std::int64_t signed_number(std::uint32_t number) {
     return is_side(number) ? -1 - static_cast<std::int64_t>(side_of(number)) : number;
   }
-  /// Across an obstacle, of any length; 0 for a triangle without area.
+  /// A normal of an obstacle, of any length; 0 for a triangle without area.
   [[nodiscard]] geometry::Vec3 normal_W(std::uint32_t number) const;
 
   const scene::SceneIndex& index;
-  const scene::ClearanceField* field = nullptr;  ///< may be absent: it spares time, no more
-  const scene::SceneSolids* solids = nullptr;    ///< null if nothing of the scene has an inside
-  geometry::Bounds bounds;                       ///< that the body must not leave
+  /// Distance field that speeds up queries; may be null.
+  const scene::ClearanceField* field = nullptr;
+  const scene::SceneSolids* solids = nullptr;  ///< solids of the scene; null if it has none
+  geometry::Bounds bounds;                     ///< bounds that the body must not leave
 };
 
 }  // namespace camway::collision

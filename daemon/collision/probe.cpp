@@ -21,10 +21,10 @@ using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
 
-// Sums of a handful of positive numbers, each of which rounds by half of this at most.
+// Upper bound of the rounding of a sum of a few positive numbers, half an epsilon each.
 constexpr double kRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
 
-// A triangle that is large enough to prove a collision is met among the first or hardly at all.
+// A triangle large enough to prove a collision is nearly always among the first.
 constexpr int kMaxCrossingsTried = 16;
 
 Vec3 to_world(const motion::Stretch& stretch, const Vec3& point_C) {
@@ -74,7 +74,7 @@ double Probe::field_distance_m(const motion::Stretch& stretch) const {
   const Vec3 center_W = to_world(stretch, center_C_);
   const double clearance_m = obstacles_.field->clearance_at_least_m(center_W);
   if (!(clearance_m > 0.0)) return 0.0;
-  // Far from all faces, but inside.
+  // The centre may be far from all faces, but inside of a solid.
   if (obstacles_.solids != nullptr && obstacles_.solids->hold(center_W)) return 0.0;
   return clearance_m - center_radius_m_ * kRoundUp;
 }
@@ -105,8 +105,8 @@ Look Probe::glance_at_scene(const motion::Stretch& stretch, double margin_m, Way
   Look look;
   look.reach_m = reach_m(stretch);
   look.rounding_m = rounding_m(stretch);
-  // Of the ball about the triangles: what it holds cannot be inside a solid either, nor the ball in
-  // one with a part of it only.
+  // The distance of the ball about the triangles: if it is free, no solid of the body holds a part
+  // of the scene, and no solid of the scene a part of the body.
   const double field_m = field_distance_m(stretch);
   if (field_m > (look.reach_m + margin_m + keep_m_) * kRoundUp) {
     look.free = true;
@@ -119,14 +119,14 @@ Look Probe::glance_at_scene(const motion::Stretch& stretch, double margin_m, Way
   const double error_m = obstacles_.index.nearest_error_m(body.ends);
   look.rounding_m += error_m;
   body.keep_m = (margin_m + error_m + keep_m_) * kRoundUp;
-  // Too large or not a number: then nothing is known, and the motion is at fault.
+  // If the motion is too large or not a number, nothing is known.
   if (!(body.bend_m + body.reach_m + body.keep_m < geometry::kLargestCoordinate_m)) return look;
   const scene::Passage passage = obstacles_.index.passage(body);
   look.swallows = passage.is_clear && (holds_scene(stretch) || is_in_solid());
   look.free = passage.is_clear && !look.swallows;
   look.is_measured = passage.nearest.has_value() || !look.free;
   look.ahead = passage.ahead;
-  // What is inside a solid has no gap, however far from the surface.
+  // Inside of a solid the gap stays 0, however far the surface is.
   if (look.swallows) return look;
   look.gap_m = passage.nearest ? passage.nearest->distance_m - keep_m_ : margin_m;
   return look;
@@ -157,7 +157,7 @@ void Probe::mind_bounds(const motion::Stretch& stretch, double margin_m, Way way
       last_m = std::min(last_m, obstacles_.bounds.depth_m(ends_[2 * i + 1][k]));
     }
   }
-  // A reach that is not a number fails both.
+  // A reach that is not a number fails both conditions.
   const bool is_inside = look.reach_m < std::numeric_limits<double>::infinity() &&
                          (middle_m > (look.reach_m + keep_m) * kRoundUp ||
                           std::min(first_m, last_m) > (body.bend_m + keep_m) * kRoundUp);
@@ -190,7 +190,7 @@ std::optional<Probe::Edge> Probe::nearest_edge() const {
 
 void Probe::measure(const motion::Stretch& stretch, Look& look, double share) {
   if (look.free || look.swallows || !(look.gap_m + keep_m_ > 0.0)) return;
-  // "Nearer than": what was found before stays where nothing is.
+  // If no triangle is nearer, the gap found before holds.
   const std::optional<scene::Nearest> nearest =
       obstacles_.index.near(place(stretch), look.gap_m + keep_m_, /*certain_m=*/0.0, share);
   if (nearest) look.gap_m = nearest->distance_m - keep_m_;
@@ -204,8 +204,8 @@ Look Probe::look(const motion::Stretch& stretch, double margin_m, double share) 
 
 bool Probe::holds_scene(const motion::Stretch& stretch) {
   if (body_.solids_C().empty()) return false;
-  // The surface keeps away from all triangles, so one vertex stands for its triangle, and rounding
-  // cannot take it across.
+  // The surface touches no triangle, so one vertex represents its triangle, and rounding cannot
+  // move it across the surface.
   return !obstacles_.index.for_each_touching(bounds_of(placed_), [&](std::uint32_t index) {
     const Vec3 point_W = obstacles_.index.triangle(index)[0];
     const Vec3 point_C = stretch.R_WC.transpose() * (point_W - stretch.eye_W);
@@ -231,7 +231,7 @@ std::optional<std::uint32_t> Probe::touched_in_the_middle(const motion::Stretch&
         placed, [&](const Triangle& part) { return geometry::triangles_touch(part, guessed); });
     if (is_right) return guess;
   }
-  // "Nearer than": the next number makes it "not further than".
+  // `any_within` means "nearer than"; the next double makes it "not farther than".
   const double further_m = std::nextafter(keep_m_, std::numeric_limits<double>::infinity());
   const std::optional<scene::Nearest> found = obstacles_.index.any_within(placed, further_m);
   if (!found) return std::nullopt;
@@ -245,10 +245,10 @@ bool Probe::surely_collides_with(std::uint32_t obstacle, const motion::Stretch& 
   return surely_leaves(reach_m(stretch));
 }
 
-// One vertex stays beyond one side.
+// Whether one vertex stays beyond one side.
 bool Probe::surely_leaves(double moved_m) const {
   const std::optional<Edge> edge = nearest_edge();
-  // A depth of about the ball's radius is off by as much as rounding that.
+  // A depth of about the ball's radius has about the rounding of that radius.
   const double rounding_m = (kRoundUp - 1.0) * body_.ball_radius_m();
   return edge && -edge->gap_m > (moved_m + rounding_m) * kRoundUp;
 }

@@ -8,10 +8,10 @@ namespace camway::collision {
 namespace {
 
 // Chosen by measurement over furnished and empty scenes.
-constexpr double kTrust = 0.97;         // in the room that was foretold
-constexpr double kFieldTrust = 0.7;     // in the distance field, which knows no direction
-constexpr double kLargestGrowth = 4.0;  // more is not foreseeable
-constexpr double kLargestShare = 0.8;   // of a reach that was too long
+constexpr double kTrust = 0.97;         // share of the predicted room that is used
+constexpr double kFieldTrust = 0.7;     // share of the distance field, which knows no direction
+constexpr double kLargestGrowth = 4.0;  // motion is not predictable beyond
+constexpr double kLargestShare = 0.8;   // share of a reach that was too long
 
 }  // namespace
 

@@ -5,9 +5,9 @@
 
 namespace camway::collision {
 
-/// How far the next look along a path should reach: the next stretch if the one seen is free, else
-/// another one from the same beginning. As far as what was met leaves room, as the body moves now.
-/// Only the number of looks depends on it, nothing that is proved. [Units: metres]
+/// Chooses the reach of the next stretch: the following one if `seen` is free, otherwise another
+/// one from the same beginning. As long as the obstacles met allow at the current motion. Only the
+/// number of checks depends on it, no proof. [Units: metres]
 double next_reach_m(const Look& seen);
 
 }  // namespace camway::collision

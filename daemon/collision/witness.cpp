@@ -17,7 +17,7 @@ using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
 
-// How far `moving` reaches through the plane of `fixed`, on the side where it does so less.
+// The smaller of the two depths to which `moving` reaches through the plane of `fixed`.
 double depth_through_plane_m(const Triangle& moving, const Triangle& fixed) {
   const Vec3 normal = (fixed[1] - fixed[0]).cross(fixed[2] - fixed[0]);
   const double length = normal.norm();
@@ -64,8 +64,8 @@ Vec3 closest_on_triangle(const Triangle& triangle, const Vec3& point) {
   return closest;
 }
 
-// Which part of a near quadrilateral a triangle cuts: a corner if it cuts both edges there, one
-// edge, or the inside alone. Numbered as `motion::Body::feature_name` does.
+// The feature of a near quadrilateral that a triangle cuts: a corner if it cuts both edges there,
+// one edge, or only the inside. Numbered as in `motion::Body::feature_name`.
 std::uint32_t camera_feature(std::span<const Triangle> quad, const Triangle& obstacle) {
   const std::array<Vec3, 4> corners{quad[0][0], quad[0][1], quad[0][2], quad[1][2]};
   std::array<bool, 4> cut{};
@@ -88,7 +88,7 @@ Box grown_bounds(std::span<const Triangle> placed, double by_m) {
   return {box.min() - Vec3::Constant(by_m), box.max() + Vec3::Constant(by_m)};
 }
 
-// What a solid of the body holds: how deep the first vertex of a triangle is inside at the most.
+// The triangle whose first vertex is deepest inside a solid of the body.
 std::optional<Witness> deepest_inside(Probe& probe, const motion::Stretch& stretch,
                                       std::span<const Triangle> placed) {
   const scene::SceneIndex& index = probe.obstacles().index;
@@ -123,7 +123,7 @@ std::uint32_t nearest_part(std::span<const Triangle> placed, const Vec3& point_W
   return nearest;
 }
 
-// The vertex that is furthest beyond the bounds. Precondition: the body is placed.
+// The vertex that is farthest beyond the bounds. Requires the body to be placed.
 std::optional<Witness> beyond_bounds(const Probe& probe, std::span<const Triangle> placed,
                                      double beyond_m) {
   const std::optional<Probe::Edge> edge = probe.nearest_edge();

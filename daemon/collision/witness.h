@@ -8,13 +8,13 @@
 
 namespace camway::collision {
 
-/// The deepest contact of the body, where the middle of `stretch` has it, with a triangle of the
-/// scene or a side of the bounds. What is up to `beyond_m` further away than required counts, with
-/// depth 0. Nothing if there is none. The time is left 0.
+/// Returns the deepest contact of the body, at the middle of `stretch`, with a triangle of the
+/// scene or a side of the bounds; nothing if there is none. An obstacle up to `beyond_m` farther
+/// away than required counts, with depth 0. Leaves the time 0.
 ///
-/// The depth of two triangles that cross is the least way along the normal of either that takes
-/// them apart; where they are merely too close, what is missing in distance; of what a solid of the
-/// body holds without touching it, how deep it is inside.
+/// The depth of two triangles that cross is the least translation along the normal of either that
+/// separates them; of two that are merely too close, the missing distance; of a triangle inside a
+/// solid of the body, its depth in the solid.
 std::optional<Witness> deepest_contact(Probe& probe, const motion::Stretch& stretch,
                                        double beyond_m);
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kMostChanges = 2;
 
-/// Letters to leave out, add, change or swap with their neighbours, to make `a` of `b` (optimal
-/// string alignment).
+/// Returns the least number of letters to leave out, add, change or swap with a neighbour that turn
+/// `b` into `a` (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
@@ -31,7 +31,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
-/// The command that was called: the innermost one that was named.
+/// Returns the innermost command that was named.
 const CLI::App& called(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
@@ -96,7 +96,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   std::string nearest;
   for (const std::string& candidate : words) {
     const std::size_t changes = edit_distance(word, candidate);
-    // Else every word of two letters would be near.
+    // Otherwise any two words of two letters would be near.
     if (changes >= least || changes >= candidate.size()) continue;
     least = changes;
     nearest = candidate;

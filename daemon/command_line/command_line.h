@@ -10,23 +10,24 @@
 
 #include <CLI/CLI.hpp>
 
-/// What the command lines of `camway` and `camwayd` have in common: what their errors say.
+/// Parts that the command lines of `camway` and `camwayd` share: the wording of their errors.
 namespace camway::service {
 
-/// Returns the one of `words` that `word` was probably meant to be: the fewest letters left out,
-/// added, changed or swapped, at most a third of its length or 2. Empty if none is so near.
+/// Returns the one of `words` that `word` was probably meant to be: the one that needs the fewest
+/// letters left out, added, changed or swapped, at most 2 or, if that is more, a third of its
+/// length. Returns an empty text if none is so near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
 
-/// The first word of the command line that `app` does not know, in a sentence that names the
-/// nearest right one and the help to look at. Empty if it knows all that it came to. To be called
-/// after `app.parse`, whether it threw or not.
+/// Returns a sentence about the first flag, or else word, that `app` does not know, which names the
+/// nearest right one and the help. Empty if all words that it read are known. Requires that
+/// `app.parse` was called, whether it threw or not.
 std::string unknown_word(const CLI::App& app);
 
-/// What to say of a command line that `app` did not take: the unknown word, or `error`; with the
-/// help to look at.
+/// Returns the message for a command line that `app` refused: about the unknown word, or `error`,
+/// with a reference to the help.
 std::string command_line_fault(const CLI::App& app, const CLI::ParseError& error);
 
-/// Checks of values, whose errors say what a value must be, in words and short numbers.
+/// Checks of values. Their errors say in words and short numbers what a value must be.
 CLI::Validator above_0();
 CLI::Validator at_least_0();
 CLI::Validator between(double least, double most);
@@ -34,8 +35,8 @@ CLI::Validator whole_number(std::int64_t least,
                             std::int64_t most = std::numeric_limits<std::int64_t>::max());
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// An option whose value is one of `names`, pairs of a word and what it stands for. `value` is set
-/// when the option is given, and must outlive `command`.
+/// Adds an option whose value is one of `names`, which are pairs of a word and its meaning. Sets
+/// `value` when the option is given; `value` must outlive `command`.
 template <class Target, class Names>
 CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& value,
                         const Names& names, const std::string& description) {

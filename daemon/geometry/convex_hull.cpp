@@ -25,7 +25,7 @@ std::array<Edge, 3> edges_of(const Indices& v) {
 
 Edge reversed(const Edge& edge) { return {edge.second, edge.first}; }
 
-/// A surface of triangles that encloses all points seen so far, and grows by the others.
+/// A surface of triangles that encloses all points seen so far and grows by the others.
 class Quickhull {
  public:
   Quickhull(const ExactPoints& points, const std::array<Index, 4>& simplex) : points_(points) {
@@ -37,7 +37,7 @@ class Quickhull {
     std::vector<Index> all(points_.size());
     std::iota(all.begin(), all.end(), Index{0});
     distribute(all, 0);
-    // Points go to faces with higher numbers only.
+    // Points move only to faces with higher numbers.
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       if (!faces_[f].outside.empty()) extend(static_cast<Index>(f));
     }
@@ -51,7 +51,7 @@ class Quickhull {
     return triangles;
   }
 
-  /// A triangle for each plane that holds part of the surface.
+  /// One triangle for each plane of the surface.
   [[nodiscard]] std::vector<Indices> planes() const {
     std::vector<Indices> planes;
     std::vector<bool> known(faces_.size(), false);
@@ -82,7 +82,7 @@ class Quickhull {
     faces_.push_back({v, {}, true});
   }
 
-  /// `start` and all faces that are connected with it through faces that `belongs` takes.
+  /// `start` and all faces connected to it through faces for which `belongs` is true.
   template <class Belongs>
   [[nodiscard]] std::vector<Index> connected(Index start, const Belongs& belongs) const {
     std::vector<bool> known(faces_.size(), false);
@@ -99,10 +99,10 @@ class Quickhull {
     return found;
   }
 
-  /// Gives each point that is above one of the faces from `first` on to the first such face. The
-  /// others are inside. No point is lost: one that was above a face that was removed is above one
-  /// that took its place, or inside. For the way to it from the middle of that face leaves the new
-  /// hull above that face's plane, where no old face is.
+  /// Assigns each point to the first face from `first` on that it is above; points above none are
+  /// inside. No point is lost: a point above a removed face is above one of the faces that replace
+  /// it, or inside. For the line to it from the middle of the removed face leaves the new hull
+  /// above that face's plane, where no old face is.
   void distribute(const std::vector<Index>& points, std::size_t first) {
     for (const Index point : points) {
       for (std::size_t f = first; f < faces_.size(); ++f) {
@@ -113,7 +113,7 @@ class Quickhull {
     }
   }
 
-  /// Any of them would do; the farthest makes the hull large early.
+  /// Any of the points is correct; the farthest makes the hull large early.
   [[nodiscard]] Index farthest(const Face& face) const {
     const Vec3& a = points_[face.v[0]];
     const Vec3 normal = (points_[face.v[1]] - a).cross(points_[face.v[2]] - a);
@@ -121,7 +121,7 @@ class Quickhull {
                                      [&](Index point) { return normal.dot(points_[point] - a); });
   }
 
-  /// Takes one point from outside of a face into the hull.
+  /// Adds one point outside of a face to the hull.
   void extend(Index face) {
     const Index eye = farthest(faces_[face]);
     const std::vector<Index> visible =

@@ -12,25 +12,25 @@ namespace camway::motion {
 
 /// The convex hull of a set of points.
 struct ConvexHull {
-  /// Its surface, as indices of points. Counter-clockwise seen from outside. A flat set has the
-  /// triangles of its polygon, once; a set on a line the one triangle `(a, b, b)`, a point
+  /// The surface, as indices of points, counter-clockwise seen from outside. A flat set has the
+  /// triangles of its polygon, once; a set on a line has the triangle `(a, b, b)`, a point
   /// `(a, a, a)`.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Its faces, coplanar triangles counted once; none for a set without volume. All points satisfy
-  /// each of them, as numbers stand here and without rounding.
+  /// The faces, with coplanar triangles counted once; none for a set without volume. All points
+  /// satisfy each half-space exactly, by its numbers as stored.
   std::vector<geometry::HalfSpace> faces;
 };
 
-/// The hull, exactly: no point is outside of it by any amount, so whatever touches the set's hull
-/// touches these triangles or lies inside. Coplanar, collinear and equal points are no special
-/// cases for the caller.
+/// Computes the hull exactly: no point is outside of it by any amount, so every object that touches
+/// the hull of the points touches these triangles or lies inside. Handles coplanar, collinear and
+/// equal points.
 ///
-/// Quickhull (Barber, Dobkin & Huhdanpaa 1996, section 2). Deviation: positions are judged without
-/// rounding (`ExactPoints`) instead of merging facets that rounding makes concave, because a point
-/// that is off all faces by little may be far from the hull where it is sharp, and then no
-/// tolerance of the faces bounds what was lost. Expected O(n log n). Deterministic.
+/// Quickhull (Barber, Dobkin & Huhdanpaa 1996, section 2). Deviation: positions are decided without
+/// rounding (`ExactPoints`), instead of merging facets that rounding makes concave. A point that is
+/// slightly off all faces may be far from the hull where the hull is sharp, and then no tolerance
+/// of the faces bounds the error. Expected O(n log n). Deterministic.
 ///
-/// Precondition: points are finite and at most kMaxBodyCoordinate_m, and there is one.
+/// Requires at least one point; all must be finite and at most kMaxBodyCoordinate_m.
 ConvexHull convex_hull(std::span<const geometry::Vec3> points);
 
 }  // namespace camway::motion

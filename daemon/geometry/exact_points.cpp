@@ -49,7 +49,7 @@ IntegerVec cross(const IntegerVec& a, const IntegerVec& b) {
 constexpr double kVolumeRounding = (7.0 + 56.0 * geometry::kUnitRoundoff) * geometry::kUnitRoundoff;
 
 /// Volume of the parallelepiped of three edges, with a bound of its error if the edges are
-/// differences of points. Products that underflow lose at most 2^-1075 times an edge each, which
+/// differences of points. Each product that underflows loses at most 2^-1075 times an edge, which
 /// the smallest normal number covers for edges up to 2^31 m.
 struct Volume {
   double value;
@@ -107,7 +107,7 @@ int ExactPoints::turn(std::size_t a, std::size_t b, std::size_t c, std::size_t a
 }
 
 Vec3 ExactPoints::unit_normal(std::size_t a, std::size_t b, std::size_t c) const {
-  // Cut to the 62 leading bits of the largest coordinate, which loses less than 2^-61 of it; then
+  // Truncation to the 62 leading bits of the largest coordinate loses less than 2^-61 of it; then
   // one rounding to double (2^-53), and three of a normalised vector (2^-53 each, and its length).
   constexpr unsigned kBits = 62;
   const IntegerVec normal = integers_->normal(a, b, c);

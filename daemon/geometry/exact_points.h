@@ -11,10 +11,10 @@
 
 namespace camway::motion {
 
-/// Points whose mutual position is judged without rounding: doubles decide where their error bound
+/// Points whose relative positions are decided without rounding: in doubles where their error bound
 /// allows it (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
-/// geometric predicates", section 4.3), integers of any length decide the rest. Refers to `points`,
-/// which must outlive it. Precondition: coordinates are finite and at most kMaxBodyCoordinate_m.
+/// geometric predicates", section 4.3), otherwise in integers of any length. Refers to `points`,
+/// which must outlive it. Requires coordinates to be finite and at most kMaxBodyCoordinate_m.
 class ExactPoints {
  public:
   explicit ExactPoints(std::span<const geometry::Vec3> points);
@@ -25,19 +25,20 @@ class ExactPoints {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   [[nodiscard]] const geometry::Vec3& operator[](std::size_t i) const { return points_[i]; }
 
-  /// On which side of the plane through a, b and c point d lies: 1 on the one to which
-  /// (b - a) × (c - a) points, -1 on the other, 0 in the plane, or if there is no one plane.
+  /// The side of the plane through a, b and c on which point d lies: 1 on the side to which (b - a)
+  /// × (c - a) points, -1 on the other, 0 in the plane, or if the three points define no plane.
   [[nodiscard]] int side(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const;
 
-  /// Whether the three lie on one line.
+  /// Whether the three points lie on one line.
   [[nodiscard]] bool collinear(std::size_t a, std::size_t b, std::size_t c) const;
 
-  /// Sense of rotation of a, b, c, seen along coordinate `axis`: 1, -1, or 0 if they are on a line
-  /// there.
+  /// Sense of rotation of a, b, c seen along coordinate `axis`: 1, -1, or 0 if they are collinear
+  /// in that view.
   [[nodiscard]] int turn(std::size_t a, std::size_t b, std::size_t c, std::size_t axis) const;
 
-  /// Direction of (b - a) × (c - a), of unit length to within 4·2^-53, however thin the triangle.
-  /// Each coordinate is within 2^-51 of the true one. Precondition: not collinear.
+  /// Unit vector along (b - a) × (c - a), of unit length to within 4·2^-53, however thin the
+  /// triangle. Each coordinate is within 2^-51 of the true one. Requires that the points are not
+  /// collinear.
   [[nodiscard]] geometry::Vec3 unit_normal(std::size_t a, std::size_t b, std::size_t c) const;
 
  private:

@@ -106,8 +106,8 @@ class SeparationTest {
     return normals;
   }
 
-  /// Complete where the Minkowski difference lies in a plane with this normal; true only if
-  /// separated in any case.
+  /// Tests for separation if the Minkowski difference lies in a plane with this normal: complete in
+  /// that case; in any case true only if separated.
   [[nodiscard]] bool separated_in_plane(const IntegerVec& normal) const {
     for (const auto* edges : {&edges_a_, &edges_b_}) {
       for (const IntegerVec& e : *edges) {

@@ -6,15 +6,15 @@
 
 #include "daemon/geometry/types.h"
 
-// By value the calling convention of such numbers depends on the processor, and GCC says so. All of
-// these are inlined, so there is no call; nor in the sources that include this.
+// GCC warns that the calling convention of such vectors by value depends on the processor. All
+// functions here are inlined, so there are no calls; nor in the sources that include this.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// Three vectors at a time, as the corners and the edges of a triangle come. For use inside of
-/// functions marked CAMWAY_FOR_EVERY_PROCESSOR.
+/// Arithmetic on three vectors at a time, such as the corners or the edges of a triangle. For use
+/// in functions marked CAMWAY_FOR_EVERY_PROCESSOR.
 namespace camway::geometry::lanes {
 
-/// A vector of GCC and Clang: written once, compiled to what the processor has. Lane 3 repeats
+/// A vector type of GCC and Clang, compiled to the instructions of the processor. Lane 3 repeats
 /// lane 0.
 using Numbers = double __attribute__((vector_size(32)));
 inline constexpr std::size_t kLanes = 3;
@@ -31,7 +31,7 @@ CAMWAY_INLINE Vectors load(const Vec3& a, const Vec3& b, const Vec3& c) {
           Numbers{a[2], b[2], c[2], a[2]}};
 }
 CAMWAY_INLINE Vectors load(const Triangle& t) { return load(t[0], t[1], t[2]); }
-/// The same in every lane.
+/// `v` in every lane.
 CAMWAY_INLINE Vectors repeat(const Vec3& v) {
   return {Numbers{v[0], v[0], v[0], v[0]}, Numbers{v[1], v[1], v[1], v[1]},
           Numbers{v[2], v[2], v[2], v[2]}};
@@ -58,7 +58,7 @@ CAMWAY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
 }
 CAMWAY_INLINE Numbers squared_norm(const Vectors& v) { return dot(v, v); }
 
-/// `numerator / denominator` brought into [0, 1]; 0 where that is no number.
+/// `numerator / denominator` clamped to [0, 1]; 0 if the quotient is not a number.
 CAMWAY_INLINE Numbers unit_quotient(const Numbers& numerator, const Numbers& denominator) {
   const Numbers zero = {};
   const Numbers one = {1.0, 1.0, 1.0, 1.0};
@@ -69,4 +69,3 @@ CAMWAY_INLINE Numbers unit_quotient(const Numbers& numerator, const Numbers& den
 #undef CAMWAY_INLINE
 
 }  // namespace camway::geometry::lanes
-

@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec4;
 
-// Major steps that real data needs: a handful. The cap only stops cycles that rounding makes.
+// Limit of major steps. Real data needs a handful; the limit only stops cycles due to rounding.
 constexpr int kMaxMajorSteps = 200;
 
 /// Points in general position whose hull holds the iterate, with its barycentric weights: Wolfe's
@@ -48,8 +48,8 @@ std::vector<double> affine_minimiser(const std::vector<Vec4>& points) {
   return weights;
 }
 
-/// Goes from the current weights towards `target` until a weight vanishes; drops those points.
-/// Whether the target was reached.
+/// Moves from the current weights towards `target` until a weight vanishes, and drops those points.
+/// Returns whether the target was reached.
 bool move_towards(const std::vector<double>& target, Corral& corral) {
   double step = 1.0;
   for (std::size_t i = 0; i < target.size(); ++i) {
@@ -93,7 +93,7 @@ Vec4 min_norm_point(std::span<const Vec4> points) {
       best_gap = gap;
       best = iterate;
     }
-    // Lengths cannot tell iterates of a cluster apart, as its gaps enter them squared.
+    // Lengths cannot distinguish iterates of a cluster, as its gaps enter them squared.
     if (gap <= kMinNormGap) break;
     if (std::ranges::find(corral.points, next) != corral.points.end()) break;
     if (corral.points.size() > 4) break;  // a simplex around the origin: all the rest is rounding

@@ -8,16 +8,16 @@
 namespace camway::motion {
 
 /// The point of the convex hull of `points` that is closest to the origin (Wolfe, "Finding the
-/// nearest point in a polytope", Mathematical Programming 11, 1976). Unique, so independent of the
-/// frame and of the order of the points but for rounding: accepted when no point could lower the
-/// squared length by more than `kMinNormGap`, which puts it within the root of that from the true
-/// one.
+/// nearest point in a polytope", Mathematical Programming 11, 1976). It is unique, so independent
+/// of the frame and of the order of the points up to rounding. The iteration ends when no point
+/// could lower the squared length by more than `kMinNormGap`; the result is then within the root of
+/// that of the true point.
 ///
 /// Deviations: the affine sub-problem is solved by a pivoted QR decomposition of the differences
 /// instead of the normal equations, so that clusters do not square the condition number. Major
-/// steps are capped, as rounding may make a finite method cycle, and the iterate with the least
-/// possible improvement is returned; each of them is a point of the hull. A step is O(n).
-/// Precondition: `points` is not empty and each has about unit length.
+/// steps are limited, as rounding may make a finite method cycle; the iterate with the least
+/// possible improvement is returned, and each iterate is a point of the hull. A step is O(n).
+/// Requires `points` not to be empty, and each point to have about unit length.
 geometry::Vec4 min_norm_point(std::span<const geometry::Vec4> points);
 
 /// Sixteen units of rounding of a squared unit length.

@@ -10,18 +10,19 @@
 namespace camway::geometry {
 namespace {
 
-/// Shorter than this, squares lose digits to underflow.
+/// Below this length squares lose digits to underflow.
 constexpr double kShortest_m = 0x1p-400;
 
-/// The squared length of a normal that is made use of. Above: a gap along it is at most its length
-/// times 2^202, and is squared. Below: that square underflows by at most 2^-1074, which is 2^-674
-/// m² in the result, while edges of such a normal are longer than 2^-102 m, so that the square of
-/// the error allowed is above 2^-300 m².
+/// Range of squared lengths of normals that are used. Above: a gap along the normal is at most its
+/// length times 2^202, and is squared. Below: that square underflows by at most 2^-1074, which is
+/// 2^-674 m² in the result, while edges of such a normal are longer than 2^-102 m, so that the
+/// square of the error allowed is above 2^-300 m².
 constexpr double kLeastSquare = 0x1p-400;
 constexpr double kGreatestSquare = 0x1p400;
 
-/// Unit vector along `v` with its part along the unit vector `e` taken off. Twice, since the first
-/// time leaves a rounding that is large beside a short rest (Kahan's "twice is enough").
+/// Unit vector along `v` without its component along the unit vector `e`. The component is
+/// subtracted twice, since the first subtraction leaves a rounding that is large beside a short
+/// rest (Kahan's "twice is enough").
 Vec3 orthonormal(const Vec3& v, const Vec3& e) {
   const Vec3 once = (v - v.dot(e) * e).normalized();
   return (once - once.dot(e) * e).normalized();
@@ -34,7 +35,7 @@ Vec3 least_aligned(const Vec3& e) {
   return Vec3::Unit(axis);
 }
 
-/// Rows orthonormal up to 8u each, for a derivation below.
+/// Rows are orthonormal up to 8u each; the derivation below uses this.
 std::array<Vec3, 3> axes_of(const Triangle& triangle) {
   std::array<Vec3, 3> edges = {triangle[1] - triangle[0], triangle[2] - triangle[1],
                                triangle[0] - triangle[2]};
@@ -42,7 +43,7 @@ std::array<Vec3, 3> axes_of(const Triangle& triangle) {
   if (edges[2].squaredNorm() > edges[0].squaredNorm()) std::swap(edges[0], edges[2]);
   if (!(edges[0].norm() > kShortest_m)) return {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   const Vec3 e = edges[0].normalized();
-  // A sliver has no normal worth the name.
+  // The normal of a sliver is mostly rounding.
   constexpr double kSliver = 0x1p-20;
   const Vec3 rest = edges[1] - edges[1].dot(e) * e;
   const bool is_flat = rest.squaredNorm() > kSliver * kSliver * edges[1].squaredNorm();
@@ -82,11 +83,11 @@ void OrientedBox::fit(std::span<const Triangle> body) {
 }
 
 // Errors, with u = 2^-53, `scale` as in the contract and axes a_k orthonormal up to 8u:
-//  1. a_k·(p - o) has the rounding of a difference, a product and two sums on at most
-//     |a_k|_1·scale <= sqrt(3)·scale: 7u·scale. A gap has twice that and its own rounding,
-//     15u·scale, and three gaps together 26u·scale.
-//  2. The matrix of the axes stretches by at most 1 + 12u, so the gaps are too long by at most that
-//     share of sqrt(3)·scale: 21u·scale.
+// 1. a_k·(p - o) has the rounding of a difference, a product and two sums on at most |a_k|_1·scale
+//    <= sqrt(3)·scale: 7u·scale. A gap has twice that and its own rounding, 15u·scale, and three
+//    gaps together 26u·scale.
+// 2. The matrix of the axes stretches by at most 1 + 12u, so the gaps are too long by at most that
+//    share of sqrt(3)·scale: 21u·scale.
 // Together 47u·scale, far inside the 192u of `triangle_distance_error_m`.
 double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
   const Lanes a = along_axes(triangle[0] - origin_);
@@ -100,19 +101,18 @@ double OrientedBox::axes_bound_m2(const Triangle& triangle) const {
 
 // Errors in units of u·scale, once the length of the normal n is divided out (|n|_1 <=
 // sqrt(3)·|n|):
-//  1. The middle of the box: coordinates along the axes 7 each (12 in length), that the axes are
-//  not
-//     quite orthonormal 24·sqrt(3) = 42 for the three, its own sums 6: 60.
-//  2. n·(middle - t): 7. The radius: three products, each with 4·sqrt(3)·h <= 12 at a half extent
-//     h <= sqrt(3)·scale: 36. The triangle's own extent along n, which is not 0 where n is rounded:
-//     7 for each end, 14.
-// Together 117, inside 192 again. That n is rounded does not matter: any direction is a proof.
+// 1. The middle of the box: coordinates along the axes 7 each (12 in length), that the axes are not
+//    quite orthonormal 24·sqrt(3) = 42 for the three, its own sums 6: 60.
+// 2. n·(middle - t): 7. The radius: three products, each with 4·sqrt(3)·h <= 12 at a half extent h
+//    <= sqrt(3)·scale: 36. The triangle's own extent along n, which is not 0 where n is rounded: 7
+//    for each end, 14.
+// Together 117, inside 192 again. The rounding of n does not matter: any direction is a proof.
 double OrientedBox::plane_bound_m2(const Triangle& triangle) const {
   const Vec3 e = triangle[1] - triangle[0];
   const Vec3 f = triangle[2] - triangle[0];
   const Vec3 normal = e.cross(f);
   const double squared_length = normal.squaredNorm();
-  // Else a square below could leave the range of doubles.
+  // Otherwise a square below could leave the range of doubles.
   if (!(squared_length > kLeastSquare && squared_length < kGreatestSquare)) return 0.0;
   const Lanes along = along_axes(normal);
   const Lanes middles = along * (0.5 * (low_ + high_));

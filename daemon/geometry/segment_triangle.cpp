@@ -23,13 +23,13 @@ double fraction_closest_to(const LineSegment& segment, const LineSegment& edge) 
   }
   const double length2 = e.squaredNorm();
   if (!(length2 > 0.0)) return 0.0;
-  // Parallel: the first of the edge's ends along the segment.
+  // Parallel: the end of the edge that comes first along the segment.
   return clamp_to_unit(std::min(e.dot(edge.from - segment.from), e.dot(edge.to - segment.from)) /
                        length2);
 }
 
-/// For a segment that touches the triangle without surely passing from one side to the other: it
-/// starts on the triangle, or enters it over an edge, or ends on it.
+/// For a segment that touches the triangle without certainly crossing its plane: it starts on the
+/// triangle, enters it over an edge, or ends on it.
 double fraction_at_outline(const LineSegment& segment, const Triangle& triangle) {
   const double close_m =
       triangle_distance_error_m({segment.from, segment.to, segment.to}, triangle);
@@ -56,7 +56,7 @@ std::optional<double> hit_fraction(const LineSegment& segment, const Triangle& t
   const double d1 = normal.dot(segment.to - triangle[0]);
   const double error_m =
       triangle_distance_error_m({segment.from, segment.to, segment.to}, triangle);
-  // Both sides clear of the plane by more than rounding: the crossing is well determined.
+  // Both ends are off the plane by more than rounding: the crossing is well determined.
   const double clear = error_m * normal.lpNorm<1>();
   if ((d0 > clear && d1 < -clear) || (d0 < -clear && d1 > clear)) {
     return clamp_to_unit(d0 / (d0 - d1));

@@ -45,7 +45,7 @@ double triangle_box_gap_error(const Vec3& axis, double scale_m) {
 
 bool triangle_touches_box(const Triangle& triangle, const Box& box) {
   if (box.isEmpty() || boxes_apart(triangle, box)) return false;
-  // The middle may be rounded: the larger of the two distances from it is the half extent.
+  // The middle may be rounded, so the half extent is the larger of the two distances from it.
   const Vec3 middle = 0.5 * box.min() + 0.5 * box.max();
   LocalBox local;
   local.half_extents = (box.max() - middle).cwiseMax(middle - box.min());

@@ -27,25 +27,24 @@ Vec3 offset_from_segment(const Vec3& from, const Vec3& edge, const Vec3& point) 
   return point - (from + closest_parameter(from, edge, point) * edge);
 }
 
-/// Vectors between the closest points of one segment and three, from the first to the others. Where
-/// the lines are parallel any parameter will do: the end points decide, which the caller tries as
-/// well.
+/// Vectors between the closest points of one segment and three, from the first to the others. If
+/// the lines are parallel any parameter is correct: the end points, which the caller tries as well,
+/// decide.
 [[gnu::always_inline]] inline lanes::Vectors segment_offsets(const lanes::Vectors& p,
                                                              const lanes::Vectors& e,
                                                              const lanes::Vectors& q,
                                                              const lanes::Vectors& f) {
   using lanes::unit_quotient;
   const lanes::Vectors normal = cross(e, f);
-  const lanes::Numbers first =
-      unit_quotient(dot(cross(q - p, f), normal), squared_norm(normal));
+  const lanes::Numbers first = unit_quotient(dot(cross(q - p, f), normal), squared_norm(normal));
   const lanes::Numbers t = unit_quotient(dot(f, p + first * e - q), squared_norm(f));
-  // The second projection is what makes an error in the first harmless: see the derivation below.
+  // The second projection makes an error of the first harmless: see the derivation below.
   const lanes::Vectors on_second = q + t * f;
   const lanes::Numbers s = unit_quotient(dot(e, on_second - p), squared_norm(e));
   return on_second - (p + s * e);
 }
 
-/// Vectors from the points of a face closest to three points, where that is not on the outline.
+/// Vectors from the closest points of a face to three points, where these are not on the outline.
 [[gnu::always_inline]] inline lanes::Vectors offsets_from_face(const Triangle& face,
                                                                const lanes::Vectors& points) {
   using lanes::unit_quotient;
@@ -67,13 +66,13 @@ Vec3 offset_from_segment(const Vec3& from, const Vec3& edge, const Vec3& point) 
 /// A square, a product and their comparison: fewer than 16 roundings.
 constexpr double kBeyondRoundUp = 1.0 + 16.0 * kUnitRoundoff;
 
-/// Keeps the shortest offset seen, and tells when it is proved to be the shortest of all.
+/// Keeps the shortest offset seen, and detects when it is proved to be the shortest of all.
 class Search {
  public:
   Search(const Triangle& a, const Triangle& b, double scale, double beyond)
       : a_(a), b_(b), margin_(16.0 * kUnitRoundoff * scale), smallest_(4.0 * margin_) {
-    // A slab wider than this is proved to be so after its rounding (`margin_`) and that of width
-    // and square; what would have been computed is off by the error of the distance once more.
+    // A slab wider than this is proved to be wide enough after its rounding (`margin_`) and that of
+    // width and square; the computed distance would be off by its error once more.
     const double surely = (beyond + 2.0 * triangle_distance_error_m(scale)) * kBeyondRoundUp;
     beyond2_ = surely * surely;
   }
@@ -151,7 +150,7 @@ bool is_point(const Triangle& triangle) {
   return triangle[0] == triangle[1] && triangle[0] == triangle[2];
 }
 
-/// The same where `a` is a point, for which most of that would be asked again and again.
+/// The case where `a` is a point, in which most of these tests would be repeated.
 [[gnu::always_inline]] inline bool point_settles(Search& search, const Triangle& a,
                                                  const Triangle& b) {
   const lanes::Vectors point = lanes::repeat(a[0]);
@@ -162,7 +161,7 @@ bool is_point(const Triangle& triangle) {
   return search.is_final(q + t * f - point);
 }
 
-/// Every vertex against every edge. In exact arithmetic `edges_settle` has covered these.
+/// Every vertex against every edge. In exact arithmetic `edges_settle` covers these cases.
 bool vertices_settle(Search& search, const Triangle& a, const Triangle& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -201,26 +200,22 @@ double unit_for_scale(double scale) {
 
 // With u = 2^-53 and every local coordinate at most `scale` in magnitude (lengths: |v| <= sqrt(3)
 // times that, an edge |e| <= 2·sqrt(3)·scale):
-//  1. Translation: each vertex moves by at most sqrt(3)·u·scale, the distance by twice that:
-//  4u·scale.
-//  2. Evaluation: p + s·e has per coordinate the rounding of e (2u), of the product (2u + 2u) and
-//  of the
-//     sum (u), so 7u·scale, 12u·scale in length; two points and their difference: 28u·scale. The
-//     points lie in the triangles otherwise, so the result is never below the distance by more than
-//     1 + 2.
-//  3. Parameters: let h be the angle between the edges and d their distance. The error of s shifts
-//  the
-//     point along e by ds·|e|; t is then projected anew, so what counts is ds·|e|·sin h =: x.
-//     e×f has the relative error 4u/sin h, and q - p = s·e - t·f + d·n, so x <= 8u·(|e| + |q - p|)
-//     + 4u·d/sin h. Where the last term governs, the distance grows only to sqrt(d² + x²), by at
-//     most x²/2d = 8u²d/sin² h; nor can it grow by more than (|e|·sin h)²/2d over the whole
-//     segment. The smaller of the two is at most their geometric mean, 2u·|e|. Together 8u·(3.5
-//     + 3.5) + 2u·3.5 = 63u·scale. For a face the same holds with its two edges; a projection on
-//     one segment has less.
-//  4. A slab accepted too early: margin 16u·scale·|offset|_1/|offset|_2 <= 28u·scale, and as much
-//  for the
-//     rounding of the six dot products: 56u·scale.
-//  5. The final square root and sum of squares: 3u·2·sqrt(3)·scale = 11u·scale.
+// 1. Translation: each vertex moves by at most sqrt(3)·u·scale, the distance by twice that:
+//    4u·scale.
+// 2. Evaluation: p + s·e has per coordinate the rounding of e (2u), of the product (2u + 2u) and of
+//    the sum (u), so 7u·scale, 12u·scale in length; two points and their difference: 28u·scale. The
+//    points lie in the triangles otherwise, so the result is never below the distance by more than
+//    1 + 2.
+// 3. Parameters: let h be the angle between the edges and d their distance. The error of s shifts
+//    the point along e by ds·|e|; t is then projected anew, so only ds·|e|·sin h =: x counts. e×f
+//    has the relative error 4u/sin h, and q - p = s·e - t·f + d·n, so x <= 8u·(|e| + |q - p|) +
+//    4u·d/sin h. Where the last term governs, the distance grows only to sqrt(d² + x²), by at most
+//    x²/2d = 8u²d/sin² h; nor can it grow by more than (|e|·sin h)²/2d over the whole segment. The
+//    smaller of the two is at most their geometric mean, 2u·|e|. Together 8u·(3.5 + 3.5) + 2u·3.5 =
+//    63u·scale. For a face the same holds with its two edges; a projection on one segment has less.
+// 4. A slab accepted too early: margin 16u·scale·|offset|_1/|offset|_2 <= 28u·scale, and as much
+//    for the rounding of the six dot products: 56u·scale.
+// 5. The final square root and sum of squares: 3u·2·sqrt(3)·scale = 11u·scale.
 // Sum: 162u·scale; 192 covers the second order. Tests see about a tenth of it.
 double triangle_distance_error_m(double scale_m) {
   return 192.0 * kUnitRoundoff * scale_m + kSmallestNormal;
@@ -269,7 +264,7 @@ TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m) 
   }
   if (triangles_touch(a, b)) return {0.0, search.offset()};
   vertices_settle(search, la, lb);
-  // Apart, so never 0.
+  // The triangles are apart, so the distance must not be 0.
   return {std::max(search.distance() * unit_m, std::numeric_limits<double>::denorm_min()),
           search.offset()};
 }

@@ -16,15 +16,14 @@ namespace camway::geometry {
 /// Lin & Manocha 2000 ("Fast distance queries with rectangular swept sphere volumes", section 4): a
 /// pair of points is final once the slab between them separates the triangles. Deviation:
 /// parameters come from cross products instead of the determinant `ac - b²`, which loses half of
-/// the digits for edges nearly parallel, and every comparison has a derived margin.
+/// the digits for nearly parallel edges, and every comparison has a derived margin.
 double triangle_distance(const Triangle& a, const Triangle& b);
 
-/// The same where it is `beyond_m` or less; else it may be infinity instead, which is found out
-/// sooner.
+/// `triangle_distance` if that is `beyond_m` or less; otherwise possibly infinity, which is faster.
 double triangle_distance(const Triangle& a, const Triangle& b, double beyond_m);
 
-/// A distance, and a vector along the shortest way from `a` to `b`, in no particular unit. Where
-/// they touch, and where the distance is infinity, any vector.
+/// A distance, and a vector of any length along the shortest line from `a` to `b`. The vector is
+/// arbitrary where they touch and where the distance is infinite.
 struct TriangleGap {
   double distance_m;
   Vec3 direction;
@@ -33,16 +32,17 @@ struct TriangleGap {
 /// `triangle_distance` with the direction.
 TriangleGap triangle_gap(const Triangle& a, const Triangle& b, double beyond_m);
 
-/// How far `b` lies beyond `a` along `direction`: the width of the slab between them, below 0 if
-/// they overlap. Never above their distance by more than `triangle_distance_error_m`; minus
-/// infinity for a direction too short to have one. Other than a distance it tells something of
-/// everything between two triangles `a`. [Units: metres]
+/// Width of the slab between `a` and `b` along `direction`; negative if their projections overlap.
+/// At most their distance plus `triangle_distance_error_m`; minus infinity for a direction that is
+/// too short. Unlike a distance it carries over to hulls: the smaller width of two triangles `a`
+/// holds for everything between them. [Units: metres]
 double slab_width_m(const Triangle& a, const Triangle& b, const Vec3& direction);
 
-/// Bound of the error of `triangle_distance`, metres.
+/// Bound of the error of `triangle_distance`. [Units: metres]
 double triangle_distance_error_m(const Triangle& a, const Triangle& b);
 
-/// The same for every pair whose coordinates differ by no more than `scale_m` in any axis.
+/// Bound of the error for every pair whose coordinates differ by at most `scale_m` in any axis.
+/// [Units: metres]
 double triangle_distance_error_m(double scale_m);
 
 }  // namespace camway::geometry

@@ -32,13 +32,13 @@ LocalPair to_local(const Triangle& a, const Triangle& b) {
   return local;
 }
 
-/// How far the computed gap between two projections on `axis` may be from the true one.
+/// Bound of the error of the computed gap between two projections on `axis`.
 ///
 /// With |v| <= scale per coordinate: v itself carries u·scale from the translation, a product u,
 /// the two sums of a dot product 2u, each relative to at most |axis|_1·scale. That is 4u for each
 /// of the two projections, and 2u for their difference (which is at most 2·|axis|_1·scale): 10u to
 /// first order. 16 leaves room for the terms of second order and the rounding of the bound itself.
-/// That the axis is rounded does not matter: any axis that separates is a proof.
+/// The rounding of the axis does not matter: any axis that separates is a proof.
 double projection_gap_error(const Vec3& axis, double scale) {
   return 16.0 * kUnitRoundoff * axis.lpNorm<1>() * scale + kSmallestNormal;
 }
@@ -63,7 +63,7 @@ bool surely_apart(const LocalPair& p) {
       if (axis_separates(p, e.cross(f))) return true;
     }
   }
-  // Coplanar pairs have no other witness than an edge's normal within the plane.
+  // Coplanar pairs are separated only by an edge's normal within the plane.
   for (std::size_t i = 0; i < 3; ++i) {
     if (axis_separates(p, normal_a.cross(ea[i])) || axis_separates(p, normal_b.cross(eb[i]))) {
       return true;
@@ -72,7 +72,7 @@ bool surely_apart(const LocalPair& p) {
   return false;
 }
 
-/// Sign of six times the signed volume of a tetrahedron, 0 if rounding could have made it.
+/// Sign of six times the signed volume of a tetrahedron, 0 if rounding may have produced it.
 ///
 /// Each of the three difference vectors has a rounding of 2u·scale per coordinate on a length of at
 /// most 2·scale (its end points carry u·scale each, and it is rounded itself: 4u·scale together).
@@ -85,7 +85,7 @@ int volume_sign(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, doub
   return volume < -error ? -1 : 0;
 }
 
-/// Whether an edge of `edges_of` surely passes through the interior of `face`.
+/// Whether an edge of `edges_of` certainly passes through the interior of `face`.
 bool edge_surely_pierces(const Triangle& edges_of, const Triangle& face, double scale) {
   std::array<int, 3> side{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -6,13 +6,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-/// The vocabulary that every other folder builds on. Lengths are metres, the frame is right-handed.
+/// The basic types of all other folders. Lengths are metres, the frame is right-handed.
 namespace camway::geometry {
 
 using Vec3 = Eigen::Vector3d;
 using Vec4 = Eigen::Vector4d;
-/// Hamilton quaternion. Eigen stores and prints (x, y, z, w); at every edge of ours the order is
-/// [w, x, y, z] (see `wxyz` and `from_wxyz`).
+/// Hamilton quaternion. Eigen stores and prints (x, y, z, w); in our files and messages the order
+/// is [w, x, y, z] (see `wxyz` and `from_wxyz`).
 using Quat = Eigen::Quaterniond;
 /// Axis-aligned box; `isEmpty()` for a default-constructed one.
 using Box = Eigen::AlignedBox3d;

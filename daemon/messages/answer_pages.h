@@ -11,7 +11,7 @@
 
 namespace camway::service {
 
-/// What makes a request the same request.
+/// Identifies a request. Requests with equal keys are the same request.
 struct RequestKey {
   std::string client_id;
   std::int64_t request_id = 0;
@@ -20,7 +20,7 @@ struct RequestKey {
   auto operator<=>(const RequestKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The messages of an answer, shared by cache and outbox.
+/// The encoded messages of an answer, shared by cache and outbox.
 using Pages = std::shared_ptr<const std::vector<Bytes>>;
 
 }  // namespace camway::service

@@ -98,7 +98,8 @@ ConvertedBody mesh_of(const body_t& wire) {
 
 bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
 
-/// The first member that is not zero or empty though the type does not name it: it was meant.
+/// Returns the first member that is not zero or empty though the type does not use it: its sender
+/// meant it.
 std::string idle_member(const body_t& wire) {
   const bool is_box = wire.type == body_t::BOX;
   const bool is_sphere = wire.type == body_t::SPHERE;

@@ -10,16 +10,16 @@
 
 namespace camway::service {
 
-/// The body of a request. A near quadrilateral has its numbers in the request's camera.
+/// Returns the message for a body. A near quadrilateral has its size in the request's camera.
 body_t wire_body(const motion::BodyShape& shape);
 
-/// The shape of `wire`; nothing if it is the near quadrilateral of the request's camera. With an
-/// error where the form is wrong, e.g. "body.type: 9 is unknown"; sizes and counts are judged by
-/// `planning::validate`.
+/// The shape of a message, or an error about its form, e.g. "body.type: 9 is unknown".
 struct ConvertedBody {
   std::optional<motion::BodyShape> shape;
   std::string error;
 };
+/// Returns the shape of `wire`; no shape if it is the near quadrilateral of the request's camera.
+/// Sizes and counts are checked by `planning::validate`.
 ConvertedBody body_of(const body_t& wire);
 
 }  // namespace camway::service

@@ -9,7 +9,7 @@ namespace camway::service {
 
 bounds_t wire_bounds(const geometry::Bounds& bounds);
 
-/// Form only: `geometry::fault_in` judges the numbers.
+/// Converts without a check; `geometry::fault_in` checks the numbers.
 geometry::Bounds bounds_of(const bounds_t& wire);
 
 }  // namespace camway::service

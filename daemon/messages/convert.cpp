@@ -90,7 +90,7 @@ collision_interval_t wire_interval(const collision::CollisionInterval& interval,
   return wire;
 }
 
-/// `names` may be fewer: nobody named the witnesses then.
+/// `names` may be shorter than `intervals`: the rest of the witnesses have no names.
 std::vector<collision_interval_t> wire_intervals(
     const std::vector<collision::CollisionInterval>& intervals,
     const std::vector<planning::WitnessNames>& names) {
@@ -170,8 +170,7 @@ std::optional<Status> status_of(std::int32_t wire) {
 /// Only an exact 0 asks for the default: NaN and negative values go on to `planning::validate`.
 double or_default(double wire, double fallback) { return wire == 0.0 ? fallback : wire; }
 
-/// `motion::Path` takes its preconditions on trust; numbers from the wire must be shown to meet
-/// them.
+/// Checks the preconditions of `motion::Path`, which does not check them itself.
 std::string path_fault(const std::vector<segment_t>& segments) {
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const segment_t& segment = segments[i];
@@ -187,7 +186,7 @@ std::string path_fault(const std::vector<segment_t>& segments) {
   return {};
 }
 
-/// What is said and would not count is refused by name: it was meant.
+/// Returns an error about a member that has a value but no effect: its sender meant it.
 std::string idle_member(const plan_request_t& wire) {
   if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {
     return "max_inserted_keyframes: is " + std::to_string(wire.max_inserted_keyframes) +
@@ -264,8 +263,8 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   wire.utime = ids.utime;
   wire.num_pages = 1;
   wire.scene = request.scene;
-  // A body that is a near quadrilateral of its own goes as the camera: there is no other on the
-  // wire.
+  // The wire has no near quadrilateral other than the camera's, so one that is given as the body
+  // goes as the camera.
   const auto* camera = request.body ? std::get_if<motion::Camera>(&*request.body) : nullptr;
   if (camera == nullptr) camera = &request.camera;
   wire.camera.fov_x_rad = camera->fov_x_rad;

@@ -12,73 +12,74 @@
 #include "daemon/planning/request.h"
 #include "daemon/planning/result.h"
 
-/// Between the wire and the structs of planning. Form only: whether values make sense is judged by
-/// `planning::validate`. Functions without state, safe from any thread.
+/// Conversions between messages and the structs of planning. They check the form only;
+/// `planning::validate` checks the values. Functions without state.
+/// Thread-safe.
 namespace camway::service {
 
-/// How long a request may take from its receipt to the end of planning.
+/// Limits of the time that a request may take from its receipt to the end of planning.
 struct DeadlineLimits {
-  double default_s = 10.0;  ///< for requests that say 0 [Limit: 0 < value] [Units: seconds]
-  double max_s = 60.0;      ///< longer ones are cut to this [Limit: default_s <= value]
+  double default_s = 10.0;  ///< if the request's is 0 [Limit: 0 < value] [Units: seconds]
+  double max_s = 60.0;      ///< longer deadlines are cut to this [Limit: default_s <= value]
 };
 
-/// The deadline that holds for a request that says `wire_s`, in seconds. Only an exact 0 asks for
-/// the default: NaN and negative values stay, for `planning::validate`.
+/// Returns the deadline, in seconds, for a request whose deadline is `wire_s`. Only an exact 0 asks
+/// for the default: NaN and negative values stay, for `planning::validate`.
 double deadline_of(double wire_s, const DeadlineLimits& limits);
 
-/// A request, or why there is none, e.g. "method: 'magic' is unknown".
+/// A request, or an error, e.g. "method: 'magic' is unknown".
 struct ConvertedRequest {
   std::optional<planning::PlanRequest> request;
   std::string error;
 };
 
-/// `wire` holds the keyframes of all pages. Its zeros become the defaults of
-/// `planning::PlanOptions`. What is not zero though it does not count (a time without `has_times`,
-/// a target without its policy) is an error: it was meant.
+/// Converts a request; `wire` holds the keyframes of all pages. Zeros become the defaults of
+/// `planning::PlanOptions`. A value that is not zero but has no effect (a time without `has_times`,
+/// a target without its policy) is an error, since its sender meant it.
 ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits = {});
 
-/// Who asked for what.
+/// Identifies a request and its sender.
 struct RequestIds {
   std::string client_id;
   std::int64_t request_id = 0;
   std::int64_t utime = 0;  ///< microseconds since 1970
 };
 
-/// The whole request as one page, which may be too large for a message: see `encode_pages`.
+/// Returns the whole request as one page, which may be too large for a message: see `encode_pages`.
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
 
-/// A result, or why there is none: a status that no planning has (overloaded, malformed,
-/// cancelled, limit), or segments that are no path, or a report that says what no correction does.
+/// A result, or an error: a status that planning does not have (overloaded, malformed, cancelled,
+/// limit), segments that are no path, or a report of something that no correction does.
 struct ConvertedResult {
   std::optional<planning::PlanResult> result;
   std::string error;
 };
 
-/// `wire` holds the lists of all pages. What it does not carry (`Timing::load_scene_ms`, the number
-/// of a witness's feature beside its name, the witness of a correction's collision) stays 0 or
-/// empty.
+/// Converts an answer; `wire` holds the lists of all pages. Values that it does not carry
+/// (`Timing::load_scene_ms`, the number of a witness's feature beside its name, the witness of a
+/// correction's collision) stay 0 or empty.
 ConvertedResult from_wire(const plan_response_t& wire);
 
-/// What an answer says beside the result.
+/// The members of an answer that are not in the result.
 struct AnswerHeader {
-  RequestIds ids;  ///< `utime`: when the answer was computed
+  RequestIds ids;  ///< its `utime` is the time at which the answer was computed
   std::string scene;
   std::int64_t scene_revision = 0;
   std::string scene_digest;
 };
 
-/// The whole answer as one page, which may be too large for a message: see `encode_pages`.
+/// Returns the whole answer as one page, which may be too large for a message: see `encode_pages`.
 plan_response_t to_wire(const planning::PlanResult& result, const AnswerHeader& header);
 
-/// An answer that holds nothing but a status of `plan_response_t` and a message.
+/// Returns an answer that holds only a status of `plan_response_t` and a message.
 plan_response_t plain_answer(std::int32_t status, std::string_view message,
                              const AnswerHeader& header);
 
-/// The name of a status of any answer, for logs: "ok", "partial", ..., "limit", "no_map".
+/// Returns the name of a status of any answer, for logs: "ok", "partial", ..., "limit", "no_map".
 std::string_view status_name(std::int32_t wire_status);
 
-/// `text` as a message may carry it: without NUL, at most `max_bytes`, cut between characters of
-/// UTF-8.
+/// Returns `text` as a message may carry it: without NUL and at most `max_bytes` long, cut between
+/// characters of UTF-8.
 std::string clipped(std::string_view text, std::size_t max_bytes);
 
 }  // namespace camway::service

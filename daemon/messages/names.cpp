@@ -10,7 +10,8 @@ namespace {
 
 using Name = std::pair<std::string_view, std::string_view>;
 
-/// Members that the wire calls otherwise, indices apart. "options." is left out there anyway.
+/// Members, without indices, that have another name on the wire, where nothing begins with
+/// "options.".
 constexpr std::array<Name, 18> kNames{{
     {"camera.fov_x", "camera.fov_x_rad"},
     {"camera.fov_y", "camera.fov_y_rad"},
@@ -32,7 +33,7 @@ constexpr std::array<Name, 18> kNames{{
     {"limits.retime", "limits.may_retime"},
 }};
 
-/// Members of a keyframe, which stand behind its index.
+/// Members of a keyframe, which follow its index.
 constexpr std::array<Name, 3> kKeyframeNames{{
     {".position", ".position_m"},
     {".orientation", ".orientation_wxyz"},
@@ -42,7 +43,7 @@ constexpr std::array<Name, 3> kKeyframeNames{{
 constexpr std::string_view kGroup = "options.";
 constexpr std::string_view kPieces = "body.pieces[";
 
-/// A point of a piece stands in the list of all points.
+/// On the wire a point of a piece stands in the list of all points.
 std::string point_of_piece(std::string_view indices) {
   const std::size_t end = indices.find(']');
   return "body.points_m (point " + std::string(indices.substr(end + 2, indices.size() - end - 3)) +

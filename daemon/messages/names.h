@@ -7,7 +7,7 @@
 
 namespace camway::service {
 
-/// Returns how `wire` spells the members of the request that it is, for messages about it:
+/// Returns how the message `wire` spells the members of a request, for messages about it:
 /// "options.limits.speed" is "limits.speed_m_per_s", "keyframes[3].time" is "keyframes[3].time_s".
 /// Keeps no reference.
 planning::FieldSpelling wire_spelling(const plan_request_t& wire);

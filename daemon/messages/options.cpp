@@ -65,7 +65,7 @@ Vec3 vec3(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 /// Only an exact 0 asks for the default: NaN and negative values go on to `planning::validate`.
 double or_default(double wire, double fallback) { return wire == 0.0 ? fallback : wire; }
 
-/// As they are in memory: infinity is no limit on the wire too.
+/// Copies the values: infinity means no limit on the wire, too.
 motion_limits_t wire_limits(const MotionLimits& limits) {
   motion_limits_t wire{};
   wire.speed_m_per_s = limits.speed_m_per_s;
@@ -99,7 +99,8 @@ orientation_t wire_orientation(const OrientationPolicy& policy) {
   return wire;
 }
 
-/// What is said and would not count with this rule is refused by name: it was meant.
+/// Returns an error about a member that has a value but no effect with this rule: its sender meant
+/// it.
 std::string idle_member(const orientation_t& wire, OrientationRule rule) {
   const Vec3 zero = Vec3::Zero();
   if (rule != OrientationRule::kLevel && vec3(wire.up) != zero) {

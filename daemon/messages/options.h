@@ -7,14 +7,14 @@
 
 #include "daemon/planning/request.h"
 
-/// The part of a request that says what corrections are asked for.
+/// Conversion of those options of a request that concern corrections.
 namespace camway::service {
 
 /// Writes objective, orientation, limits, bounds, shrink, repair and seed of `options` into `wire`.
 void put_correction_options(const planning::PlanOptions& options, plan_request_t& wire);
 
-/// Reads them back; zeros become defaults. Returns why there are none, e.g. "objective: 9 is
-/// unknown"; empty if all is well. Ranges are `planning::validate`'s.
+/// Reads the same options from `wire`; zeros become defaults. Returns an error, e.g. "objective: 9
+/// is unknown", or an empty text. Ranges are checked by `planning::validate`.
 std::string read_correction_options(const plan_request_t& wire, planning::PlanOptions& options);
 
 }  // namespace camway::service

@@ -44,7 +44,7 @@ void for_each_list(const Visit& visit) {
 void clear_body(plan_request_t& request) { request.body = body_t{}; }
 void clear_body(plan_response_t&) {}
 
-/// What pages after the first save by having no body.
+/// Returns the bytes that later pages save by having no body.
 std::size_t body_bytes(const plan_request_t& request) {
   return static_cast<std::size_t>(request.body._getEncodedSizeNoHash() -
                                   body_t{}._getEncodedSizeNoHash());
@@ -67,7 +67,7 @@ Message without_lists(Message message) {
   return message;
 }
 
-/// What all pages of a message have in common.
+/// Returns the members that all pages of a message have in common.
 template <class Message>
 Message blank_page(const Message& message) {
   Message blank = without_lists(message);
@@ -75,7 +75,7 @@ Message blank_page(const Message& message) {
   return blank;
 }
 
-/// Of a message without the elements of its lists.
+/// Returns the size of a message without the elements of its lists.
 template <class Message>
 std::size_t header_bytes(const Message& whole) {
   auto bytes = static_cast<std::size_t>(whole.getEncodedSize());
@@ -97,7 +97,7 @@ void append_lists(Message& whole, const Message& page) {
   });
 }
 
-/// Deals the elements to pages, each list from where it stopped on the page before: calls
+/// Distributes the elements over pages, each list from where it stopped on the page before: calls
 /// `turn_page()` before each page but the first and `put(list, count, element)` in between.
 template <class Message, class TurnPage, class Put>
 void deal(const Message& whole, const TurnPage& turn_page, const Put& put) {

@@ -16,80 +16,81 @@ namespace camway::service {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Encodes `whole` as messages of at most `wire::kMaxMessageBytes`: as many list elements on each
-/// page as fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The
-/// same message gives the same bytes. A request's body goes on page 0.
-/// Precondition: its counts agree with its lists; a body is within the limits of `wire_layout.h`;
-/// the whole encodes to less than 2 GB, as LCM counts bytes in an int.
+/// Encodes `whole` as messages of at most `wire::kMaxMessageBytes`, with as many list elements on
+/// each page as fit, in order. Sets `page` and `num_pages`, whatever their values in `whole`. Equal
+/// messages give equal bytes. The body of a request goes on page 0. Requires counts that agree with
+/// their lists; a body within the limits of `lcmtypes/wire/layout.h`; and less than 2 GB in all,
+/// since LCM counts bytes in an int.
 std::vector<Bytes> encode_pages(const plan_request_t& whole);
 std::vector<Bytes> encode_pages(const plan_response_t& whole);
 
-/// How many pages `encode_pages` makes, without making or copying anything: an answer that is too
-/// long costs no memory of its own. The same preconditions.
+/// Returns the number of pages that `encode_pages` makes, without making or copying them, so that
+/// an answer that is too long needs no memory. Same requirements.
 std::size_t count_pages(const plan_response_t& whole);
 
-/// Puts pages together again, in whatever order and however often they come. Holds a bounded number
-/// of bytes of half-received messages; where a new page does not fit, the message that waited
-/// longest for a page is given up. For one thread at a time. `Message` is plan_request_t or
-/// plan_response_t.
+/// Joins pages to messages, in whatever order and however often they arrive. Holds a bounded number
+/// of bytes of incomplete messages; where a new page does not fit, drops the message that waited
+/// longest for a page. `Message` is plan_request_t or plan_response_t.
+/// Not thread-safe.
 template <class Message>
 class PageAssembly {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Pages are sent back to back: after so long a time without one, what is missing was lost.
+  /// Pages are sent back to back: when none arrived for this long, the missing ones are lost.
   static constexpr std::chrono::milliseconds kGap{100};
-  /// How often is asked for missing pages without one coming, each time after twice the wait.
+  /// How often missing pages are asked for while none arrives, each time after twice the wait.
   static constexpr int kMostAsked = 5;
 
   struct Limits {
-    std::size_t max_messages = 16;                  ///< half received at a time
-    std::size_t max_bytes = std::size_t{64} << 20;  ///< of their pages, as encoded
+    std::size_t max_messages = 16;                  ///< incomplete messages at a time
+    std::size_t max_bytes = std::size_t{64} << 20;  ///< size of their pages, as encoded
   };
 
   PageAssembly() : PageAssembly(Limits{}) {}
   explicit PageAssembly(const Limits& limits) : limits_(limits) {}
 
-  /// What a page led to: the whole message (as page 0 of 1), an error text, or neither while pages
+  /// Result of adding a page: the whole message (as page 0 of 1), an error, or neither while pages
   /// are missing.
   struct Outcome {
     std::optional<Message> whole;
     std::string error;
-    std::size_t given_up = 0;  ///< other messages, for want of room
+    std::size_t given_up = 0;  ///< number of other messages that were dropped for want of room
   };
 
-  /// A page that disagrees with those before in anything but page, utime, body and lists begins the
-  /// message anew: its sender did. The body is that of page 0.
+  /// Adds a page. A page that differs from those before in anything but page, utime, body and lists
+  /// starts the message anew, as its sender did. The body is that of page 0.
   Outcome add(Message page, Clock::time_point now = Clock::now());
 
-  /// A message of which pages did not come.
+  /// The missing pages of an incomplete message.
   struct Gap {
     std::string client_id;
     std::int64_t request_id = 0;
     std::int32_t num_pages = 0;
     std::vector<std::int32_t> missing;
   };
-  /// The messages that by `now` had no page for a while, each again and again, a few times.
+  /// Returns the messages for which no page arrived for a while by `now`: each up to `kMostAsked`
+  /// times, with growing pauses.
   std::vector<Gap> take_gaps(Clock::time_point now);
-  /// When there will be one; the end of time if no message waits for pages.
+  /// Returns the time of the next such message; the end of time if no message waits for pages.
   [[nodiscard]] Clock::time_point next_gap() const;
 
   [[nodiscard]] std::size_t half_received() const { return partial_.size(); }
 
  private:
   struct Partial {
-    Bytes header;  ///< what all pages agree on, encoded
+    Bytes header;  ///< encoded members that are equal on all pages
     std::vector<std::optional<Message>> pages;
     std::size_t missing = 0;
     std::size_t bytes = 0;
-    Clock::time_point gap_at{};  ///< when it counts as a gap that no page came
-    int asked = 0;               ///< since the last page
+    Clock::time_point gap_at{};  ///< time at which pages count as missing
+    int asked = 0;               ///< how often they were asked for since the last page
   };
   using Position = typename std::list<Partial>::iterator;
 
   Position find_or_begin(const Message& page, Bytes header);
   void forget(Position position);
-  /// Returns how many were given up.
+  /// Returns how many messages were dropped.
   std::size_t make_room(Position keep);
   static Message join(Partial partial);
 

@@ -9,7 +9,7 @@
 
 namespace camway::service {
 
-// Scenes as messages. Texts that are too long for the wire are clipped.
+/// Conversions of scenes to messages. Texts that are too long for the wire are clipped.
 
 scene_info_t scene_info_of(const scene::Snapshot& snapshot);
 

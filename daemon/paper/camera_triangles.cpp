@@ -29,7 +29,9 @@ std::optional<std::uint32_t> CameraTriangles::first_hit(std::uint32_t id) const 
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t lowest = kNone;
   for (const std::uint32_t leaf : found->second.leaves) {
-    for (const std::uint32_t index : index_->leaf_triangles(leaf)) {
+    const scene::LeafTriangles in_leaf = index_->leaf_triangles(leaf);
+    for (const std::uint32_t number : in_leaf.numbers) {
+      const std::uint32_t index = in_leaf.first + number;
       if (index >= lowest) break;
       if (geometry::triangles_touch(found->second.triangle, index_->triangle(index))) {
         lowest = index;

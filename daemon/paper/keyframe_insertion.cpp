@@ -15,13 +15,12 @@ using collision::CollisionInterval;
 using collision::FirstCollision;
 using motion::Keyframe;
 
-// A new keyframe may ask the camera to move this many times as fast towards its neighbours as on
-// average. More, and the spline swings out by far more than the collision was deep, and collides
-// anew: the method runs away instead of converging.
+// Largest speed towards a new keyframe, as a multiple of the average. Beyond it the spline swings
+// out by far more than the depth of the collision and collides anew: the method diverges.
 constexpr double kMostHurry = 10.0;
 
-// What is closer to the scene than the tolerance of detection counts as colliding. A new keyframe
-// keeps a multiple of it, so that the path has room to leave it at a slant.
+// Margin of a new keyframe, in tolerances of detection. A body within one tolerance counts as
+// colliding; the margin leaves room for the path to leave the keyframe at a slant.
 constexpr double kMarginTolerances = 10.0;
 
 class Corrector {
@@ -57,7 +56,7 @@ class Corrector {
     int gave_up = 0;
   };
 
-  // Once along the path, in order.
+  // One pass along the path.
   Round go_through() {
     Round round;
     double cursor_s = path_.begin_s();
@@ -78,8 +77,8 @@ class Corrector {
     return round;
   }
 
-  // The first collision in the window: of the sides of the swept tube by the seed's sweep, and of
-  // what the tube encloses by the distance-based check of all that lies before.
+  // The first collision in the window: of the sides of the swept tube by the paper's sweep, and of
+  // enclosed objects by the distance-based check of everything before.
   std::optional<CollisionInterval> next_collision(double t_begin_s, double t_end_s) {
     const FirstCollision side = collision::first_sweep_collision(
         index_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
@@ -89,14 +88,14 @@ class Corrector {
                                    options_.sweep.detect, deadline_);
     timed_out_ = timed_out_ || !side.decided || !enclosed.decided;
     if (!enclosed.interval) return side.interval;
-    // Cut short by `before_s`, it is the beginning of the same collision.
+    // The interval was cut off at `before_s`: it is the beginning of the same collision.
     if (side.interval && enclosed.interval->t_end_s >= before_s) {
       return CollisionInterval{enclosed.interval->t_begin_s, side.interval->t_end_s};
     }
     return enclosed.interval;
   }
 
-  // Inserts a keyframe in the middle of `interval` and goes on with what still collides in it.
+  // Inserts a keyframe in the middle of `interval` and corrects the collisions that remain in it.
   // Returns whether the interval is free at the end.
   bool correct(const CollisionInterval& interval, int recursion) {
     if (recursion > options_.max_recursion || !insert_at_middle(interval)) return false;
@@ -126,7 +125,7 @@ class Corrector {
     return true;
   }
 
-  // How far the body moves between two keyframes at the least.
+  // About how far the body moves between two keyframes on the direct way.
   [[nodiscard]] double travel_m(const Keyframe& from, const Keyframe& to) const {
     return (to.pose.position - from.pose.position).norm() +
            radius_m_ * from.pose.orientation.angularDistance(to.pose.orientation);

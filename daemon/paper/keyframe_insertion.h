@@ -13,42 +13,44 @@ namespace camway::correction {
 
 struct KeyframeInsertionOptions {
   collision::SweepOptions sweep;
-  motion::TimeOrigin origin;         ///< of all times
-  int max_inserted_keyframes = 200;  ///< cut-off for the whole path [Limit: 0 <= value]
-  int max_recursion = 8;             ///< cut-off for one interval: passes that insert into its rest
-  int max_rounds = 4;                ///< how often the whole path is gone through again
+  motion::TimeOrigin origin;         ///< origin of all times
+  int max_inserted_keyframes = 200;  ///< limit for the whole path [Limit: 0 <= value]
+  int max_recursion = 8;             ///< limit for one interval: levels of insertion into its rest
+  int max_rounds = 4;                ///< limit of passes over the whole path
 };
 
-/// What the seed's method arrived at. `keyframes` interpolate to `path`; whether that is free of
-/// collision is for the caller to check.
+/// Result of the paper's method. `keyframes` interpolate to `path`; the caller must check whether
+/// that is free of collision.
 struct KeyframeInsertionResult {
   std::vector<motion::Keyframe> keyframes;
   motion::Path path;
   int rounds = 0;
-  int gave_up = 0;  ///< intervals of the last round that it could not correct
+  int gave_up = 0;  ///< intervals that the last round could not correct
   bool timed_out = false;
 };
 
-/// The seed's correction, complete (Ptacek & Johnstone 2006, section 4): the collision intervals
-/// are taken in order along the path; a keyframe is inserted at the middle `t_mid` of each, with
-/// the orientation O(t_mid) and the position pushed out of the scene by `push_out`; `[t_i, t_f]` is
-/// scanned again and what still collides is corrected recursively.
+/// The paper's correction (Ptacek & Johnstone 2006, section 4). Takes the collision intervals in
+/// order along the path; inserts a keyframe at the middle `t_mid` of each, with the orientation
+/// O(t_mid) and the position pushed out of the scene by `push_out`; checks `[t_i, t_f]` again and
+/// corrects the remaining collisions recursively.
 ///
-/// Deviations: collisions are with the filled near quadrilateral, so the enclosed ones that the
-/// paper's sweep misses are looked for too, before each interval. An interval that cannot be
-/// corrected gives back its keyframes. A keyframe that would make the camera hurry to it ten times
-/// as fast as on average is refused, and each keeps a margin of ten tolerances. The new spline
-/// differs from the old one beyond `[t_i, t_f]` too; therefore the path is gone through again
-/// until a round finds nothing (the paper goes through it once).
+/// Deviations:
+/// - Collisions are those of the filled near quadrilateral, so enclosed objects that the paper's
+///   sweep misses are searched as well, before each interval.
+/// - An interval that cannot be corrected loses its inserted keyframes.
+/// - A keyframe that needs ten times the average speed of the camera is refused, and each keeps a
+///   margin of ten tolerances.
+/// - The new spline differs from the old one beyond `[t_i, t_f]` too, so the path is checked again
+///   until a round corrects nothing (the paper checks it once).
 ///
-/// Limits of the method itself, kept because it is the reference that others are measured against:
-///  - no direction where no corner is bad (an object inside the quadrilateral that no segment to a
-///    corner meets), where all are (a wall head-on), or where the good ones are opposite;
-///  - the orientation is never changed, so a slot that needs a turn is not passed;
-///  - a keyframe moves by about the depth of the collision: a way round a wall is not found;
-///  - every insertion bends the whole spline; corrections can undo one another, and keyframes close
-///    in time make the camera hurry and swing;
-///  - cut-offs end it without telling whether a path exists.
+/// Limits of the method itself, kept because it is the reference for comparison:
+/// - It has no direction if no corner is bad (an object inside the quadrilateral that no segment to
+///   a corner meets), if all are (a wall head-on), or if the good ones are opposite.
+/// - It never changes the orientation, so it cannot pass a slot that needs a turn.
+/// - A keyframe moves by about the depth of the collision: it finds no way round a wall.
+/// - Every insertion bends the whole spline; corrections can undo one another, and keyframes close
+///   in time make the camera hurry and swing.
+/// - Its limits end it without telling whether a path exists.
 KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
                                          const std::vector<motion::Keyframe>& keyframes,
                                          const motion::Corners& corners_C,

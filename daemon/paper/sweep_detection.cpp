@@ -26,8 +26,8 @@ struct HitRun {
   double t_d;  // highest parameter of the first step without a hit after the run
 };
 
-// Steps through the swept surface in order of its parameters. Each segment of the path is
-// tessellated when the walk gets there, as the first collision is often near.
+// Traverses the swept surface in order of its parameters. Each segment of the path is tessellated
+// when it is reached, as the first collision is often near.
 class SweepWalk {
  public:
   SweepWalk(const scene::SceneIndex& index, const motion::Path& path,
@@ -68,7 +68,7 @@ class SweepWalk {
     bool hit;
   };
 
-  // All triangles that begin at the same parameter: those of one step on the four sides.
+  // Takes all triangles that begin at the same parameter: those of one step on the four sides.
   std::optional<Step> take_step() {
     while (next_ >= triangles_.size()) {
       if (!tessellate_next_segment()) return std::nullopt;
@@ -115,8 +115,8 @@ class Bisection {
             const motion::Corners& corners_C, double tolerance_m)
       : index_(index), path_(path), corners_C_(corners_C), tolerance_m_(tolerance_m) {}
 
-  // The last parameter known to be free next to a change between `free_s` and `colliding_s` (in
-  // either order), or nothing if these two do not bracket one.
+  // Returns the last parameter known to be free next to a change between `free_s` and `colliding_s`
+  // (in either order); nothing if these two do not bracket one.
   [[nodiscard]] std::optional<double> boundary(double free_s, double colliding_s) const {
     if (collides_at(free_s) || !collides_at(colliding_s)) return std::nullopt;
     for (int i = 0; i < kMaxBisections && corner_motion_m(free_s, colliding_s) > tolerance_m_;

@@ -15,10 +15,10 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-/// The most by which the error grows from one attempt to the next. The strips that a path needs
-/// grow with the inverse root of the error, so growing it by the inverse of the fraction that was
-/// done does not overshoot; but an attempt that ran out of strips at the very beginning, on one
-/// wild segment, says little about the rest.
+/// Largest growth of the error from one attempt to the next. The number of strips that a path needs
+/// grows with the inverse root of the error, so growing the error by the inverse of the fraction
+/// that was done does not overshoot. But an attempt that ran out of strips at the very beginning,
+/// on one extreme segment, says little about the rest.
 constexpr double kMostCoarsening = 1e6;
 
 /// The near quadrilateral where one strip ends and the next begins.
@@ -54,8 +54,8 @@ double chord_error_bound_m(const RationalCurve& curve) {
 double strip_error_bound_m(const Segment& part, const Corners& corners_C, const Station& from,
                            const Station& to) {
   std::array<double, 4> chord_error_m;
-  // Relative to the middle of the strip, so that rounding scales with its size and not with where
-  // in the world it is.
+  // Relative to the middle of the strip, so that rounding scales with its size and not with its
+  // distance from the origin.
   Segment centred = part;
   const Vec3 centre = 0.5 * (part.position[0] + part.position[3]);
   for (Vec3& point : centred.position) point -= centre;
@@ -98,7 +98,7 @@ class Sampler {
 
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
 
-  /// How much of the time span is done.
+  /// The share of the time span that is done.
   [[nodiscard]] double fraction_done() const {
     if (stations_.empty()) return 0.0;
     return (stations_.back().time_s - begin_s_) / (end_s_ - begin_s_);

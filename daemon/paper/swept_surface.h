@@ -36,17 +36,16 @@ struct SweptTriangle {
 ///   every t and v. That is proved, not sampled: corner curves against their chords by Bernstein
 ///   coefficients, the bilinear patch between two chords against its two triangles by a quarter of
 ///   its twist.
-/// - All four surfaces are cut at the same parameters, halves of halves of segments, and vertices
-/// at
-///   one parameter are equal bit for bit: strips and sides join without cracks.
-/// - In order of `first_time_s`, which grows from strip to strip; within a strip by side, two each.
+/// - All four surfaces are cut at the same parameters, found by repeated halving of segments, and
+///   vertices at one parameter are equal bit for bit: strips and sides join without cracks.
+/// - Triangles are in order of `first_time_s`, which grows from strip to strip; within a strip by
+///   side, two each.
 ///
-/// The error is not pushed below the rounding bound `kSweptRounding` times the size of the
+/// The error is not reduced below the rounding bound `kSweptRounding` times the size of the
 /// coordinates. If more than `kMaxSweptStrips` strips beyond one per segment would be needed, the
-/// whole surface is sampled again with a larger error, at least doubled, until it fits. Where the
+/// whole surface is sampled again with a larger error, at least doubled, until it fits. If the
 /// orientation numerator comes so close to zero that `kMaxSweptDepth` halvings do not prove it
-/// positive, the bound does not hold.
-/// Preconditions: `path` not empty, chord_error_m > 0.
+/// positive, the bound does not hold. Requires `path` not to be empty and chord_error_m > 0.
 std::vector<SweptTriangle> tessellate_swept_surface(const Path& path, const Corners& corners_C,
                                                     double chord_error_m, double t_begin_s,
                                                     double t_end_s);
@@ -56,9 +55,10 @@ std::vector<SweptTriangle> tessellate_swept_surface(const Path& path, const Corn
 /// strip.
 inline constexpr double kSweptRounding = 64.0 * 2.220446049250313e-16;
 
-/// 8 triangles each: about 14 MB and a few tenths of a second at most.
+/// Largest number of strips, of 8 triangles each: about 14 MB and a few tenths of a second.
 inline constexpr std::size_t kMaxSweptStrips = 16384;
 
+/// Largest number of halvings of a segment.
 inline constexpr int kMaxSweptDepth = 30;
 
 }  // namespace camway::motion

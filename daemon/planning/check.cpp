@@ -35,7 +35,7 @@ PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& 
 Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
                                 const motion::Body& body, const collision::DetectOptions& options,
                                 const collision::Deadline& clearance_deadline) {
-  // Whatever the bound comes to, no more than the required clearance was needed for the proof.
+  // The proof shows the required clearance, whatever the bound comes to.
   Certificate certificate{true, options.clearance_m};
   const auto clearance = collision::path_clearance(obstacles, path, body, clearance_deadline);
   if (clearance) {

@@ -10,10 +10,10 @@
 
 namespace camway::planning {
 
-/// What counts as a collision for a request with these options.
+/// Returns the options of the collision search for a request with these options.
 collision::DetectOptions detect_options(const PlanOptions& options);
 
-/// What is known of a path, whoever made it.
+/// Result of checking a path, whoever made it.
 struct PathCheck {
   bool complete = false;  ///< false: the deadline struck, and nothing is known
   std::vector<collision::CollisionInterval> collisions;
@@ -21,14 +21,15 @@ struct PathCheck {
 };
 
 /// Searches the whole path for collisions and, where there are none, bounds its clearance. The
-/// search is the proof: what it does not list is free, at every instant and rounding included
-/// (`collision/probe.h`). The clearance has `clearance_deadline`; 0 if that strikes.
+/// search is the proof: all that it does not list is free, at every instant and rounding included
+/// (`collision/probe.h`). If `clearance_deadline` strikes, the certificate has the required
+/// clearance.
 PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,
                      const motion::Body& body, const collision::DetectOptions& options,
                      const collision::Deadline& deadline,
                      const collision::Deadline& clearance_deadline);
 
-/// The certificate of a path that was searched already, and found to be free of collision.
+/// Returns the certificate of a path that was searched already, and found free of collision.
 Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
                                 const motion::Body& body, const collision::DetectOptions& options,
                                 const collision::Deadline& clearance_deadline);

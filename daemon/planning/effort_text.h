@@ -20,32 +20,33 @@ std::string rounded_down(double value);
 /// way round that turns": the counts that are not 0. Empty if nothing was tried.
 std::string effort_text(const correction::Effort& effort);
 
-/// "; tried without success: ..." over all that was not corrected; nothing where nothing was tried.
+/// "; tried without success: ..." with the sum over all collisions that were not corrected; empty
+/// if nothing was tried.
 std::string note_of_effort(const std::vector<correction::Correction>& corrections);
 
-/// "; keyframe 2 seems shut in: ...", with the size of the region that it was looked at; nothing
-/// where none is.
+/// "; keyframe 2 seems shut in: ...", with the size of the region that was searched; empty if no
+/// keyframe is.
 std::string note_of_shut_in(const std::vector<correction::ShutIn>& shut_in);
 
-/// "; note: ..." about options that the request's method does not look at; nothing where there are
-/// none.
+/// "; note: ..." about options that the request's method ignores; empty if there are none.
 std::string note_of_method(const PlanRequest& request);
 
-/// "; note: ..." about a given keyframe that is tilted much where the policy keeps the horizon
-/// level: fine for who wants it so, but more often another axis is up in the scene.
+/// "; note: ..." about the first given keyframe that is tilted much although the policy keeps the
+/// horizon level; empty if there is none. Few senders want that; more often another axis is up in
+/// the scene.
 std::string note_of_tilt(const PlanRequest& request);
 
-/// Of keyframes at fault, the one that a message is about: where they were to be repaired, the
-/// first that could not be. Precondition: there are some.
+/// Returns the fault that a message is about: the first that could not be repaired, if keyframes
+/// were to be repaired, else the first. Requires at least one fault.
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
                                    const PlanRequest& request);
 
 /// "keyframes[2]: the near quadrilateral collides with the scene there, by ..." for
-/// `fault_to_name`. `timed_out`: before free poses were looked for.
+/// `fault_to_name`. `timed_out`: the deadline passed before free poses were found.
 std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequest& request,
                         bool timed_out);
 
-/// "no path exists: ..." by this proof, which may be for the smallest camera that is allowed.
+/// "no path exists: ..." by this proof; with `may_shrink` for the smallest camera that is allowed.
 std::string why_infeasible(const Infeasibility& proof, bool may_shrink);
 
 }  // namespace camway::planning

@@ -19,14 +19,14 @@ using geometry::Vec3;
 using motion::Keyframe;
 using motion::Pose;
 
-// Of the tolerance: what a free pose keeps, so that a path can leave it.
+// Distance that a free pose keeps, in tolerances, so that a path can leave it.
 constexpr double kMargin = 10.0;
-// So many times as far a keyframe is moved to be seen from its neighbours: most scenes are not
-// closed edge for edge, and what is behind a wall or under a floor is free as well.
+// A keyframe is moved up to this many times as far to be visible from its neighbours: most scenes
+// are not closed edge for edge, and the space behind a wall or under a floor is free as well.
 constexpr double kWorthTheView = 1.5;
 constexpr std::size_t kKeyframesBetweenLooks = 256;  // at the clock
 
-/// What a free pose must be inside of, and what it may be inside of or not.
+/// Surfaces that a free pose must be inside of, and those that it may or may not be inside of.
 struct Side {
   IndexSet inside;
   IndexSet either;
@@ -80,7 +80,8 @@ class Search {
     return std::ranges::binary_search(faults_, keyframe, {}, &KeyframeFault::keyframe);
   }
 
-  // The same point of the body everywhere: what surrounds it changes on no free motion.
+  // Returns the same point of the body for every pose. On a free motion it stays on its side of
+  // every surface.
   [[nodiscard]] Vec3 part_W(const Pose& pose) const {
     const Vec3 point_C = (part_C_[0] + part_C_[1] + part_C_[2]) / 3.0;
     return pose.position + pose.orientation * point_C;
@@ -90,7 +91,7 @@ class Search {
     return sides_->around(part_W(pose));
   }
 
-  /// The free ones next before and next after, as far as there are any.
+  /// Returns the nearest free keyframes before and after, as far as there are any.
   [[nodiscard]] std::vector<std::size_t> neighbours_of(std::size_t keyframe) const {
     std::vector<std::size_t> neighbours;
     for (std::size_t i = keyframe; i-- > 0;) {
@@ -171,17 +172,16 @@ class Search {
   const geometry::Triangle part_C_;
   std::optional<correction::SurfaceSides> sides_;
   std::vector<KeyframeFault> faults_;
-  std::size_t checked_ = 0;  ///< keyframes; of those beyond nothing is known
+  std::size_t checked_ = 0;  ///< number of keyframes that were checked; the others are unknown
 };
 
 }  // namespace
 
 KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
-                                                const collision::Obstacles& obstacles,
-                                                const motion::Body& body,
-                                                const collision::DetectOptions& detect,
-                                                const std::vector<Keyframe>& keyframes,
-                                                const Deadline& deadline) {
+                                    const collision::Obstacles& obstacles, const motion::Body& body,
+                                    const collision::DetectOptions& detect,
+                                    const std::vector<Keyframe>& keyframes,
+                                    const Deadline& deadline) {
   return Search(snapshot, obstacles, body, detect, keyframes, deadline).run();
 }
 

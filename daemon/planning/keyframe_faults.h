@@ -12,29 +12,28 @@
 
 namespace camway::planning {
 
-/// A request of which more keyframes collide has its unit or its axes wrong.
+/// Largest number of faults that are looked for. A request with more has a wrong unit or wrong
+/// axes.
 inline constexpr std::size_t kMostKeyframeFaults = 100;
 
 struct KeyframeFaults {
   std::vector<KeyframeFault> faults;
-  bool complete = true;  ///< all keyframes were looked at, unless that many are at fault
+  bool complete = true;  ///< all keyframes were checked, or `kMostKeyframeFaults` are at fault
 };
 
-/// The given keyframes at which the body collides, is nearer to the scene than required, or is
-/// beyond the bounds of `obstacles`, in order, at most `kMostKeyframeFaults`; each with the nearest
-/// free pose, if one was found.
+/// Returns the given keyframes at which the body collides, is nearer to the scene than required, or
+/// is beyond the bounds of `obstacles`, in order, at most `kMostKeyframeFaults`; each with the
+/// nearest free pose, if one was found. Requires the obstacles of `snapshot`. Once the deadline has
+/// passed, neither checks further keyframes nor looks for further free poses.
 ///
-/// A free pose lies on that side of every closed surface of the scene on which the path has to be
-/// there: where the free keyframes next before and next after are, if these agree. Else there is no
-/// path whatever becomes of the one between them. Where no keyframe is free, most of the nearest
-/// free poses decide, and outside counts where they are as many. So moving a keyframe there never
-/// is what makes a request infeasible. Closed surfaces are those that
-/// `correction/infeasibility/closed_surfaces` finds. What is not closed has no sides; there a free
-/// pose that is seen from one of these keyframes is preferred, if it is not much further away than
-/// the nearest.
-///
-/// Once the deadline has passed, no more keyframes are looked at, nor free poses looked for.
-/// `obstacles` are those of the snapshot.
+/// A free pose lies on that side of every closed surface of the scene on which the path has to be:
+/// the side of the nearest free keyframes before and after it, if these two agree. If they
+/// disagree, there is no path wherever the keyframe is moved. Where no keyframe is free, the
+/// majority of the nearest free poses decides, and a tie counts as outside. So moving a keyframe to
+/// its free pose is never what makes a request infeasible. Closed surfaces are those that
+/// `correction/infeasibility/closed_surfaces` finds. A surface that is not closed has no sides;
+/// there, a free pose that is visible from one of these two keyframes is preferred, if it is not
+/// much further away than the nearest free pose.
 KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
                                     const collision::Obstacles& obstacles, const motion::Body& body,
                                     const collision::DetectOptions& detect,

@@ -185,6 +185,12 @@ std::vector<SlowedStretch> slowed_stretches(const TimeLaw& law) {
   return slowed;
 }
 
+void move(const TimeLaw& law, CollisionInterval& interval) {
+  interval.t_begin_s = law.new_time_s(interval.t_begin_s);
+  interval.t_end_s = law.new_time_s(interval.t_end_s);
+  if (interval.witness) interval.witness->time_s = law.new_time_s(interval.witness->time_s);
+}
+
 }  // namespace
 
 bool meets_limits(const Path& path, const RateLimits& limits) {
@@ -240,21 +246,19 @@ std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Dea
 }
 
 void move_times(const TimeLaw& law, PlanResult& result) {
-  const auto move = [&](double& time_s) { time_s = law.new_time_s(time_s); };
-  const auto move_interval = [&](CollisionInterval& interval) {
-    move(interval.t_begin_s);
-    move(interval.t_end_s);
-    if (interval.witness) move(interval.witness->time_s);
-  };
   result.time_scale = law.stretch();
   result.slowed = slowed_stretches(law);
-  for (motion::Keyframe& keyframe : result.keyframes) move(keyframe.time_s);
-  for (CollisionInterval& interval : result.collisions) move_interval(interval);
-  for (CollisionInterval& interval : result.remaining_collisions) move_interval(interval);
+  for (motion::Keyframe& keyframe : result.keyframes)
+    keyframe.time_s = law.new_time_s(keyframe.time_s);
+  for (CollisionInterval& interval : result.remaining_collisions) move(law, interval);
+}
+
+void move_findings(const TimeLaw& law, PlanResult& result) {
+  for (CollisionInterval& interval : result.collisions) move(law, interval);
   for (correction::Correction& correction : result.corrections) {
-    move_interval(correction.interval);
-    move(correction.t_begin_s);
-    move(correction.t_end_s);
+    move(law, correction.interval);
+    correction.t_begin_s = law.new_time_s(correction.t_begin_s);
+    correction.t_end_s = law.new_time_s(correction.t_end_s);
   }
 }
 

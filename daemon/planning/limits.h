@@ -72,8 +72,11 @@ std::optional<Retimed> slowed_where_needed(const TooFast& problem,
 /// the deadline struck first, or if that is not as free as it was.
 std::optional<Retimed> slowed_alike(const TooFast& problem, const collision::Deadline& deadline);
 
-/// Moves every time of the result but those of its path, which `law` was made for: of keyframes,
-/// collisions and corrections. Says in it where and by how much it was slowed.
+/// Moves the times of keyframes and remaining collisions, and says in the result where and by how
+/// much its path was slowed.
 void move_times(const motion::TimeLaw& law, PlanResult& result);
+
+/// Moves the times of what was found before the path was slowed: collisions and corrections.
+void move_findings(const motion::TimeLaw& law, PlanResult& result);
 
 }  // namespace camway::planning

@@ -56,7 +56,7 @@ std::optional<std::string> fault_in_orientation(const Segment& segment) {
     }
   }
   for (const std::size_t end : {std::size_t{0}, segment.orientation.size() - 1}) {
-    // Without squares of what may be too small for them.
+    // No squares, which could underflow.
     const double length = segment.orientation[end].stableNorm();
     if (!(length >= kLeastQuaternionLength)) {
       return fmt::format("orientation[{}]: has length {:g}; an orientation needs {:g} at least",
@@ -80,7 +80,7 @@ Vec4 scaled(const Vec4& q) {
   return q.unaryExpr([exponent](double c) { return std::ldexp(c, -exponent); });
 }
 
-/// Straight over the join, or nothing if both ends are the same pose.
+/// Returns the straight motion over the join; nothing if both ends are the same pose.
 std::optional<Segment> bridge(const Segment& before, const Segment& after) {
   const Vec3& p0 = before.position.back();
   const Vec3& p1 = after.position.front();

@@ -9,63 +9,66 @@
 #include "daemon/motion/path/path.h"
 #include "daemon/planning/request.h"
 
-/// What has to be asked of a path that somebody else made, beside whether its segments collide.
-/// Pure functions; safe from any thread.
+/// Checks of a path that was made elsewhere, besides the search for collisions.
+/// Thread-safe.
 namespace camway::planning {
 
-/// Why `segments` cannot be checked, as a sentence that names the segment and the field, or nothing
-/// if they can. What passes can be evaluated in doubles without overflow or underflow:
-/// - there is a segment; times are within `kMaxTime_s` and increase in every segment, and each
-///   segment begins exactly when the one before ends, so that none is skipped;
+/// Returns why `segments` cannot be checked, as a sentence that names the segment and the field;
+/// nothing if they can. Segments without a fault can be evaluated in doubles without overflow or
+/// underflow:
+/// - there is a segment; times are within `kMaxTime_s` and increase in every segment; each segment
+///   begins exactly when the one before ends, so that no time is skipped;
 /// - coordinates of positions are within `kMaxCoordinate_m`;
-/// - coefficients of orientations are within `kLargestQuaternionCoefficient`, and at both ends of
-///   each segment, where a control point is the orientation, it is long enough to be divided by its
-///   length: `kLeastQuaternionLength`, and not so short beside the longest that rounding hides it.
+/// - coefficients of orientations are within `kLargestQuaternionCoefficient`; the control points at
+///   both ends, which are orientations, have a length of at least `kLeastQuaternionLength`, and one
+///   that rounding does not hide beside the longest control point.
 ///
-/// An orientation that vanishes inside of a segment passes: the search for collisions has to count
-/// as colliding what it cannot evaluate.
+/// An orientation may vanish inside a segment: the search for collisions has to count as colliding
+/// what it cannot evaluate.
 std::optional<std::string> find_fault(std::span<const motion::Segment> segments);
 
-/// Squares of what is below stay finite, and so do the products of the degree-15 corner curves
-/// with `kMaxCoordinate_m`. At the other end, the shortest values of the curve that rounding does
-/// not hide are 5e-14 of the longest control point (`motion::corner_rounding_m`); their squares are
-/// normal numbers still: (5e-14 * kLeastQuaternionLength)^2 is above 1e-227.
+/// Squares of smaller coefficients stay finite, and so do the products of the degree-15 corner
+/// curves with `kMaxCoordinate_m`. At the other end, the shortest values of the orientation curve
+/// that rounding does not hide are 5e-14 of the longest control point
+/// (`motion::corner_rounding_m`); their squares are still normal numbers: (5e-14 *
+/// kLeastQuaternionLength)^2 is above 1e-227.
 inline constexpr double kLargestQuaternionCoefficient = 1.0 / kLeastQuaternionLength;
 
-/// No point of a body within `body_radius_m` of the eye is further apart at the two poses than
-/// this: the way of the eye, and 2·ρ·sin(θ/2) for a turn by θ. Orientations have unit length. Plain
-/// doubles, not a bound of their rounding.
+/// Returns a bound of how far apart a point of the body can be at the two poses, for a body within
+/// `body_radius_m` of the eye: the distance of the eyes plus 2·ρ·sin(θ/2) for a turn by θ. Requires
+/// orientations of unit length. Computed in plain doubles; the rounding is not bounded.
 double pose_distance_m(const motion::Pose& a, const motion::Pose& b, double body_radius_m);
 
-/// The first join at which the body would jump, as a sentence, or nothing: a path from elsewhere
-/// may be free on every segment and still leap through a wall between two. Two segments meet if the
-/// body is no further apart at their ends than `kJoinAgreement` and the rounding of our evaluation
-/// explain. Precondition: `find_fault(path.segments())` finds nothing.
+/// Returns the first join at which the body would jump, as a sentence; nothing if there is none. A
+/// path from elsewhere may be free on every segment and still leap through a wall between two. Two
+/// segments meet if the body is no further apart at their ends than `kJoinAgreement` and the
+/// rounding of our evaluation explain. Requires that `find_fault(path.segments())` finds nothing.
 std::optional<std::string> find_jump(const motion::Path& path, double body_radius_m);
 
-/// As a share of how far a point of the body can be from the origin (distance of the eye plus
-/// radius): poses that agree to nine significant digits, a hundredth of a micrometre ten metres
-/// from the origin. A double rounds by 1.1e-16, so two ends that are computed apart, by up to 10^6
-/// operations each, are within it, and so are ends written with ten digits. In single precision the
-/// two ends have to be the same numbers, as a common control point is.
+/// Largest distance of two ends that meet, as a share of how far a point of the body can be from
+/// the origin (distance of the eye plus radius): nine significant digits, a hundredth of a
+/// micrometre ten metres from the origin. A double rounds by 1.1e-16, so two ends that are computed
+/// separately, by up to 10^6 operations each, are within it, and so are ends written with ten
+/// digits. In single precision the two ends have to be the same numbers, as a common control point
+/// is.
 inline constexpr double kJoinAgreement = 1e-9;
 
-/// What closes the gap that `find_jump` allows.
+/// A motion over a join whose ends differ by what `find_jump` allows.
 struct Bridge {
-  double time_s;      ///< of the join
-  motion::Path path;  ///< of one segment; its times mean nothing
+  double time_s;      ///< time of the join
+  motion::Path path;  ///< one segment, whose times mean nothing
 };
 
-/// A continuous motion over each join of `path` whose ends are not the same pose, straight from the
-/// one to the other, and exactly from and to the poses that the control points define. If the path
-/// and its bridges are free, no wall stands in a gap, however thin. Joins whose control points are
-/// the same, up to a power of two and a sign in the orientation, which change no pose, need no
-/// bridge. Precondition: `find_jump` finds nothing.
+/// Returns a straight, continuous motion over each join of `path` whose ends are not the same pose,
+/// exactly from and to the poses that the control points define. If the path and its bridges are
+/// free, no wall stands between two segments, however thin. A join needs no bridge if its control
+/// points are the same up to a power of two and a sign in the orientation, which change no pose.
+/// Requires that `find_jump` finds nothing.
 std::vector<Bridge> bridges(const motion::Path& path);
 
-/// By how much the path misses each of `keyframes`, in their order: `pose_distance_m` of the path
-/// at the keyframe's time from the keyframe. The path stands still before its beginning and after
-/// its end. Precondition: `path` not empty.
+/// Returns by how much the path misses each of `keyframes`, in their order: `pose_distance_m`
+/// between the keyframe and the path at the keyframe's time. Before its beginning and after its end
+/// the path stands still. Requires a path that is not empty.
 std::vector<double> keyframe_misses_m(const motion::Path& path,
                                       std::span<const motion::Keyframe> keyframes,
                                       double body_radius_m);

@@ -51,7 +51,7 @@ class Planner {
         deadline_(deadline),
         detect_(detect_options(request.options)) {}
 
-  PlanResult run() && {
+  UnsentResult run() && {
     if (prepare()) {
       correct(find_collisions());
       certify();
@@ -60,10 +60,9 @@ class Planner {
       meet_limits();
       add_clearance();
       conclude();
-      to_sent_times(origin_, result_);
     }
     result_.timing.total_ms = deadline_.elapsed_ms() - started_ms_;
-    return std::move(result_);
+    return {std::move(result_), origin_, std::move(law_)};
   }
 
  private:
@@ -101,8 +100,8 @@ class Planner {
     return true;
   }
 
-  // Those that are not are moved to where they would be, if that was asked for; else the request
-  // cannot be planned.
+  // Repairs keyframes that are not free, if the request asks for that. Returns false if the request
+  // cannot be planned, or not in time.
   bool keyframes_are_free() {
     KeyframeFaults found =
         find_keyframe_faults(snapshot_, obstacles_, *body_, detect_, result_.keyframes, deadline_);
@@ -129,7 +128,7 @@ class Planner {
     refuse(why_refused(faults, request_, deadline_.passed()), first.keyframe);
   }
 
-  // Whether the path as interpolated collides, and where. Nothing if the deadline struck.
+  // Returns the collisions of the path as interpolated; nothing if the deadline struck.
   std::optional<std::vector<CollisionInterval>> find_collisions() {
     deadline_.report(collision::Progress::Stage::kDetecting);
     std::optional<std::vector<CollisionInterval>> found = detect();
@@ -151,7 +150,7 @@ class Planner {
     if (request_.options.method == Method::kLadder) {
       correct_by_ladder(*found);
     } else if (body_->is_camera()) {
-      // The seed's method knows near quadrilaterals, and no clearance.
+      // The paper's method handles near quadrilaterals only, and no clearance.
       insert_keyframes();
     }
     result_.timing.correct_ms = lap_ms();
@@ -212,7 +211,7 @@ class Planner {
     timed_out_ = corrected.timed_out;
   }
 
-  // What comes after the final check, for each piece of the path, and in all.
+  // Time for the stages after the final check: for each piece of the path, and in all.
   [[nodiscard]] double rest_s_per_piece() const {
     return kMeasuring_s_per_piece + (request_.options.limits.any() ? kSlowing_s_per_piece : 0.0);
   }
@@ -234,7 +233,7 @@ class Planner {
     result_.timing.certify_ms = lap_ms();
   }
 
-  // Of the whole path; where there is no time for that, of what was changed.
+  // Searches the whole path or, if there is no time for that, only what was changed.
   std::vector<CollisionInterval> final_search(const Deadline& budget) {
     collision::Search whole{false, {}, result_.path.begin_s()};
     if (!timed_out_) {
@@ -244,7 +243,7 @@ class Planner {
     }
     if (whole.complete) return std::move(whole.collisions);
     timed_out_ = true;
-    // The seed's method changes the path everywhere.
+    // Keyframe insertion changes the path everywhere.
     const motion::Path before = corrected_ ? interpolated_.path() : motion::Path();
     collision::Search changes = search_changes(obstacles_, result_.path, *body_, detect_,
                                                {before, result_.collisions}, whole, budget);
@@ -252,7 +251,7 @@ class Planner {
     return std::move(changes.collisions);
   }
 
-  // There was no time to check them.
+  // Drops the corrections from `from_s` on, which there was no time to check.
   void give_up_corrections(double from_s) {
     put_back(from_s);
     for (correction::Correction& correction : result_.corrections) {
@@ -260,7 +259,7 @@ class Planner {
     }
   }
 
-  // From then on the path as interpolated, whose collisions are known.
+  // Restores the path as interpolated, whose collisions are known, from `from_s` on.
   void put_back(double from_s) {
     std::erase_if(result_.keyframes, [&](const Keyframe& keyframe) {
       return keyframe.origin == motion::KeyframeOrigin::kInserted && keyframe.time_s >= from_s;
@@ -274,8 +273,8 @@ class Planner {
     result_.path = (corrected_ ? *corrected_ : interpolated_).path();
   }
 
-  // Corrections of some intervals can bend the spline into others. Who gets a path that collides
-  // anyway shall not get one that collides for longer than what he asked for.
+  // Corrections of some intervals can bend the spline into others. If they lengthened the total
+  // time in collision, returns to the path as interpolated.
   void keep_the_better_path() {
     if (colliding_s(result_.remaining_collisions) <= colliding_s(result_.collisions)) return;
     if (result_.collisions.empty()) return;
@@ -295,15 +294,15 @@ class Planner {
         is_as_interpolated_ ? result_.measures_before : motion::measure(result_.path, before);
   }
 
-  // Corrections and limits both change the path and its proof; this tells of what they left.
+  // Called last, since corrections and retiming both change the path and its proof.
   void add_clearance() {
     if (result_.measures) {
       result_.measures->clearance_lower_bound_m = result_.certificate.clearance_lower_bound_m;
     }
   }
 
-  // Slower where the path is faster than the limits allow. A path that collides is not worth a new
-  // curve: it is made slower all the way, which leaves its collisions where they are.
+  // Slows the path where it exceeds the motion limits. A path that collides is not worth a new
+  // curve: it is slowed all the way, which leaves its collisions where they are.
   void meet_limits() {
     const correction::MotionLimits& limits = request_.options.limits;
     if (!limits.any()) return;
@@ -315,7 +314,7 @@ class Planner {
                                    : is_as_interpolated_
                                        ? interpolated_
                                        : motion::interpolate_cubic(result_.keyframes, origin_);
-    // The policy is for what the ladder corrects.
+    // The policy restricts the ladder's corrections only.
     const correction::OrientationPolicy policy =
         corrected_ ? request_.options.orientation : correction::OrientationPolicy{};
     const std::vector<double> times_s = given_times_s();
@@ -354,17 +353,16 @@ class Planner {
       result_.remaining_collisions = std::move(slowed.check->collisions);
     }
     result_.measures = motion::measure(result_.path, slowed.interpolated.path());
+    law_ = std::move(slowed.law);
   }
 
-  // Fine for a flight around an object, but more often the unit or the axes of the file are not
-  // what was assumed, and then everything looks free.
   [[nodiscard]] std::string note() const {
     return note_of_bounds() + note_of_tilt(request_) + note_of_tolerance() +
            note_of_method(request_);
   }
 
-  // What cannot be told from a collision at the tolerance counts as one, and for a tiny body that
-  // can be every gap it would fit through.
+  // What the tolerance cannot tell from a collision counts as one. For a tiny body that can be
+  // every opening that it fits through.
   [[nodiscard]] std::string note_of_tolerance() const {
     const double size_m = 2.0 * correction::FreeSpace(obstacles_, *body_, detect_).ball_radius_m();
     if (!(size_m < kLeastTolerances * detect_.tolerance_m)) return {};
@@ -373,6 +371,8 @@ class Planner {
                        detect_.tolerance_m);
   }
 
+  // Keyframes beyond the scene are fine for a flight around an object. More often the unit or the
+  // axes of the file are not what was assumed, and then everything looks free.
   [[nodiscard]] std::string note_of_bounds() const {
     const bool inside = std::ranges::any_of(result_.keyframes, [&](const Keyframe& keyframe) {
       return obstacles_.index.bounds().contains(keyframe.pose.position);
@@ -431,7 +431,7 @@ class Planner {
                       note();
   }
 
-  // What the deadline left undone.
+  // Names what the deadline left undone.
   [[nodiscard]] std::string note_of_haste() const {
     return is_too_fast_ ? "; it was not slowed to meet " + request_.name_of("options.limits") : "";
   }
@@ -441,7 +441,7 @@ class Planner {
     if (result_.collisions.empty()) return {};
     const std::string field = request_.name_of("options.max_inserted_keyframes");
     if (most == 0) return fmt::format("; nothing was corrected, as {} asks for", field);
-    // The seed's method does not say what it would need.
+    // Keyframe insertion does not report how many keyframes it needs.
     const bool is_used_up = std::cmp_greater_equal(inserted_keyframes(), most);
     if (!needed_keyframes_ && !is_used_up) return {};
     if (!needed_keyframes_) return fmt::format("; {} allows {}", field, most);
@@ -484,7 +484,7 @@ class Planner {
                                         result_.path.end_s(), detect_, deadline_);
   }
 
-  // Nothing is known of the path: then all of it counts as colliding.
+  // Nothing is known of the path, so all of it counts as colliding.
   void mark_all_as_remaining() {
     result_.remaining_collisions = {{result_.path.begin_s(), result_.path.end_s()}};
   }
@@ -496,7 +496,7 @@ class Planner {
     result_.keyframes.clear();
   }
 
-  // There is no path: not even for that was there time.
+  // Ends with a timeout and without a path.
   void give_up(std::string_view before) {
     result_.status = Status::kTimeout;
     result_.message = fmt::format("the deadline came before {}: there is no path", before);
@@ -504,7 +504,7 @@ class Planner {
     result_.keyframe_faults.clear();
   }
 
-  // What takes no longer than a moment is done in any case.
+  // Returns whether a stage of that length has to be left out. Short ones never are.
   [[nodiscard]] bool leaves_too_little(double seconds) const {
     return seconds > kLeastBudget_s && !deadline_.leaves_s(seconds);
   }
@@ -514,21 +514,21 @@ class Planner {
     return now_ms - std::exchange(lap_begin_ms_, now_ms);
   }
 
-  // A body that is fewer tolerances large is told so.
+  // A body of fewer tolerances gets a note in the message.
   static constexpr double kLeastTolerances = 10.0;
 
-  // Of what is left: what comes after these has to be done by the deadline, too.
+  // Shares of the time left. The stages that follow have to end by the deadline, too.
   static constexpr double kShareOfCorrection = 0.95;
   static constexpr double kShareOfWholeSearch = 0.7;
   static constexpr double kShareOfSlowing = 0.5;
 
-  // Measured, on two slow cores; then the final check, and what comes after it.
+  // Times of the stages, measured on two slow cores.
   static constexpr double kInterpolating_s_per_keyframe = 5e-6;
   static constexpr double kSearching_s_per_piece = 4e-6;
   static constexpr double kMeasuring_s_per_piece = 6e-6;
   static constexpr double kSlowing_s_per_piece = 10e-6;
 
-  // For the final check and for stretching times, however little of the deadline is left: enough
+  // Least time for the final check and for retiming, however little of the deadline is left: enough
   // for most paths.
   static constexpr double kLeastBudget_s = 0.02;
 
@@ -541,16 +541,17 @@ class Planner {
   const double started_ms_ = deadline_.elapsed_ms();
   double lap_begin_ms_ = started_ms_;
   std::optional<motion::Body> body_;
-  motion::TimeOrigin origin_;       ///< of all times, until they are made the sender's
+  motion::TimeOrigin origin_;       ///< origin of all times until `to_sent_times`
   motion::CubicPath interpolated_;  ///< through the given keyframes
   bool is_as_interpolated_ = true;
   bool timed_out_ = false;
-  bool is_searched_ = true;                      ///< the path as interpolated, for collisions
-  bool is_too_fast_ = false;                     ///< as the deadline came before it was slowed
-  std::optional<std::size_t> needed_keyframes_;  ///< set if more than allowed
-  std::optional<motion::CubicPath> corrected_;   ///< what the ladder made of the path, if anything
-  std::optional<LimitBreach> breach_;            ///< limits that are not met
-  bool slowed_everywhere_ = false;               ///< where `time_scale` is not 1
+  bool is_searched_ = true;   ///< the path as interpolated was searched for collisions
+  bool is_too_fast_ = false;  ///< the deadline came before the path was slowed
+  std::optional<std::size_t> needed_keyframes_;  ///< set if corrections need more than allowed
+  std::optional<motion::CubicPath> corrected_;   ///< path as corrected by the ladder, if it was
+  std::optional<LimitBreach> breach_;            ///< motion limits that are not met
+  bool slowed_everywhere_ = false;               ///< means nothing if `time_scale` is 1
+  std::optional<motion::TimeLaw> law_;           ///< law that slowed the path, if any
   PlanResult result_;
 };
 
@@ -559,8 +560,8 @@ PlanResult plan_among(const scene::Snapshot& snapshot, const collision::Obstacle
   const auto plan_at_size = [&](const PlanRequest& asked, const Deadline& until) {
     return Planner(snapshot, obstacles, asked, until).run();
   };
-  return may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
-                             : plan_at_size(request, deadline);
+  return with_sent_times(may_shrink(request) ? plan_with_shrinking(request, deadline, plan_at_size)
+                                             : plan_at_size(request, deadline));
 }
 
 }  // namespace

@@ -19,26 +19,27 @@
 namespace camway::planning {
 
 enum class Status {
-  kOk,       ///< the path is proved free of collision; see the certificate
-  kPartial,  ///< a path, but with the remaining collisions listed; or free, but beyond the limits
-  kInfeasible,     ///< no path exists, and that was proved
-  kTimeout,        ///< the deadline came first; the best path so far with its remaining collisions
-  kInvalid,        ///< the request cannot be planned; the message says which part of it
-  kUnknownScene,   ///< no such scene
-  kInternalError,  ///< our fault
+  kOk,  ///< the path is proved free of collision; see the certificate
+  /// A path with remaining collisions, which are listed; or free, but beyond the motion limits.
+  kPartial,
+  kInfeasible,    ///< no path exists, and that was proved
+  kTimeout,       ///< the deadline struck first; the best path so far with its remaining collisions
+  kInvalid,       ///< the request cannot be planned; the message says which part of it
+  kUnknownScene,  ///< no such scene
+  kInternalError,  ///< a fault of this program, not of the request
 };
 
 std::string_view to_string(Status status);
 std::optional<Status> status_from_string(std::string_view text);
 
-/// What is proved about the returned segments, exactly as sent. With `kOk` always; with `kPartial`
-/// and `kTimeout` only where nothing but limits of the motion is not met.
+/// Whether the returned segments, exactly as sent, are proved free of collision. With `kOk` always;
+/// with `kPartial` and `kTimeout` only where the path fails nothing but motion limits.
 struct Certificate {
   bool certified = false;
   double clearance_lower_bound_m = 0.0;
 };
 
-/// Wall-clock milliseconds. The only part of a result that may differ between two runs, unless
+/// Wall-clock times of the stages, in milliseconds. Only these may differ between two runs, unless
 /// `PlanResult::deadline_reached`.
 struct Timing {
   double load_scene_ms = 0.0;
@@ -46,44 +47,44 @@ struct Timing {
   double detect_ms = 0.0;
   double correct_ms = 0.0;
   double certify_ms = 0.0;
-  double total_ms = 0.0;  ///< planning alone, scene loading apart
+  double total_ms = 0.0;  ///< planning alone, without loading the scene
 };
 
-/// What the witness of a collision is called, for people.
+/// Names of a collision's witness, for people.
 struct WitnessNames {
-  std::string object;   ///< of the scene; empty if it has no name
-  std::string feature;  ///< of the body, as `motion::Body::feature_name`
+  std::string object;   ///< name of the object, or "bounds." and a side; may be empty
+  std::string feature;  ///< feature of the body, as named by `motion::Body::feature_name`
 
   bool operator==(const WitnessNames&) const = default;
 };
 
-/// A given keyframe that collides, is nearer to the scene than required, or beyond the bounds.
+/// A given keyframe that collides, is nearer to the scene than required, or is beyond the bounds.
 struct KeyframeFault {
   std::size_t keyframe = 0;
-  double depth_m = 0.0;                   ///< estimate of how far it would have to move to be free
-  std::optional<motion::Pose> free_pose;  ///< the nearest that was found, if any
-  bool leaves_bounds = false;  ///< it is the bounds that it is deepest in; not on the wire
+  double depth_m = 0.0;                   ///< estimated distance by which it has to move to be free
+  std::optional<motion::Pose> free_pose;  ///< nearest free pose that was found, if any
+  bool leaves_bounds = false;  ///< its deepest contact is with the bounds; not on the wire
 };
 
-/// A stretch of the path that was made slower to meet limits.
+/// A part of the path that was slowed to meet motion limits.
 struct SlowedStretch {
   double t_begin_s = 0.0;
   double t_end_s = 0.0;
-  double given_t_begin_s = 0.0;  ///< when it was to begin and end by the times asked for
+  double given_t_begin_s = 0.0;  ///< begin and end of the same part by the times asked for
   double given_t_end_s = 0.0;
 
   bool operator==(const SlowedStretch&) const = default;
 };
 
-/// Why there is no path: a closed surface of the scene, with one keyframe inside and another
-/// outside. Whoever wants to check it needs the triangles alone: each edge (by the coordinates of
-/// its ends) has an even number of them, and a ray from one keyframe meets an odd number, from the
-/// other an even one. No continuous motion of a connected body gets from one side to the other
-/// without touching it.
+/// Proof that there is no path: a closed surface of the scene, with one keyframe inside and another
+/// outside. The triangles alone suffice to check it: each edge (by the coordinates of its ends)
+/// belongs to an even number of them; a ray from one keyframe meets an odd number of them, from the
+/// other an even one. A continuous motion of a connected body from one side to the other touches
+/// the surface.
 ///
-/// Or, with `cage`, a box that the centre of the near quadrilateral is inside of at the one
-/// keyframe and outside at the other, and never on: `correction::find_cage` says why. Then the
-/// triangles are those of what closes the faces of the box but for its holes.
+/// With `cage`, the proof is a box: the centre of the near quadrilateral is inside it at one
+/// keyframe, outside at the other, and can never be on its surface (see `correction::find_cage`).
+/// Then the triangles are those that close the faces of the box except for its holes.
 struct Infeasibility {
   std::size_t keyframe_inside = 0;
   std::size_t keyframe_outside = 0;
@@ -94,38 +95,38 @@ struct Infeasibility {
 struct PlanResult {
   Status status = Status::kInternalError;
   std::string message;  ///< one sentence for a person
-  /// Index of the keyframe at fault: for kInvalid; or from which no way out was found.
+  /// Index of the keyframe at fault with kInvalid, or of one from which no way out was found.
   std::optional<std::size_t> keyframe;
   motion::Path path;
-  std::vector<motion::Keyframe> keyframes;  ///< given and inserted ones, with their times
-  std::vector<collision::CollisionInterval> collisions;            ///< before correction
-  std::vector<collision::CollisionInterval> remaining_collisions;  ///< of `path`
-  /// Names for the witnesses of the two lists above, one for each interval, empty strings where it
-  /// has no witness; see `name_witnesses`. In a result that was read back from a file or the wire,
-  /// the name of a feature stands here alone, and its number is 0.
+  std::vector<motion::Keyframe> keyframes;  ///< given and inserted keyframes with their times
+  std::vector<collision::CollisionInterval> collisions;            ///< collisions before correction
+  std::vector<collision::CollisionInterval> remaining_collisions;  ///< collisions of `path`
+  /// Names of the witnesses of the two lists above, one for each interval; empty strings where it
+  /// has no witness. Filled in by `name_witnesses`. In a result that was read back from a file or
+  /// the wire, a feature is known by this name only, and its number is 0.
   std::vector<WitnessNames> collision_names;
   std::vector<WitnessNames> remaining_names;
   Certificate certificate;
-  /// What became of each collision; empty where nothing was corrected, and with the seed's method.
+  /// Outcome of each collision; empty where nothing was corrected, and with keyframe insertion.
   std::vector<correction::Correction> corrections;
-  /// Of the path as interpolated, and of `path`; nothing where there is none.
+  /// Measures of the path as interpolated, and of `path`; nothing where they were not computed.
   std::optional<motion::PathMeasures> measures_before;
   std::optional<motion::PathMeasures> measures;
-  /// The near distance that the proof is for, as a share of the one asked for; below 1 only if
-  /// `PlanOptions::max_shrink` allowed it.
+  /// Near distance that the proof is for, as a share of the requested one; below 1 only if
+  /// `PlanOptions::max_shrink` allows it.
   double near_scale = 1.0;
-  /// What the body had to stay within: the bounds of the request and those of the scene together.
+  /// Bounds that the body had to keep to: those of the request and those of the scene together.
   geometry::Bounds bounds;
-  /// How many times as long `path` takes as was asked for, to meet limits. It is slower where it
-  /// has to be, or all the way (`planning/limits.h`); every time of the result is a new one.
+  /// Duration of `path` as a multiple of the requested one. To meet motion limits it is slowed in
+  /// part or all the way (`planning/limits.h`); every time of the result is a slowed one.
   double time_scale = 1.0;
-  std::vector<SlowedStretch> slowed;  ///< where that was, in order of time; beyond, times are moved
-  std::vector<KeyframeFault> keyframe_faults;  ///< for kInvalid, or what was repaired
+  std::vector<SlowedStretch> slowed;  ///< in order of time; times between them are only shifted
+  std::vector<KeyframeFault> keyframe_faults;  ///< faults with kInvalid; else the repaired ones
   std::optional<Infeasibility> infeasibility;  ///< set exactly for kInfeasible
-  /// Keyframes from which no way out was found; no proof. Part of the message elsewhere.
+  /// Keyframes from which no way out was found; no proof. On the wire only a part of `message`.
   std::vector<correction::ShutIn> shut_in;
-  /// Whether anything was left undone because of the deadline, of whatever status: then, and only
-  /// then, the answer to the same request may be another one the next time.
+  /// Whether the deadline left anything undone, whatever the status. Then, and only then, the next
+  /// answer to the same request may differ.
   bool deadline_reached = false;
   Timing timing;
 };

@@ -18,7 +18,7 @@ bool are_same(const Segment& a, const Segment& b) {
          a.orientation == b.orientation;
 }
 
-/// Which of `segments` `known` has too. Both are in order of time.
+/// Returns for each of `segments` whether `known` has it too. Both are in order of time.
 std::vector<bool> known_segments(std::span<const Segment> segments,
                                  std::span<const Segment> known) {
   std::vector<bool> is_known;
@@ -44,14 +44,14 @@ class Intervals {
     if (!last.witness) last.witness = interval.witness;
   }
 
-  /// What of `collisions` lies between the two times.
+  /// Adds the parts of `collisions` that lie between the two times.
   void add_between(const std::vector<CollisionInterval>& collisions, double begin_s, double end_s) {
     auto next = std::ranges::lower_bound(collisions, begin_s, {}, &CollisionInterval::t_end_s);
     for (; next != collisions.end() && next->t_begin_s <= end_s; ++next) {
       CollisionInterval part = *next;
       part.t_begin_s = std::max(part.t_begin_s, begin_s);
       part.t_end_s = std::min(part.t_end_s, end_s);
-      // What was free up to its end, or from its beginning, is so at that instant too.
+      // A range that is free up to its end, or from its beginning, is free at that instant too.
       const bool only_touches = part.t_begin_s == part.t_end_s && next->t_begin_s < next->t_end_s;
       if (only_touches) continue;
       const auto& witness = part.witness;

@@ -11,6 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/planning/keyframe_times.h"
+#include "daemon/planning/limits.h"
+
 namespace camway::planning {
 
 namespace {
@@ -35,20 +38,26 @@ class Shrinking {
   Shrinking(const PlanRequest& request, const Deadline& deadline, const PlanAtSize& plan_at_size)
       : request_(request), deadline_(deadline), plan_at_size_(plan_at_size) {}
 
-  PlanResult run() {
-    PlanResult full = plan_at_size_(request_, deadline_.share_of_rest(kFirstShare));
-    const bool is_open = full.status == Status::kPartial || full.status == Status::kTimeout;
-    if (!is_open || full.remaining_collisions.empty()) return full;
+  UnsentResult run() {
+    UnsentResult full = plan_at_size_(request_, deadline_.share_of_rest(kFirstShare));
+    const Status status = full.result.status;
+    const bool is_open = status == Status::kPartial || status == Status::kTimeout;
+    if (!is_open || full.result.remaining_collisions.empty()) return full;
     const double begun_ms = deadline_.elapsed_ms();
-    cut_off_ = full.status == Status::kTimeout;
+    cut_off_ = status == Status::kTimeout;
     // Not before: it may be that the first plan found the request invalid, and this with it.
     scales_ = scales(request_.options.max_shrink);
     search();
-    PlanResult result = best_ ? answer(std::move(full)) : refusal(std::move(full));
+    if (best_) {
+      add_answer(std::move(full.result));
+    } else {
+      add_refusal(full.result);
+    }
+    UnsentResult& answer = best_ ? *best_ : full;
     const double took_ms = deadline_.elapsed_ms() - begun_ms;
-    result.timing.correct_ms += took_ms;
-    result.timing.total_ms += took_ms;
-    return result;
+    answer.result.timing.correct_ms += took_ms;
+    answer.result.timing.total_ms += took_ms;
+    return std::move(answer);
   }
 
  private:
@@ -80,25 +89,25 @@ class Shrinking {
     }
     PlanRequest smaller = request_;
     smaller.camera.near_m *= scales_[index];
-    PlanResult result = plan_at_size_(smaller, deadline_.share_of_rest(share));
+    // It may be proved that there is no path at this size, whatever there is at others.
+    smaller.options.max_shrink = 0.0;
+    UnsentResult found = plan_at_size_(smaller, deadline_.share_of_rest(share));
     tried_.push_back(scales_[index]);
-    if (result.status == Status::kTimeout) cut_off_ = true;
-    is_shut_in_ = !result.shut_in.empty();
-    if (result.status != Status::kOk) return false;
-    result.near_scale = scales_[index];
-    best_ = std::move(result);
+    if (found.result.status == Status::kTimeout) cut_off_ = true;
+    is_shut_in_ = !found.result.shut_in.empty();
+    if (found.result.status != Status::kOk) return false;
+    found.result.near_scale = scales_[index];
+    best_ = std::move(found);
     return true;
   }
 
-  // What collided, and what became of it, is told of the camera that was asked for; unless times
-  // were moved to meet limits, which are not those of the first plan then.
-  [[nodiscard]] PlanResult answer(PlanResult full) {
-    PlanResult result = std::move(*best_);
+  /// What `full` found of the camera that was asked for.
+  void add_answer(PlanResult full) {
+    PlanResult& result = best_->result;
     result.message = fmt::format("with a near distance of {:.3g} m instead of {:.3g} m: {}",
                                  request_.camera.near_m * result.near_scale, request_.camera.near_m,
                                  result.message);
     result.timing = full.timing;
-    if (full.time_scale != 1.0 || result.time_scale != 1.0) return result;
     result.collisions = std::move(full.collisions);
     result.measures_before = full.measures_before;
     result.corrections = std::move(full.corrections);
@@ -107,10 +116,9 @@ class Shrinking {
       correction.rung = Rung::kShrink;
       correction.tried = {};
     }
-    return result;
   }
 
-  [[nodiscard]] PlanResult refusal(PlanResult full) {
+  void add_refusal(PlanResult& full) {
     std::ranges::sort(tried_, std::ranges::greater());
     std::string list;
     for (const double scale : tried_) {
@@ -121,7 +129,6 @@ class Shrinking {
                         : "; nor was there a free path with the near distance times " + list;
     if (cut_off_ && !tried_.empty()) full.message += ", as far as the deadline allowed to search";
     if (cut_off_) full.status = Status::kTimeout;
-    return full;
   }
 
   const PlanRequest& request_;
@@ -129,15 +136,21 @@ class Shrinking {
   const PlanAtSize& plan_at_size_;
   std::vector<double> scales_;
   std::vector<double> tried_;
-  std::optional<PlanResult> best_;
+  std::optional<UnsentResult> best_;
   bool cut_off_ = false;
   bool is_shut_in_ = false;  ///< a keyframe, for the camera that was tried last
 };
 
 }  // namespace
 
-PlanResult plan_with_shrinking(const PlanRequest& request, const Deadline& deadline,
-                               const PlanAtSize& plan_at_size) {
+PlanResult with_sent_times(UnsentResult unsent) {
+  if (unsent.law) move_findings(*unsent.law, unsent.result);
+  to_sent_times(unsent.origin, unsent.result);
+  return std::move(unsent.result);
+}
+
+UnsentResult plan_with_shrinking(const PlanRequest& request, const Deadline& deadline,
+                                 const PlanAtSize& plan_at_size) {
   return Shrinking(request, deadline, plan_at_size).run();
 }
 

@@ -45,8 +45,8 @@ std::optional<InvalidRequest> check_camera(const motion::Camera& camera) {
   return std::nullopt;
 }
 
-/// What moves: the camera's near quadrilateral, or the body in its place. Then the camera may be
-/// left out (all zero); if it is there, it has to be right.
+/// Checks the body: the camera's near quadrilateral, or the shape in its place. With a shape the
+/// camera may be left out (all zero); if it is there, it has to be valid.
 std::optional<InvalidRequest> check_body(const PlanRequest& request) {
   const motion::Camera& camera = request.camera;
   const bool has_camera =
@@ -123,7 +123,8 @@ bool is_within_scenes(const geometry::Vec3& point) {
 
 std::optional<InvalidRequest> check_orientation(const correction::OrientationPolicy& policy) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
-  // The edges bring directions to unit length; what they could not is zero or not finite.
+  // Directions are brought to unit length where requests come in, unless they are zero or not
+  // finite.
   if (!(std::abs(policy.up_W.squaredNorm() - 1.0) <= kUnitLengthError)) {
     return invalid("options.orientation.up",
                    fmt::format("has length {:g}, which is no direction", policy.up_W.norm()));
@@ -145,7 +146,7 @@ std::optional<InvalidRequest> check_orientation(const correction::OrientationPol
   return std::nullopt;
 }
 
-/// Infinity is no limit.
+/// Infinity means no limit.
 std::optional<InvalidRequest> check_limits(const correction::MotionLimits& limits) {
   const std::pair<const char*, double> members[] = {
       {"options.limits.speed", limits.speed_m_per_s},
@@ -161,7 +162,7 @@ bool moves_a_camera(const PlanRequest& request) {
   return !request.body || std::holds_alternative<motion::Camera>(*request.body);
 }
 
-/// What is asked of corrections.
+/// Checks the options of corrections.
 std::optional<InvalidRequest> check_correction(const PlanRequest& request) {
   const PlanOptions& options = request.options;
   if (auto fault = check_orientation(options.orientation)) return fault;
@@ -180,7 +181,7 @@ std::optional<InvalidRequest> check_correction(const PlanRequest& request) {
   return std::nullopt;
 }
 
-/// How times are derived.
+/// Checks the speed from which times are derived.
 std::optional<InvalidRequest> check_speed(const PlanRequest& request) {
   constexpr char kField[] = "options.default_speed";
   const std::optional<double>& speed_m_per_s = request.options.default_speed_m_per_s;

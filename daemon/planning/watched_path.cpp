@@ -16,11 +16,11 @@ using geometry::Box;
 using geometry::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Three sums of numbers that are not negative, each of which rounds by half of this at most.
+// Three sums of non-negative numbers, each of which rounds by half an epsilon at most.
 constexpr double kRoundUp = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
 
-/// Nothing outside can be nearer than `margin_m` to the hull of the control points. Everything,
-/// where the numbers do not tell.
+/// Returns a box outside of which nothing is nearer than `margin_m` to the hull of the control
+/// points; all of space if a number is not finite.
 Box swept_box(const motion::Segment& segment, double margin_m) {
   Box box;
   bool finite = std::isfinite(margin_m);

@@ -15,43 +15,45 @@
 
 namespace camway::planning {
 
-/// A path that was proved free of collision once, and what it takes to tell quickly whether it
-/// still is when its scene has changed. Immutable.
+/// A path that was proved free of collision, with all that is needed to tell quickly whether it
+/// still is after a change of its scene. Immutable.
+/// Thread-safe.
 ///
-/// The proof: the scene after a change is what stayed, and what was added. A path that was proved
-/// free of the scene before is proved free of what stayed, since taking triangles away brings none
-/// nearer, nor solids. So it is free in the new scene if it is free of what was added, whose box
-/// holds its triangles and its inside. A segment's eye lies in
-/// the convex hull of its four control points, in exact arithmetic, and every point of the body
-/// within `Body::radius_m` and the ball's radius of the eye: so the body stays in the box of the
-/// control points, grown by these, by `Body::slack_m` and the required clearance, all rounded up. A
-/// segment whose grown box does not meet the box of an added object is free of it; of all other
-/// segments `collision::detect_collisions` has to prove it against what was added alone. Within the
-/// bounds it stays while these are the same; where those of the scene are others, nothing is known.
+/// Proof: The scene after a change is what stayed, and what was added. A path that was proved free
+/// in the scene before is free of what stayed, since removing triangles brings no triangle nearer,
+/// nor any solid. So it is free in the new scene if it is free of what was added, whose boxes hold
+/// its triangles and its inside. The eye on a segment lies in the convex hull of its four control
+/// points, in exact arithmetic, and every body point is within `Body::radius_m` plus the ball's
+/// radius of the eye. So the body stays in the box of the control points grown by these, by
+/// `Body::slack_m` and the required clearance, all rounded up. A segment whose grown box does not
+/// meet the box of an added object is free of it; every other segment has to be proved free of what
+/// was added alone, by `collision::first_collision`. The path stays within the bounds while these
+/// are the same; if those of the scene change, nothing is known.
 class WatchedPath {
  public:
-  /// Precondition: segments with increasing times.
+  /// Requires segments with increasing times.
   WatchedPath(motion::Path path, motion::Body body, const collision::DetectOptions& detect,
               const geometry::Bounds& bounds = {});
 
-  /// What `result` proves for the body that `request` asked for; nothing if it proves nothing.
+  /// Returns the path that `result` proves free for `request`; nothing if it proves nothing.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
 
   [[nodiscard]] const motion::Path& path() const { return path_; }
 
-  /// Whether the change can be anything to the path at all: if not, what was known of it holds on.
+  /// Returns whether the change can affect the path. If not, all that was known of it still holds.
   [[nodiscard]] bool may_meet(const scene::SceneDifference& change) const;
 
-  /// Proved: a path that was free before the change is free after it. False proves nothing.
+  /// Returns true if a path that was free before is proved free after. False proves nothing.
   [[nodiscard]] bool stays_free(const scene::SceneDifference& change,
                                 const collision::Deadline& deadline) const;
 
-  /// Where it collides, or leaves the bounds of its request or of `obstacles`, from scratch, as
-  /// `collision::detect_collisions` says. All of it where the deadline struck.
+  /// Returns where the path collides, or leaves the bounds of its request or of `obstacles`,
+  /// searched from scratch by `collision::detect_collisions`. Returns all of it if the deadline
+  /// struck.
   [[nodiscard]] std::vector<collision::CollisionInterval> collisions(
       const collision::Obstacles& obstacles, const collision::Deadline& deadline) const;
 
-  /// Where nothing is known of it.
+  /// Returns the whole path, as the collision of a path of which nothing is known.
   [[nodiscard]] collision::CollisionInterval everywhere() const {
     return {path_.begin_s(), path_.end_s()};
   }
@@ -62,8 +64,8 @@ class WatchedPath {
   motion::Path path_;
   motion::Body body_;
   collision::DetectOptions detect_;
-  geometry::Bounds bounds_;           ///< of the request
-  std::vector<geometry::Box> swept_;  ///< of each segment: nothing outside can be too near
+  geometry::Bounds bounds_;           ///< bounds of the request
+  std::vector<geometry::Box> swept_;  ///< box of each segment; nothing beyond is too near
   geometry::Box all_swept_;
 };
 

@@ -13,14 +13,14 @@ namespace {
 using geometry::Bounds;
 using geometry::Vec3;
 
-constexpr int kSamplesASegment = 16;  // for a person
+constexpr int kSamplesASegment = 16;  // enough for a message
 
 struct Excess {
   std::size_t side = 0;
   double by_m = 0.0;
 };
 
-/// Where samples of `path` are furthest beyond the bounds.
+/// Returns where samples of `path` are furthest beyond the bounds.
 Excess largest_excess(const motion::Path& path, const motion::Body& body, const Bounds& bounds) {
   Excess largest;
   const auto extend = [&](const Vec3& point_W) {

@@ -6,17 +6,16 @@
 
 namespace camway::planning {
 
-/// Of the deadline, what a plan within bounds may take, so that a way beyond them can be looked
-/// for.
+/// Share of the deadline for a plan within bounds. The rest is for the search of a way beyond them.
 inline constexpr double kShareWithinBounds = 0.85;
 
-/// Whether it is worth asking for a way beyond the bounds that `result` had to keep to: the ladder
-/// found none within them, and no proof is why.
+/// Returns whether a search beyond the bounds of `result` is worthwhile: the ladder found no way
+/// within them, and that is not because there is provably none.
 bool may_have_way_beyond(const PlanRequest& request, const PlanResult& result);
 
-/// Says in the message of `result` that there is a way only beyond its bounds, and how far beyond,
-/// if `unbounded` proves one. `unbounded`: of the same request without any bounds. Adds the time
-/// that it took.
+/// Adds to the message of `result` that there is a way only beyond its bounds, and how far beyond,
+/// if `unbounded` proves one. `unbounded` is the result for the same request without any bounds.
+/// Adds the time that it took.
 void add_way_beyond(const PlanResult& unbounded, const PlanRequest& request, PlanResult& result);
 
 }  // namespace camway::planning

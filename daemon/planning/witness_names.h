@@ -9,13 +9,13 @@
 
 namespace camway::planning {
 
-/// Names of object and body feature of `witness`, which was found with `mesh` and `body`.
+/// Returns the object and the body feature of `witness`, which was found with `mesh` and `body`.
 WitnessNames describe_witness(const scene::WholeMesh& mesh, const motion::Body& body,
                               const collision::Witness& witness);
 
 /// Fills `collision_names` and `remaining_names` of a result of planning `request` in the scene
-/// `mesh`, unless they are there already. For whoever hands the result on; planning itself works
-/// with numbers.
+/// `mesh`, unless one of them is there already. Planning itself works with numbers; call this
+/// before the result is passed on.
 void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, PlanResult& result);
 
 }  // namespace camway::planning

@@ -10,7 +10,7 @@
 namespace camway::service {
 namespace {
 
-/// Nothing is no limit. False for what is no finite number.
+/// An empty text means no limit. Returns false if the text is no finite number.
 bool read_limit(std::string_view text, double& limit_m) {
   if (text.empty()) return true;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit_m);

@@ -43,7 +43,7 @@ class Faults {
   [[nodiscard]] std::string place(const toml::source_region& where) const {
     return fmt::format("{}:{}", file_, where.begin.line);
   }
-  /// In the order of the lines: the parser hands out keys in that of the alphabet.
+  /// Returns the faults in the order of their lines; the parser visits keys in alphabetical order.
   [[nodiscard]] std::vector<std::string> lines() const {
     std::vector<std::string> lines;
     for (const auto& [line, text] : faults_) lines.push_back(text);
@@ -55,7 +55,7 @@ class Faults {
   std::multimap<toml::source_index, std::string> faults_;
 };
 
-/// Sets one setting, of a file in `folder`; returns what is wrong with the value.
+/// Sets one setting from a file in `folder`. Returns an error about the value, or an empty text.
 std::string apply(const Setting& setting, const toml::node& node,
                   const std::filesystem::path& folder) {
   if (setting.is_text()) {
@@ -79,7 +79,7 @@ std::string apply(const Setting& setting, const toml::node& node,
   return setting.set(number->get());
 }
 
-/// What may stand beside a key that means nothing: the others of its table.
+/// Returns the valid keys of a table, for an error about an unknown one.
 std::string keys_beside(const std::vector<Setting>& settings, std::string_view table) {
   std::set<std::string_view> keys;
   for (const Setting& setting : settings) {
@@ -122,7 +122,7 @@ std::string read_number_above_0(const toml::node& node, double& value) {
   return {};
 }
 
-/// Applies one key of a [[scene]]; returns what is wrong with its value.
+/// Applies one key of a [[scene]]. Returns an error about its value, or an empty text.
 std::string apply_to_scene(std::string_view key, const toml::node& node, SceneArgument& scene) {
   if (key == "scale") return read_number_above_0(node, scene.options.import.scale);
   if (key == "occupancy_resolution_m") {
@@ -244,7 +244,7 @@ std::vector<std::string> read_config_file(const std::filesystem::path& file,
                         std::generic_category().message(errno))};
   }
   std::ostringstream text;
-  text << stream.rdbuf();  // sets a bit where there is nothing
+  text << stream.rdbuf();  // sets failbit if the file is empty
   if (text.str().empty()) return {file.string() + ": is empty"};
   Faults faults(file.string());
   try {

@@ -9,10 +9,10 @@
 
 namespace camway::service {
 
-/// Reads the TOML file of `camwayd --config` over `options`: what it does not name stays, its
-/// scenes are added. Every relative path in it (scene files, `scenes.roots`, `auth.key_file`) is
-/// taken relative to its folder. Returns what is wrong, a line for
-/// each fault: "camwayd.toml:12: 'queue.lenght' is no setting; ...". `options` are of no use then.
+/// Reads the TOML file of `camwayd --config` into `options`: replaces the settings that it names,
+/// and adds its scenes. Every relative path in it (scene files, `scenes.roots`, `auth.key_file`) is
+/// relative to the folder of the file. Returns a line for each fault: "camwayd.toml:12:
+/// 'queue.lenght' is no setting; ..."; with faults, `options` must not be used.
 /// `daemon/process/camwayd.toml` documents the file.
 std::vector<std::string> read_config_file(const std::filesystem::path& file,
                                           DaemonOptions& options);

@@ -61,7 +61,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
   std::vector<Held> next;
   std::vector<std::shared_ptr<const scene::Snapshot>> loaded;
   for (const SceneArgument& scene : wanted) {
-    // Before it is read: what is written meanwhile is read the next time.
+    // Taken before reading, so that a change during the reading is noticed the next time.
     next.push_back({scene, stamp_of(scene.file)});
     if (holds(next.back())) continue;
     if (stop.stop_requested()) return false;
@@ -78,7 +78,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     const std::string reason = with_setting(put.error, put.limit);
     log_->error("scene cannot be held", {{"scene", name}, {"reason", reason}});
     note_fault(name, reason);
-    // Tried again the next time. An older one of that name goes when it is not wanted any more.
+    // Tried again the next time. An older scene of that name stays until it is no longer wanted.
     for (Held& held : held_) {
       if (held.scene.name == name) held.stamp = {};
     }
@@ -154,7 +154,7 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
                {{"scene", scene.name}, {"reason", with_setting(read.error, read.limit)}});
     return false;
   }
-  // Two maps may have the same faces, and one be solid where the other is not.
+  // Maps are never equal here: two may have the same faces, and differ in which side is solid.
   const bool is_same =
       !read.map && !object->source->map_O &&
       scene::mesh_digest(*read.mesh) == scene::mesh_digest(*object->source->parts_O.front().mesh);

@@ -37,20 +37,20 @@ int workers_for_this_machine() {
       std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMaxWorkers}));
 }
 
-/// What CLI11 fills in, as text where we parse ourselves.
+/// Values that CLI11 sets; texts that are parsed later.
 struct Raw {
   std::string config_file;
   bool check_config = false;
   std::vector<std::string> scenes;
 };
 
-/// The setting of that key. Precondition: there is one.
+/// Returns the setting of that key. Requires that there is one.
 Setting setting_of(std::string_view key, DaemonOptions& options) {
   const std::vector<Setting> settings = settings_of(options);
   return *std::ranges::find(settings, key, &Setting::key);
 }
 
-/// A flag without a value that turns a setting of the configuration file on.
+/// Adds a flag without a value that turns a setting on.
 void declare_switch(CLI::App& app, const std::string& flag, std::string_view key,
                     const std::string& meaning, DaemonOptions& options) {
   const auto turn_on = [&options, key, flag] {
@@ -60,7 +60,7 @@ void declare_switch(CLI::App& app, const std::string& flag, std::string_view key
   app.add_flag_callback(flag, turn_on, meaning);
 }
 
-/// A flag for a setting of the configuration file; `usual` is what help says of its default.
+/// Adds a flag for a setting. `usual` is its default as the help shows it.
 void declare_setting(CLI::App& app, const std::string& flag, std::string_view key,
                      const std::string& meaning, DaemonOptions& options,
                      const std::optional<std::string>& usual = std::nullopt) {
@@ -124,12 +124,13 @@ ParsedOptions failed(std::vector<std::string> faults) {
   return {std::nullopt, {}, std::move(faults)};
 }
 
-/// `fault` with where its setting was said; nothing if there is none.
+/// Returns `fault` after the place of its setting; an empty text if there is no fault.
 std::string fault_at(std::string_view key, const std::string& fault, const DaemonOptions& options) {
   return fault.empty() ? fault : options.where(key) + ": " + fault;
 }
 
-/// Reads the command line over `options`; what to end with if it is no good or asks for help.
+/// Reads the command line into `options`. Returns the end of the process, if the command line is
+/// invalid or asks for help.
 std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& raw,
                                         DaemonOptions& options) {
   CLI::App app("camwayd: plans camera paths that are free of collision, over LCM", "camwayd");
@@ -144,8 +145,8 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
   }
 }
 
-/// The scenes of the command line, beside or in the place of those of the file; returns what is
-/// wrong with them.
+/// Adds the scenes of the command line; they replace those of the file with the same name. Returns
+/// an error or an empty text.
 std::string add_scenes(const std::vector<std::string>& texts, std::vector<SceneArgument>& scenes) {
   std::set<std::string> names;
   for (const std::string& text : texts) {
@@ -160,7 +161,7 @@ std::string add_scenes(const std::vector<std::string>& texts, std::vector<SceneA
   return {};
 }
 
-/// Looks up the folders; returns what is wrong with them.
+/// Opens the folders. Returns an error or an empty text.
 std::string open_roots(const std::string& folders, SceneRoots& roots) {
   std::vector<std::filesystem::path> paths;
   std::istringstream text(folders);
@@ -172,7 +173,7 @@ std::string open_roots(const std::string& folders, SceneRoots& roots) {
   return fault;
 }
 
-/// Turns the texts into options; returns what is wrong with them.
+/// Completes the options. Returns their faults.
 std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
   options.config_file = raw.config_file;
   if (options.service.workers == 0) options.service.workers = workers_for_this_machine();
@@ -190,14 +191,14 @@ std::vector<std::string> resolve(const Raw& raw, DaemonOptions& options) {
     scene.options.import.map_limits = options.service.scene_rules.maps;
     scene.options.mirror_voxels = options.service.scene_rules.mirror_voxels;
   }
-  // Of file and flags it was looked at when it was read; the environment's counts only here.
+  // The values of file and flags were checked when they were read; that of the environment was not.
   add(fault_at("lcm.url", parse_lcm_url(options.lcm_url).fault, options));
   add(fault_at("scenes.roots", open_roots(options.scene_roots, options.service.scene_rules.roots),
                options));
   return faults;
 }
 
-/// What `--check-config` says of options that have these faults in themselves.
+/// Returns the outcome of `--check-config` for options with these faults.
 ParsedOptions check(const DaemonOptions& options, std::vector<std::string> faults) {
   std::ranges::move(missing_things(options), std::back_inserter(faults));
   TriedScenes scenes = try_scenes(options.scenes, options.store);
@@ -224,7 +225,7 @@ ParsedOptions parse_daemon_options(int argc, const char* const* argv) {
     options = default_options();
     std::vector<std::string> faults = read_config_file(raw.config_file, options);
     if (!faults.empty()) return failed(std::move(faults));
-    // Once more, over the file. What was good the first time is good again.
+    // The flags once more, over the file. They were valid the first time, so they are valid again.
     raw = {};
     if (std::optional<ParsedOptions> end = read_flags(argc, argv, raw, options)) return *end;
   }

@@ -9,7 +9,7 @@
 namespace camway::service {
 namespace {
 
-/// The fault is said of the default where that was said, else of the longest.
+/// Blames the default if that was set, else the maximum.
 void check_deadlines(const DaemonOptions& options, const std::string& table,
                      const DeadlineLimits& limits, std::vector<std::string>& faults) {
   if (limits.default_s <= limits.max_s) return;
@@ -24,8 +24,8 @@ void check_deadlines(const DaemonOptions& options, const std::string& table,
   }
 }
 
-/// A share that is larger than the whole, where somebody asked for that share: it could never
-/// count.
+/// Reports a share that is larger than the whole, if it was set explicitly: it could have no
+/// effect.
 void check_share(const DaemonOptions& options, const std::string& share, std::size_t value,
                  const std::string& whole, std::size_t most, std::vector<std::string>& faults) {
   if (value <= most || !options.said_at.contains(share)) return;

@@ -6,15 +6,15 @@
 
 #include "daemon/process/options.h"
 
-/// What is wrong with options of which each value is right by itself: a text for each fault, which
-/// begins with where the value was said.
+/// Faults of options whose values are each valid by themselves. Each fault is a text that begins
+/// with the place where the value was set.
 namespace camway::service {
 
-/// Values that contradict each other.
+/// Returns the faults of values that contradict each other.
 std::vector<std::string> contradictions(const DaemonOptions& options);
 
-/// The key file and the address for metrics, of which this machine must have what the options say.
-/// Looks at them and changes nothing.
+/// Returns the faults of the key file and of the address for metrics if this machine lacks them.
+/// Changes nothing.
 std::vector<std::string> missing_things(const DaemonOptions& options);
 
 }  // namespace camway::service

@@ -24,11 +24,12 @@ constexpr int kExitLcm = 1;
 constexpr int kExitMetrics = 1;
 constexpr int kExitPrefix = 1;
 constexpr int kExitBadInput = 2;
-/// How long a start asks whether another daemon serves with its prefix; that one answers within
+/// How long a start waits for an answer of another daemon with its prefix, which takes
 /// milliseconds.
 constexpr std::chrono::milliseconds kClaimWindow{250};
 
-/// The last status, between the loop that makes it and the page that shows it.
+/// The last status, written by the loop and read by the page of metrics.
+/// Thread-safe.
 class LatestStatus {
  public:
   void set(const status_t& status) {
@@ -45,7 +46,7 @@ class LatestStatus {
   status_t status_{};
 };
 
-/// What was not trusted, as the status says it.
+/// Writes the counts of distrusted messages into the status.
 void add_distrusted(const AuthTransport::Distrusted& counts, status_t& status) {
   const auto count = [&](wire::Distrust why) { return counts.at(static_cast<std::size_t>(why)); };
   status.unsigned_messages = count(wire::Distrust::kUnsigned);
@@ -57,7 +58,7 @@ void add_distrusted(const AuthTransport::Distrusted& counts, status_t& status) {
   status.crowded_messages = count(wire::Distrust::kCrowded);
 }
 
-/// What signs and checks messages, if anything is to; `error` says why it cannot.
+/// Returns the signer and checker of messages; null without a key file or with an `error`.
 std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::string& error) {
   if (options.key_file.empty()) return nullptr;
   wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.key_file);
@@ -69,7 +70,7 @@ std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::st
   return std::make_shared<wire::MessageAuth>(std::move(read.keys), limits);
 }
 
-/// The page for Prometheus, if one is asked for.
+/// Opens the page for Prometheus, if the options ask for one.
 OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& latest,
                             const std::shared_ptr<Log>& log) {
   if (options.metrics.port == 0) return {};
@@ -77,7 +78,7 @@ OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& la
   content.path = "/metrics";
   content.type = "text/plain; version=0.0.4; charset=utf-8";
   content.text = [&latest] { return metrics_text(latest.get()); };
-  // For the page's thread alone, as the limits of lines are.
+  // Used by the page's thread alone, since limited logs are not thread-safe.
   const auto crowded =
       std::make_shared<LimitedLog>(log, LogLevel::kWarn, "metrics", options.service.log_limits);
   content.full = [crowded, most = options.metrics_limits.connections] {
@@ -87,7 +88,7 @@ OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& la
   return open_http_page(options.metrics, std::move(content), options.metrics_limits);
 }
 
-/// What the outcome of a run means for the process.
+/// Returns the exit code for the outcome of a run. Ends the process itself after kAbandoned.
 int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
   switch (outcome) {
     case RunOutcome::kDrained:

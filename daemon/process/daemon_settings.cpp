@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 
 constexpr double kMillisecondsPerSecond = 1e3;
 constexpr double kDayS = 86'400.0;
-/// Of counts and bytes that nobody means to reach: doubles hold every whole number up to it.
+/// Largest counts and numbers of bytes: beyond all practical values, and exact as doubles.
 constexpr double kManyBytes = 1e15;
 
 template <class Value>

@@ -13,47 +13,49 @@
 
 namespace camway::service {
 
-/// A setting of the configuration file, bound to where its value goes. This list is all there is:
-/// the file's reader, the range of each value, the sample and what a reload may change follow it.
+/// A setting of the configuration file, bound to its member of the options. `settings_of` is the
+/// only list of settings: the reader of the file, the ranges, the sample and reloading all use it.
 struct Setting {
   using Target = std::variant<std::string*, bool*, int*, std::size_t*, double*,
                               std::chrono::milliseconds*, LogLevel*, LogFormat*>;
 
-  std::string_view key;  ///< "queue.requests"; its unit is its suffix: durations are seconds (`_s`)
+  std::string_view key;  ///< "queue.requests"; its suffix is its unit, `_s` for durations
   Target target;
-  /// Of numbers, both included, in the unit of the key.
+  /// Range of a number, both ends included, in the unit of the key.
   double least = 0.0;
   double most = 0.0;
-  bool reloads = false;  ///< whether SIGHUP takes it over; else it needs a restart
-  /// Of a text: what is wrong with it, or nothing. Null if any text will do.
+  bool reloads = false;  ///< SIGHUP applies a new value; otherwise it needs a restart
+  /// Returns an error about a text, or an empty text. Null if any text is valid.
   std::string (*fault_of_text)(const std::string&) = nullptr;
-  /// Of a text: whether it names a file, or folders with ':' between them. A relative one in a
-  /// configuration file is relative to that file's folder, one of a flag to the folder that the
-  /// daemon is started in.
+  /// Whether a text names a file, or folders with ':' between them. A relative path in a
+  /// configuration file is relative to the folder of the file, one of a flag to the working
+  /// directory of the daemon.
   enum class Path { kNone, kFile, kFolders } path = Path::kNone;
 
-  /// The value as the file says it.
+  /// Returns the value as the file would have it.
   [[nodiscard]] std::string text() const;
-  /// Takes `value`; returns what is wrong with it, e.g. "must be within 1 to 256", or nothing.
+  /// Sets the value. Returns an error, e.g. "must be within 1 to 256", or an empty text.
   [[nodiscard]] std::string set(std::string_view value) const;
   [[nodiscard]] std::string set(double value) const;
-  /// Takes `word` as a command line has it: a number or a text without quotes. Not of a switch.
+  /// Sets the value from a word of the command line: a number, or a text without quotes. Not for
+  /// switches.
   [[nodiscard]] std::string set_word(std::string_view word) const;
-  /// Of a switch. Not `set`, which would take it for a text in quotes without a word.
+  /// Sets a switch. Not called `set`, which would take a text without quotes for a switch.
   void turn(bool on) const;
-  /// The kind of value that `set` takes.
+  /// Returns which kind of value `set` takes.
   [[nodiscard]] bool is_text() const;
-  /// `value` with every relative path in it below `folder`, where it has paths; else `value`.
+  /// Returns `value` with every relative path in it put below `folder`; `value` itself if it is no
+  /// path.
   [[nodiscard]] std::string below(const std::filesystem::path& folder,
                                   std::string_view value) const;
   [[nodiscard]] bool is_whole_number() const;
   [[nodiscard]] bool is_switch() const;
 };
 
-/// Every setting but the list of scenes, bound to `options`, in the order of the sample.
+/// Returns every setting except the list of scenes, bound to `options`, in the order of the sample.
 std::vector<Setting> settings_of(DaemonOptions& options);
 
-/// A setting that two sets of options do not have in common.
+/// A setting whose value differs between two sets of options.
 struct SettingChange {
   std::string_view key;
   std::string before;

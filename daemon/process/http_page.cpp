@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kConnectionBytes = 16'384;
 constexpr int kBacklog = 16;
 
-/// A descriptor that is closed unless somebody takes it.
+/// A file descriptor that is closed unless it is released.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -48,7 +48,7 @@ struct Address {
   socklen_t size = 0;
 };
 
-/// False if the text is no address.
+/// Returns false if the text is no address.
 bool parse(const HttpAddress& from, Address& to) {
   auto* const v4 = reinterpret_cast<sockaddr_in*>(&to.storage);
   auto* const v6 = reinterpret_cast<sockaddr_in6*>(&to.storage);
@@ -68,8 +68,8 @@ bool parse(const HttpAddress& from, Address& to) {
   return false;
 }
 
-/// Listens; false with `errno` set if that is not possible. A port whose last user ended a moment
-/// ago is free; one that somebody listens on is not.
+/// Listens; returns false with `errno` set if that is not possible. Takes a port whose last user
+/// ended a moment ago, but not one on which somebody listens.
 bool listen_on(int socket, const Address& address) {
   const int yes = 1;
   return socket >= 0 && setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
@@ -88,10 +88,10 @@ int port_of(int socket) {
   return ntohs(address.storage.ss_family == AF_INET ? v4->sin_port : v6->sin6_port);
 }
 
-/// Waits for its connections on a thread of its own rather than on one of the library's. There,
-/// libmicrohttpd 0.9.75 (Debian 12) dereferences null when rubbish arrives while another thread
-/// stops it: it drops the answer to the rubbish because it is stopped, and then writes its head.
-/// Whoever runs and stops it in one thread never meets that.
+/// Runs the library on a thread of our own. On one of its own threads, libmicrohttpd 0.9.75 (Debian
+/// 12) dereferences null when an invalid request arrives while another thread stops it: it drops
+/// the answer to the request because it is stopped, and then writes the head of that answer. This
+/// cannot happen if one thread runs and stops it.
 class MicroHttpPage final : public HttpPage {
  public:
   MicroHttpPage(HttpContent content, const HttpLimits& limits)
@@ -104,7 +104,7 @@ class MicroHttpPage final : public HttpPage {
   MicroHttpPage(const MicroHttpPage&) = delete;
   MicroHttpPage& operator=(const MicroHttpPage&) = delete;
 
-  /// Takes over `socket`, which listens.
+  /// Takes over `socket`, which has to be listening.
   bool start(Descriptor& socket) {
     if (stop_.get() < 0) return false;
     port_ = port_of(socket.get());
@@ -123,7 +123,7 @@ class MicroHttpPage final : public HttpPage {
   [[nodiscard]] int port() const override { return port_; }
 
  private:
-  /// The page's thread: serves until it shall stop.
+  /// Body of the page's thread: serves until `stop_` is readable.
   void run() {
     const int events = MHD_get_daemon_info(daemon_, MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
     std::array<pollfd, 2> inputs{{{events, POLLIN, 0}, {stop_.get(), POLLIN, 0}}};
@@ -134,8 +134,8 @@ class MicroHttpPage final : public HttpPage {
     MHD_stop_daemon(daemon_);
   }
 
-  /// Serves what there is. Again after a connection has gone: only then does the library listen
-  /// for those who waited for its place.
+  /// Serves what there is, and again after a connection was closed: only then does the library
+  /// listen for connections that waited for its place.
   void serve() {
     do {
       one_has_gone_ = false;
@@ -143,7 +143,7 @@ class MicroHttpPage final : public HttpPage {
     } while (one_has_gone_);
   }
 
-  /// Until the next connection has been idle for too long; -1 if there is none.
+  /// Returns the time until the next connection has been idle for too long; -1 if there is none.
   [[nodiscard]] int patience_ms() const {
     MHD_UNSIGNED_LONG_LONG timeout_ms = 0;
     if (MHD_get_timeout(daemon_, &timeout_ms) != MHD_YES) return -1;
@@ -193,11 +193,11 @@ class MicroHttpPage final : public HttpPage {
 
   const HttpContent content_;
   const HttpLimits limits_;
-  const Descriptor stop_;  ///< readable when the thread shall end
+  const Descriptor stop_;  ///< readable when the thread has to end
   MHD_Daemon* daemon_ = nullptr;
   int port_ = 0;
-  int connections_ = 0;        ///< the page's thread alone counts them
-  bool one_has_gone_ = false;  ///< since the library was last asked to serve; as above
+  int connections_ = 0;        ///< used by the page's thread only
+  bool one_has_gone_ = false;  ///< a connection closed since `MHD_run` was last called
   std::thread thread_;
 };
 

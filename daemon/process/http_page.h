@@ -7,42 +7,41 @@
 
 namespace camway::service {
 
-/// Serves one page of text over HTTP on a thread of its own, to few at a time, who are cut off when
-/// they are idle; others wait until one of these is gone, and everything else is refused. The only
-/// place that knows the HTTP library (libmicrohttpd). Ends, and waits for its thread, when it is
-/// destroyed.
+/// Serves one page of text over HTTP on a thread of its own, to a limited number of connections at
+/// a time. Idle connections are closed; further ones wait for a free place; other paths and methods
+/// are refused. The only place that sees the HTTP library (libmicrohttpd). The destructor ends and
+/// joins the thread.
 class HttpPage {
  public:
   virtual ~HttpPage() = default;
-  /// The port it listens on.
+  /// Returns the port on which it listens.
   [[nodiscard]] virtual int port() const = 0;
 };
 
 struct HttpAddress {
-  std::string ip = "127.0.0.1";  ///< IPv4 or IPv6, of this machine
-  int port = 0;                  ///< 0: any that is free [Limit: 0 <= value <= 65535]
+  std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address of this machine
+  int port = 0;                  ///< 0: any free port [Limit: 0 <= value <= 65535]
 };
 
-/// Whether `text` is an IPv4 or IPv6 address.
+/// Returns whether `text` is an IPv4 or IPv6 address.
 bool is_ip_address(const std::string& text);
-/// Whether it is one that this machine has now, so that it could listen there. Looks at no port.
+/// Returns whether this machine could listen on `text` now, whatever the port.
 bool is_address_of_this_machine(const std::string& text);
 
 struct HttpLimits {
-  int connections = 16;  ///< at a time [Limit: 1 <= value <= 1000]
-  int idle_s = 5;        ///< that a connection may be silent [Limit: 1 <= value <= 86400]
+  int connections = 16;  ///< connections at a time [Limit: 1 <= value <= 1000]
+  int idle_s = 5;  ///< silence after which a connection is closed [Limit: 1 <= value <= 86400]
 };
 
-/// What a page says. Both are called by the page's thread and must not throw.
+/// Content of a page. Both functions are called on the page's thread and must not throw.
 struct HttpContent {
   std::string path;                      ///< "/metrics"
-  std::string type;                      ///< what the text is, as HTTP says it
+  std::string type;                      ///< content type of the text
   std::function<std::string()> text;     ///< called anew for each request
-  std::function<void()> full = nullptr;  ///< as many are connected now as may be; may be null
+  std::function<void()> full = nullptr;  ///< called when no connection is free; may be null
 };
 
-/// A page, or why there is none, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in
-/// use".
+/// A page, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in use".
 struct OpenedHttpPage {
   std::unique_ptr<HttpPage> page;
   std::string error;  ///< empty exactly when `page` is set

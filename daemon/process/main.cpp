@@ -36,8 +36,8 @@ int run(int argc, char** argv) {
   service::block_reload_signal();  // a reload that is asked for now comes after the scenes
   scene::SceneStore scenes(parsed.options->store);
   service::ConfiguredScenes configured(scenes, log);
-  // A stop signal while scenes are being read ends the process at once: nobody was promised
-  // anything.
+  // A stop signal while scenes are being read ends the process at once: no client depends on it
+  // yet.
   if (!configured.update(parsed.options->scenes)) return kExitBadInput;
   service::block_stop_signals();
   const auto read_again = [=] { return service::parse_daemon_options(argc, argv); };

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 13> kStatusNames{
     "malformed", "no_map",        "cancelled",      "limit",
     "stopping"};
 
-/// Text within the quotes of a label.
+/// Returns `text` as it stands within the quotes of a label.
 std::string escaped(std::string_view text) {
   std::string escaped;
   for (const char c : text) {

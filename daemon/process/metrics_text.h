@@ -7,8 +7,8 @@
 
 namespace camway::service {
 
-/// A status as Prometheus reads it (text exposition format 0.0.4), every metric with its help and
-/// type. Of histograms every fourth bucket is said, which is one for each doubling.
+/// Returns a status in the text exposition format 0.0.4 of Prometheus, every metric with its help
+/// and type. Histograms have every fourth bucket, which is one for each doubling.
 std::string metrics_text(const status_t& status);
 
 }  // namespace camway::service

@@ -40,7 +40,8 @@ SignalWaiter::SignalWaiter(std::function<void(int)> on_stop, std::function<void(
 
 SignalWaiter::~SignalWaiter() {
   waiter_.request_stop();
-  // Ends the wait if no signal came; blocked and directed at that thread, it reaches nobody else.
+  // Ends the wait if no signal came. The signal is blocked everywhere and directed at that thread,
+  // so no other thread receives it.
   pthread_kill(waiter_.native_handle(), SIGINT);
 }
 

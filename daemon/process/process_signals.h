@@ -7,15 +7,15 @@
 
 namespace camway::service {
 
-/// Keeps SIGHUP from ending the process, and leaves it for a `SignalWaiter`. To be called before
-/// other threads begin, so that they inherit it; so is `block_stop_signals`.
+/// Blocks SIGHUP, so that it does not end the process but waits for a `SignalWaiter`. Requires, as
+/// does `block_stop_signals`, that no other thread has begun: threads inherit the mask.
 void block_reload_signal();
-/// Likewise SIGTERM and SIGINT.
+/// Blocks SIGTERM and SIGINT in the same way.
 void block_stop_signals();
 
-/// Waits for signals on a thread of its own: `on_reload` for each SIGHUP, `on_stop` once, at the
-/// first SIGTERM or SIGINT. No signal handler and so no global state. Precondition: both kinds are
-/// blocked in this process.
+/// Waits for signals on a thread of its own, and calls `on_reload` for each SIGHUP and `on_stop`
+/// once, at the first SIGTERM or SIGINT. Uses no signal handler and so no global state. Requires
+/// that these signals are blocked in the whole process.
 class SignalWaiter {
  public:
   SignalWaiter(std::function<void(int signal)> on_stop, std::function<void()> on_reload);

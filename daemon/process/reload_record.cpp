@@ -6,7 +6,7 @@
 namespace camway::service {
 namespace {
 
-/// The beginning of UTF-8 `text`, with no character cut in two.
+/// Returns the beginning of UTF-8 `text`, cut between characters.
 std::string beginning_of(std::string_view text, std::size_t most_bytes) {
   if (text.size() <= most_bytes) return std::string(text);
   std::size_t size = most_bytes;

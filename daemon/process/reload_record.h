@@ -10,24 +10,25 @@
 
 namespace camway::service {
 
-/// What became of reloads of the configuration, for those who ask how the daemon is. From any
-/// thread.
+/// Outcome of the reloads of the configuration, for the status.
+/// Thread-safe.
 class ReloadRecord {
  public:
-  /// A reload failed at `utime`, microseconds since 1970. Of a long reason the beginning is kept.
+  /// Records a failed reload. `utime`: microseconds since 1970. Keeps the beginning of a long
+  /// reason.
   void failed(std::int64_t utime, std::string_view reason);
-  /// A reload was done: what serves is what the configuration says.
+  /// Records a reload that was done, so that the daemon runs with its configuration.
   void succeeded();
 
-  /// Writes the fields of reloads.
+  /// Writes the members of `status` about reloads.
   void add_to(status_t& status) const;
 
  private:
   mutable std::mutex mutex_;  ///< guards all below
   std::int64_t failures_ = 0;
-  std::int64_t last_utime_ = 0;  ///< of the last failure
+  std::int64_t last_utime_ = 0;  ///< time of the last failure
   std::string last_reason_;
-  bool has_failed_ = false;  ///< the last reload
+  bool has_failed_ = false;  ///< whether the last reload failed
 };
 
 }  // namespace camway::service

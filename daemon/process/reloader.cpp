@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kFailed = "reload failed, all stays as it was";
 
-/// A value without the quotes that a text has in the file: the log puts its own.
+/// Returns a value without the quotes that a text has in the file, since the log adds its own.
 std::string_view unquoted(std::string_view value) {
   const bool is_text = value.size() >= 2 && value.front() == '"' && value.back() == '"';
   return is_text ? value.substr(1, value.size() - 2) : value;

@@ -18,37 +18,39 @@
 
 namespace camway::service {
 
-/// Reads the configuration again while the daemon serves, on a thread of its own: takes over scenes
-/// and log level, and the keys in their file, says which other changes need a restart, and keeps
-/// all as it was if the configuration or a scene is bad. In between it looks at the files of scenes
-/// that are to be watched.
+/// Reads the configuration again while the daemon serves, on a thread of its own. Applies scenes,
+/// log level and the content of the key file, and logs which other changes need a restart. Keeps
+/// all as it was if the configuration is bad or a scene cannot be read. In between it checks the
+/// files of watched scenes.
 class Reloader {
  public:
   using Read = std::function<ParsedOptions()>;
 
-  /// `running`: what the daemon was started with. `read` gives what holds now. `scenes`, `record`
-  /// and `manager` must outlive this; nobody else may use `scenes` meanwhile.
-  /// Files of scenes that are to be watched are looked at every `look_every`.
+  /// `running`: the options that the daemon was started with. `read` returns the present ones.
+  /// `scenes`, `record` and `manager` must outlive this; nobody else may use `scenes` meanwhile.
+  /// Files of watched scenes are checked every `look_every`.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes, ReloadRecord& record,
            const ServiceManager& manager, std::shared_ptr<Log> log,
            std::shared_ptr<wire::MessageAuth> auth = nullptr,
            std::chrono::milliseconds look_every = std::chrono::seconds(1));
-  /// Calls off the reading of a scene, if one is being read.
+  /// Cancels the reading of a scene, if one is being read.
   ~Reloader() = default;
   Reloader(const Reloader&) = delete;
   Reloader& operator=(const Reloader&) = delete;
 
-  /// From any thread. It waits for nothing: the reading of a file that changed is called off for
-  /// it, to be done afterwards, and so is a reload that is being done, since the newest
-  /// configuration counts. But not the one after that: requests that come all the time must not
-  /// keep every reload from its end.
+  /// Asks for a reload, without waiting. Cancels a check of files, which is repeated afterwards,
+  /// and a reload in progress, since the newest configuration counts. A reload that follows a
+  /// cancelled one is not cancelled, so that steady requests cannot keep every reload from
+  /// finishing.
+  /// Thread-safe.
   void request();
 
  private:
   void serve(const std::stop_token& stop);
-  /// Whether a reload was asked for; looks at files until then, or until the stop.
+  /// Checks files until a reload is requested, then returns true; returns false at the stop.
   bool wait(const std::stop_token& stop);
-  /// What calls off the work that begins now: the end of all, or also a request.
+  /// Returns a token that cancels the work that begins now: at `stop` and, with `may_call_off`, at
+  /// a request.
   std::stop_token begin_work(const std::stop_token& stop, bool may_call_off);
   void look_at_files(const std::stop_token& stop);
   void reload(const std::stop_token& stop);
@@ -66,7 +68,7 @@ class Reloader {
   std::condition_variable_any changed_;
   bool requested_ = false;
   std::stop_source work_;
-  bool may_call_off_ = true;  ///< whether a request ends the work
+  bool may_call_off_ = true;  ///< whether a request cancels the work
   std::jthread thread_;       ///< last: uses all above
 };
 

@@ -26,7 +26,7 @@ std::optional<double> positive_number(std::string_view text) {
   return value;
 }
 
-/// Applies one `key=value`; returns what is wrong with it.
+/// Applies one `key=value`. Returns an error or an empty text.
 std::string apply_option(std::string_view key, std::string_view value, SceneArgument& scene) {
   if (key == "up") {
     const std::optional<scene::UpAxis> up = up_axis_named(value);
@@ -65,7 +65,7 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
   return std::string(key) + "=" + std::string(value) + ": " + kResolutionRule;
 }
 
-/// Takes options off the end of `rest` until what follows the last comma is none.
+/// Takes options off the end of `rest` until the text after the last comma is no option.
 std::string take_options(std::string_view& rest, SceneArgument& scene) {
   while (true) {
     const std::size_t comma = rest.rfind(',');

@@ -17,7 +17,7 @@
 namespace camway::service {
 namespace {
 
-/// For what the manager has to know.
+/// Timeout of states that the manager has to know.
 constexpr std::chrono::milliseconds kPatience{1000};
 
 std::string from_environment_or_empty(const char* name) {
@@ -32,7 +32,7 @@ std::optional<std::int64_t> positive_number(const std::string& text) {
   return whole && value > 0 ? std::optional(value) : std::nullopt;
 }
 
-/// On the clock that the manager compares with its own.
+/// Returns the time of the clock that the manager uses, too.
 std::int64_t monotonic_us() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -84,7 +84,7 @@ void ServiceManager::send(const std::string& state, std::chrono::milliseconds pa
   if (fd < 0) return;
   const timeval limit{patience.count() / 1000, patience.count() % 1000 * 1000};
   ::setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-  // A limit of 0 would be none.
+  // A timeout of 0 would mean no timeout.
   const int flags = MSG_NOSIGNAL | (patience.count() == 0 ? MSG_DONTWAIT : 0);
   const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());
   ::sendto(fd, state.data(), state.size(), flags, reinterpret_cast<const sockaddr*>(&address),

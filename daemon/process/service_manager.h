@@ -8,29 +8,30 @@
 
 namespace camway::service {
 
-/// Tells the service manager how the daemon is. The protocol is that of sd_notify(3): a datagram to
-/// a Unix socket for each state, which needs no library; systemd is one that listens. Without a
-/// socket nothing is said. Safe from any thread. Where the manager does not read, `alive` is left
-/// out at once, and the others are after a second.
+/// Reports the state of the daemon to the service manager, by the protocol of sd_notify(3): one
+/// datagram to a Unix socket for each state, which needs no library; systemd is one manager that
+/// listens. Without a socket does nothing. If the manager does not read, drops `alive` at once and
+/// the other states after a second.
+/// Thread-safe.
 class ServiceManager {
  public:
-  /// As the environment says: NOTIFY_SOCKET, WATCHDOG_USEC, WATCHDOG_PID.
+  /// Reads the environment: NOTIFY_SOCKET, WATCHDOG_USEC, WATCHDOG_PID.
   static ServiceManager from_environment();
 
-  /// `socket`: a path, or "@name" for an abstract one; empty for none.
+  /// `socket`: a path, or "@name" for an abstract socket; empty for none.
   ServiceManager(std::string socket, std::optional<std::chrono::microseconds> watchdog)
       : socket_(std::move(socket)), watchdog_(watchdog) {}
 
   [[nodiscard]] bool present() const { return !socket_.empty(); }
 
-  /// The daemon serves. `status` is a line for people.
+  /// The daemon serves. `status` is one line for people.
   void ready(std::string_view status) const;
   /// The configuration is being read again; `ready` ends it.
   void reloading() const;
   void stopping() const;
-  /// The daemon is alive. Only where the manager watches for it.
+  /// The daemon is alive. Sent only if the manager has a watchdog.
   void alive() const;
-  /// How often `alive` is to be called: a third of what the manager waits for, 1 s at most.
+  /// Returns how often `alive` has to be called: a third of the watchdog's time, at most 1 s.
   [[nodiscard]] std::chrono::milliseconds alive_period() const;
 
  private:

@@ -9,14 +9,14 @@
 
 namespace camway::service {
 
-/// What became of scenes, in their order.
+/// Outcome of reading scenes, in their order.
 struct TriedScenes {
-  std::vector<std::string> found;   ///< a line for each that is good
-  std::vector<std::string> faults;  ///< for each other one, where it was said and what is wrong
+  std::vector<std::string> found;   ///< a line for each valid scene
+  std::vector<std::string> faults;  ///< for each invalid one, its place and the error
 };
 
-/// Reads scenes as a start of the daemon would, into a store of its own that is gone afterwards.
-/// Takes the time and the memory that the start takes.
+/// Reads scenes as a start of the daemon would, into a temporary store. Takes the time and the
+/// memory of a start.
 TriedScenes try_scenes(const std::vector<SceneArgument>& scenes,
                        const scene::SceneStoreLimits& limits);
 

@@ -12,11 +12,12 @@
 namespace camway::service {
 namespace {
 
-/// Answers a second: a daemon that starts asks five times.
+/// Largest number of answers per second; a daemon that starts asks five times.
 constexpr double kAnswersPerS = 100.0;
-/// Of two daemons that serve, so far apart one counts as the older.
+/// Of two daemons that serve, one counts as older if it began this much earlier.
 constexpr double kSameTime_s = 2.0;
-/// So long after it began to serve a daemon still yields to an older one: its answer may be late.
+/// How long after it began to serve a daemon still yields to an older one, whose answer may be
+/// late.
 constexpr double kYields_s = 10.0;
 
 std::int64_t random_id() {
@@ -61,7 +62,7 @@ bool PrefixClaim::yields_to(const claim_t& other, Clock::time_point now) const {
   if (other.state == claim_t::ASKS) return !serves_since_ && other.start_id < start_id_;
   if (other.state != claim_t::SERVES || other.asked_by != start_id_) return false;
   if (!serves_since_) return true;
-  // Both serve, as answers came too late. Each compares the same two ages, so one of them yields.
+  // Both serve, since answers came too late. Both compare the same two ages, so one of them yields.
   const double lead_s = other.served_s - served_s(now);
   const bool is_older = lead_s > kSameTime_s;
   const bool is_as_old = lead_s > -kSameTime_s;
@@ -90,7 +91,7 @@ claim_t PrefixClaim::message(std::int8_t state, Clock::time_point now) const {
   return message;
 }
 
-// At once, in front of all answers: whoever asks waits a quarter of a second.
+// Bypasses the outbox: the daemon that asks waits only a quarter of a second.
 void PrefixClaim::publish(const claim_t& message) {
   if (!core_.transport.publish(core_.channels.claim(), wire::encode(message))) {
     core_.limited_log.trouble.write("a message to other daemons could not be published");

@@ -14,29 +14,30 @@
 
 namespace camway::service {
 
-/// Sees to it that no two daemons serve on the same channels. One that starts asks several times,
-/// for a quarter of a second, whether another serves there; one that serves answers at once. Only
-/// answers to its own questions count, so a daemon that was killed before it began is no obstacle.
-/// Of two that start at the same time the one with the lower random number goes on. An answer that
-/// comes late, from a daemon that had to wait for the processor, counts for some seconds more.
-/// Daemons with different keys do not hear each other. The loop thread calls everything here.
+/// Ensures that no two daemons serve on the same channels. A daemon that starts asks several times,
+/// for a quarter of a second, whether another one serves; a daemon that serves answers at once.
+/// Only answers to its own questions count, so a daemon that was killed before it started is no
+/// obstacle. Of two that start at the same time, the one with the lower random number continues. A
+/// late answer, from a daemon that had to wait for the processor, still counts for some seconds.
+/// Daemons with different keys do not hear each other.
+/// Not thread-safe: for the loop thread.
 class PrefixClaim {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit PrefixClaim(Core& core);
 
-  /// A message on the claim channel. Throws only for want of memory.
+  /// Handles a message on the claim channel. Throws only if memory runs out.
   void on_message(std::span<const std::uint8_t> message);
 
   /// Asks whether another daemon serves.
   void ask();
-  /// From now on this daemon serves, and says so to all that ask.
+  /// Declares that this daemon serves, and answers all that ask from now on.
   void serve(Clock::time_point now);
-  /// From now on it does not: a stop finishes what was begun, and another may start meanwhile.
+  /// Stops claiming the prefix: a stop finishes its work while another daemon may start.
   void leave() { is_leaving_ = true; }
 
-  /// The other daemon, if one speaks against this: "host HOST, process PID".
+  /// Returns the other daemon that has the prefix, if there is one: "host HOST, process PID".
   [[nodiscard]] const std::optional<std::string>& rival() const { return rival_; }
 
  private:
@@ -49,7 +50,7 @@ class PrefixClaim {
   const std::int64_t start_id_;
   std::optional<Clock::time_point> serves_since_;
   std::optional<std::string> rival_;
-  bool has_asked_ = false;  ///< one that shares its prefix yields to nobody
+  bool has_asked_ = false;  ///< a daemon that shares its prefix never asks, and yields to none
   bool is_leaving_ = false;
   TokenBucket answers_;
 };

@@ -11,14 +11,14 @@ namespace camway::service {
 
 namespace {
 
-/// Nothing wakes the loop when a worker falls idle after its answer, so a stop looks again.
+/// A worker that becomes idle after its answer does not wake the loop, so a stop polls.
 constexpr std::chrono::milliseconds kDrainLook{5};
 
-/// Between two questions whether another daemon serves.
+/// Time between two questions whether another daemon serves.
 constexpr std::chrono::milliseconds kAskPause{50};
 
-/// So long a stop waits for changes of scenes: they end with the daemon, and a large one may take
-/// minutes.
+/// How long a stop waits for changes of scenes. They are lost with the daemon anyway, and a large
+/// one may take minutes.
 constexpr std::chrono::milliseconds kDrainChanges{500};
 
 std::chrono::milliseconds in_milliseconds(std::chrono::steady_clock::duration duration) {
@@ -39,7 +39,8 @@ Service::Service(Transport& transport, scene::SceneStore& scenes, const ServiceC
       occupancy_(core_, config.occupancy_deadline),
       scenes_(core_, scenes, config) {}
 
-// Jobs use the services, which would go before the workers in `core_` if nothing were done.
+// Jobs use the services, which are destroyed before the workers in `core_`. So the workers end
+// here.
 Service::~Service() {
   scenes_.stop();
   core_.workers.stop();
@@ -69,7 +70,8 @@ void Service::request_stop() noexcept {
   core_.transport.wake();
 }
 
-// Before all other subscriptions: nothing else is taken before it is clear who answers.
+// Comes before all other subscriptions: no request is taken before it is clear which daemon
+// answers.
 bool Service::claim_prefix() {
   const auto take = [this](std::span<const std::uint8_t> message) { claim_.on_message(message); };
   const std::string channel = core_.channels.claim();
@@ -121,7 +123,7 @@ bool Service::subscribe() {
          to(core_.channels.missing_map_pages(), scenes_, &SceneService::on_missing_map_pages);
 }
 
-// One round: finished answers go out, messages come in.
+// One round of the loop: sends finished answers and takes messages.
 void Service::turn(Clock::duration longest_wait) {
   core_.mailbox.run_all();
   core_.expire_jobs();

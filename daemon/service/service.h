@@ -22,46 +22,48 @@ namespace camway::service {
 
 /// How a run of the service ended.
 enum class RunOutcome {
-  kDrained,         ///< stopped on request, everything that was being planned was answered
-  kAbandoned,       ///< the same, but threads still plan, or change a scene, for nobody
+  kDrained,    ///< stopped on request; everything that was being planned was answered
+  kAbandoned,  ///< stopped on request, but threads still plan, or change a scene, without an answer
   kPrefixTaken,     ///< another daemon serves with the prefix, which was logged
-  kNotSubscribed,   ///< the transport took no subscription; nothing was served
+  kNotSubscribed,   ///< the transport refused a subscription; nothing was served
   kTransportBroken  ///< the transport failed while serving
 };
 
-/// What the process around the service wants to know of it. Called by the loop thread; what is
-/// empty is left out.
+/// Callbacks of the process around the service. Called on the loop thread; empty ones are skipped.
 struct ServiceHooks {
-  std::function<void()> ready;     ///< subscriptions are in place, the first status is out
-  std::function<void()> stopping;  ///< a stop was asked for
-  /// Each status before it is published, to add to it what the service does not know, or to keep.
+  std::function<void()> ready;     ///< subscriptions are in place, and the first status was sent
+  std::function<void()> stopping;  ///< a stop was requested
+  /// Called with each status before it is published, to complete or to keep it.
   std::function<void(status_t&)> status;
-  /// Every `alive_period`, as long as the loop turns and no worker has been at one request for
-  /// longer than the longest deadline and `stuck_after`.
+  /// Called every `alive_period`, as long as the loop runs and no worker has been at one request
+  /// for longer than the longest deadline plus `stuck_after`.
   std::function<void()> alive;
   std::chrono::milliseconds alive_period{1000};
-  /// Planning looks at its deadline now and then, and a busy machine makes that rare.
+  /// Planning checks its deadline now and then only, and more rarely on a busy machine.
   std::chrono::milliseconds stuck_after{60'000};
 };
 
-/// The daemon without its process: one thread, the caller of `run`, owns the transport, checks and
+/// The daemon without its process. One thread, the caller of `run`, owns the transport, checks and
 /// queues requests and publishes answers; a fixed number of workers plan on immutable snapshots.
 class Service {
  public:
-  /// `transport` and `scenes` must outlive the service. Precondition: `config` keeps its limits.
+  /// `transport` and `scenes` must outlive the service. Requires that `config` keeps its limits.
   Service(Transport& transport, scene::SceneStore& scenes, const ServiceConfig& config,
           Planner planner, std::shared_ptr<Log> log, ServiceHooks hooks = {});
-  /// Waits for what is still being planned, which it does not answer any more.
+  /// Waits for planning that is still running; its results are not sent.
   ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
-  /// Serves until `request_stop`, unless another daemon does: see `ServiceConfig::claim_window`.
-  /// Logs "ready" and publishes a first status when subscriptions are in place. To be called once.
+  /// Serves until `request_stop`, unless another daemon has the prefix
+  /// (`CoreConfig::claim_window`). Logs "ready" and publishes a first status when subscriptions are
+  /// in place. Call it once only.
   RunOutcome run();
 
-  /// From any thread: begins the stop. What is being planned is finished and answered, within the
-  /// drain limit; what waits, and what still comes in, is answered with `overloaded`.
+  /// Begins the stop. Planning that is running is finished and answered, within the drain limit;
+  /// requests that wait or still arrive are answered with `overloaded`, changes of scenes with
+  /// `stopping`.
+  /// Thread-safe.
   void request_stop() noexcept;
 
  private:
@@ -79,7 +81,7 @@ class Service {
       std::function<void(std::span<const std::uint8_t>)> handler, std::string channel);
 
   const ServiceHooks hooks_;
-  const double longest_deadline_s_;  ///< of a plan request
+  const double longest_deadline_s_;  ///< longest deadline of a plan request
   Core core_;
   PrefixClaim claim_;
   Watches watches_;

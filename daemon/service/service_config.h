@@ -9,9 +9,9 @@
 
 namespace camway::service {
 
-/// How the service behaves: what its core and each of its services are given.
+/// Configuration of the service: of its core and of each of its services.
 struct ServiceConfig : CoreConfig, PlanConfig, SceneConfig {
-  DeadlineLimits occupancy_deadline;  ///< of batches of occupancy queries
+  DeadlineLimits occupancy_deadline;  ///< deadlines of batches of occupancy queries
   WatchLimits watches;                ///< `watch.paths` and others
 };
 

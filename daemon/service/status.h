@@ -9,7 +9,7 @@
 
 namespace camway::service {
 
-/// The heartbeat. Scenes are listed in order of name, as many as keep the message within
+/// Returns the heartbeat. Lists scenes in the order of names, as many as keep the message within
 /// `wire::kMaxMessageBytes` (about 200 with the longest names); `total_scenes` counts all.
 status_t make_status(const Core& core, std::chrono::duration<double> uptime);
 

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/planning/limits.h"
+
 namespace camway::planning {
 namespace {
 
@@ -16,14 +18,19 @@ using collision::Deadline;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-PlanResult ended(Status status) {
+UnsentResult ended(Status status) {
   PlanResult result;
   result.status = status;
   result.message = "this is how it ended";
   if (status != Status::kOk) result.remaining_collisions = {{1, 2}};
   result.collisions = {{1, 2}};
   result.corrections = {{{1, 2}}};
-  return result;
+  return {std::move(result)};
+}
+
+PlanResult plan_within(const PlanRequest& request, const Deadline& deadline,
+                       const PlanAtSize& plan_at_size) {
+  return plan_with_shrinking(request, deadline, plan_at_size).result;
 }
 
 struct Planned {
@@ -38,8 +45,8 @@ Planned planned(double max_shrink, const Fits& fits) {
   request.camera.near_m = 2.0;
   request.options.max_shrink = max_shrink;
   Planned planned;
-  planned.result = plan_with_shrinking(
-      request, Deadline::never(), [&](const PlanRequest& asked, const Deadline&) {
+  planned.result =
+      plan_within(request, Deadline::never(), [&](const PlanRequest& asked, const Deadline&) {
         planned.scales.push_back(asked.camera.near_m / 2.0);
         return ended(fits(planned.scales.back()) ? Status::kOk : Status::kPartial);
       });
@@ -51,7 +58,7 @@ Planned planned_with(double max_shrink, Status status) {
   request.options.max_shrink = max_shrink;
   Planned planned;
   planned.result =
-      plan_with_shrinking(request, Deadline::never(), [&](const PlanRequest&, const Deadline&) {
+      plan_within(request, Deadline::never(), [&](const PlanRequest&, const Deadline&) {
         planned.scales.push_back(1.0);
         return ended(status);
       });
@@ -95,15 +102,50 @@ TEST(PlanWithShrinking, TriesNoMoreWhereTheSmallestIsShutIn) {
   request.camera.near_m = 1.0;
   request.options.max_shrink = 0.5;
   std::vector<double> tried;
-  const PlanResult result = plan_with_shrinking(request, Deadline::never(),
-                                                [&](const PlanRequest& asked, const Deadline&) {
-                                                  tried.push_back(asked.camera.near_m);
-                                                  PlanResult shut_in = ended(Status::kPartial);
-                                                  shut_in.shut_in = {{1, {}}};
-                                                  return shut_in;
-                                                });
+  const PlanResult result =
+      plan_within(request, Deadline::never(), [&](const PlanRequest& asked, const Deadline&) {
+        tried.push_back(asked.camera.near_m);
+        UnsentResult shut_in = ended(Status::kPartial);
+        shut_in.result.shut_in = {{1, {}}};
+        return shut_in;
+      });
   EXPECT_EQ(tried, (std::vector<double>{1.0, 0.5}));
   EXPECT_EQ(result.status, Status::kPartial);
+}
+
+// Of the camera that was asked for, whichever of the two had to be slowed, at the times of the path
+// that is answered.
+TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
+  PlanRequest request;
+  request.camera.near_m = 1.0;
+  request.options.max_shrink = 0.1;
+  for (const double full_factor : {1.0, 5.0}) {
+    for (const double small_factor : {1.0, 3.0}) {
+      SCOPED_TRACE(testing::Message() << full_factor << " " << small_factor);
+      const auto plan_at_size = [&](const PlanRequest& asked, const Deadline&) {
+        const bool is_full = asked.camera.near_m == 1.0;
+        UnsentResult ends = ended(is_full ? Status::kPartial : Status::kOk);
+        if (!is_full) ends.result.collisions = {{4, 5}, {6, 7}};
+        if (!is_full) ends.result.corrections.clear();
+        ends.origin = motion::TimeOrigin{100.0};
+        const double factor = is_full ? full_factor : small_factor;
+        if (factor == 1.0) return ends;
+        ends.law = motion::TimeLaw::alike({0, 10}, factor);
+        move_times(*ends.law, ends.result);
+        return ends;
+      };
+      const PlanResult result =
+          with_sent_times(plan_with_shrinking(request, Deadline::never(), plan_at_size));
+      EXPECT_EQ(result.status, Status::kOk);
+      EXPECT_EQ(result.time_scale, small_factor);
+      ASSERT_EQ(result.collisions.size(), 1U);
+      EXPECT_DOUBLE_EQ(result.collisions[0].t_begin_s, 100.0 + small_factor);
+      EXPECT_DOUBLE_EQ(result.collisions[0].t_end_s, 100.0 + 2.0 * small_factor);
+      ASSERT_EQ(result.corrections.size(), 1U);
+      EXPECT_EQ(result.corrections[0].rung, correction::Rung::kShrink);
+      EXPECT_EQ(result.corrections[0].interval, result.collisions[0]);
+    }
+  }
 }
 
 // Each takes all of its time.
@@ -113,7 +155,7 @@ TEST(PlanWithShrinking, UsesTheWholeDeadlineAndNoMore) {
   int tried = 0;
   const Deadline deadline = Deadline::after_s(0.2);
   const PlanResult result =
-      plan_with_shrinking(request, deadline, [&](const PlanRequest&, const Deadline& until) {
+      plan_within(request, deadline, [&](const PlanRequest&, const Deadline& until) {
         ++tried;
         while (!until.passed()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return ended(Status::kTimeout);
@@ -128,7 +170,7 @@ TEST(PlanWithShrinking, GivesThoseThatAreSmallerTheirShare) {
   PlanRequest request;
   request.camera.near_m = 1.0;
   request.options.max_shrink = 0.5;
-  const PlanResult result = plan_with_shrinking(
+  const PlanResult result = plan_within(
       request, Deadline::after_s(0.2), [&](const PlanRequest& asked, const Deadline& until) {
         if (asked.camera.near_m < 0.6) return ended(Status::kOk);
         while (!until.passed()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -167,9 +209,9 @@ TEST(PlanWithShrinking, StopsWhenItIsToldTo) {
 TEST(PlanWithShrinking, SaysSoWhereNoTimeWasLeftForIt) {
   PlanRequest request;
   request.options.max_shrink = 0.5;
-  const PlanResult result = plan_with_shrinking(
-      request, Deadline::after_s(0.0),
-      [&](const PlanRequest&, const Deadline&) { return ended(Status::kTimeout); });
+  const PlanResult result =
+      plan_within(request, Deadline::after_s(0.0),
+                  [&](const PlanRequest&, const Deadline&) { return ended(Status::kTimeout); });
   EXPECT_EQ(result.status, Status::kTimeout);
   EXPECT_THAT(result.message, HasSubstr("left no time to make the near distance smaller"));
 }

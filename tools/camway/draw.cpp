@@ -64,7 +64,7 @@ ExitCode invalid(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
-/// The path may be of another scene than the one that is drawn; the picture would not show it.
+/// Warns if the path was made for another scene than the one that is drawn.
 void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapshot) {
   const Parsed<PathFile> response = read_path_file(flags.response);
   if (!response.value || response.value->scene_digest.empty()) return;

@@ -55,7 +55,7 @@ struct Layout {
   std::vector<View> details;
 };
 
-/// With a column of details at the right if there are `places`.
+/// Returns the layout, with a column of details at the right if there are `places`.
 Layout lay_out_with(const FloorPlan& plan, const std::vector<PlanBox>& places) {
   const PlanBox world = world_shown(plan);
   Layout layout{plan.width_px, 0.0, {}, {}};
@@ -104,7 +104,7 @@ void draw_details(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
               palette::kInk, 0.0, true);
     const PlanPoint half =
         PlanPoint(detail.frame.width, detail.frame.height) / (2 * detail.px_per_m);
-    // A narrow column shows more above and below than there is in the plan.
+    // A narrow column would show more height than the plan has.
     const Frame& plan_frame = layout.main.frame;
     const PlanPoint begin(plan_frame.x, plan_frame.y);
     const PlanPoint end = begin + PlanPoint(plan_frame.width, plan_frame.height);
@@ -145,7 +145,7 @@ void draw_area_sample(cairo_t* cr, const PlanPoint& at, const Color& fill, const
   cairo_stroke(cr);
 }
 
-/// Four columns of three samples with their meaning.
+/// Draws the legend: four columns of three samples with their meaning.
 void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section) {
   constexpr std::array kColumns{0.0, 390.0, 720.0, 1040.0};
   const double top = layout.height_px - kLegend_px + 40;
@@ -183,7 +183,7 @@ void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section)
   label(3, 1, "lower, above the floor");
 }
 
-/// A scale, and the two axes of the paper.
+/// Draws a scale bar and the two axes of the paper.
 void draw_scale(cairo_t* cr, const Layout& layout, SceneUp up) {
   const double y = layout.height_px - kLegend_px + 46;
   const double right = layout.width_px - kMargin_px;

@@ -13,7 +13,7 @@ constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr double kShortestEdge_px = 1.0;
 constexpr std::size_t kFewPoints = 64;  // a line of so few is drawn with all of them
 
-/// Whether a line of the frame's border or of what is inside may be part of the line.
+/// Whether a line through `points` may be visible in the frame.
 template <typename Points>
 bool is_seen(const View& view, const Points& points) {
   constexpr double kWidestLine_px = 8.0;
@@ -25,8 +25,8 @@ bool is_seen(const View& view, const Points& points) {
   return box.intersects(PlanBox(corner, corner + size));
 }
 
-/// Adds a line to the current path, unless it lies outside of the frame. Points closer together
-/// than the eye can tell are left out.
+/// Adds a line to the current path, unless it lies outside of the frame. Leaves out points that are
+/// closer together than a line is wide.
 void trace(cairo_t* cr, const View& view, const std::vector<PlanPoint>& points) {
   constexpr double kLeastStep_px = 2.5;
   if (points.empty() || !is_seen(view, points)) return;
@@ -51,7 +51,7 @@ void stroke(cairo_t* cr, const Color& color, double width_px) {
 double cross(const PlanPoint& a, const PlanPoint& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 void draw_scene(cairo_t* cr, const View& view, const FloorSection& section) {
-  // All triangles turn the same way, so that none cancels another one.
+  // All triangles get the same orientation. In one path, opposite orientations would cancel.
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
   for (const std::array<PlanPoint, 3>& top : section.tops) {
     if (!is_seen(view, top)) continue;
@@ -87,7 +87,7 @@ std::vector<PlanPoint> quad_on_paper(const FloorPlan& plan, const motion::Pose& 
   return points;
 }
 
-/// The line of the near quadrilateral's middle, and the curves of its corners.
+/// Draws the curve of the near quadrilateral's centre, and the corner curves.
 void draw_path(cairo_t* cr, const View& view, const FloorPlan& plan, const SampledPath& path,
                const Color& color, double width_px) {
   Color light = color;

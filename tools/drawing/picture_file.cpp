@@ -15,7 +15,7 @@ using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 using Drawing = std::function<void(cairo_t*)>;
 
-/// Draws on `surface`; returns cairo's reason if that failed.
+/// Draws on `surface`. Returns cairo's error text, empty on success.
 std::string draw_on(cairo_surface_t* surface, const Drawing& draw) {
   const Context context(cairo_create(surface), &cairo_destroy);
   cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
@@ -26,7 +26,7 @@ std::string draw_on(cairo_surface_t* surface, const Drawing& draw) {
   return status == CAIRO_STATUS_SUCCESS ? "" : cairo_status_to_string(status);
 }
 
-/// What cairo writes a picture to: a `std::string`.
+/// Write function for cairo that appends to a `std::string`.
 cairo_status_t append(void* picture, const unsigned char* bytes, unsigned size) {
   static_cast<std::string*>(picture)->append(reinterpret_cast<const char*>(bytes), size);
   return CAIRO_STATUS_SUCCESS;

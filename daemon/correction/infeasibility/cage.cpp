@@ -19,21 +19,23 @@ using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// Cells across a bar: the outer ones touch its surface, whatever the grid's offset.
+/// Cells across a bar, so many that inner ones do not touch its surface, whatever the grid's
+/// offset.
 constexpr double kCellsAcrossBar = 5.0;
-/// Of one face, for time and memory: some hundredths of a second for all six.
+/// Largest number of cells of a face, for time and memory: some hundredths of a second for all six
+/// faces.
 constexpr double kMaxCells = 2e5;
-/// Lines along the surfaces of bars, of one axis; more, and there are only those that are evenly
-/// spaced.
+/// Largest number of lines along the surfaces of bars, per axis; beyond it only evenly spaced lines
+/// are used.
 constexpr std::size_t kMaxSurfaceLines = 1000;
-/// Cells and triangles of all boxes that are looked at, and boxes: a few hundredths of a second, as
-/// most searches are for scenes without a cage.
+/// Largest number of cells and triangles visited, and of boxes, for a few hundredths of a second:
+/// most searches are in scenes without a cage.
 constexpr std::size_t kMaxSteps = 4'000'000;
 constexpr int kMaxBoxes = 24;
-/// Points that boxes are looked for around, in each frame.
+/// Points around which boxes are tried, in each frame.
 constexpr std::size_t kMaxPoints = 64;
-/// What the sides of a near quadrilateral may be off by, for rounding, and lengths in a frame that
-/// is turned, is far below this share.
+/// Relative tolerance, far above the rounding of the sides of a near quadrilateral and of lengths
+/// in a turned frame.
 constexpr double kChordRounding = 1e-9;
 
 /// A face of a box: where the coordinate `axis` is smallest or largest.
@@ -69,7 +71,7 @@ class CageSearch {
     for (std::size_t i = 0; i < points; ++i) around.push_back(boxes.around(centers_[i]));
     parities_of_.assign(points, {});
     int tried = 0;
-    // The likeliest of each point first: many are inside of nothing, and use the steps up.
+    // Try the likeliest box of each point first: many points are in no cage and use up the steps.
     for (std::size_t rank = 0; rank < CageBoxes::kMost; ++rank) {
       for (std::size_t i = 0; i < points; ++i) {
         if (rank >= around[i].size()) continue;
@@ -102,17 +104,17 @@ class CageSearch {
     const Vec3 room_m = (centers_[i] - box.min()).cwiseMin(box.max() - centers_[i]);
     return room_m.minCoeff() > margin_m(box, i);
   }
-  /// Beyond one of its sides: nowhere in a ball about the center is the body's center inside.
+  /// Whether all points within the uncertainty of the centre are beyond one side of the box.
   [[nodiscard]] bool is_outside(const Box& box, std::size_t i) const {
     const Vec3 room_m = (box.min() - centers_[i]).cwiseMax(centers_[i] - box.max());
     return room_m.maxCoeff() > margin_m(box, i);
   }
-  /// A difference is rounded by one part in 2^53 of itself, far less than this.
+  /// Uncertainty of the centre, with far more than the rounding of a difference, 2^-53 of itself.
   [[nodiscard]] double margin_m(const Box& box, std::size_t i) const {
     return within_m_ + kChordRounding * (box.sizes().norm() + (centers_[i] - box.min()).norm());
   }
 
-  /// Of the body with regard to a closed surface; unknown where the body is too near to tell.
+  /// Parity of the body relative to a closed surface; unknown if the body is too near to tell.
   [[nodiscard]] Parity parity(std::size_t barrier, const Vec3& center) {
     Parity& known = parities_[barrier];
     if (known == Parity::kNotAsked) known = found_parity(scene_.barriers()[barrier], center);
@@ -134,7 +136,7 @@ class CageSearch {
     return *odd ? Parity::kOdd : Parity::kEven;
   }
 
-  /// Closed surfaces with a part of a face on the other side than the body is.
+  /// Closed surfaces that have a part of a face on the side opposite to the body's.
   [[nodiscard]] std::vector<std::size_t> barriers_at(const Box& box, const Vec3& center) {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < scene_.barriers().size(); ++i) {
@@ -152,7 +154,8 @@ class CageSearch {
     return result;
   }
 
-  /// Along the surfaces, where they are parallel to the axes; else fine enough for the thinnest.
+  /// Lines along the surfaces that are parallel to the axes; for others, lines fine enough for the
+  /// thinnest.
   [[nodiscard]] std::array<FaceGrid::Lines, 3> lines(
       const Box& box, const std::vector<std::size_t>& barriers) const {
     const Vec3 size = box.sizes();
@@ -192,7 +195,8 @@ class CageSearch {
     return result;
   }
 
-  /// In the plane of the face, and meeting it; those of each surface, as a bar stands on a floor.
+  /// Triangles in the plane of the face that meet it, grouped by surface, as a bar may stand on a
+  /// floor.
   [[nodiscard]] std::map<std::uint32_t, std::vector<std::uint32_t>> flats_at(const Face& face,
                                                                              const Box& box) const {
     const std::vector<FlatTriangle>& flats = scene_.flats(face.axis);
@@ -212,7 +216,8 @@ class CageSearch {
                                              std::size_t outside) {
     const std::vector<std::size_t> barriers = barriers_at(box, centers_[inside]);
     const std::array<FaceGrid::Lines, 3> along = lines(box, barriers);
-    // Both sides of a face may have many lines: surfaces' on one, and it is long on the other.
+    // A face may have many lines on both sides: along surfaces on one, and evenly spaced on a long
+    // other.
     std::size_t cells = 0;
     for (std::size_t k = 0; k < 3; ++k) cells += 2 * along[k].size() * along[(k + 1) % 3].size();
     if (steps_ + cells > kMaxSteps) return std::nullopt;
@@ -232,7 +237,7 @@ class CageSearch {
       steps_ += grids.back().cells();
       block(face, box, barriers, grids.back(), cage.triangles);
       if (steps_ > kMaxSteps) return std::nullopt;
-      // Too wide whatever the faces beside it are: nothing more to ask.
+      // A hole that is too wide with all edges closed is too wide with any adjacent faces.
       const auto closed = [](int, bool, std::size_t) { return true; };
       if (!is_narrow(grids.back().widest_hole_m(closed))) return std::nullopt;
     }
@@ -264,7 +269,8 @@ class CageSearch {
     }
   }
 
-  /// A piece of an edge of the box is blocked where either of the two faces is.
+  /// The widest hole of all faces. A piece of an edge of the box is blocked if either of its two
+  /// faces blocks it.
   [[nodiscard]] static std::optional<double> widest_hole_m(const std::vector<FaceGrid>& grids) {
     double widest_m = 0.0;
     for (const Face& face : kFaces) {
@@ -286,8 +292,9 @@ class CageSearch {
   double chord_m_;
   double within_m_ = 0.0;
   std::size_t& steps_;
-  std::vector<std::vector<Parity>> parities_of_;  ///< by point and barrier; empty until asked
-  std::span<Parity> parities_;                    ///< of the body that is inside
+  /// Parities by point and barrier, computed on demand.
+  std::vector<std::vector<Parity>> parities_of_;
+  std::span<Parity> parities_;  ///< parities of the point inside
 };
 
 }  // namespace

@@ -19,19 +19,19 @@ using geometry::Vec3;
 
 /// A bar is at least this many times as long as it is thick.
 constexpr double kLeastSlenderness = 3.0;
-/// Fewer make no face.
+/// Least number of bars that can make a face.
 constexpr std::size_t kLeastBars = 4;
 constexpr std::size_t kMaxTurnedFrames = 2;
 constexpr std::size_t kMostTrianglesOfBar = 1000;
-/// Directions of bars that differ by less are one. [Units: radians]
+/// Directions of bars that differ by less count as equal. [Units: radians]
 constexpr double kSameDirection_rad = 1e-4;
-/// A face is the nearest plane with this share of the bars of the plane with the most; tried one
-/// after the other, as behind a cage there may be a larger one, and within it shelves.
+/// Candidates for a face: the nearest plane with at least this share of the bars of the fullest
+/// plane. Several shares are tried, as a larger cage may be behind the cage, and shelves within it.
 constexpr std::array<double, 3> kShares = {0.7, 0.4, 0.2};
-/// Bars whose middles differ by less than this share of their thickness are in one plane.
+/// Bars whose centres differ by less than this share of their thickness lie in one plane.
 constexpr double kPlaneShare = 0.1;
 /// Two products and a sum for each coordinate, of numbers no larger than the vertex: 3u of twice
-/// that; and a spare, for what is computed with the margin itself.
+/// that; the rest is for the rounding of sums with the margin itself.
 constexpr double kTurnRounding = 32.0;
 
 struct Turn {
@@ -40,7 +40,7 @@ struct Turn {
   std::size_t bars = 0;
 };
 
-/// The turns after which some of the surface's triangles are parallel to two axes, each once.
+/// The turns, each once, after which some of the surface's triangles are parallel to two axes.
 std::vector<Turn> turns_of(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
   std::vector<Turn> result;
   for (const std::uint32_t t : triangles) {
@@ -63,7 +63,7 @@ std::vector<Turn> turns_of(const scene::Mesh& mesh, const std::vector<std::uint3
   return result;
 }
 
-/// Those that the most bars have in common.
+/// The turns that the most bars have in common.
 std::vector<Turn> common_turns(const CageScene& scene) {
   std::vector<Turn> all;
   for (const Barrier& barrier : scene.barriers()) {
@@ -185,12 +185,12 @@ CageBoxes::CageBoxes(const CageScene& scene) : scene_(scene) {
   for (int axis = 0; axis < 3; ++axis) planes_[static_cast<std::size_t>(axis)] = planes(axis);
 }
 
-// In order of their coordinates.
+// Planes by increasing coordinate.
 std::vector<CageBoxes::Plane> CageBoxes::planes(int axis) const {
   std::vector<std::array<double, 2>> middles;
   for (const Barrier& bar : scene_.barriers()) {
     if (!bar.is_bar) continue;
-    // Not across the bar: no plane of a face.
+    // The axis is along the bar: the bar is in no plane of a face.
     if (bar.box.sizes()[axis] > 2.0 * bar.thickness_m()) continue;
     middles.push_back({bar.box.center()[axis], bar.thickness_m()});
   }
@@ -225,7 +225,7 @@ CageBoxes::Sides CageBoxes::nearest_planes(const Vec3& center, double share) con
   return sides;
 }
 
-// Straight away from the center, and not of a bar.
+// The nearest flat triangles straight along the axes from the centre; not those of bars.
 CageBoxes::Sides CageBoxes::nearest_flats(const Vec3& center) const {
   Sides sides;
   for (int axis = 0; axis < 3; ++axis) {

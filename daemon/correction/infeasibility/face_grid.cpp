@@ -16,13 +16,13 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// In units of rounding of the largest coordinate of triangle and face. The fraction along an edge
-/// has 3u of its length, at most twice that coordinate, product and sum 3u more, clipping to a row
-/// the same again: 18u. Lines are what they are, and not rounded.
+/// Rounding of a section, in units of rounding u of the largest coordinate of triangle and face.
+/// The fraction along an edge has 3u of its length, at most twice that coordinate; product and sum
+/// add 3u, clipping to a row the same again: 18u. Lines are exact.
 constexpr double kSectionRounding = 64.0;
 
-/// The diagonal of bounds of cells: two differences, a hypotenuse within 1 ulp; this is more than a
-/// thousand times that.
+/// Rounding of the diagonal of a box of cells, times more than a thousand: two differences and a
+/// hypotenuse within 1 ulp.
 constexpr double kWidthRounding = 1e-12;
 
 void clip_to_row(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double low, double high,
@@ -44,7 +44,7 @@ bool precedes(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// A corner or an edge by what tells it from others, and where it is seen.
+/// A corner: its exact coordinates, which identify it, and its place in the face.
 struct Corner {
   Vec3 exact;
   Eigen::Vector2d seen;
@@ -54,7 +54,7 @@ using Edge = std::pair<Corner, Corner>;
 
 bool is_before(const Corner& a, const Corner& b) { return precedes(a.exact, b.exact); }
 
-/// Each triangle once: twice, it covers what it covers once.
+/// Drops repeated triangles: two copies would cancel modulo 2, but cover the same cells.
 void drop_copies(std::vector<FlatCorners>& triangles) {
   std::sort(triangles.begin(), triangles.end(), [](const FlatCorners& a, const FlatCorners& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
@@ -66,7 +66,7 @@ void drop_copies(std::vector<FlatCorners>& triangles) {
   triangles.erase(std::unique(triangles.begin(), triangles.end(), same), triangles.end());
 }
 
-/// Those that an odd number of the triangles has.
+/// Edges that belong to an odd number of the triangles.
 std::vector<Edge> odd_edges(const std::vector<FlatCorners>& triangles) {
   std::vector<Edge> edges;
   for (const auto& [a, b, c] : triangles) {
@@ -88,7 +88,7 @@ std::vector<Edge> odd_edges(const std::vector<FlatCorners>& triangles) {
   return odd;
 }
 
-/// Where a ray along x from the plane x = 0 meets what is drawn at x = 1.
+/// Maps a point of the face to the plane x = 1, where a ray along x from x = 0 meets it.
 Vec3 ahead_of(const Eigen::Vector2d& point) { return {1.0, point.x(), point.y()}; }
 
 }  // namespace
@@ -166,7 +166,8 @@ FaceGrid::Section FaceGrid::section(const Triangle& triangle) const {
       const double fraction = (plane - a[axis_]) / (b[axis_] - a[axis_]);
       const Point between = flat_a + fraction * (flat_b - flat_a);
       result.points.push_back(between);
-      // Rounded, but between both ends: exact where an edge is parallel to an axis.
+      // The point is rounded but lies between both ends: exact where an edge is parallel to an
+      // axis.
       const Flat edge(flat_a.cwiseMin(flat_b), flat_a.cwiseMax(flat_b));
       const Point margin = Point::Constant(result.margin_m);
       result.bounds.extend(Point((between - margin).cwiseMax(edge.min())));
@@ -225,7 +226,7 @@ std::size_t FaceGrid::block(const scene::Mesh& mesh, std::span<const std::uint32
     const Triangle triangle = mesh.triangle(t);
     mark(section(triangle), window, touched);
   }
-  // Without a triangle in it, all of a part is on one side.
+  // A part that no triangle touches is on one side.
   const std::size_t parts =
       block_parts(window, std::move(touched), [&](const Point& point) -> bool {
         const std::optional<bool> odd = is_odd(in_space(point), mesh, triangles);
@@ -260,7 +261,7 @@ std::size_t FaceGrid::block_flat(const scene::Mesh& mesh, const scene::Mesh& exa
     edge.margin_m = rounding_m({in_space(a.seen), in_space(a.seen), in_space(b.seen)});
     mark(edge, window, touched);
   }
-  // How many cover a point, modulo 2, changes only at the edges that are marked.
+  // The number of covering triangles modulo 2 changes only at the edges marked.
   const std::size_t parts =
       block_parts(window, std::move(touched), [&](const Point& point) -> bool {
         bool odd = false;
@@ -355,7 +356,7 @@ std::optional<double> FaceGrid::widest_hole_m(const BorderIsBlocked& border) con
         if (is_way_out(u, v)) return std::nullopt;
         range = {std::min(range[0], u), std::max(range[1], u), std::min(range[2], v),
                  std::max(range[3], v)};
-        // As if cells that share just a corner were connected, which blocked ones prevent.
+        // Also connect cells that share only a corner, to be conservative.
         for (std::size_t next_v = v - std::min<std::size_t>(v, 1);
              next_v <= std::min(v + 1, last_v); ++next_v) {
           for (std::size_t next_u = u - std::min<std::size_t>(u, 1);

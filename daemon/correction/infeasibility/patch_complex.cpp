@@ -114,7 +114,7 @@ class Builder {
     }
   }
 
-  /// Takes away triangles with an edge of their own until there are none.
+  /// Removes triangles that have an edge of their own until there are none.
   void peel() {
     std::vector<std::uint32_t> single;
     for (std::uint32_t e = 0; e < alive_at_.size(); ++e) {

@@ -13,13 +13,13 @@ namespace camway::correction {
 
 inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
-/// Lists of numbers, one after the other in one array.
+/// Lists of numbers, stored one after the other in one array.
 class Lists {
  public:
   Lists() = default;
 
-  /// Deals the items 0 .. keys.size() - 1 to `lists` lists, each item to the one that its key names
-  /// or, with kNoIndex, to none. Increasing in each list.
+  /// Distributes the items 0 .. keys.size() - 1 to `lists` lists: each item goes to the list that
+  /// its key names, or to none if that is kNoIndex. Each list is increasing.
   Lists(std::span<const std::uint32_t> keys, std::size_t lists) : begin_(lists + 1, 0) {
     for (const std::uint32_t key : keys) {
       if (key != kNoIndex) ++begin_[key + 1];
@@ -45,20 +45,20 @@ class Lists {
   std::vector<std::uint32_t> items_;
 };
 
-/// The triangles of a mesh that can belong to a closed surface, in pieces that belong to it as a
-/// whole or not at all. A surface is closed if each edge has an even number of its triangles: a
-/// cycle modulo 2. Edges are told by the exact coordinates of their ends, so a file that repeats
-/// its vertices is no obstacle, and one in which they differ by a rounding has a slit.
+/// The triangles of a mesh that can belong to a closed surface, grouped into patches that belong to
+/// it as a whole or not at all. A surface is closed if each edge belongs to an even number of its
+/// triangles: a cycle modulo 2. Edges are identified by the exact coordinates of their ends, so a
+/// file may repeat its vertices, but vertices that differ by a rounding make a slit.
 ///
-/// Left out are, since no closed surface needs them: triangles with two equal corners; every copy
-/// of a triangle but the first (two copies cancel); and, again and again, triangles with an edge
-/// that no other has.
+/// Leaves out triangles that no closed surface needs: triangles with two equal corners; all copies
+/// of a triangle but the first (two copies cancel); and, repeatedly, triangles with an edge that no
+/// other triangle has.
 struct PatchComplex {
-  /// Triangles that are joined, directly or through others, over edges that two of them have.
+  /// Sets of triangles that are connected over edges with exactly two triangles.
   Lists patches;
-  /// Where patches meet: at an edge with more than two triangles, the patches with an odd number of
-  /// them, increasing. Each set once. A union of patches is closed exactly if it has an even number
-  /// of each set.
+  /// For each edge with more than two triangles, the patches with an odd number of them,
+  /// increasing; each such set once. A union of patches is closed exactly if it contains an even
+  /// number of each set.
   std::vector<std::vector<std::uint32_t>> seams;
 };
 

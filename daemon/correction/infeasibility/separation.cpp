@@ -14,8 +14,8 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// Where a scene has too many seams for all its closed surfaces, those around this many points are
-/// looked for one by one.
+/// In scenes with too many seams to find all closed surfaces: the number of points around which
+/// surfaces are searched one by one.
 constexpr std::size_t kMaxPointsToLookAround = 8;
 
 bool is_clear(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles,
@@ -79,7 +79,7 @@ class Search {
     return order;
   }
 
-  /// Points from which a ray meets each patch an odd number of times, increasing.
+  /// For each patch: the points from which a ray meets it an odd number of times, increasing.
   void count_hits() {
     odd_points_.resize(surfaces_.complex.patches.size());
     std::vector<std::uint32_t> by_y(points_.size());
@@ -103,7 +103,7 @@ class Search {
     auto point = std::lower_bound(by_y.begin(), by_y.end(), low,
                                   [&](std::uint32_t i, double y) { return points_[i].y() < y; });
     for (; point != by_y.end() && points_[*point].y() <= high; ++point) {
-      // On a triangle: `proof` sees that the distance is 0.
+      // The point is on a triangle; `proof` finds that the distance is 0.
       if (ray_hit(points_[*point], triangle) == RayHit::kHit) hits.push_back(*point);
     }
   }
@@ -141,7 +141,8 @@ class Search {
     return triangles;
   }
 
-  /// The surface with the first point on either side that is clear of it, checked from scratch.
+  /// Returns the surface and the first point on either side that is clear of it, checked from
+  /// scratch.
   [[nodiscard]] std::optional<Separation> proof(const IndexSet& surface) const {
     Separation result;
     for (const std::uint32_t patch : surface) {

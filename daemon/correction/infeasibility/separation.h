@@ -13,39 +13,40 @@
 
 namespace camway::correction {
 
-/// A closed surface of a scene with one point inside and another outside. Inside is where a ray
-/// meets it an odd number of times; the surface may pass through itself and need have no
-/// orientation.
+/// A closed surface of a scene with one point inside and another outside. A point is inside if a
+/// ray from it meets the surface an odd number of times; the surface may intersect itself and need
+/// not be orientable.
 struct Separation {
   std::size_t inside = 0;                ///< index of a point
   std::size_t outside = 0;               ///< index of a point
-  std::vector<std::uint32_t> triangles;  ///< of the mesh, increasing
+  std::vector<std::uint32_t> triangles;  ///< triangles of the mesh, increasing
 };
 
 /// Looks for a closed surface of the mesh that separates some of the points.
 ///
-/// Modulo 2, the number of times that a ray meets a cycle changes only where its origin crosses the
-/// cycle (the degree modulo 2). So no continuous motion takes something from the one point to the
-/// other without touching one of the triangles: whatever it is a part of, however that turns, and
-/// whatever clearance it has to keep. Nothing in this is rounded.
+/// Proof: modulo 2, the number of times that a ray meets a cycle changes only where its origin
+/// crosses the cycle (the degree modulo 2). So no continuous motion moves anything from the one
+/// point to the other without touching one of the triangles: whatever body the point belongs to,
+/// however that turns, and whatever clearance it must keep. Nothing in this is rounded.
 ///
-/// `points_W`: where the same point of the moving body is at one keyframe after the other. For a
-/// camera that is a point of the filled near quadrilateral, not the eye, which is no part of it.
-/// `within_m`: how far from there it may really be, at any of them, for rounding; surfaces so near
-/// to a point do not count for it. [Limit: >= 0]
+/// `points_W`: the same point of the body at one keyframe after the other. For a camera it must be
+/// a point of the filled near quadrilateral; the eye is not part of the body. `within_m`: bound of
+/// the error of each point; a surface nearer than this to a point is not used for it. [Limit: 0 <=
+/// value]
 ///
-/// Where `surfaces.complete`, nothing is found only if no closed surface separates two of the
-/// points, or one of `surfaces.surfaces` that does is too near to them. What is not closed, edge
-/// for edge and bit for bit, is never found: two pieces whose vertices differ by a rounding, or an
-/// edge that ends in the middle of another, leave a slit, and a proof must not close slits. Of
-/// several surfaces it is a small one, not surely the smallest; always the same. Linear in
-/// triangles times points; safe from any thread.
+/// If `surfaces.complete`, nothing is returned only if no closed surface separates two of the
+/// points, or one of `surfaces.surfaces` that does is too near to them. Surfaces must be closed
+/// edge for edge and bit for bit: pieces whose vertices differ by a rounding, or an edge that ends
+/// in the middle of another, leave a slit, and a proof must not close slits. Of several surfaces a
+/// small one is returned, not necessarily the smallest; the choice is deterministic. Linear in
+/// triangles times points. Thread-safe.
 std::optional<Separation> find_separation(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                                           std::span<const geometry::Vec3> points_W,
                                           double within_m);
 
-/// Whether the surface also separates all points of the one segment, each known to `within_m`, from
-/// all of the other, if it separates some: whether it keeps clear of both.
+/// Whether `surface`, if it separates a point of `inside_W` from one of `outside_W`, separates all
+/// points of the two segments, each known to `within_m`: true if the surface keeps clear of both
+/// segments.
 bool keeps_clear(const Separation& surface, const scene::Mesh& mesh,
                  const geometry::LineSegment& inside_W, const geometry::LineSegment& outside_W,
                  double within_m);

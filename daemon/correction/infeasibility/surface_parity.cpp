@@ -17,12 +17,13 @@ using geometry::Vec3;
 int moved_orientation(const Vec2& a, const Vec2& b, const Vec2& origin) {
   const int sign = geometry::orientation(a, b, origin);
   if (sign != 0) return sign;
-  // The derivatives by the first and the second coordinate of `origin`.
+  // The derivatives with respect to the first and the second coordinate of `origin`.
   if (a.y() != b.y()) return a.y() > b.y() ? 1 : -1;
   return (b.x() > a.x() ? 1 : 0) - (b.x() < a.x() ? 1 : 0);
 }
 
-/// False only for triangles that the moved ray misses: boxes can be compared without rounding.
+/// Whether the shifted ray may meet the triangle, by exact comparison of boxes: false only if it
+/// misses.
 bool may_hit(const Vec3& origin, const Triangle& t) {
   const auto beside = [&](int k) {
     return (t[0][k] < origin[k] && t[1][k] < origin[k] && t[2][k] < origin[k]) ||
@@ -43,7 +44,8 @@ RayHit ray_hit(const Vec3& origin, const Triangle& triangle) {
   const std::array<Vec2, 3> p = {triangle[0].tail<2>(), triangle[1].tail<2>(),
                                  triangle[2].tail<2>()};
   const int turn = moved_orientation(p[0], p[1], o);
-  // A projection without area has no three equal signs that are not 0: they add up to its area.
+  // The three signs add up to the projected area, so without area they are not all equal and
+  // non-zero.
   if (turn == 0 || moved_orientation(p[1], p[2], o) != turn ||
       moved_orientation(p[2], p[0], o) != turn) {
     return RayHit::kMiss;

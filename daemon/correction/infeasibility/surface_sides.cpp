@@ -25,7 +25,7 @@ SurfaceSides::SurfaceSides(const scene::Mesh& mesh, const scene::SceneIndex& ind
 }
 
 std::optional<IndexSet> SurfaceSides::around(const Vec3& point_W) const {
-  // As the ray goes, along x; `ray_hit` moves it by less than any box is wide.
+  // The box that the ray passes along x; the shift of `ray_hit` is smaller than any box.
   const Vec3 far_W(std::max(point_W.x(), index_.bounds().max().x()), point_W.y(), point_W.z());
   IndexSet met;
   index_.for_each_touching(geometry::Box(point_W, far_W), [&](std::uint32_t t) {

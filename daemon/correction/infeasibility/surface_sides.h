@@ -12,24 +12,23 @@
 
 namespace camway::correction {
 
-/// Tells on which side of the closed surfaces of a mesh points are, at the cost of a ray for each
-/// point. What no closed surface encloses, or none that was found, counts as outside. Safe from
-/// several threads at once.
+/// Decides on which side of the closed surfaces of a mesh points are, by one ray per point. A point
+/// counts as outside where no closed surface encloses it or none was found. Thread-safe.
 class SurfaceSides {
  public:
-  /// Refers to `mesh` and `index`, which indexes it; both must outlive it.
+  /// Refers to `mesh` and `index`, which must outlive it. Requires `index` to index `mesh`.
   SurfaceSides(const scene::Mesh& mesh, const scene::SceneIndex& index);
 
-  /// The closed surfaces, by a number of their own, that the point is inside of: where a ray from
-  /// it meets them an odd number of times. Nothing if it is seen to be on a triangle. What moves
-  /// from one point to another without touching the scene has the same set at both.
+  /// The numbers of the closed surfaces that the point is inside of, which a ray from it meets an
+  /// odd number of times. Nothing if the point is found to be on a triangle. The set is the same at
+  /// both ends of any motion that does not touch the scene.
   [[nodiscard]] std::optional<IndexSet> around(const geometry::Vec3& point_W) const;
 
  private:
   const scene::Mesh& mesh_;
   const scene::SceneIndex& index_;
-  std::vector<std::uint32_t> patch_of_;  ///< by triangle, or kNoIndex
-  std::vector<IndexSet> surfaces_of_;    ///< by patch
+  std::vector<std::uint32_t> patch_of_;  ///< patch of each triangle, or kNoIndex
+  std::vector<IndexSet> surfaces_of_;    ///< surfaces of each patch
 };
 
 }  // namespace camway::correction

@@ -23,17 +23,17 @@ using motion::SignedPose;
 // Chosen by measurement; none changes what is proved.
 constexpr std::array<int, 4> kCoarse = {8, 12, 16, 32};  // numbers of knots
 constexpr std::array<int, 4> kFine = {8, 16, 32, 64};
-constexpr int kMostRefinements = 40;  // of parts of a row of bumps
+constexpr int kMostRefinements = 40;  // finer rows of bumps
 constexpr int kFinest = 2048;
-constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // of the ball's radius
+constexpr std::array<double, 2> kMargins = {0.25, 0.02};  // shares of the ball's radius
 constexpr double kLeastMargin = 0.02;
-constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // of the ball's radius
+constexpr std::array<double, 2> kBallShares = {0.04, 0.15};  // shares of the ball's radius
 constexpr double kSmallestCell = 0.02;
 constexpr std::size_t kMostCells = 2'000'000;  // some 50 bytes each at most
 constexpr int kLegsAsInterpolated = 16;        // what lattices keep to, where there is a choice
 constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has no time of its own
-constexpr int kJoiningSamples = 1000;     // of trees between narrow places
-constexpr double kLongestStep = 3.0;      // of the ball's radius: between poses of a guide
+constexpr int kJoiningSamples = 1000;     // samples of trees between narrow places
+constexpr double kLongestStep = 3.0;      // between poses of a guide, in radii of the ball
 
 /// A lattice to be searched.
 struct Level {
@@ -77,7 +77,7 @@ class Detour {
   std::optional<Candidate> follow(const Guide& guide, Turning turning) {
     if (guide.empty()) return std::nullopt;
     turning_ = turning;
-    // The guide of the lattice keeps away from the scene; a shortened one turns around corners.
+    // A lattice guide keeps away from the scene; a shortened one turns around corners.
     for (const int count : kCoarse) {
       if (std::optional<Candidate> found = drawn(guide, count)) return found;
     }
@@ -93,8 +93,7 @@ class Detour {
     return std::nullopt;
   }
 
-  // Where a row of bumps is too coarse for the guide, a finer one is added for what is missing,
-  // next to the collision alone.
+  // Adds finer rows of bumps only where the coarse row collides.
   std::optional<Candidate> refined(const Guide& guide) {
     motion::KnotRow knots = problem_.knots(kFine.back());
     if (!knots.fits()) return std::nullopt;
@@ -157,7 +156,7 @@ class Detour {
     return std::nullopt;
   }
 
-  // With half the knots as long as that is free, which is smoother, then relaxed.
+  // Halves the number of knots while the path stays free, which makes it smoother, then relaxes it.
   Candidate improved(Offsets offsets, Ends ends, Candidate found) {
     while (offsets.knots.count % 2 == 0 && offsets.knots.count >= 2 * kCoarse.front()) {
       Offsets half = with_every_other_knot(offsets);
@@ -182,13 +181,13 @@ class Detour {
     return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
-  // Ways on which the body may be turned as it likes. The finest lattice is searched last of all:
-  // what needs it mostly needs turning.
+  // Detours with room for every orientation. The finest lattice comes last: detours that need it
+  // mostly need turning as well.
   std::optional<Candidate> with_ball(std::size_t first_level, std::size_t last_level) {
     const std::optional<SignedPose> begin = escape(from_, radius_m_);
     const std::optional<SignedPose> end = escape(to_, radius_m_);
     if (!begin || !end) return std::nullopt;
-    // The ball has room for every orientation: where there is a rule, the one it was measured by.
+    // Any orientation fits in the ball. With an orientation policy take the path's own.
     const Turning turning = is_limited(space_.policy()) ? Turning::kAsPath : Turning::kAsGuide;
     std::optional<Candidate> candidate;
     for_each_way({radius_m_, center_W(*begin), center_W(*end)}, first_level, last_level,
@@ -199,9 +198,8 @@ class Detour {
     return candidate;
   }
 
-  // Ways where the body has to be turned to get through: where a smaller ball does, straight
-  // motions through narrow places, or trees, look for how. The smallest is the first: where it has
-  // no way, none has.
+  // Detours on which the body must turn: narrow passages and trees along the way of a smaller ball.
+  // The smallest ball comes first: if it has no way, the others have none.
   std::optional<Candidate> with_turns() {
     for (const double share : kBallShares) {
       if (deadline_.passed()) return std::nullopt;
@@ -232,8 +230,8 @@ class Detour {
     return options;
   }
 
-  /// Through the narrow places of a way by straight motions, and by trees between them. Empty where
-  /// there is none.
+  /// A guide by straight motions through the narrow places of `way_W`, and by trees between them.
+  /// Empty if none was found.
   Guide threaded(const std::vector<Vec3>& way_W) {
     const std::vector<NarrowPassage> passages =
         narrow_passages(space_, way_W, from_, to_, 0.5 * kLeastMargin * radius_m_, deadline_);
@@ -248,7 +246,8 @@ class Detour {
     return joined(guide, to_, way_W, begin, way_W.size() - 1) ? guide : Guide{};
   }
 
-  /// Adds a way from the end of the guide to `pose`, about a part of `way_W`. Whether there is one.
+  /// Extends the guide from its end to `pose`, along a part of `way_W`. Returns whether that
+  /// succeeded.
   bool joined(Guide& guide, const SignedPose& pose, const std::vector<Vec3>& way_W,
               std::size_t first, std::size_t last) {
     std::vector<Vec3> about_W = {center_W(guide.back())};
@@ -296,9 +295,8 @@ class Detour {
     Vec3 to_W;
   };
 
-  // Finer and finer lattices; and where their points ran out before all was seen that can be
-  // reached, wider ones, as the way may be much longer than its ends are apart. Until `use` of a
-  // way succeeds.
+  // Searches finer and finer lattices until `use` of a way succeeds. Where the point limit ended a
+  // search, wider lattices follow, as the way may be much longer than the distance of its ends.
   template <class Use>
   void for_each_way(const Ball& ball, std::size_t first_level, std::size_t last_level,
                     const Use& use) {
@@ -312,7 +310,7 @@ class Detour {
       if (!found.way_W.empty() && use(found.way_W)) return;
       if (level.is_wide || from_end || !found.way_W.empty() || found.exhausted) continue;
       if (++times_run_out != kOftenRunOut) continue;
-      // Perhaps less can be reached from the other end: a way, or nothing.
+      // If less is reachable from the other end, this search finds a way or ends quickly.
       const LatticeResult back = searched(ball, level, true);
       if (!back.way_W.empty() && use(back.way_W)) return;
       from_end = back.exhausted;
@@ -323,7 +321,8 @@ class Detour {
   [[nodiscard]] LatticeResult searched(const Ball& ball, const Level& level, bool from_end) const {
     const double coarse_m = std::max(ball.radius_m, (ball.to_W - ball.from_W).norm() / 8.0);
     LatticeOptions options{ball.radius_m, level.spacing * coarse_m, level.max_points};
-    // Who keeps to something sees more points on the way, and far away there is nothing to keep to.
+    // Preferring the reference path expands more nodes, and wide lattices search far from it
+    // anyway.
     if (!level.is_wide) options.about_W = about_W_;
     LatticeResult found = lattice_way(space_, from_end ? ball.to_W : ball.from_W,
                                       from_end ? ball.from_W : ball.to_W, options, deadline_);
@@ -336,7 +335,8 @@ class Detour {
     return space_.center_W(motion::unsigned_pose(pose));
   }
 
-  /// A pose with the same orientation, reached by a straight motion, where the ball is free.
+  /// Returns a pose with the same orientation, reached by a free straight motion, at which the ball
+  /// is free.
   std::optional<SignedPose> escape(const SignedPose& pose, double ball_radius_m) {
     const Vec3 middle_W = center_W(pose);
     const double comfort_m = 0.1 * radius_m_;
@@ -354,7 +354,7 @@ class Detour {
     return std::nullopt;
   }
 
-  /// The camera turns as on the path it had, by the share of the way that it has gone.
+  /// Gives `way_W` the path's orientations at equal shares of the way and of the time.
   Guide oriented(const std::vector<Vec3>& way_W, const SignedPose& begin, const SignedPose& end) {
     double length_m = 0.0;
     for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
@@ -374,7 +374,7 @@ class Detour {
     return guide;
   }
 
-  /// With more poses on long motions, so that parts of them can be left out.
+  /// Divides long motions, so that `shortened` can skip parts of them.
   Guide divided(const Guide& guide) const {
     Guide result = {guide.front()};
     for (std::size_t i = 1; i < guide.size(); ++i) {
@@ -399,7 +399,7 @@ class Detour {
   Turning turning_ = Turning::kAsGuide;
   const SignedPose from_;
   const SignedPose to_;
-  std::vector<Vec3> about_W_;  ///< the middle of the body on the path as interpolated
+  std::vector<Vec3> about_W_;  ///< centre of the body along the interpolated path
 };
 
 }  // namespace

@@ -67,20 +67,20 @@ class Ladder {
   }
 
  private:
-  // False if it was proved that there is no path.
+  // Returns false if it was proved that there is no path.
   bool correct() {
     correct_all(Search::kWithRoom);
     if (result_.separation) return false;
     if (any_without_way() && !deadline_.passed()) {
       prove_infeasible();
       if (result_.separation || result_.cage) return false;
-      if (space_.may_turn()) correct_all(Search::kTurning);
+      if (space_.may_turn() && !is_caged_at_this_size_) correct_all(Search::kTurning);
     }
     result_.timed_out = any_open() && deadline_.passed();
     return true;
   }
 
-  // Collisions close to each other are one interval, and there may be a keyframe between them.
+  // Nearby collisions form one interval, which may contain keyframes.
   void split_at_keyframes(CollisionInterval interval) {
     auto next = std::ranges::upper_bound(keyframes_s_, interval.t_begin_s);
     for (; next != keyframes_s_.end() && *next < interval.t_end_s; ++next) {
@@ -123,7 +123,7 @@ class Ladder {
     problem.has_path_end = last + 1 == keyframes_s_.size();
     problem.interval = {keyframes_s_[gap], keyframes_s_[gap + 1]};
     problem.places = places_for(problem);
-    // Only those that reach into the part: there may be thousands elsewhere.
+    // Skip the collisions outside of the part: there may be thousands.
     auto next =
         std::ranges::lower_bound(open_, problem.path.begin_s(), {}, &CollisionInterval::t_end_s);
     for (; next != open_.end() && next->t_begin_s <= problem.path.end_s(); ++next) {
@@ -132,7 +132,7 @@ class Ladder {
     return problem;
   }
 
-  // Knots keep to the joints of the path, or away from them.
+  // Knots coincide with joints of the path or keep away from them.
   [[nodiscard]] std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& problem) const {
     motion::KnotPlaces places{options_.origin, {problem.path.begin_s()}, 0.0};
     double size_m = 0.0;
@@ -144,7 +144,7 @@ class Ladder {
     const double chord_m = (problem.path.at(problem.gap_end_s()).position -
                             problem.path.at(problem.gap_begin_s()).position)
                                .norm();
-    // Where the camera only turns, corrections move it by about its own size.
+    // If the camera only turns, corrections move it by about its own size.
     places.same_s = motion::least_piece_s(gap_s, std::max(chord_m, space_.ball_radius_m()), size_m);
     return std::make_shared<const motion::KnotPlaces>(std::move(places));
   }
@@ -155,13 +155,15 @@ class Ladder {
 
   void prove_infeasible() {
     if (is_separated() || deadline_.passed() || !space_.body().is_camera()) return;
-    find_cage_of_camera(*surfaces_, smallest_share());
+    result_.cage = cage_of_camera(*surfaces_, smallest_share());
     if (result_.cage) name_keyframes(*result_.cage);
+    is_caged_at_this_size_ =
+        result_.cage || (options_.max_shrink > 0.0 && cage_of_camera(*surfaces_, 1.0));
   }
 
   [[nodiscard]] double smallest_share() const { return 1.0 - options_.max_shrink; }
 
-  // Whether a closed surface is between keyframes. It takes a moment to tell, once.
+  // Whether a closed surface separates keyframes. Computed once.
   bool is_separated() {
     if (!surfaces_) {
       surfaces_ = find_closed_surfaces(*mesh_);
@@ -171,7 +173,7 @@ class Ladder {
   }
 
   void find_separation_of_body(const ClosedSurfaces& surfaces, double smallest) {
-    // A point of the body itself, which the eye is not.
+    // The proof needs a point of the body; the eye is none.
     const geometry::Triangle& part = space_.body().triangles_C().front();
     const geometry::Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
     result_.separation =
@@ -189,7 +191,7 @@ class Ladder {
     if (result_.separation) name_keyframes(*result_.separation);
   }
 
-  // Those of a proof count among the ones that it was looked for with.
+  // Translates indices among the keyframes that the proof used into indices of all keyframes.
   template <class Proof>
   void name_keyframes(Proof& proof) const {
     proof.inside = as_asked_[proof.inside];
@@ -197,15 +199,16 @@ class Ladder {
   }
 
   // The near quadrilateral is a rectangle parallel to two axes of the camera frame.
-  void find_cage_of_camera(const ClosedSurfaces& surfaces, double smallest) {
+  [[nodiscard]] std::optional<Cage> cage_of_camera(const ClosedSurfaces& surfaces,
+                                                   double smallest) const {
     geometry::Box rectangle_C;
     for (const geometry::Triangle& part : space_.body().triangles_C()) {
       rectangle_C.extend(geometry::bounds(part));
     }
     const geometry::Vec3 center_C = rectangle_C.center();
     const double side_m = rectangle_C.sizes().head<2>().minCoeff();
-    result_.cage = find_cage(*mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
-                             kPointRounding_m + (1.0 - smallest) * center_C.norm());
+    return find_cage(*mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
+                     kPointRounding_m + (1.0 - smallest) * center_C.norm());
   }
 
   [[nodiscard]] std::vector<geometry::Vec3> at_keyframes_W(const geometry::Vec3& point_C) const {
@@ -224,7 +227,7 @@ class Ladder {
     });
   }
 
-  // Open, and not because of the limit of keyframes.
+  // Whether a collision is open for another reason than the limit of keyframes.
   [[nodiscard]] bool any_without_way() const {
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (is_open(i) && !is_beyond_limit_[i]) return true;
@@ -239,13 +242,13 @@ class Ladder {
       if (result_.separation) return;
       if (search == Search::kWithRoom && (nudge_away(i) || is_beyond_limit_[i])) continue;
       const std::size_t gap = gaps_[i];
-      // The way round would replace all of the gap: no need to look for it twice.
+      // A detour replaces the whole interval between keyframes: do not search it twice.
       if (is_shut_off(gap)) has_no_way[gap] = true;
       if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
     }
   }
 
-  // From an earlier gap it may be known that there is no way out of one end.
+  // Whether an earlier search found that one end is shut in and cannot reach the other.
   [[nodiscard]] bool is_shut_off(std::size_t gap) const {
     return std::ranges::any_of(result_.shut_in, [&](const ShutIn& known) {
       return (known.keyframe == gap && !known.may_hold(middle_W(gap + 1))) ||
@@ -271,7 +274,7 @@ class Ladder {
     return accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline_));
   }
 
-  // A way round replaces all that lies between the two keyframes.
+  // A detour replaces everything between the two keyframes.
   bool replace_gap(std::size_t index, Search search) {
     Problem problem = this->problem(index);
     const auto [first, last] = std::ranges::equal_range(gaps_, gaps_[index]);
@@ -304,8 +307,8 @@ class Ladder {
     return true;
   }
 
-  // What one correction left to the next can be better now that all are there; and again where that
-  // changed what is beside it.
+  // Relaxes every corrected interval again, now that its neighbours are final, and once more where
+  // a neighbour changed.
   void polish() {
     std::vector<bool> is_worn = corrected_gaps();
     for (int round = 0; round < kPolishingRounds; ++round) {
@@ -332,9 +335,8 @@ class Ladder {
     return gaps;
   }
 
-  // Ways round are smoothed more than they are drawn back to the original. Where they go far astray
-  // they are drawn back for a few steps more, the furthest first: most paths do not, and are
-  // answered without.
+  // Relaxation of detours favours smoothness. Intervals that ended far from the interpolated path
+  // are pulled closer in a few more steps, the farthest first; most paths have none.
   void come_closer() {
     struct Astray {
       double deviation_m;
@@ -364,8 +366,8 @@ class Ladder {
     take_if_better(gap, Objective::kClosest, *other, problem);
   }
 
-  // Every objective begins with the closest path, and only what is better by its own measure is
-  // taken: so none ends with less of it than others have.
+  // Every objective starts from the closest path and accepts only what is better by its own
+  // measure, so no objective ends with less of it than another.
   void pursue_objective() {
     const std::vector<bool> gaps = corrected_gaps();
     for (const int knots : kPursuitKnots) {
@@ -394,7 +396,8 @@ class Ladder {
     for (const motion::BumpRow& row : other.rows) widen_corrections(gap, row);
   }
 
-  // What is polished belongs to the corrections of that gap, or to those that reach into it.
+  // Extends the corrections of this interval, and those that reach into it, by the range of the
+  // row.
   void widen_corrections(std::size_t gap, const motion::BumpRow& row) {
     for (Correction& correction : result_.corrections) {
       const bool is_here =
@@ -406,7 +409,7 @@ class Ladder {
     }
   }
 
-  // Those that have more than an end in common with the stretch of time.
+  // Marks the intervals between keyframes that overlap the time range in more than an end.
   void mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const {
     const auto after_begin = std::ranges::upper_bound(keyframes_s_, begin_s);
     auto gap = static_cast<std::size_t>(after_begin - keyframes_s_.begin());
@@ -441,7 +444,7 @@ class Ladder {
     deadline_.report_collisions(open_.size(), open_.size() - static_cast<std::size_t>(open));
   }
 
-  // Puts the candidate into the path, unless it would need more keyframes than allowed.
+  // Replaces part of the path by the candidate, unless that would exceed the limit of keyframes.
   bool take(const Candidate& candidate) {
     std::vector<double> inserted_s;
     for (const motion::BumpRow& row : candidate.rows) add_keyframes(row, inserted_s);
@@ -455,14 +458,14 @@ class Ladder {
     return true;
   }
 
-  // Which grows with the path.
+  // The time reserved grows with the number of pieces.
   void leave_time_for_the_rest() {
     const auto pieces = static_cast<double>(result_.path.pieces.size());
     deadline_ = whole_deadline_.sooner_by_s(options_.rest_s_per_piece * pieces);
   }
 
-  // A bump stands for a keyframe at its peak, unless one is there already, or no path, or it moves
-  // the body by less than collisions are told apart by.
+  // A bump counts as an inserted keyframe at its peak, unless a keyframe is there already, the peak
+  // is off the path, or the bump moves the body by less than the collision tolerance.
   void add_keyframes(const motion::BumpRow& row, std::vector<double>& times_s) const {
     const double near_s = 0.5 * row.knots.spacing_s();
     for (std::size_t i = 0; i < row.bumps.size(); ++i) {
@@ -478,7 +481,7 @@ class Ladder {
     }
   }
 
-  // Those of one gap often are the same stretch of time.
+  // Corrections of one interval often have the same time range.
   void measure_corrections() {
     std::map<std::pair<double, double>, const Correction*> measured;
     for (Correction& correction : result_.corrections) {
@@ -491,7 +494,7 @@ class Ladder {
     }
   }
 
-  // Of the path as it is in the end, which bends with its pieces.
+  // Measures the final path, piece by piece.
   void measure(Correction& correction) const {
     constexpr int kSamples = 6;  // of a piece
     const CubicPath changed = result_.path.around(correction.t_begin_s, correction.t_end_s);
@@ -510,40 +513,43 @@ class Ladder {
   }
 
   static constexpr int kPolishingRounds = 2;
-  static constexpr int kStepsAGap = 12;  ///< of improvement, for each gap that a collision is in
+  static constexpr int kStepsAGap = 12;  ///< steps of relaxation per interval with a collision
   static constexpr int kPolishedKnots = 12;
-  static constexpr double kAstray = 3.0;  ///< from the original, in radii of the ball
+  static constexpr double kAstray = 3.0;  ///< distance from the original, in radii of the ball
   static constexpr double kCloserSpread = 0.25;
   static constexpr int kCloserKnots = 16;
-  static constexpr int kCloserSteps = 24;      ///< for the whole path
-  static constexpr double kMostBending = 1.5;  ///< of what there was, for coming closer
+  static constexpr int kCloserSteps = 24;  ///< for the whole path
+  /// Largest growth of bending energy for coming closer.
+  static constexpr double kMostBending = 1.5;
   static constexpr int kPursuitStepsAGap = 40;
   static constexpr double kPursuitWorth = 0.03;
   static constexpr std::array<int, 3> kPursuitKnots = {12, 24, 48};
-  /// How far the answer's path may be from a keyframe for who checks it, and with it the point of
-  /// the body: surfaces so close to it prove nothing.
+  /// How far the answer's path may be from a keyframe when a client checks it, and so the point of
+  /// the body: surfaces nearer than this prove nothing.
   static constexpr double kPointRounding_m = 1e-6;
 
   const scene::WholeMesh& mesh_;
   FreeSpace& space_;
   const LadderOptions& options_;
   const collision::Deadline& whole_deadline_;
-  collision::Deadline deadline_;  ///< of corrections
+  collision::Deadline deadline_;  ///< deadline of corrections
   const CubicPath& original_;
   std::vector<double> keyframes_s_;
-  /// What proofs stand on: keyframes that we moved ourselves say nothing of the request.
+  /// Indices of the keyframes that proofs use: repaired keyframes prove nothing about the request.
   std::vector<std::size_t> as_asked_;
-  std::vector<motion::Pose> poses_as_asked_;  ///< of these
-  std::vector<CollisionInterval> open_;       ///< as `result_.corrections`, in order of time
-  std::vector<std::size_t> gaps_;             ///< that these lie in
-  /// Of these, what a way was found for that takes too many keyframes; and their times.
+  std::vector<motion::Pose> poses_as_asked_;  ///< poses of these keyframes
+  std::vector<CollisionInterval> open_;       ///< one per `result_.corrections`, in order of time
+  std::vector<std::size_t> gaps_;             ///< the interval between keyframes of each
+  /// Whether the correction found for a collision exceeds the limit of keyframes, and the times of
+  /// all such keyframes.
   std::vector<bool> is_beyond_limit_;
   std::vector<double> beyond_limit_s_;
   std::set<double> inserted_s_;  ///< times of the inserted keyframes
   Improvement improvement_;
   Improvement closer_{Objective::kClosest, kCloserSteps, true, kCloserSpread};
-  Improvement pursuit_;                     ///< of another objective than the closest
-  std::optional<ClosedSurfaces> surfaces_;  ///< of the scene, once somebody asked
+  Improvement pursuit_;                     ///< budget for an objective other than the closest path
+  std::optional<ClosedSurfaces> surfaces_;  ///< closed surfaces of the scene, once computed
+  bool is_caged_at_this_size_ = false;      ///< proved: no path but for a smaller camera
   LadderResult result_;
 };
 

@@ -27,20 +27,20 @@ using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved.
 constexpr int kFan = 8;                   // directions across the way
-constexpr double kLeastStepShare = 0.06;  // of the radius: the first amount that is tried
+constexpr double kLeastStepShare = 0.06;  // first amount tried, as a share of the radius
 constexpr double kGrowth = 2.0;           // from one amount to the next
 constexpr double kFarthest = 4.0;         // radii
-constexpr int kHalvings = 2;              // of the last step
-constexpr double kMarginShare = 0.02;  // of the radius: what a pose keeps beside what is required
+constexpr int kHalvings = 2;              // bisections of the last step
+constexpr double kMarginShare = 0.02;     // margin of a pose, as a share of the radius
 constexpr double kLargestTurn_rad = 0.8;
 constexpr double kLargestTurnStep_rad = 0.08;  // turned too far, the body is stuck again
 constexpr double kMoreEachTime = 1.35;
 constexpr int kMostRaises = 3;
 constexpr double kNarrowest = 0.6;  // spacing of the knots, as a share of the collision
 constexpr int kMostWidths = 2;
-constexpr double kLeastPeak = 0.1;  // of a bump, after what takes it back at keyframes
+constexpr double kLeastPeak = 0.1;  // least peak of a bump after its cancellation at keyframes
 
-/// A direction to nudge to: of the move, or the axis of the turn.
+/// A nudge: direction of the translation, or axis of the turn, and amount.
 struct Way {
   Vec3 direction_W;
   double amount = 0.0;  ///< metres or radians
@@ -58,7 +58,7 @@ class Nudger {
         length_s_(problem.interval.t_end_s - problem.interval.t_begin_s),
         radius_m_(space.ball_radius_m()),
         margin_m_(kMarginShare * radius_m_) {
-    // Away from the middle less is needed: the ends of a collision are free.
+    // The ends of a collision are free, so less is needed away from its middle.
     for (const auto& [place, share] : {std::pair{0.0, 1.0}, {-0.3, 0.8}, {0.3, 0.8}}) {
       const double time_s = middle_s_ + place * length_s_;
       samples_.push_back(
@@ -79,7 +79,7 @@ class Nudger {
     double share;
   };
 
-  /// As far as the rule for orientations allows; moving too may have to turn the camera.
+  /// The sample moved or turned by `amount`, as far as the orientation policy allows.
   [[nodiscard]] SignedPose nudged(const Sample& sample, const Vec3& direction_W,
                                   double amount) const {
     return space_.allowed(moved_or_turned(sample.pose, direction_W, amount), sample.interpolated);
@@ -104,7 +104,8 @@ class Nudger {
     });
   }
 
-  /// The least amount to that side, about, that frees the samples; nothing below `limit` does.
+  /// Returns about the least amount in that direction that frees the samples; nothing if none up to
+  /// `limit` does.
   std::optional<double> least_amount(const Vec3& direction_W, double limit) {
     const double first = kind_ == NudgeKind::kMove ? kLeastStepShare * radius_m_ : 0.02;
     double below = 0.0;
@@ -136,7 +137,7 @@ class Nudger {
     return directions;
   }
 
-  /// Those of the camera; where it has to stay level, those that leave it so.
+  /// The axes of the camera, or the axes that keep it level if the policy demands that.
   [[nodiscard]] std::vector<Vec3> axes_W(const Quat& orientation) const {
     std::vector<Vec3> axes = {orientation * Vec3::UnitX(), orientation * Vec3::UnitY(),
                               orientation * Vec3::UnitZ()};
@@ -149,14 +150,14 @@ class Nudger {
     return both_ways;
   }
 
-  /// Where the path goes, at the collision.
+  /// Direction of the path at the collision.
   [[nodiscard]] Vec3 way_W() const {
     const Vec3 way = samples_[2].pose.position - samples_[1].pose.position;
     const double length_m = way.norm();
     return length_m > 0.0 ? Vec3(way / length_m) : Vec3::UnitZ();
   }
 
-  /// Along the normals of what is touched, and away from the points.
+  /// Along the normal of the deepest contact, and away from its point.
   [[nodiscard]] std::vector<Vec3> contact_directions_W() {
     std::vector<Vec3> directions;
     const auto add = [&](const Vec3& direction) {
@@ -173,7 +174,7 @@ class Nudger {
     return directions;
   }
 
-  /// The shortest one that frees the samples.
+  /// The smallest nudge that frees the samples.
   std::optional<Way> shortest_way() {
     const double largest_turn_rad =
         std::min(kLargestTurn_rad, kAimedShare * space_.policy().max_turn_rad);
@@ -197,8 +198,8 @@ class Nudger {
     return std::nullopt;
   }
 
-  /// So that the bump stays between the keyframes, or, where the collision is next to one of them,
-  /// at least wide enough for the collision.
+  /// Keeps the bump between the keyframes or, if the collision is next to one of them, at least
+  /// wide enough for the collision.
   [[nodiscard]] double widest_spacing_s() const {
     const double room_s =
         std::min(middle_s_ - problem_.gap_begin_s(), problem_.gap_end_s() - middle_s_);
@@ -211,7 +212,7 @@ class Nudger {
       Attempt tried =
           attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
       if (tried.candidate) return std::move(tried.candidate);
-      // Higher helps against the collision that it is for, not against what it runs into.
+      // A larger bump helps only against the collision that it is for.
       const bool is_old = tried.collision->t_begin_s < problem_.interval.t_end_s &&
                           tried.collision->t_end_s > problem_.interval.t_begin_s;
       if (!is_old) return std::nullopt;
@@ -250,9 +251,9 @@ CubicPoint scaled(const CubicPoint& point, double factor) {
 }
 
 constexpr int kSingle = 2;  // the knot of the only bump of a row
-constexpr int kSteps = 4;   // of its support
+constexpr int kSteps = 4;   // steps of its support
 
-/// The places, and beside them the knots of `row`.
+/// `places`, with the knots of `row` taken as well.
 std::shared_ptr<const motion::KnotPlaces> with_knots_of(
     const motion::KnotRow& row, const std::shared_ptr<const motion::KnotPlaces>& places) {
   if (!places) return nullptr;
@@ -262,8 +263,8 @@ std::shared_ptr<const motion::KnotPlaces> with_knots_of(
   return std::make_shared<const motion::KnotPlaces>(std::move(all));
 }
 
-// The bump, and one at each keyframe within its support that takes back what it does there. Those
-// are so narrow that they do not reach other keyframes.
+// The bump, and for each keyframe within its support a bump that cancels it there. These are too
+// narrow to reach other keyframes.
 std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spacing_s) const {
   const KnotRow wide = KnotRow::about(middle_s_, spacing_s, problem_.places);
   if (!wide.fits()) return {};

@@ -7,20 +7,20 @@
 
 namespace camway::correction {
 
-/// How a nudge changes poses.
+/// The kind of change that a nudge makes to poses.
 enum class NudgeKind { kMove, kTurn };
 
-/// Corrects a collision by one bump at its middle: it moves the camera a little to one side, or
-/// turns it about the middle of the body. Directions are tried in the order of how far they
-/// have to move the body there; and widths of the bump from the widest, which is the smoothest, to
-/// what just covers the collision. Where there is a rule for orientations only turns within it are
-/// tried, and a move turns the camera where it has to.
+/// Corrects a collision by one bump at its middle, which moves the camera to one side or turns it
+/// about the centre of the body. Measures, for a fan of directions or axes, the least amount that
+/// frees the body at the collision, and tries the smallest one with bumps of decreasing width; a
+/// wider bump is smoother. Further bumps keep the keyframes within the support. The orientation
+/// policy limits turns, and may turn a camera that is moved.
 ///
-/// Source of the idea: the direction and depth of Ptacek & Johnstone 2006, section 4, which has one
-/// direction, from the corners that are hit, and none for an orientation. Here directions come from
-/// the contact and from a fan across the way, and how far is measured.
+/// Source of the idea: the direction and depth of Ptacek & Johnstone 2006, section 4. Deviations:
+/// directions come from the contact and from a fan across the path, instead of one direction from
+/// the corners that are hit; the amount is measured; orientations change as well.
 ///
-/// Nothing if no such bump is free.
+/// Returns nothing if no such bump is free.
 std::optional<Candidate> nudge(const Problem& problem, NudgeKind kind, FreeSpace& space,
                                const collision::Deadline& deadline);
 

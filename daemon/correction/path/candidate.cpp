@@ -13,8 +13,8 @@ using collision::CollisionInterval;
 
 namespace {
 
-// A keyframe is kept if the bumps cancel there but for rounding: that of a few sums, relative to
-// the position there and the largest coefficient of a bump.
+// A keyframe is kept if the bumps cancel there up to the rounding of a few sums, relative to the
+// position there and the largest coefficient of a bump.
 constexpr double kCancelled = 64.0 * std::numeric_limits<double>::epsilon();
 
 struct Span {
@@ -22,8 +22,8 @@ struct Span {
   double end_s;
 };
 
-/// What of the problem's path `rows` change. Nothing if there are none, or if they reach further
-/// than the problem's part of the path does.
+/// The time range of the problem's path that `rows` change. Nothing if there are no rows, or if
+/// they reach beyond the problem's part of the path.
 std::optional<Span> span_of(const std::vector<motion::BumpRow>& rows, const Problem& problem) {
   if (rows.empty()) return std::nullopt;
   Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -38,7 +38,8 @@ std::optional<Span> span_of(const std::vector<motion::BumpRow>& rows, const Prob
   return Span{std::max(span.begin_s, first_s), std::min(span.end_s, last_s)};
 }
 
-/// Whether `path` meets the keyframes as the problem's own path does; removes what rounding left.
+/// Whether `path` meets the keyframes as the problem's own path does; also removes the rounding
+/// there.
 bool keeps_keyframes(motion::CubicPath& path, const std::vector<motion::BumpRow>& rows,
                      const Problem& problem) {
   motion::CubicPoint largest;
@@ -68,7 +69,7 @@ bool keeps_keyframes(motion::CubicPath& path, const std::vector<motion::BumpRow>
   return true;
 }
 
-/// Where the rule for orientations is not met, or not shown to be.
+/// Returns a time range in which the orientation policy is not met or not shown to be met.
 std::optional<CollisionInterval> breach_of_rule(const Candidate& candidate, const Span& changed,
                                                 const Problem& problem, const FreeSpace& space) {
   if (!space.may_turn()) {
@@ -109,7 +110,7 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const collision::Deadline& deadline) {
   if (problem.effort != nullptr) ++problem.effort->paths;
-  // They change nothing, and end before they begin.
+  // Rows without bumps change nothing, and end before they begin.
   std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
   const std::optional<Span> changed = span_of(rows, problem);
   const bool all_fit =
@@ -120,7 +121,7 @@ Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const
     return {std::nullopt, problem.interval};
   if (auto breach = breach_of_rule(candidate, *changed, problem, space))
     return {std::nullopt, std::move(breach), true};
-  // The collision to be mended is the likeliest to remain.
+  // Check the corrected collision first: it is the likeliest to remain.
   const double middle_s = std::clamp(0.5 * (problem.interval.t_begin_s + problem.interval.t_end_s),
                                      changed->begin_s, changed->end_s);
   for (const Span& part : {Span{middle_s, changed->end_s}, Span{changed->begin_s, middle_s}}) {

@@ -16,52 +16,57 @@ namespace camway::correction {
 
 /// One collision to be corrected, and the part of the path that may change for it.
 struct Problem {
-  /// The path from the keyframe before the gap to the one after, and one gap more on either side.
+  /// Part of the current path: interval `gap` between keyframes, and one interval more on either
+  /// side where there is one.
   motion::CubicPath path;
-  motion::CubicPath original;       ///< the same part of the path as interpolated
-  std::vector<double> keyframes_s;  ///< of that part, in order; the path has to keep them
+  motion::CubicPath original;       ///< the same part of the interpolated path
+  std::vector<double> keyframes_s;  ///< keyframes in this part, increasing; corrections keep them
   std::size_t gap = 0;              ///< the collision lies between keyframes `gap` and `gap + 1`
-  bool has_path_begin = false;  ///< the whole path begins where `path` does; nothing is before it
-  bool has_path_end = false;    ///< and it ends there
+  bool has_path_begin = false;  ///< whether `path` starts at the first keyframe of the whole path
+  bool has_path_end = false;    ///< whether `path` ends at the last keyframe of the whole path
   collision::CollisionInterval interval;
-  /// Collisions of that part that somebody else has to correct. They need not be mended, and must
-  /// not grow.
+  /// Other collisions in this part. A correction of this problem may leave them, but must not
+  /// enlarge them.
   std::vector<collision::CollisionInterval> others;
-  Effort* effort = nullptr;  ///< where it is counted what is tried; may be null
-  /// Where the knots of bumps may be. Null: anywhere.
+  Effort* effort = nullptr;  ///< counters of the effort spent; may be null
+  /// Times allowed for the knots of bumps; null allows any time.
   std::shared_ptr<const motion::KnotPlaces> places = nullptr;
-  /// Where it is told that there is no way out of one end of the gap; may be null.
+  /// Receives the region that shuts in one end of the interval, if a search finds one; may be null.
   std::optional<Pocket>* pocket = nullptr;
 
   [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
   [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }
-  /// Knots in `count` steps over the gap.
+  /// Equidistant knots, up to `places`, that divide the interval between keyframes into `count`
+  /// steps.
   [[nodiscard]] motion::KnotRow knots(int count) const {
     return {gap_begin_s(), gap_end_s(), count, places};
   }
 };
 
-/// What a correction came to.
+/// A corrected path.
 struct Candidate {
-  motion::CubicPath path;             ///< in the place of `Problem::path`
-  std::vector<motion::BumpRow> rows;  ///< what was added
+  motion::CubicPath path;             ///< replaces `Problem::path`
+  std::vector<motion::BumpRow> rows;  ///< the bumps that were added to it
 };
 
-/// Where `path` first collides between the two times, others of `problem` apart; nothing if it is
-/// proved free. If the deadline strikes, what was not searched counts as colliding.
+/// Returns the first collision of `path` in [t_begin_s, t_end_s] outside `problem.others`; nothing
+/// if `path` is proved free there. If the deadline strikes, the part not searched counts as
+/// colliding.
 std::optional<collision::CollisionInterval> first_new_collision(
     const motion::CubicPath& path, double t_begin_s, double t_end_s, const Problem& problem,
     const FreeSpace& space, const collision::Deadline& deadline);
 
-/// `problem.path` with `rows` added, if times are fine enough for them, it still meets all
-/// keyframes, and is proved to meet the rule for orientations and to be free wherever they change
-/// it.
+/// Result of adding bumps to the path of a problem.
 struct Attempt {
   std::optional<Candidate> candidate;
-  /// Where there is none: the first collision, or where the rule is broken.
+  /// If there is no candidate: the first collision, or the time range in which the orientation
+  /// policy is violated; `problem.interval` if the rows do not fit.
   std::optional<collision::CollisionInterval> collision;
   bool breaks_rule = false;
 };
+/// Adds `rows` to `problem.path`. Returns a candidate if the sender's times are fine enough for the
+/// knots, all keyframes are still met, and everything that `rows` change is proved to meet the
+/// orientation policy and to be free.
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const collision::Deadline& deadline);
 

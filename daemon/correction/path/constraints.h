@@ -9,50 +9,53 @@
 
 namespace camway::correction {
 
-/// What a corrected path is improved for, while it stays proved free.
+/// The quantity that a corrected path is improved for while it stays proved free.
 enum class Objective : std::uint8_t {
-  kClosest,    ///< to the path as interpolated
-  kShortest,   ///< length of the way of the eye
+  kClosest,    ///< distance from the interpolated path
+  kShortest,   ///< length of the curve of the eye
   kSmoothest,  ///< bending energy
   kSafest,     ///< least distance to the scene
 };
 
-/// What corrections may do to orientations; `orientation_rule.h` says what exactly. What they
-/// change meets the rule at every time, compared with the interpolated path at the same time.
+/// Changes of orientation that corrections may make (`orientation_rule.h` defines them exactly).
+/// The rule holds at every time, relative to the interpolated path at the same time.
 enum class OrientationRule : std::uint8_t {
-  kFree,    ///< turn the camera
-  kKeep,    ///< nothing: at every time it is oriented as on the interpolated path
-  kLevel,   ///< turn it, but nowhere tilt the horizon, the line across `up_W`, more than it was
-  kTarget,  ///< turn it, but nowhere look further away from a point than a cone allows, or it did
+  kFree,    ///< any turn
+  kKeep,    ///< none: the orientation stays as on the interpolated path
+  kLevel,   ///< turns that nowhere tilt the horizon, the line across `up_W`, more than before
+  kTarget,  ///< turns that nowhere look farther off a point than a cone allows, or than before
 };
 
-/// Given keyframes are kept in any case; the rule is for what the ladder's corrections change.
+/// The orientation rule and its parameters. It binds the parts that the ladder changes; given
+/// keyframes are kept in any case.
 struct OrientationPolicy {
   OrientationRule rule = OrientationRule::kFree;
-  /// For kLevel; unit length. Y by default, as it is up in the camera's own frame: the orientation
-  /// that turns nothing is level.
+  /// For kLevel: the up direction, unit length. The default Y is up in the camera's own frame, so
+  /// the identity orientation is level.
   geometry::Vec3 up_W = geometry::Vec3::UnitY();
-  geometry::Vec3 target_W = geometry::Vec3::Zero();  ///< for kTarget
+  geometry::Vec3 target_W = geometry::Vec3::Zero();  ///< for kTarget: the target
   double cone_rad = 0.5;  ///< for kTarget: half angle of the cone [Limit: 0 < value <= pi]
-  /// How far the camera may be turned from how it would be on the interpolated path at that time.
-  double max_turn_rad = std::numbers::pi;  ///< [Limit: 0 <= value <= pi]
+  /// Largest angle from the orientation on the interpolated path at the same time.
+  /// [Limit: 0 <= value <= pi]
+  double max_turn_rad = std::numbers::pi;
 
   bool operator==(const OrientationPolicy&) const = default;
 };
 
-/// Whether corrections may change any orientation.
+/// Whether the policy allows any change of orientation.
 inline bool may_turn_in(const OrientationPolicy& policy) {
   return policy.rule != OrientationRule::kKeep && policy.max_turn_rad > 0.0;
 }
 
-/// Whether there is anything that they may not do.
+/// Whether the policy restricts changes of orientation.
 inline bool is_limited(const OrientationPolicy& policy) {
   return policy.rule != OrientationRule::kFree || policy.max_turn_rad < std::numbers::pi;
 }
 
-/// Limits that the path is to meet.
+/// Limits of speed, acceleration and turn rate for the whole path.
 struct MotionLimits : motion::RateLimits {
-  /// Whether the path may be slowed to meet them; else a path that breaks them is not `ok`.
+  /// Whether the path may be slowed to meet the limits; otherwise a path that breaks them is not
+  /// `ok`.
   bool may_retime = false;
 
   bool operator==(const MotionLimits&) const = default;

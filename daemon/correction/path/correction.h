@@ -8,39 +8,39 @@
 
 namespace camway::correction {
 
-/// How a collision was corrected: the rungs of the ladder (design, section 7).
+/// Kind of a correction, cheapest first.
 enum class Rung : std::uint8_t {
-  kNone,     ///< it was not
-  kMove,     ///< the camera was moved to one side
-  kTurn,     ///< it was turned
-  kGoRound,  ///< it goes another way
-  kShrink,   ///< its near distance was made smaller
+  kNone,     ///< not corrected
+  kMove,     ///< the camera was moved sideways
+  kTurn,     ///< the camera was turned
+  kGoRound,  ///< the camera takes a detour
+  kShrink,   ///< the near distance was reduced
 };
 
-/// "none", "move", "turn", "go_round", "shrink".
+/// Returns "none", "move", "turn", "go_round" or "shrink".
 std::string_view to_string(Rung rung);
 
-/// How hard a correction was looked for. 0 where that was not tried at all.
+/// Effort spent on a correction; a counter is 0 if its method was not tried.
 struct Effort {
-  std::int32_t directions = 0;      ///< to one side or about an axis, to move or turn the camera
-  std::int32_t paths = 0;           ///< changed paths that were checked for collisions
-  /// Of lattices and cells, at which there might have been room on a way round.
+  std::int32_t directions = 0;  ///< directions and axes in which a nudge was tried
+  std::int32_t paths = 0;       ///< changed paths that were checked for collisions
+  /// Lattice points and cells that searches for a detour visited.
   std::int32_t lattice_points = 0;
-  std::int32_t tree_samples = 0;    ///< poses towards which ways round were looked for that turn
+  std::int32_t tree_samples = 0;  ///< random samples that searches for a turning detour drew
 
   Effort& operator+=(const Effort& other);
   bool operator==(const Effort&) const = default;
 };
 
-/// What became of one collision of the path as interpolated.
+/// Outcome for one collision of the interpolated path.
 struct Correction {
-  collision::CollisionInterval interval;  ///< as it was found
+  collision::CollisionInterval interval;  ///< the collision
   Rung rung = Rung::kNone;
-  double t_begin_s = 0.0;  ///< what of the path was changed for it
-  double t_end_s = 0.0;
-  double moved_m = 0.0;     ///< furthest that the eye is from where it was at the same time
-  double turned_rad = 0.0;  ///< most that the camera is turned from how it was
-  Effort tried = {};        ///< where it was not corrected
+  double t_begin_s = 0.0;  ///< begin of the part of the path that was changed
+  double t_end_s = 0.0;    ///< end of that part
+  double moved_m = 0.0;    ///< largest distance of the eye from the interpolated path, time by time
+  double turned_rad = 0.0;  ///< largest angle from the interpolated orientation, time by time
+  Effort tried = {};        ///< effort spent, if the collision was not corrected
 };
 
 }  // namespace camway::correction

@@ -45,7 +45,7 @@ bool FreeSpace::is_free(const motion::Pose& pose, double margin_m) {
 }
 
 double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
-  constexpr double kExact = 1.0;  // who is just nearer than required must not pass for further
+  constexpr double kExact = 1.0;  // a body that is barely too close must not count as free
   const collision::Look seen = probe_.look(motion::standing_at(pose), up_to_m, kExact);
   return seen.free ? up_to_m : std::min(seen.gap_m, up_to_m);
 }
@@ -66,11 +66,11 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
                                            double margin_m) {
   collision::DetectOptions options = detect_;
   options.clearance_m += margin_m;
-  // A search need not know to a millimetre where it is stopped.
+  // A search does not need the exact place of the obstacle.
   options.tolerance_m = std::max(options.tolerance_m, 0.5 * margin_m);
   options.gap_m = std::max(options.gap_m, options.tolerance_m);
   collision::Obstacles obstacles = obstacles_;
-  // What is required of the scene says nothing of the bounds.
+  // The required clearance does not apply to the bounds.
   obstacles.bounds = obstacles.bounds.shrunk_by(margin_m);
   const motion::Path path({motion::straight_motion(from, to)});
   const collision::FirstCollision found = collision::first_collision(

@@ -13,81 +13,81 @@
 
 namespace camway::correction {
 
-/// Where the body may be: what searches ask about poses and straight motions before there is a
-/// path. Not safe from several threads at once: it holds buffers.
+/// Collision queries for poses and straight motions, for searches that have no path yet. A *gap* is
+/// the distance between the body and the scene less the required clearance, or the depth inside the
+/// bounds if that is smaller; the body collides where it is 0 or less.
+///
+/// Not thread-safe: queries use buffers of the object.
 class FreeSpace {
  public:
-  /// Refers to all three, which must outlive it.
+  /// Refers to the first three arguments, which must outlive it.
   FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
             const collision::DetectOptions& detect, const OrientationPolicy& policy = {});
 
-  /// Whether the body at `pose` keeps the required clearance and `margin_m` more, and that much
-  /// within the bounds: proved.
+  /// Returns true only if the gap of the body at `pose` is proved to be at least `margin_m`.
   [[nodiscard]] bool is_free(const motion::Pose& pose, double margin_m);
 
-  /// How much further than required the body at `pose` is from the scene, or how far it is inside
-  /// the bounds if that is less, as computed, or `up_to_m` if it is that much; 0 or less where it
-  /// collides.
+  /// Returns the gap of the body at `pose` as computed, at most `up_to_m`.
   [[nodiscard]] double gap_m(const motion::Pose& pose, double up_to_m);
 
-  /// The obstacle nearest to the body at `pose`, with how much further than required it is, about;
-  /// nothing where everything is at least `up_to_m` away. What is inside a solid does not count.
+  /// Returns about the nearest obstacle to the body at `pose`, and its gap as `distance_m`; nothing
+  /// if all gaps are `up_to_m` or more. Ignores the insides of solids.
   [[nodiscard]] std::optional<scene::Nearest> nearest(const motion::Pose& pose, double up_to_m);
-  /// A bound of that gap at the cost of a look-up; below 0 where it does not tell.
+  /// Lower bound of the gap from the distance field alone; negative if the field cannot tell.
   [[nodiscard]] double at_least_m(const motion::Pose& pose) const {
     return probe_.at_least_m(motion::standing_at(pose));
   }
-  /// The body's triangles at `pose`; valid until the next question.
+  /// The body's triangles at `pose`; valid until the next query.
   std::span<const geometry::Triangle> placed(const motion::Pose& pose) {
     return probe_.place(motion::standing_at(pose));
   }
-  /// Distance of the body's triangles from the scene at which it collides.
+  /// Distance between the body's triangles and the scene at which the body collides.
   [[nodiscard]] double keep_m() const { return probe_.keep_m(); }
-  /// `pose`, moved as little as it takes to have the body within the bounds by `margin_m`, as
-  /// computed; as it is, bit for bit, where that is so. Where the body is larger than the bounds it
-  /// is beyond them on both sides.
+  /// Moves `pose` by the least translation that brings the body `margin_m` inside the bounds, as
+  /// computed; returns `pose` bit for bit if it is inside already. A body larger than the bounds
+  /// ends up beyond them on both sides.
   [[nodiscard]] motion::Pose within_bounds(const motion::Pose& pose, double margin_m);
 
-  /// Where on the straight motion the body comes closer than the required clearance and
-  /// `margin_m`, to the bounds than `margin_m`; nothing where it proved not to.
+  /// Returns the fraction of the straight motion at which the body first collides or its gap cannot
+  /// be proved to be at least `margin_m`; nothing if that is proved for the whole motion.
   [[nodiscard]] std::optional<double> first_hit(const motion::SignedPose& from,
                                                 const motion::SignedPose& to, double margin_m);
 
-  /// How much further than required a ball about `point_W` is from the scene, or inside the bounds
-  /// if that is less, or `up_to_m` if it is that much; below 0 where it collides. The sign is
-  /// right; of the distance of the ball's middle only `kBallShare` is sure, which spares time. One
-  /// of radius `ball_radius_m()` holds the body in every orientation.
+  /// Gap of a ball about `point_W`, at most `up_to_m`; 0 or less where the ball collides. The sign
+  /// is exact; the true distance of the centre may be as little as `kBallShare` of the one used,
+  /// which saves time. A ball of radius `ball_radius_m()` holds the body in every orientation.
   [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double radius_m,
                                   double up_to_m) const;
 
   static constexpr double kBallShare = 0.8;
 
-  /// Whether the ball keeps away from the scene and within the bounds, as computed, on the straight
-  /// way between the two.
+  /// Whether the ball, moved along the straight line, keeps the required clearance and stays within
+  /// the bounds, as computed.
   [[nodiscard]] bool ball_passes(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
                                  double radius_m) const;
 
-  /// How much further than required the straight way between the two is from the scene, or inside
-  /// the bounds if that is less, or `up_to_m` if it is that much.
+  /// Gap of the straight line between the two points, at most `up_to_m`.
   [[nodiscard]] double way_gap_m(const geometry::Vec3& from_W, const geometry::Vec3& to_W,
                                  double up_to_m) const;
 
-  /// A deepest contact of the body at `pose`, or with what is up to `beyond_m` away.
+  /// Returns the deepest contact of the body at `pose`, or one with an obstacle up to `beyond_m`
+  /// away.
   [[nodiscard]] std::optional<collision::Witness> contact(const motion::Pose& pose,
                                                           double beyond_m);
 
-  /// Centre, in the camera frame, and radius of that ball.
+  /// Centre, in the camera frame, of a ball that holds the body in every orientation, and its
+  /// radius.
   [[nodiscard]] const geometry::Vec3& center_C() const { return center_C_; }
   [[nodiscard]] double ball_radius_m() const { return ball_radius_m_; }
   [[nodiscard]] geometry::Vec3 center_W(const motion::Pose& pose) const {
     return pose.position + pose.orientation * center_C_;
   }
-  /// The pose with that orientation that has the ball at `center_W`.
+  /// The pose with this orientation whose ball is centred at `center_W`.
   [[nodiscard]] motion::Pose pose_around(const geometry::Vec3& center_W,
                                          const geometry::Quat& orientation) const {
     return {center_W - orientation * center_C_, orientation};
   }
-  /// How far a point of the body moves between two poses, about: what searches measure ways by.
+  /// Estimate of how far a point of the body moves between two poses: the metric of searches.
   [[nodiscard]] double distance_m(const motion::SignedPose& a, const motion::SignedPose& b) const;
 
   [[nodiscard]] const collision::Obstacles& obstacles() const { return obstacles_; }
@@ -96,8 +96,9 @@ class FreeSpace {
   [[nodiscard]] const OrientationPolicy& policy() const { return policy_; }
   /// Whether corrections may change orientations.
   [[nodiscard]] bool may_turn() const { return may_turn_in(policy_); }
-  /// `wanted`, turned about the middle of the body as far as the rule for orientations asks for; as
-  /// it is, bit for bit, where it is allowed. `interpolated`: the interpolated path at that time.
+  /// Turns `wanted` about the centre of the body until it meets the orientation policy, compared
+  /// with the pose `interpolated` of the interpolated path at the same time; returns `wanted` bit
+  /// for bit if it meets the policy already.
   [[nodiscard]] motion::SignedPose allowed(const motion::SignedPose& wanted,
                                            const motion::Pose& interpolated) const;
 

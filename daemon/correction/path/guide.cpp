@@ -17,14 +17,15 @@ using motion::BumpRow;
 using motion::CubicPoint;
 using motion::SignedPose;
 
-constexpr int kTimes = 24;   // steps in time of the grid on which a guide is timed
-constexpr int kPlaces = 96;  // and along the guide
-constexpr int kLongestStep = 2 * kPlaces / kTimes;  // twice the mean speed
-constexpr double kHurry = 30.0;  // what a squared step counts for, beside a squared distance
+constexpr int kTimes = 24;                          // grid on which a guide is timed: steps in time
+constexpr int kPlaces = 96;                         // and places along the guide
+constexpr int kLongestStep = 2 * kPlaces / kTimes;  // places per time step: twice the mean speed
+constexpr double kHurry = 30.0;  // weight of a squared step, relative to a squared distance
 
 using Places = std::array<double, kPlaces + 1>;
 
-/// Less than half a turn by far: the straight motion between them is what is meant.
+/// Whether the turn is far below half a turn, so that the straight motion between the poses is the
+/// intended one.
 bool turns_little(const SignedPose& a, const SignedPose& b) {
   constexpr double kLeastDot = 0.3;
   return a.orientation.dot(b.orientation) > kLeastDot;
@@ -34,7 +35,7 @@ bool is_none(const CubicPoint& offset) {
   return offset.position.isZero(0.0) && offset.image.isZero(0.0);
 }
 
-/// `pose` with the other's orientation, and the middle of the body where it was.
+/// `pose` with the orientation of `other`; the centre of the body stays.
 SignedPose oriented_as(const SignedPose& other, const SignedPose& pose, const FreeSpace& space) {
   const geometry::Vec3 center_W = space.center_W(motion::unsigned_pose(pose));
   const geometry::Quat orientation = geometry::from_wxyz(other.orientation);
@@ -73,8 +74,8 @@ SignedPose TimedGuide::at(double time_s) const {
   return after(std::lerp(shares_[i], shares_[i + 1], place - static_cast<double>(i)));
 }
 
-// The best of a grid of times and places, by dynamic programming (as in dynamic time warping, Sakoe
-// & Chiba 1978).
+// Chooses the best places on a grid of times and places by dynamic programming (as in dynamic time
+// warping, Sakoe & Chiba 1978).
 void TimedGuide::choose_shares(const motion::CubicPath& path) {
   std::vector<geometry::Vec3> places_W;
   for (int p = 0; p <= kPlaces; ++p) places_W.push_back(after(p / double{kPlaces}).position);
@@ -157,7 +158,7 @@ BumpRow bumps_for(const Offsets& offsets, Ends ends) {
     row.bumps.push_back(is_keyframe ? holding(offsets.knots, k, offsets(k - 1), offsets(k + 1))
                                     : offsets(k));
   }
-  // Bumps without a coefficient would only cut the path into pieces.
+  // Zero bumps would only cut the path into pieces.
   while (!row.bumps.empty() && is_none(row.bumps.back())) row.bumps.pop_back();
   while (!row.bumps.empty() && is_none(row.bumps.front())) {
     row.bumps.erase(row.bumps.begin());
@@ -169,7 +170,7 @@ BumpRow bumps_for(const Offsets& offsets, Ends ends) {
 Guide shortened(const Guide& guide, FreeSpace& space, double margin_m) {
   Guide result = {guide.front()};
   for (std::size_t i = 0; i + 1 < guide.size();) {
-    // Doubles the leap while it is free, then halves what is left of it.
+    // Doubles the leap while the motion is free, then halves it.
     std::size_t reached = i + 1;
     for (std::size_t leap = 2; leap > 0;) {
       const std::size_t next = std::min(reached + leap, guide.size() - 1);

@@ -9,32 +9,32 @@
 
 namespace camway::correction {
 
-/// A way that is free of collision but not smooth: straight motions from pose to pose. What
-/// searches find, and what a correction is then drawn towards.
+/// A collision-free polyline of poses, joined by straight motions. Searches return one; a detour
+/// follows it.
 using Guide = std::vector<motion::SignedPose>;
 
-/// The way that `path` itself takes at a time, with the sign that its image has there.
+/// The pose of `path` at a time, with the sign of its image in R⁴.
 motion::SignedPose signed_pose_at(const motion::CubicPath& path, double time_s);
 
-/// Coefficients of a row of bumps that replaces a path between two keyframes, which stand at the
-/// first and the last of the row's own knots.
+/// Coefficients of a row of bumps between two keyframes, which lie at knots 0 and `knots.count`.
 struct Offsets {
   motion::KnotRow knots;
-  int first = 1;  ///< knot of the first coefficient; below 1 it is before the first keyframe
+  int first = 1;  ///< knot of the first coefficient; below 1 at or before the first keyframe
   std::vector<motion::CubicPoint> at;
 
   [[nodiscard]] int last() const { return first + static_cast<int>(at.size()) - 1; }
-  /// The coefficient at knot `k`; zero outside the row.
+  /// The coefficient at knot `k`; zero outside of the row.
   [[nodiscard]] motion::CubicPoint operator()(int k) const {
     return k < first || k > last() ? motion::CubicPoint{} : at[static_cast<std::size_t>(k - first)];
   }
 };
 
-/// A guide, and when it is where: so that the body stays close to where the path has it at the same
-/// time, and does not hurry.
+/// A guide with times: a body that follows it stays close to its place on the path at the same
+/// time, and moves at most at twice the guide's mean speed.
 class TimedGuide {
  public:
-  /// From `begin_s` to `end_s`, where `path` and `guide` meet.
+  /// Requires `path` and `guide` to meet at `begin_s` and at `end_s`. Refers to `guide`, which must
+  /// outlive it.
   TimedGuide(const motion::CubicPath& path, const Guide& guide, double begin_s, double end_s,
              const FreeSpace& space);
 
@@ -48,39 +48,39 @@ class TimedGuide {
   const double begin_s_;
   const double end_s_;
   std::vector<double> so_far_m_;  ///< distance travelled at each pose of the guide
-  std::vector<double> shares_;    ///< of it, at equidistant times
+  std::vector<double> shares_;    ///< fractions of the guide travelled at equidistant times
 };
 
-/// How a path is oriented that is drawn towards a guide.
+/// Orientation of a path that follows a guide.
 enum class Turning {
-  kAsGuide,
-  kAsPath,  ///< as it was at the same time; the middle of the body is where the guide has it
+  kAsGuide,  ///< the guide's orientation
+  kAsPath,   ///< the path's orientation at the same time; the body's centre follows the guide
 };
 
-/// What has to be added to `path` at the inner knots to be where the guide is, turned as far as the
-/// rule for orientations allows, by comparison with `interpolated`. Nothing where the guide's
-/// orientation cannot be lifted to the path's image: it would arrive with the other sign.
+/// Offsets from `path` to the guide at the inner knots, with orientations turned until they meet
+/// the policy relative to `interpolated`. Returns nothing if the guide arrives with the opposite
+/// sign of the image, so that its orientations cannot be lifted to R⁴.
 std::optional<Offsets> offsets_to(const motion::CubicPath& path,
                                   const motion::CubicPath& interpolated, const TimedGuide& guide,
                                   const motion::KnotRow& knots, Turning turning,
                                   const FreeSpace& space);
 
-/// What a row of bumps does at the two keyframes.
+/// Effect of a row of bumps on the two keyframes at its ends.
 enum class Ends {
-  kFree,   ///< keeps them, but may change the path's slope there, and so what is beyond
-  kFixed,  ///< changes nothing there, nor beyond
+  kFree,  ///< the keyframes are kept, but the path's slope there may change, and so the path beyond
+  kFixed,  ///< nothing changes at the keyframes or beyond
 };
 
-/// The offsets as a row of bumps: Schoenberg's operator, which swings no more than they do
-/// (Schoenberg 1967, "On spline functions", variation diminishing). What is to be zero at the
-/// keyframes is made so.
+/// The row of bumps with `offsets` as coefficients. This is Schoenberg's operator, which oscillates
+/// no more than the offsets do (Schoenberg 1967, "On spline functions", variation diminishing). The
+/// coefficients at the keyframes are set so that the row vanishes there.
 motion::BumpRow bumps_for(const Offsets& offsets, Ends ends);
 
-/// The coefficient of the bump at a knot that makes the sum zero there.
+/// The coefficient at `knot` that makes the row zero there, given its neighbours' coefficients.
 motion::CubicPoint holding(const motion::KnotRow& knots, int knot, const motion::CubicPoint& before,
                            const motion::CubicPoint& after);
 
-/// Leaves out poses of `guide` where the straight motion between others is free and shorter.
+/// Removes poses of `guide` that a free straight motion can skip.
 Guide shortened(const Guide& guide, FreeSpace& space, double margin_m);
 
 }  // namespace camway::correction

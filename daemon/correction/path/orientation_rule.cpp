@@ -21,14 +21,15 @@ using motion::Stretch;
 using std::numbers::pi;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-/// Halvings of the common stretch of two pieces: what is not shown by then is given up.
+/// Largest number of halvings of a common stretch; the rule counts as violated if it is not shown
+/// by then.
 constexpr int kMostHalvings = 10;
-/// What rounding makes of an orientation that was to stay.
+/// Change of an orientation that is attributed to rounding.
 constexpr double kSameOrientation_rad = 1e-12;
 
 double angle_rad(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// Of a rotation by θ the largest chord of the unit sphere is 2·sin(θ/2).
+/// Angle θ of the rotation whose largest chord of the unit sphere is `chord` = 2·sin(θ/2).
 double angle_of_chord_rad(double chord) { return 2.0 * std::asin(std::min(1.0, 0.5 * chord)); }
 
 double turn_rad(const Stretch& stretch) { return angle_of_chord_rad(2.0 * stretch.turn_sine); }
@@ -38,9 +39,9 @@ double turn_between_rad(const Stretch& a, const Stretch& b) {
   return angle_of_chord_rad((a.R_WC - b.R_WC).norm() / std::numbers::sqrt2);
 }
 
-// With the rotations of both relative to their middles, A and B, of which the first orders differ
-// by the steps' difference: the angle of A·a and B·b is at most that of a and b and that of A and
-// B.
+// Let a and b be the middle orientations, A and B the rotations relative to them, whose first
+// orders differ by the difference of the steps. The angle between A·a and B·b is at most that of a
+// and b plus that of A and B.
 double turn_room_rad(double limit_rad, const Stretch& now, const Stretch& before) {
   if (limit_rad >= pi || limit_rad <= 0.0) return kNoLimit;
   const double chord =
@@ -48,8 +49,8 @@ double turn_room_rad(double limit_rad, const Stretch& now, const Stretch& before
   return limit_rad - turn_between_rad(now, before) - angle_of_chord_rad(chord);
 }
 
-/// How high the tip of an axis of the camera is along a stretch: `middle + s·slope`, s from -1 to
-/// 1, up to `bend`. The sine of how far the axis points out of the horizontal plane.
+/// Height of the tip of a camera axis along a stretch: `middle + s·slope`, s from -1 to 1, within
+/// `bend`. It is the sine of the angle by which the axis points out of the horizontal plane.
 struct Height {
   double middle = 0.0;
   double slope = 0.0;
@@ -72,10 +73,10 @@ Height height_of(const Stretch& stretch, Eigen::Index axis, const Vec3& up_W) {
 double arc_sine(double sine) { return std::asin(std::clamp(sine, -1.0, 1.0)); }
 
 /// Room of the condition that the angle of `now` is at no time further below that of `before` than
-/// the allowance. Two things suffice. The sines differ by at most the allowance times the cosine of
-/// the larger angle, as that is the least slope of the sine between the two. Or the lowest is not
-/// below the highest by more: that does not see that both rise and fall together, but is exact for
-/// poses.
+/// the allowance. Either of two conditions suffices. First: the sines differ by at most the
+/// allowance times the cosine of the larger angle, which is the least slope of the sine between the
+/// two. Second: the lowest angle of `now` is below the highest of `before` by at most the
+/// allowance; this ignores that both may rise and fall together, but is exact for poses.
 double above_room(const Height& now, const Height& before) {
   const double largest = std::min(1.0, std::max(now.largest(), before.largest()));
   const double together = now.middle - before.middle - std::abs(now.slope - before.slope) -
@@ -90,7 +91,7 @@ double level_room(const Vec3& up_W, const Stretch& now, const Stretch& before) {
   const Height across = height_of(now, 0, up_W);
   const Height across_before = height_of(before, 0, up_W);
   const Height horizon;
-  // The size of the height before is at least this times itself, and at least 0.
+  // The absolute height before is at least `sign` times the height, and at least 0.
   const double sign = across_before.middle < 0.0 ? -1.0 : 1.0;
   const auto tilt_room = [&](double side) {
     return std::max(above_room(-side * across, -sign * across_before),
@@ -103,8 +104,8 @@ double level_room(const Vec3& up_W, const Stretch& now, const Stretch& before) {
 }
 
 struct Aim {
-  double off_rad;   ///< how far the view is from the target
-  double sway_rad;  ///< by how much that changes on a stretch at most
+  double off_rad;   ///< angle between the view and the target
+  double sway_rad;  ///< bound of its change within the stretch
 };
 
 Aim aim_at(const Vec3& target_W, const Stretch& stretch) {
@@ -138,18 +139,18 @@ double room_of_rule(const OrientationPolicy& policy, const Stretch& now, const S
   return kNoLimit;
 }
 
-/// The same orientation, rolled about the view until it is as level as it was before.
+/// `wanted`, rolled about the view until it is as level as `before`.
 Quat levelled(const Vec3& up_W, const Quat& wanted, const Quat& before) {
   const double across = up_W.dot(wanted * Vec3::UnitX());
   const double top = up_W.dot(wanted * Vec3::UnitY());
   const double across_before = std::abs(up_W.dot(before * Vec3::UnitX()));
   const double top_before = up_W.dot(before * Vec3::UnitY());
-  // Half of the allowance is left for the spline between what is wanted.
+  // Half of the allowance is left for the spline between the knots.
   constexpr double kUsed_rad = 0.5 * kOrientationAllowance_rad;
   const bool is_turned_over = arc_sine(top) < std::min(0.0, arc_sine(top_before)) - kUsed_rad;
   const bool is_tilted = arc_sine(std::abs(across)) > arc_sine(across_before) + kUsed_rad;
   if (!is_tilted && !is_turned_over) return wanted;
-  // Rolled by φ the tip of the axis across is at A·cos(φ - φ₀), that of the one up at
+  // After a roll by φ the tip of the x axis is at height A·cos(φ - φ₀), that of the y axis at
   // -A·sin(φ - φ₀).
   const double amplitude = std::hypot(across, top);
   const double phase_rad = std::atan2(top, across);
@@ -162,7 +163,7 @@ Quat levelled(const Vec3& up_W, const Quat& wanted, const Quat& before) {
   return wanted * Eigen::AngleAxisd(takes_other ? other_rad : upright_rad, Vec3::UnitZ());
 }
 
-/// The view of `wanted` turned towards the target.
+/// `wanted`, with its view turned towards the target.
 Quat targeted(const OrientationPolicy& policy, const Pose& wanted, const Pose& before) {
   const Vec3 view_W = wanted.orientation * -Vec3::UnitZ();
   const Vec3 to_target_W = policy.target_W - wanted.position;
@@ -198,13 +199,13 @@ Quat meeting_rule(const OrientationPolicy& policy, const Pose& wanted, const Pos
   return wanted.orientation;
 }
 
-/// The part of one piece's time that is looked at, within two segments.
+/// The motions of two segments, compared over a time range that both cover.
 class CommonStretch {
  public:
   CommonStretch(const motion::Segment& now, const motion::Segment& before)
       : now_(now), before_(before), now_motion_(now), before_motion_(before) {}
 
-  /// Where the rule is broken or not shown to be met.
+  /// Returns a part of the range in which the rule is violated or not shown to be met.
   [[nodiscard]] std::optional<CollisionInterval> breach(const OrientationPolicy& policy,
                                                         double t_begin_s, double t_end_s,
                                                         int halvings) const {
@@ -227,7 +228,7 @@ class CommonStretch {
     return motion.around(parameter(t_begin_s), parameter(t_end_s));
   }
 
-  /// The same middle, without the motion.
+  /// The middle pose of `stretch`, without the motion.
   [[nodiscard]] static Stretch standing(const Stretch& stretch) {
     Stretch still;
     still.eye_W = stretch.eye_W;
@@ -279,7 +280,7 @@ std::optional<CollisionInterval> first_breach(const OrientationPolicy& policy, c
   const motion::Path before_path = interpolated.around(t_begin_s, t_end_s).path();
   auto before = before_path.segments().begin();
   for (const motion::Segment& segment : now_path.segments()) {
-    // Of the segments before, those that share time with this one.
+    // Skip the earlier segments that end before this one begins.
     while (before->t1_s <= segment.t0_s && before + 1 != before_path.segments().end()) ++before;
     for (auto other = before; other != before_path.segments().end(); ++other) {
       const double from_s = std::max({segment.t0_s, other->t0_s, t_begin_s});

@@ -10,47 +10,50 @@
 
 namespace camway::correction {
 
-/// What a corrected path may lose on the interpolated one where a rule measures by that: the
-/// horizon's tilt under kLevel, and the angle off a target that was outside the cone under kTarget.
-/// For a spline of orientations through level knots is not quite level between them (that of
-/// interpolation neither: up to 1.1°), and a bump begins with no room at all. 0.57°.
+/// Tolerance, 0.57°, of conditions that compare with the interpolated path: the tilt of the horizon
+/// under kLevel, and the angle off a target that was outside of the cone under kTarget. It is
+/// needed because a spline through level knots is not exactly level between them (the interpolated
+/// path tilts by up to 1.1°), and because a bump starts with no margin at all.
 inline constexpr double kOrientationAllowance_rad = 0.01;
 
-/// By how much a pose meets the rule and the limit of turning, as radians or sines; negative: it
-/// breaks one. `interpolated` is the pose of the interpolated path at the same time. Infinite
-/// where nothing can break the rule. That nothing turns, under kKeep and a limit of 0, is not a
-/// matter of room: that is for who makes the path (`may_turn_in`), and counts as no rule here.
+/// Margin by which the pose `now` meets the rule and the limit of turning, in radians or as a sine;
+/// negative if it violates one, infinite if it cannot. `interpolated` is the pose of the
+/// interpolated path at the same time. Ignores kKeep and a limit of 0: path builders enforce these
+/// (`may_turn_in`).
 ///
-/// kLevel allows turns about `up_W` and about the axis across the view, and takes tilt away, but:
-/// the axis across the view is nowhere further out of the horizontal plane than on the
-/// interpolated path at that time, and the camera not turned over, unless it was there (each up to
-/// `kOrientationAllowance_rad`). Looking straight up or down, where the image has no horizon, it
-/// may turn about the view; beyond that it would be upside down.
+/// kLevel allows turns about `up_W` and about the camera's x axis, and turns that reduce tilt. At
+/// every time it requires that
+/// - the x axis is no farther out of the horizontal plane than on the interpolated path, and
+/// - the camera is not upside down, unless it was there,
+///
+/// each up to `kOrientationAllowance_rad`. A camera that looks straight up or down, where the image
+/// has no horizon, may turn about its view axis.
 double rule_room(const OrientationPolicy& policy, const motion::Pose& now,
                  const motion::Pose& interpolated);
 
-/// A lower bound of that over two stretches of the same time, rounding apart: from the middle poses
-/// and the bounds of the motion, so nothing is sampled.
+/// Lower bound of `rule_room` over two stretches of the same time range, rounding apart. It follows
+/// from the middle poses and the motion bounds; nothing is sampled.
 double least_rule_room(const OrientationPolicy& policy, const motion::Stretch& now,
                        const motion::Stretch& interpolated);
 
-/// `wanted`, turned about the body's point `pivot_C` as little as the rule asks for, about; as it
-/// is, bit for bit, where it is allowed. Not exact where two rules meet: see `rule_room`.
-/// kLevel: rolled about its view. kTarget: turned towards the target. The limit of turning: part
-/// of the way from `interpolated`.
+/// Turns `wanted` about the body's point `pivot_C` by about the least angle that meets the policy;
+/// returns `wanted` bit for bit if it meets the policy already. Under kLevel it rolls about the
+/// view axis, under kTarget it turns towards the target, and for the limit of turning it goes part
+/// of the way from `interpolated`. Approximate where the rule and the limit both apply: check with
+/// `rule_room`.
 motion::Pose allowed_pose(const OrientationPolicy& policy, const motion::Pose& wanted,
                           const motion::Pose& interpolated, const geometry::Vec3& pivot_C);
 
-/// Where `now` first breaks the rule between the two times, or cannot be shown to meet it, about.
-/// Nothing: it meets it at every time in between, proved by the bounds of both paths' motion,
-/// rounding apart. Precondition: both cover that time.
+/// Returns about the first time range in which `now` violates the policy or cannot be shown to meet
+/// it. Nothing if it meets the policy at every time in [t_begin_s, t_end_s], proved by the motion
+/// bounds of both paths, rounding apart. Requires both paths to cover that range.
 std::optional<collision::CollisionInterval> first_breach(const OrientationPolicy& policy,
                                                          const motion::CubicPath& now,
                                                          const motion::CubicPath& interpolated,
                                                          double t_begin_s, double t_end_s);
 
-/// Of the limit of turning and of the cone: as much of it is used by what is wanted, so that the
-/// spline between knots keeps within it.
+/// Share of the cone and of the limit of turning that `allowed_pose` uses; the rest is for the
+/// spline between knots.
 inline constexpr double kAimedShare = 0.95;
 
 }  // namespace camway::correction

@@ -11,13 +11,15 @@
 
 namespace camway::correction {
 
-/// Of a cubic lattice. [Range: each coordinate is less than `kFarthestCell` away from 0]
+/// A cell of a cubic lattice. [Range: the absolute value of each coordinate is below
+/// `kFarthestCell`]
 using Cell = std::array<std::int32_t, 3>;
-/// A cell as one number, which is never 0; sums of keys and differences of keys lead to others.
+/// A cell packed into one number, never 0. The difference of two keys, added to the key of a cell,
+/// gives the key of the cell displaced likewise.
 using CellKey = std::uint64_t;
 
 inline constexpr std::int32_t kFarthestCell = (1 << 20) - 1;
-inline constexpr int kCellKeyBits = 21;  // of a coordinate, so that a key takes 63
+inline constexpr int kCellKeyBits = 21;  // bits per coordinate, so that a key takes 63
 
 constexpr CellKey key_of(const Cell& cell) {
   CellKey key = 0;
@@ -35,12 +37,12 @@ constexpr Cell cell_of(CellKey key) {
   return {number(2), number(1), number(0)};
 }
 
-/// A cell and those next to it are numbered, x first: step i leads to the one at (i mod 3 - 1,
-/// i / 3 mod 3 - 1, i / 9 - 1), and step `kCellSteps - 1 - i` leads back.
+/// The 27 steps from a cell to itself and its neighbours, x fastest: step i leads by (i mod 3 - 1,
+/// i / 3 mod 3 - 1, i / 9 - 1); step `kCellSteps - 1 - i` is its inverse.
 inline constexpr std::size_t kCellSteps = 27;
-inline constexpr std::size_t kNoStep = 13;  ///< the one that leads nowhere
+inline constexpr std::size_t kNoStep = 13;  ///< the step that stays at the cell
 
-/// What to add to the key of a cell.
+/// Difference of keys for each step.
 inline constexpr std::array<CellKey, kCellSteps> kKeySteps = [] {
   std::array<CellKey, kCellSteps> steps{};
   for (int i = 0; i < static_cast<int>(kCellSteps); ++i) {
@@ -50,18 +52,18 @@ inline constexpr std::array<CellKey, kCellSteps> kKeySteps = [] {
   return steps;
 }();
 
-/// The numbers that cells were given, kept in cubic blocks of cells: who looks at one cell looks at
-/// those next to it too, and finds them in the same block or few others. Not for threads.
+/// A map from cells to numbers, stored in cubic blocks of cells, so that a cell and its neighbours
+/// are in one block or few. Not thread-safe.
 class CellNumbers {
   static constexpr int kBits = 2;
-  static constexpr std::int32_t kSide = 1 << kBits;  // of a block, in cells
+  static constexpr std::int32_t kSide = 1 << kBits;  // side of a block, in cells
   using Block = std::array<std::uint32_t, kSide * kSide * kSide>;
 
  public:
-  /// Of a cell that was given none.
+  /// The number of a cell without one.
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  /// Those of a cell and its neighbours, by the steps that lead there. Holds as long as the whole.
+  /// The numbers of a cell and its neighbours, indexed by step. Valid as long as the map.
   class Around {
    public:
     [[nodiscard]] std::uint32_t& operator[](std::size_t step) const {
@@ -77,14 +79,14 @@ class CellNumbers {
 
    private:
     friend class CellNumbers;
-    Cell low_;  ///< the first of the cells, from where the first of the blocks begins
+    Cell low_;  ///< the first of the 27 cells, relative to the first block
     std::array<Block*, 8> blocks_;
   };
 
-  /// Precondition: `cell` is not at the end of its range.
+  /// Requires the neighbours of `cell` to be in range, too.
   [[nodiscard]] Around around(const Cell& cell) {
     Around result;
-    Cell first;  // of the blocks
+    Cell first;  // first block
     Cell last;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       first[axis] = (cell[axis] - 1) >> kBits;
@@ -104,7 +106,7 @@ class CellNumbers {
 
  private:
   struct Slot {
-    CellKey key = 0;  ///< of the block, its coordinates in blocks
+    CellKey key = 0;  ///< key of the block, by its coordinates in units of blocks
     Block* block = nullptr;
   };
 
@@ -117,7 +119,7 @@ class CellNumbers {
     return blocks_.back();
   }
 
-  /// That of the key, or where it belongs: open addressing.
+  /// The slot of `key`, or the free slot where it belongs (open addressing).
   Slot& slot_of(CellKey key) {
     constexpr CellKey kMixer = 0x9E3779B97F4A7C15U;  // 2^64 by the golden ratio (Knuth)
     const std::size_t mask = slots_.size() - 1;
@@ -133,7 +135,7 @@ class CellNumbers {
     }
   }
 
-  std::deque<Block> blocks_;                          ///< which stay where they are
+  std::deque<Block> blocks_;                          ///< a deque, so that blocks stay in place
   std::vector<Slot> slots_ = std::vector<Slot>(128);  // always a power of two
 };
 

@@ -68,15 +68,15 @@ class CellTree {
     return cell.level < kFinestLevel && side_m(cell.level + 1) >= options_.smallest_m;
   }
 
-  /// Whether from the middle of one cell nothing is to be reached in another beside it that is not
-  /// reached through others: there is a closed wall or corner, and room in front of it.
-  [[nodiscard]] bool leads_nowhere(const Cell& cell, const Cell& beside) const {
+  /// The corner that a cell stands in, if one can see it from the middle of a cell beside it that
+  /// is as large, and there is room in front for others of that size.
+  [[nodiscard]] std::optional<ClosedCorner> corner_at(const Cell& cell, const Cell& beside) const {
     const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
     const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
     const Vec3 center_W = this->center_W(cell);
     const geometry::Box box(center_W.array() - reach_m, center_W.array() + reach_m);
     const Vec3 from_W = this->center_W(beside).cwiseMax(box.min()).cwiseMin(box.max());
-    return is_closed_corner(space_.obstacles().index, box, from_W, keep_m);
+    return closed_corner(space_.obstacles(), box, from_W, keep_m);
   }
 
   /// The first of the new cells.
@@ -247,9 +247,34 @@ class CellSearch {
       const std::uint32_t cell = waiting.top().cell;
       waiting.pop();
       // It may have been divided for the other end.
-      if (tree_[cell].children == kNone) return cell;
+      if (tree_[cell].children != kNone) continue;
+      tree_[cell].waiting &= static_cast<std::uint8_t>(~kEnds[end]);
+      if (!leads_nowhere(cell, end)) return cell;
     }
     return std::nullopt;
+  }
+
+  /// Whether a cell need not be divided for that end: it stands in a closed corner, and each cell
+  /// beside it that was reached is in front of the walls, as is one that is as large. All that is
+  /// in front of the walls there is convex. So cells of that size lead past this one, further from
+  /// the walls, wherever it leads itself. Smaller ones alone would not reach as far.
+  [[nodiscard]] bool leads_nowhere(std::uint32_t index, std::size_t end) const {
+    std::vector<std::uint32_t> reached;
+    tree_.for_each_neighbour(index, [&](std::uint32_t next) {
+      if ((tree_[next].reached & kEnds[end]) != 0) reached.push_back(next);
+    });
+    while (!reached.empty()) {
+      const auto as_large = std::ranges::find_if(
+          reached, [&](std::uint32_t beside) { return tree_[beside].level <= tree_[index].level; });
+      if (as_large == reached.end()) return false;
+      const std::optional<ClosedCorner> corner = tree_.corner_at(tree_[index], tree_[*as_large]);
+      if (!corner) return false;
+      reached.erase(as_large);
+      std::erase_if(reached, [&](std::uint32_t beside) {
+        return corner->is_before_all(tree_.center_W(tree_[beside]));
+      });
+    }
+    return true;
   }
 
   // And all that can be reached from there through free cells.
@@ -266,16 +291,15 @@ class CellSearch {
       const std::uint32_t cell = open.back();
       open.pop_back();
       tree_.for_each_neighbour(cell, [&](std::uint32_t next) {
-        if (tree_[next].state == State::kMixed) put_off(next, cell, end);
+        if (tree_[next].state == State::kMixed) put_off(next, end);
         if (tree_[next].state == State::kFree) add(next);
       });
     }
   }
 
-  void put_off(std::uint32_t index, std::uint32_t beside, std::size_t end) {
+  void put_off(std::uint32_t index, std::size_t end) {
     Cell& cell = tree_[index];
     if ((cell.waiting & kEnds[end]) != 0 || !tree_.may_divide(cell)) return;
-    if (tree_.leads_nowhere(cell, tree_[beside])) return;
     cell.waiting |= kEnds[end];
     const Vec3 center_W = tree_.center_W(cell);
     // A way that leads there is so much longer than the straight one.
@@ -293,7 +317,7 @@ class CellSearch {
           if (tree_[child].state == State::kFree) {
             reach(child, end);
           } else {
-            put_off(child, next, end);
+            put_off(child, end);
           }
         }
       });

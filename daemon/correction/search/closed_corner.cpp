@@ -8,7 +8,9 @@
 #include <limits>
 #include <optional>
 
+#include "daemon/geometry/bounds.h"
 #include "daemon/geometry/triangle_box.h"
+#include "daemon/scene/index/scene_index.h"
 
 namespace camway::correction {
 
@@ -20,7 +22,6 @@ using geometry::Triangle;
 using geometry::Vec3;
 
 constexpr std::size_t kMostTriangles = 24;
-constexpr std::size_t kMostWalls = 3;
 constexpr double kParallel = 0.966;  // cosine between normals, of 15 degrees
 constexpr double kRounding = 1e-6;   // of the box
 
@@ -57,29 +58,24 @@ class Part {
 
 class Corner {
  public:
-  Corner(const scene::SceneIndex& index, const Box& box, const Vec3& from_W, double keep_m)
+  Corner(const collision::Obstacles& obstacles, const Box& box, const Vec3& from_W, double keep_m)
       : box_(box),
         from_W_(from_W),
         keep_m_(keep_m),
         rounding_m_(kRounding * box.sizes().maxCoeff()),
-        is_known_(collect(index)) {}
+        is_known_(collect(obstacles.index) && add_sides(obstacles.bounds)) {}
 
-  [[nodiscard]] bool is_closed() {
-    if (!is_known_ || !find_walls()) return false;
-    for (std::size_t wall = 0; wall < walls_; ++wall) {
+  [[nodiscard]] std::optional<ClosedCorner> closed() {
+    if (!is_known_ || !find_walls() || corner_.count == 0) return std::nullopt;
+    for (std::size_t wall = 0; wall < corner_.count; ++wall) {
       for (std::size_t i = 0; i < count_; ++i) {
-        if (is_in(wall, i) && !is_closed_at_edges(wall, i)) return false;
+        if (is_in(wall, i) && !is_closed_at_edges(wall, i)) return std::nullopt;
       }
     }
-    return walls_ > 0;
+    return corner_;
   }
 
  private:
-  struct Plane {
-    Vec3 normal;  ///< towards where the ball is
-    double at_m = 0.0;
-  };
-
   /// False if there are too many.
   bool collect(const scene::SceneIndex& index) {
     std::array<std::uint32_t, kMostTriangles> met{};
@@ -97,18 +93,35 @@ class Corner {
     });
   }
 
+  /// The sides of the bounds that cut the box are walls; nothing beyond them can be reached. False
+  /// if they make no corner.
+  bool add_sides(const geometry::Bounds& bounds) {
+    for (std::size_t side = 0; side < geometry::Bounds::kSides; ++side) {
+      const Vec3 inward = geometry::Bounds::inward(side);
+      const Vec3& outermost = side < 3 ? box_.min() : box_.max();
+      if (bounds.depth_m(side, outermost) >= 0.0) continue;
+      if (bounds.depth_m(side, from_W_) <= 0.0) return false;
+      if (!add_wall({inward, inward.sum() * bounds.limit_m(side)})) return false;
+    }
+    return true;
+  }
+
+  bool add_wall(Wall wall) {
+    const double height_m = wall.height_m(from_W_);
+    if (corner_.count == ClosedCorner::kMostWalls || std::abs(height_m) <= keep_m_) return false;
+    if (height_m < 0.0) wall = {-wall.normal, -wall.at_m};
+    for (std::size_t i = 0; i < corner_.count; ++i) {
+      if (std::abs(corner_.walls[i].normal.dot(wall.normal)) > kParallel) return false;
+    }
+    corner_.walls[corner_.count++] = wall;
+    return true;
+  }
+
   /// The nearest in front of all that was found before, again and again. False if they are too
   /// many, or make no corner.
   bool find_walls() {
     while (const std::optional<std::size_t> next = nearest_in_front()) {
-      Plane wall{normals_[*next], normals_[*next].dot(triangles_[*next][0])};
-      const double height_m = wall.normal.dot(from_W_) - wall.at_m;
-      if (walls_ == kMostWalls || std::abs(height_m) <= keep_m_) return false;
-      if (height_m < 0.0) wall = {-wall.normal, -wall.at_m};
-      for (std::size_t i = 0; i < walls_; ++i) {
-        if (std::abs(planes_[i].normal.dot(wall.normal)) > kParallel) return false;
-      }
-      planes_[walls_++] = wall;
+      if (!add_wall({normals_[*next], normals_[*next].dot(triangles_[*next][0])})) return false;
     }
     return true;
   }
@@ -127,7 +140,7 @@ class Corner {
   }
 
   [[nodiscard]] bool is_behind_any(std::size_t triangle) const {
-    for (std::size_t wall = 0; wall < walls_; ++wall) {
+    for (std::size_t wall = 0; wall < corner_.count; ++wall) {
       if (highest_m(wall, triangle) <= keep_m_) return true;
     }
     return false;
@@ -135,14 +148,15 @@ class Corner {
 
   [[nodiscard]] double highest_m(std::size_t wall, std::size_t triangle) const {
     const Triangle& t = triangles_[triangle];
-    const Vec3& normal = planes_[wall].normal;
-    return std::max({normal.dot(t[0]), normal.dot(t[1]), normal.dot(t[2])}) - planes_[wall].at_m;
+    const Vec3& normal = corner_.walls[wall].normal;
+    return std::max({normal.dot(t[0]), normal.dot(t[1]), normal.dot(t[2])}) -
+           corner_.walls[wall].at_m;
   }
 
   // For the ball there is nothing between what is nearer to each other than its radius.
   [[nodiscard]] bool is_in(std::size_t wall, std::size_t triangle) const {
     return std::ranges::all_of(triangles_[triangle], [&](const Vec3& vertex) {
-      return std::abs(planes_[wall].normal.dot(vertex) - planes_[wall].at_m) <= keep_m_;
+      return std::abs(corner_.walls[wall].height_m(vertex)) <= keep_m_;
     });
   }
 
@@ -167,8 +181,9 @@ class Corner {
       const LineSegment edge{t[k], t[(k + 1) % 3]};
       Part part(edge);
       part.keep(box_);
-      for (std::size_t other = 0; other < walls_; ++other) {
-        if (other != wall) part.keep(planes_[other].normal, planes_[other].at_m - keep_m_);
+      for (std::size_t other = 0; other < corner_.count; ++other) {
+        if (other != wall)
+          part.keep(corner_.walls[other].normal, corner_.walls[other].at_m - keep_m_);
       }
       const std::optional<LineSegment> rest = part.rest();
       if (rest && !is_joined(wall, triangle, *rest, t[(k + 2) % 3])) return false;
@@ -199,7 +214,7 @@ class Corner {
   }
 
   [[nodiscard]] bool is_in_another(std::size_t wall, std::size_t triangle) const {
-    for (std::size_t other = 0; other < walls_; ++other) {
+    for (std::size_t other = 0; other < corner_.count; ++other) {
       if (other != wall && is_in(other, triangle)) return true;
     }
     return false;
@@ -222,16 +237,15 @@ class Corner {
   std::size_t count_ = 0;
   std::array<Triangle, kMostTriangles> triangles_;
   std::array<Vec3, kMostTriangles> normals_;
-  std::size_t walls_ = 0;
-  std::array<Plane, kMostWalls> planes_;
+  ClosedCorner corner_;
   bool is_known_;
 };
 
 }  // namespace
 
-bool is_closed_corner(const scene::SceneIndex& index, const Box& box, const Vec3& from_W,
-                      double keep_m) {
-  return Corner(index, box, from_W, keep_m).is_closed();
+std::optional<ClosedCorner> closed_corner(const collision::Obstacles& obstacles, const Box& box,
+                                          const Vec3& from_W, double keep_m) {
+  return Corner(obstacles, box, from_W, keep_m).closed();
 }
 
 }  // namespace camway::correction

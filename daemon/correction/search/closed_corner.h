@@ -1,23 +1,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "daemon/collision/obstacles.h"
 #include "daemon/geometry/types.h"
-#include "daemon/scene/index/scene_index.h"
 
 namespace camway::correction {
 
-/// Whether a ball of radius `keep_m` whose middle moves from `from_W` in `box` sees nothing there
-/// but one wall without holes, or the corner that up to three of them make: then all that it can
-/// reach in the box is the convex part in front of these, and nothing behind them. Walls nearly
-/// parallel to each other make no corner, as what is between them may lead on.
+/// A plane of the scene, or a side of the bounds, that a ball is in front of.
+struct Wall {
+  geometry::Vec3 normal;  ///< unit vector towards the ball
+  double at_m = 0.0;      ///< `normal` · x of every point of the plane
+
+  [[nodiscard]] double height_m(const geometry::Vec3& point_W) const {
+    return normal.dot(point_W) - at_m;
+  }
+};
+
+/// One wall without holes, or the corner that up to three walls make.
+struct ClosedCorner {
+  static constexpr std::size_t kMostWalls = 3;
+  std::array<Wall, kMostWalls> walls;
+  std::size_t count = 0;  ///< of `walls`, at least 1
+
+  [[nodiscard]] bool is_before_all(const geometry::Vec3& point_W) const {
+    return std::all_of(walls.begin(), walls.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const Wall& wall) { return wall.height_m(point_W) > 0.0; });
+  }
+};
+
+/// Returns the corner if a ball of radius `keep_m` whose centre moves from `from_W` in `box` meets
+/// nothing else there. Then all that it can reach in the box is the convex part in front of the
+/// walls, and nothing behind them. Walls nearly parallel to each other make no corner, as the space
+/// between them may lead on.
 ///
 /// A wall is triangles in one plane, to `keep_m`. Their edges are closed where, as far as they are
 /// in the box and in front of the other walls, another triangle keeps within `keep_m` of them that
 /// goes on in the plane or is part of another of the walls; so walls may stand on floors without
-/// sharing vertices with them.
+/// sharing vertices with them. A side of the bounds that cuts the box is a wall without edges.
 ///
-/// For searches, not for proofs: rounded, and false where it would take long to tell.
-bool is_closed_corner(const scene::SceneIndex& index, const geometry::Box& box,
-                      const geometry::Vec3& from_W, double keep_m);
+/// For searches, not for proofs: rounded, and nothing where it would take long to tell.
+std::optional<ClosedCorner> closed_corner(const collision::Obstacles& obstacles,
+                                          const geometry::Box& box, const geometry::Vec3& from_W,
+                                          double keep_m);
 
 }  // namespace camway::correction

@@ -13,16 +13,16 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kFirstShell = 0.02;  // radii
-constexpr double kGrowth = 1.2;       // of a shell over the one before
-// Shells are searched until they are so much larger than the first on which something was found:
-// its direction may have been off that of the nearest by as much as 20 degrees, 1 / cos of which is
-// 1.06, that of another place not at all.
+constexpr double kGrowth = 1.2;       // ratio of a shell to the one before
+// Ratio of the last shell to the first with a free pose. The direction found there may be off the
+// nearest by up to 20 degrees, 1 / cos of which is 1.06; the direction of another free region is
+// not limited.
 constexpr double kBeyondFirst = 1.25;
 constexpr int kShellSide = 2;  // half of a shell's points along an edge of a cube
 constexpr std::size_t kMostPlaces = 6;
 constexpr double kSamePlace = 0.75;  // cosine between directions
 
-constexpr double kFirstSwing_rad = 0.3;  // of a direction that is improved
+constexpr double kFirstSwing_rad = 0.3;  // first angle of variations of a direction
 constexpr double kLastSwing_rad = 0.01;
 constexpr int kSwings = 8;  // about the direction
 constexpr int kMostSteps = 40;
@@ -62,7 +62,7 @@ class Search {
     return space_.is_free(there, margin_m_) && will_do_(there);
   }
 
-  /// Evenly over a cube, and along the normal of what is in the way.
+  /// Directions evenly over a cube, and along the normal of the deepest contact.
   std::vector<Vec3> directions() {
     std::vector<Vec3> directions_W;
     if (const std::optional<collision::Witness> contact = space_.contact(pose_, 0.0)) {
@@ -80,7 +80,7 @@ class Search {
     return directions_W;
   }
 
-  /// For each direction the first shell on which the body is free, until they are well beyond the
+  /// For each direction the first shell on which the body is free, up to `kBeyondFirst` times the
   /// nearest.
   std::vector<Move> on_shells(std::vector<Vec3> directions_W) {
     std::vector<Move> found;
@@ -99,7 +99,7 @@ class Search {
     return found;
   }
 
-  /// Between a move that will not do, and one that will.
+  /// Bisects between a move that fails and one that succeeds.
   double least_m(const Vec3& direction_W, double below_m, double above_m) {
     while (above_m - below_m > kFreePosePrecision * above_m) {
       const double middle_m = 0.5 * (below_m + above_m);
@@ -108,7 +108,7 @@ class Search {
     return above_m;
   }
 
-  /// A pattern search over directions: those about the best one, nearer and nearer to it.
+  /// Pattern search over directions about the best one, at decreasing angles.
   Move improved(Move best) {
     int steps = 0;
     for (double swing_rad = kFirstSwing_rad; swing_rad > kLastSwing_rad;) {
@@ -158,7 +158,7 @@ class Search {
 
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
                                           double margin_m, const PoseRule& will_do) {
-  // However far beyond the bounds, the way back is straight.
+  // From beyond the bounds the way back is straight, however long.
   const motion::Pose inside = space.within_bounds(pose, (1.0 + kFreePosePrecision) * margin_m);
   const double moved_m = (inside.position - pose.position).norm();
   if (moved_m > 0.0 && space.is_free(inside, margin_m) && will_do(inside))

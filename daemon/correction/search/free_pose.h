@@ -8,29 +8,30 @@
 
 namespace camway::correction {
 
-/// A free pose next to one that collides, with the same orientation.
+/// A free pose near a colliding one, with the same orientation.
 struct FreePose {
   motion::Pose pose;
-  double moved_m = 0.0;  ///< every point of the body
+  double moved_m = 0.0;  ///< length of the translation
 };
 
-/// Whether a pose will do that is free; for what a search cannot know by itself.
+/// A further condition on a free pose, which the search cannot check by itself.
 using PoseRule = std::function<bool(const motion::Pose&)>;
 
-/// The nearest pose that is free, will do, and is reached without turning. Shells of directions
-/// grow about `pose` until one of them holds such a pose, so no side is preferred; what was found
-/// is then drawn towards `pose` as far as it gets, by the length and by the direction of the move.
-/// Of moves that differ by less than the precision, one that leads to more room.
+/// Finds about the nearest free pose that satisfies `will_do` and has the orientation of `pose`.
+/// `margin_m` is kept beyond the required clearance, so that a path can leave the pose.
 ///
-/// A pose that is beyond the bounds is first moved straight within them, however far that is, and
-/// the shells grow from there if it is not free there. Nothing if there is none on the shells
-/// within `kFreePoseReach` radii of the ball about the body. `margin_m` is kept beside the required
-/// clearance, so that a path can leave it. A local search: a free place that is narrower than the
-/// shells are dense may be missed.
+/// Shells of directions grow about `pose` until one holds such a pose, so no side is preferred. The
+/// result is then improved by shortening the translation and by varying its direction. Among
+/// translations whose lengths differ by less than `kFreePosePrecision`, one that leads to more room
+/// is taken. A pose beyond the bounds is first moved straight to within them, however far; if it is
+/// not free there, the shells grow from there.
+///
+/// Returns nothing if no shell within `kFreePoseReach` radii of the ball about the body holds such
+/// a pose. Local search: it may miss a free region that is narrower than the spacing of the shells.
 std::optional<FreePose> nearest_free_pose(FreeSpace& space, const motion::Pose& pose,
                                           double margin_m, const PoseRule& will_do);
 
-inline constexpr double kFreePosePrecision = 0.02;  ///< as a share of the move
+inline constexpr double kFreePosePrecision = 0.02;  ///< share of the translation
 inline constexpr double kFreePoseReach = 20.0;      ///< radii of the ball about the body
 
 }  // namespace camway::correction

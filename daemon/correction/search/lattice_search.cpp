@@ -19,7 +19,7 @@ namespace {
 
 using geometry::Vec3;
 
-/// How long the steps to neighbours are. [Units: spacing of the lattice]
+/// Lengths of the steps to neighbours. [Units: spacing of the lattice]
 constexpr std::array<double, kCellSteps> kLengths = [] {
   constexpr std::array<double, 4> kRoots = {0.0, 1.0, std::numbers::sqrt2, std::numbers::sqrt3};
   std::array<double, kCellSteps> lengths{};
@@ -30,10 +30,10 @@ constexpr std::array<double, kCellSteps> kLengths = [] {
   return lengths;
 }();
 
-constexpr double kFarAway = 4.0;  // steps from the way that is to be kept to: further counts alike
-constexpr double kStray = 0.15;   // share of its length that a step there costs more
-constexpr double kComfort = 0.5;  // of the ball: gap from which a way is not near
-constexpr double kHorizon = 0.9;  // of a step: two gaps are more than the longest diagonal
+constexpr double kFarAway = 4.0;  // steps from the preferred way beyond which the cost is constant
+constexpr double kStray = 0.15;   // relative extra cost of a step there
+constexpr double kComfort = 0.5;  // share of the ball: gap from which a point is not near
+constexpr double kHorizon = 0.9;  // share of a step: two gaps exceed the longest diagonal
 
 class LatticeSearch {
  public:
@@ -82,13 +82,13 @@ class LatticeSearch {
 
   struct Point {
     CellKey key;
-    /// What the way here costs: at least, before it is settled.
+    /// Cost of the way here; a lower bound until the point is settled.
     double claim_m = std::numeric_limits<double>::infinity();
-    double gap_m = kUnknown_m;  ///< before the scene is asked
-    double near = 0.0;          ///< share that a step costs more for the gap, told with it
-    double stray = 0.0;         ///< and for being away from what is kept to
+    double gap_m = kUnknown_m;  ///< gap of the ball; unknown until the scene is queried
+    double near = 0.0;          ///< relative extra cost of steps near the scene
+    double stray = 0.0;         ///< relative extra cost of steps away from the preferred way
     std::uint32_t parent = CellNumbers::kNone;
-    std::uint32_t settled_from = 0;  ///< a bit for each step that leads here from what is settled
+    std::uint32_t settled_from = 0;  ///< a bit for each step that leads here from a settled point
     bool is_settled = false;
 
     [[nodiscard]] bool is_blocked() const { return gap_m <= 0.0; }
@@ -96,13 +96,13 @@ class LatticeSearch {
   struct Waiting {
     double estimate_m;
     std::uint32_t point;
-    // The priority queue has the largest on top; among equals the one that was met first.
+    // The queue pops the largest element: the least estimate, among equals the point visited first.
     bool operator<(const Waiting& other) const {
       return estimate_m != other.estimate_m ? estimate_m > other.estimate_m : point > other.point;
     }
   };
 
-  /// Of the way that is to be kept to.
+  /// A leg of the preferred way.
   struct Leg {
     Leg(const Vec3& begin_W, const Vec3& end_W)
         : from_W(begin_W), along_W(end_W - begin_W), square_m2(along_W.squaredNorm()) {}
@@ -118,14 +118,15 @@ class LatticeSearch {
     double square_m2;
   };
 
-  // The clock is not asked at every point.
+  // Reads the clock at every 64th point only.
   bool is_late() { return (++settled_ % 64 == 0) && deadline_.passed(); }
 
   [[nodiscard]] double gap_m(const Vec3& point_W) const {
     return space_.ball_gap_m(point_W, options_.ball_radius_m, horizon_m_);
   }
 
-  // What is told of a distance is too much to go by: the ball would step through thin walls.
+  // Lower bound of the gap. `ball_gap_m` may overestimate, and the ball would step through thin
+  // walls.
   [[nodiscard]] double sure_gap_m(double gap_m) const {
     if (gap_m >= horizon_m_) return horizon_m_;  // nothing was met
     const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
@@ -137,8 +138,8 @@ class LatticeSearch {
     return from_W_ + options_.spacing_m * Vec3(cell[0], cell[1], cell[2]);
   }
 
-  /// How far it is to the end for who steps as on the lattice: along the diagonals of cells as far
-  /// as that gets nearer, then along those of their sides, then along their edges.
+  /// Length of the shortest way to the end on the lattice without obstacles: along diagonals of
+  /// cells as far as they lead nearer, then along diagonals of faces, then along edges.
   [[nodiscard]] double rest_m(CellKey key) const {
     const Vec3 away = (place_W(key) - to_W_).cwiseAbs();
     const double less = std::min(away[0], away[1]);
@@ -155,7 +156,7 @@ class LatticeSearch {
     queue_.push({cost_m + rest_m(point.key), index});
   }
 
-  /// By what is known: at least.
+  /// Lower bound of the cost of a step, by the gaps known so far.
   [[nodiscard]] double cost_of_step_m(std::size_t step, const Point& a, const Point& b) const {
     const double near = std::max(a.near, b.near);
     const double stray = 0.5 * (a.stray + b.stray);
@@ -190,9 +191,9 @@ class LatticeSearch {
     }
   }
 
-  /// Only now, when a point is the next, the scene is asked about it: most that are met never are.
-  /// Whether it is settled with what it claimed; else it waits with what it costs, or for another
-  /// neighbour.
+  /// Queries the scene about a point when it comes first in the queue; most visited points never
+  /// do. Returns whether the point is settled at its claimed cost; otherwise it is queued again at
+  /// its true cost, or waits for another neighbour.
   bool settles(const Waiting& best) {
     const std::uint32_t index = best.point;
     Point& point = points_[index];
@@ -209,7 +210,7 @@ class LatticeSearch {
     return true;
   }
 
-  /// The settled neighbour over which it is cheapest, and what it costs then.
+  /// Sets the settled neighbour with the cheapest free step to the point, and the cost.
   void find_parent(Point& point) {
     while (point.settled_from != 0) {
       const Entry best = cheapest_entry(point);
@@ -275,7 +276,7 @@ class LatticeSearch {
   const double horizon_m_;
   std::vector<Leg> legs_;
   std::vector<Point> points_;
-  CellNumbers numbers_;  ///< of points
+  CellNumbers numbers_;  ///< numbers of points
   std::priority_queue<Waiting> queue_;
   std::size_t settled_ = 0;
 };

@@ -21,27 +21,28 @@ using geometry::Vec3;
 using motion::SignedPose;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr double kStep = 0.25;       // between the places of a way that are looked at
-constexpr double kMostPlaces = 4e3;  // longer ways are not looked at
+constexpr double kStep = 0.25;       // spacing of the places on a way that are checked
+constexpr double kMostPlaces = 4e3;  // longer ways are skipped
 constexpr double kApart = 2.0;       // narrow places closer to each other are one
-constexpr double kHalfLength = 0.7;  // of the line on which a pose is to fit
+constexpr double kHalfLength = 0.7;  // half length of the line on which a pose must fit
 constexpr std::array<double, 3> kFirstHalfLengths = {kHalfLength, 0.2, 0.05};
-constexpr double kGrowth = 1.5;  // of its length, time after time
+constexpr double kGrowth = 1.5;  // factor of the length per iteration
 constexpr double kLongest = 3.5;
-constexpr std::array<double, 3> kMiddles = {0.5, 0.25, 0.75};  // of a narrow stretch
-constexpr double kFirstShift = 0.4;                            // of a line's ends
+constexpr std::array<double, 3> kMiddles = {0.5, 0.25, 0.75};  // places in a narrow range
+constexpr double kFirstShift = 0.4;                            // shift of the ends of a line
 constexpr double kLeastShift = 0.01;
-constexpr double kMostTurn = 0.25;  // of the line's length: shift of one end alone
+constexpr double kMostTurn = 0.25;  // share of the length: shift of one end alone
 constexpr int kMostShifts = 200;
-constexpr double kWide = 0.9;           // room from which on a line is not in a narrow place
-constexpr int kPlaces = 16;             // of the line, to find where it is tightest
-constexpr std::size_t kTurns = 48;      // about the line, in a full turn; four times a number
-constexpr int kMostSteps = 32;          // to what is free beside the line
-constexpr std::size_t kMostTried = 24;  // poses that fit, from which the body is moved
-constexpr double kFarthest = 3.0;       // that it is moved to either side, or the stretch's length
-constexpr double kNearest = 1.05;       // the least that takes it out of a thin wall
+constexpr double kWide = 0.9;  // room from which a line counts as not narrow
+constexpr int kPlaces = 16;    // places on the line, to find the tightest
+constexpr std::size_t kTurns =
+    48;                         // orientations about the line in a full turn; a multiple of four
+constexpr int kMostSteps = 32;  // to find the free space beside the line
+constexpr std::size_t kMostTried = 24;  // fitting poses from which a motion is tried
+constexpr double kFarthest = 3.0;       // motion to either side, unless the narrow place is longer
+constexpr double kNearest = 1.05;       // least motion that leaves a thin wall
 
-/// A line with as much room about it as was found.
+/// A line segment, shifted to where it has the most room.
 struct Line {
   Vec3 begin_W;
   Vec3 end_W;
@@ -51,7 +52,8 @@ struct Line {
   [[nodiscard]] Vec3 direction_W() const { return (end_W - begin_W).normalized(); }
 };
 
-/// A direction across a line, and from the line to the middle of what is free there.
+/// A direction across a line, and the vector from the line to the middle of the free space in that
+/// direction.
 struct Side {
   Vec3 direction_W;
   Vec3 to_middle_W;
@@ -68,7 +70,7 @@ class Threader {
         deadline_(deadline),
         radius_m_(space.ball_radius_m()) {}
 
-  /// A motion through `way_W`, where that is narrow.
+  /// Returns a motion along the narrow place `way_W`.
   std::optional<NarrowPassage> through(std::span<const Vec3> way_W) {
     farthest_m_ = std::max(kFarthest * radius_m_, length_m(way_W));
     const Vec3 along_W = (way_W.back() - way_W.front()).stableNormalized();
@@ -102,8 +104,8 @@ class Threader {
     return {center_W - half_W, center_W + half_W};
   }
 
-  /// A motion along a line that is moved to where there is room, and grows: the longer it is, the
-  /// better it shows where a hole leads.
+  /// Returns a motion along a line that is shifted to where it has room, and grows: a longer line
+  /// shows better where a hole leads.
   std::optional<NarrowPassage> along_grown(Vec3 center_W, Vec3 along_W, double half_length) {
     for (; half_length < kLongest && !deadline_.passed(); half_length *= kGrowth) {
       Line line = line_about(center_W, along_W, half_length);
@@ -159,7 +161,7 @@ class Threader {
     return space_.way_gap_m(line.begin_W, line.end_W, radius_m_);
   }
 
-  /// Each end is moved to where there is more room.
+  /// Shifts the ends of the line to where there is more room.
   [[nodiscard]] Line widened(Line line) const {
     double best_m = room_m(line);
     double shift_m = kFirstShift * radius_m_;
@@ -170,8 +172,8 @@ class Threader {
       const Vec3 other_W = along_W.cross(across_W);
       bool any = false;
       for (const Vec3& side_W : {across_W, Vec3(-across_W), other_W, Vec3(-other_W)}) {
-        // Both ends, or one: that turns the line, and a short one is not to be whirled about. Not
-        // further than there is room: what is behind a wall may not be where the way leads.
+        // Shift both ends, or one, which turns the line; a short line must not turn much. Shift no
+        // farther than there is room: the space behind a wall may not be on the way.
         for (const auto& [begin, end] : {std::pair{1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}) {
           ++shifts;
           const double by_m = std::min({shift_m, best_m, begin == end ? best_m : most_turn_m});
@@ -189,12 +191,12 @@ class Threader {
   }
 
   struct Fit {
-    double likeness;  ///< to the end that it is less like
+    double likeness;  ///< cosine to the less similar end orientation
     SignedPose pose;
   };
 
-  /// Poses with an axis of the body along the line that are free on it, beside where that is in the
-  /// middle of what the other axes see; those that are turned least first.
+  /// Free poses with an axis of the body along the line, on it or in the middle of the free space
+  /// beside it; least turned first.
   [[nodiscard]] std::vector<Fit> fitting(const Line& line) {
     const std::vector<Side> sides = sides_of(line);
     const Vec3 along_W = line.direction_W();
@@ -248,7 +250,7 @@ class Threader {
     return sides;
   }
 
-  /// From a place to the scene in that direction, about; no further than the body is long.
+  /// About the distance from a place to the scene in that direction, at most the body's diameter.
   [[nodiscard]] double free_way_m(const Vec3& place_W, const Vec3& direction_W) const {
     double way_m = 0.0;
     for (int i = 0; i < kMostSteps && way_m < 2.0 * radius_m_; ++i) {
@@ -268,7 +270,7 @@ class Threader {
     return {std::min(-from, -to), result};
   }
 
-  /// How far the body can be moved.
+  /// How far the body can move in that direction.
   [[nodiscard]] double freely_moved_m(const SignedPose& pose, const Vec3& direction_W) {
     const std::optional<double> hit =
         space_.first_hit(pose, moved(pose, farthest_m_ * direction_W), margin_m_);
@@ -281,16 +283,16 @@ class Threader {
   const double margin_m_;
   const collision::Deadline& deadline_;
   const double radius_m_;
-  double farthest_m_ = 0.0;  ///< that the body is moved to either side
+  double farthest_m_ = 0.0;  ///< largest motion to either side
 };
 
-/// A place of a way, and the point of the way before it.
+/// A place on a way, and the index of the way's point before it.
 struct Place {
   Vec3 at_W;
   std::size_t leg;
 };
 
-/// Nothing where they would be too many.
+/// Places on `way_W` at most `step_m` apart; empty if they were too many.
 std::vector<Place> places_of(std::span<const Vec3> way_W, double step_m) {
   double length_m = 0.0;
   for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
@@ -306,13 +308,14 @@ std::vector<Place> places_of(std::span<const Vec3> way_W, double step_m) {
   return places;
 }
 
-/// Places of a way, from `begin` to before `end`.
+/// A range of places, from `begin` to before `end`.
 struct Narrow {
   std::size_t begin;
   std::size_t end;
 };
 
-/// What is narrow at either end is none of these: the body is there, as it is turned already.
+/// Ranges where the ball does not fit. Leaves out those at the ends of the way: the body is there
+/// already.
 std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const Place> places) {
   const double radius_m = space.ball_radius_m();
   const double comfort_m = kLeastShift * radius_m;

@@ -7,14 +7,14 @@
 
 namespace camway::correction {
 
-/// A keyframe from which no way out was found, for a ball much smaller than the body. All that the
-/// ball can reach was looked at, as far as searches see: it is no proof.
+/// A keyframe from which a search found no way out, even for a ball much smaller than the body. The
+/// search looked at everything that the ball can reach; it is not a proof.
 struct ShutIn {
   std::size_t keyframe = 0;
-  geometry::Box region_W;  ///< about all that the middle of the body reached
-  double unsure_m = 0.0;   ///< by how much that may be too small
+  geometry::Box region_W;  ///< about all points that the body's centre can reach
+  double unsure_m = 0.0;   ///< how much too small the region may be
 
-  /// False only for points that are not in the region.
+  /// False only for points outside of the region.
   [[nodiscard]] bool may_hold(const geometry::Vec3& point_W) const {
     return region_W.exteriorDistance(point_W) <= unsure_m;
   }

@@ -21,9 +21,9 @@ using motion::SignedPose;
 // Chosen by measurement.
 constexpr double kStraightShare = 0.25;  // samples whose orientation is between the ends'
 constexpr double kBlockedShare = 0.35;   // samples next to where a motion was blocked
-constexpr double kBackOff = 0.92;        // of the way to an obstacle
-constexpr double kLeastStep = 0.02;      // of the ball's radius
-constexpr double kLeastDot = 0.2;        // of the quaternions of one motion
+constexpr double kBackOff = 0.92;        // share of the way to an obstacle
+constexpr double kLeastStep = 0.02;      // share of the ball's radius
+constexpr double kLeastDot = 0.2;        // least dot product of the quaternions of one motion
 constexpr std::size_t kBlockedKept = 64;
 
 class Tree {
@@ -54,7 +54,7 @@ class Tree {
 
   [[nodiscard]] const SignedPose& pose(std::size_t index) const { return poses_[index]; }
 
-  /// From `index` to the root.
+  /// The poses from `index` to the root.
   [[nodiscard]] Guide branch(std::size_t index) const {
     Guide guide = {poses_[index]};
     while (index != 0) {
@@ -100,7 +100,7 @@ class TreeSearch {
     bool reached = false;
   };
 
-  // From the nearest pose of a tree as far towards `target` as it is free.
+  // Extends the tree from its nearest pose towards `target` as far as the motion is free.
   Growth grow(std::size_t side, const SignedPose& target) {
     Tree& tree = trees_[side];
     const std::size_t nearest = tree.nearest(target, space_.ball_radius_m());
@@ -122,10 +122,10 @@ class TreeSearch {
     }
   }
 
-  // Of [0, 1). Not std::uniform_real_distribution, which libraries implement differently.
+  // Uniform in [0, 1). Not std::uniform_real_distribution, which libraries implement differently.
   double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   double normal() {
-    // Irwin-Hall: near enough to a normal distribution.
+    // Irwin-Hall approximation of the normal distribution.
     double sum = -6.0;
     for (int i = 0; i < 12; ++i) sum += uniform();
     return sum;
@@ -141,7 +141,7 @@ class TreeSearch {
     const Vec3 axis = normal_vector().normalized();
     if (!axis.allFinite()) return pose;
     const geometry::Quat turn(Eigen::AngleAxisd(angle_rad, axis));
-    // About the middle of the body, so that moving and turning do not depend on each other.
+    // Turn about the centre of the body, so that translation and rotation are independent.
     const geometry::Quat old = geometry::from_wxyz(pose.orientation);
     const Vec3 center_W = pose.position + old * space_.center_C();
     const Vec4 q =
@@ -153,7 +153,7 @@ class TreeSearch {
     if (!blocked_.empty() && uniform() < kBlockedShare) return next_to_blocked();
     const double share = uniform();
     const SignedPose straight = motion::between(from_, to_, share);
-    // Close to the way at first, then further and further.
+    // The reach cycles through fractions, so samples are drawn at several distances from the way.
     const double reach_m = options_.reach_m * std::exp2(-static_cast<double>(index % 4));
     Vec3 center_W = along_way_W(share);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -164,7 +164,7 @@ class TreeSearch {
     return allowed(turned(pose, options_.largest_turn_rad * uniform()));
   }
 
-  /// Turned as far as the rule for orientations allows.
+  /// `pose`, turned as far as the orientation policy asks for.
   [[nodiscard]] SignedPose allowed(const SignedPose& pose) const {
     if (!is_limited(space_.policy())) return pose;
     const std::vector<motion::Pose>& poses = options_.interpolated;
@@ -176,7 +176,7 @@ class TreeSearch {
                                  poses[i].orientation.slerp(rest, poses[i + 1].orientation)});
   }
 
-  /// What share of the way is passed at its point nearest to `center_W`.
+  /// Share of the way at its point nearest to `center_W`.
   [[nodiscard]] double share_near(const Vec3& center_W) const {
     double least_m2 = std::numeric_limits<double>::infinity();
     double share = 0.0;
@@ -212,7 +212,7 @@ class TreeSearch {
     Guide first = trees_[side].branch(node);
     Guide second = trees_[1 - side].branch(other);
     std::ranges::reverse(first);
-    // Both hold the pose where they met.
+    // Both branches contain the pose where they met.
     first.insert(first.end(), second.begin() + 1, second.end());
     if (side == 1) std::ranges::reverse(first);
     return first;

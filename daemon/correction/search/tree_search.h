@@ -11,25 +11,30 @@ namespace camway::correction {
 
 struct TreeOptions {
   int max_samples = 3000;
-  double margin_m = 0.0;  ///< that the guide keeps beside what is required
-  /// About which samples are drawn, from end to end: a way for something smaller than the body.
+  double margin_m = 0.0;  ///< distance that the guide keeps beyond the required clearance
+  /// The polyline, from end to end, about which samples are drawn: a way for a smaller ball.
+  /// [Limit: two points or more]
   std::vector<geometry::Vec3> about_W;
-  double reach_m = 0.0;           ///< how far from it
-  double largest_turn_rad = 1.9;  ///< of samples, from orientations between the two ends
-  /// Of the gap, at equal steps in time [Limit: 2 or more]. The way has no time yet: the rule for
-  /// orientations is applied at the share of the way `about_W`. The path has to meet it afterwards.
+  double reach_m = 0.0;           ///< largest distance of samples from it
+  double largest_turn_rad = 1.9;  ///< largest angle of samples from orientations between the ends'
+  /// Poses of the interpolated path at equal steps in time, for the orientation policy [Limit: two
+  /// or more]. The way has no times yet, so a sample is compared with the pose at its share of the
+  /// way `about_W`; the path must meet the policy later.
   std::vector<motion::Pose> interpolated;
   std::uint64_t seed = 1;
-  Effort* effort = nullptr;  ///< where samples are counted; may be null
+  Effort* effort = nullptr;  ///< counter of samples; may be null
 };
 
-/// A way for the body itself, turning included: two trees of straight motions grow from both ends
+/// Finds a way for the body, turning included: two trees of straight motions grow from both ends
 /// towards random poses and each other (Kuffner & LaValle 2000, "RRT-Connect"). Every motion is
-/// proved free, not sampled. Deviations: a motion that is blocked is followed up to the obstacle,
-/// however long it is; some samples are drawn next to where motions were blocked last, which finds
-/// narrow gaps; and orientations carry a sign, so that the way arrives as `to` is signed.
+/// proved free, not sampled. Deviations:
+/// - a blocked motion is followed up to the obstacle, however long it is;
+/// - some samples are drawn near places where motions were blocked recently, which finds narrow
+///   passages;
+/// - orientations carry a sign, so that the way arrives with the sign of `to`.
 ///
-/// Deterministic for a seed. Empty if none was found; first and last pose are `from` and `to`.
+/// Returns the poses from `from` to `to`, both included; empty if none was found. Deterministic for
+/// a seed, unless the deadline strikes.
 Guide tree_way(FreeSpace& space, const motion::SignedPose& from, const motion::SignedPose& to,
                const TreeOptions& options, const collision::Deadline& deadline);
 

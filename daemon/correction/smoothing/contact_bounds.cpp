@@ -11,10 +11,10 @@ namespace {
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
 constexpr double kWanted = 0.1;     // gap that is kept where there is room for it
-constexpr double kKeptShare = 0.8;  // of a gap that is less
-constexpr double kEven = 1.0;       // softness: halfway between what is wanted and what is best
-constexpr double kHardReach = 0.5;  // `kSafest` keeps hard only from what is nearer
-constexpr double kUrge = 4.0;  // weight of a squared missing gap to it, by a squared distance's
+constexpr double kKeptShare = 0.8;  // share of a smaller gap that is kept
+constexpr double kEven = 1.0;       // compliance: halfway between the wanted gap and the minimum
+constexpr double kHardReach = 0.5;  // `kSafest` has hard bounds only for nearer vertices
+constexpr double kUrge = 4.0;  // weight of a squared missing gap, relative to a squared distance
 
 }  // namespace
 

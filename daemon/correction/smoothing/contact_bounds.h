@@ -10,34 +10,38 @@
 
 namespace camway::correction {
 
-/// A contact, and the forces that last kept the path from it: hard where it has to keep away, soft
-/// where it would better.
+/// A contact with its last multipliers, from which the next solution starts.
 struct Contact {
   ContactRow row;
-  double hard_force = 0.0;
-  double soft_force = 0.0;
+  double hard_force = 0.0;  ///< multiplier of the hard bound
+  double soft_force = 0.0;  ///< multiplier of the soft bound
 };
 
-/// What an objective asks of contacts. All but `kSafest` want a small gap: hard where it is there,
-/// else not much less than there is, and softly what is wanted. `kSafest` wants a wide one, softly,
-/// of the vertex that is nearest to each triangle, and hard no less than the least there was.
+/// The bounds that an objective derives from contacts, where a *gap* is the room of a contact and
+/// wanted_m a gap that suffices:
+///
+///     objective                         hard bound             soft bound
+///     any but kSafest, gap >= wanted_m  wanted_m               none
+///     any but kSafest, gap < wanted_m   a share of the gap     wanted_m
+///     kSafest                           min(gap, least gap),   wanted_m, for the nearest vertex
+///                                       for near vertices      of each triangle, without turning
 class ContactBounds {
  public:
   ContactBounds(Objective objective, double ball_radius_m);
 
-  /// Gap that is wanted. [Units: metres]
+  /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }
-  /// The least gap there was, for `kSafest`. [Units: metres]
+  /// Sets the least gap that `kSafest` must keep: the least before the relaxation. [Units: metres]
   void keep(double least_gap_m) { least_gap_m_ = least_gap_m; }
 
   void clear();
-  /// What `contacts` ask of a sample that `moved` so far; those of a triangle follow each other,
-  /// and must stay where they are until `remember`. `reply`: how far the sample moves by a unit
-  /// force.
+  /// Adds the bounds of `contacts` on a sample whose displacement is `moved`. Requires contacts of
+  /// one triangle to be adjacent, and `contacts` to stay in place until `remember`. `reply`: the
+  /// compliance of the sample, its displacement per unit force.
   void add(std::size_t sample, const StackedPoint& moved, double reply,
            std::span<Contact> contacts);
   [[nodiscard]] std::span<ForcedBound> bounds() { return bounds_; }
-  /// Puts the forces back into the contacts.
+  /// Stores the multipliers of `bounds()` in the contacts.
   void remember() const;
 
  private:
@@ -51,7 +55,7 @@ class ContactBounds {
   const double hard_reach_m_;
   double least_gap_m_ = 0.0;
   std::vector<ForcedBound> bounds_;
-  std::vector<double*> forces_;  ///< of each, in its contact
+  std::vector<double*> forces_;  ///< the multiplier in the contact of each bound
 };
 
 }  // namespace camway::correction

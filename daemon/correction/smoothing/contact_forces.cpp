@@ -11,9 +11,9 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement.
-constexpr int kMostSweeps = 10;          // over the bounds that feel a force
-constexpr int kMostRounds = 3;           // of looking for others
-constexpr std::size_t kMostLive = 1024;  // that feel a force: what they reply to each other is kept
+constexpr int kMostSweeps = 10;          // over the active set
+constexpr int kMostRounds = 3;           // of extending the active set
+constexpr std::size_t kMostLive = 1024;  // largest active set: its compliances are stored
 
 class Forces {
  public:
@@ -25,13 +25,13 @@ class Forces {
     }
   }
 
-  /// Looks for bounds that do not hold, and adds them to those that feel a force, those first that
-  /// miss most. Whether there were any.
+  /// Adds the violated bounds to the active set, the most violated first. Returns whether there
+  /// were any.
   bool add_live() {
     const StackedPoints now = forced();
     std::vector<Missing> found;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
-      // No force moves a sample that does not reply.
+      // A force has no effect on a sample with zero compliance.
       if (is_live_[i] || !(stiffness_[i] > 0.0)) continue;
       const ForcedBound& bound = bounds_[i];
       const double missing_m =
@@ -49,7 +49,7 @@ class Forces {
     return !found.empty();
   }
 
-  /// Each force once; how far that moved a sample at most.
+  /// Updates each multiplier once. Returns the largest displacement of a sample.
   double sweep() {
     double largest_m = 0.0;
     for (std::size_t j = 0; j < live_.size(); ++j) {
@@ -75,7 +75,7 @@ class Forces {
     std::size_t bound;
   };
 
-  /// Where the samples are. Bounds of a sample follow each other.
+  /// The samples under the current multipliers. Bounds of one sample are adjacent.
   [[nodiscard]] StackedPoints forced() const {
     StackedPoints now = unforced_;
     StackedPoint force = StackedPoint::Zero();
@@ -116,8 +116,8 @@ class Forces {
   std::vector<bool> is_live_;
   std::vector<double> stiffness_;
   std::vector<std::size_t> live_;
-  Eigen::VectorXd missing_m_;  ///< of each live bound; below 0 where it holds
-  Eigen::MatrixXd replies_;    ///< of live bounds to each other
+  Eigen::VectorXd missing_m_;  ///< violation of each active bound; below 0 where it holds
+  Eigen::MatrixXd replies_;    ///< compliance matrix of the active bounds
 };
 
 }  // namespace

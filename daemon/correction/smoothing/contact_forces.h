@@ -8,26 +8,25 @@
 
 namespace camway::correction {
 
-/// A lower bound of how far a sample of the path goes in a direction, and the force that makes it
-/// keep to that.
+/// An inequality `direction · x >= bound_m` on the displacement x of a sample, and its multiplier.
 struct ForcedBound {
   std::size_t sample = 0;
   StackedPoint direction = StackedPoint::Zero();
-  double bound_m = 0.0;  ///< of direction · sample
-  /// How far the bound gives way to a unit force, as a share of how far the path does; 0 for one
-  /// that has to hold.
+  double bound_m = 0.0;
+  /// Compliance of the bound, relative to that of the path; 0 for a hard bound.
   double softness = 0.0;
-  double force = 0.0;  ///< in: a guess, [Limit: value >= 0]
+  double force = 0.0;  ///< multiplier; in: an initial guess, out: the solution [Limit: value >= 0]
 };
 
-/// Forces under which a sum of squares is least while the bounds hold: the dual of a quadratic
-/// program, force by force (Hildreth 1957, "A quadratic programming procedure"). Stops where no
-/// force moves a sample by more than `settled_m`, or after a number of sweeps: approximate then,
-/// but never worse than the guess. Bounds that no force can help, as their sample does not reply to
-/// one, are left alone.
+/// Finds the multipliers of a quadratic program: minimise a sum of squares subject to `bounds`.
+/// Solves the dual by coordinate ascent (Hildreth 1957, "A quadratic programming procedure"). Stops
+/// when no multiplier displaces a sample by more than `settled_m`, or after a fixed number of
+/// sweeps; the result is then approximate, but never worse than the guess. Ignores bounds on
+/// samples with zero compliance.
 ///
-/// `unforced`: where the samples are at the minimum without forces, a row each; `reply`: how far
-/// each sample moves by a unit force on another, symmetric and positive semidefinite.
+/// `unforced`: the samples at the unconstrained minimum, one per row. `reply`: the compliance
+/// matrix, the displacement of each sample per unit force on another; symmetric and positive
+/// semidefinite.
 void find_forces(std::span<ForcedBound> bounds, const StackedPoints& unforced,
                  const Eigen::MatrixXd& reply, double settled_m);
 

@@ -17,7 +17,7 @@ using geometry::Vec3;
 using geometry::Vec4;
 using Turns = Eigen::Matrix<double, 3, 4>;
 
-/// Turning vectors (axis times radians) of unit steps of the image, in the world frame.
+/// Rotation vectors (axis times radians) of unit steps of the image, in the world frame.
 Turns turns_of(const Vec4& reference, const Vec4& image) {
   using motion::quaternion::conjugate;
   using motion::quaternion::multiply;
@@ -26,15 +26,15 @@ Turns turns_of(const Vec4& reference, const Vec4& image) {
   for (Eigen::Index k = 0; k < 4; ++k) {
     const Vec4 unit = Vec4::Unit(k);
     const Vec4 step = multiply(reference, multiply(image, unit) + multiply(unit, image));
-    // What changes the length of q is real, and no turn.
+    // The real part changes the length of q and is no rotation.
     turns.col(k) = 2.0 / image.squaredNorm() * multiply(step, conjugate(q)).tail<3>();
   }
   return turns;
 }
 
-/// Of those from `first` on, in the order that they have.
+/// Keeps the tightest of the rows from `first` on, in their order.
 void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
-  constexpr std::size_t kMost = 48;  // of a triangle: more than those of a box
+  constexpr std::size_t kMost = 48;  // rows per obstacle: more than a box has
   if (rows.size() - first <= kMost) return;
   std::vector<double> rooms_m;
   for (std::size_t i = first; i < rows.size(); ++i) rooms_m.push_back(rows[i].room_m);
@@ -47,14 +47,14 @@ void keep_tightest(std::vector<ContactRow>& rows, std::size_t first) {
   rows.resize(kept);
 }
 
-/// Where the body is, and how it turns.
+/// The body at a pose, and the rotations that steps of its image make.
 struct Place {
   std::span<const Triangle> parts;
   motion::Pose pose;
   Turns turns;
   double lever_m;
 
-  /// What keeps vertex `i` of part `k` beyond a plane that it is `room_m` from.
+  /// The row for vertex `i` of body triangle `k`, which is `room_m` beyond the plane.
   [[nodiscard]] ContactRow row(std::uint32_t obstacle, std::size_t k, std::size_t i,
                                const Vec3& away_W, double room_m) const {
     ContactRow row;

@@ -10,19 +10,23 @@
 
 namespace camway::correction {
 
-/// A bound of a step from a pose, to first order: after it a point of the body is still `room_m +
-/// direction · step` beyond the plane that keeps it from a triangle of the scene, or inside a side
-/// of the bounds.
+/// A linearised distance constraint on a step from a pose: after the step, a vertex of the body is
+/// `room_m + direction · step` beyond the plane that separates it from a triangle of the scene, or
+/// inside a side of the bounds.
 struct ContactRow {
   StackedPoint direction;
   double room_m = 0.0;
-  std::uint32_t triangle = 0;  ///< of the scene, or a side (`collision::Obstacles::is_side`)
-  std::size_t vertex = 0;      ///< of the body: three times its triangle, and which of the three
+  /// Triangle of the scene or side of the bounds (`Obstacles::is_side`).
+  std::uint32_t triangle = 0;
+  std::size_t vertex = 0;  ///< vertex of the body: 3 × its triangle + its index in the triangle
 };
 
-/// Adds the rows of what obstacles ask of the body: of a triangle for each triangle of the body
-/// the plane across the shortest line between the two, and those vertices that a step of
-/// `horizon_m` could bring to it. `point` is where the body is, and free of them.
+/// Adds the rows of `obstacles` for the body at `point`. For a triangle of the scene and each
+/// triangle of the body the plane is perpendicular to the shortest line between the two; rows are
+/// added for the vertices within `horizon_m` of it, the tightest ones where there are many.
+/// Requires the body to be free of the obstacles at `point`. `reference`: the reference frame of
+/// images; `lever_m`: the lever arm of `StackedPoint`. Without `may_turn` the rows do not constrain
+/// the orientation.
 void add_contact_rows(FreeSpace& space, bool may_turn, const geometry::Vec4& reference,
                       double lever_m, const StackedPoint& point,
                       std::span<const std::uint32_t> obstacles, double horizon_m,

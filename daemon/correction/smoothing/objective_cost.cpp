@@ -16,13 +16,13 @@ using geometry::Vec3;
 using motion::CubicPiece;
 
 constexpr int kSamplesAPiece = 16;
-constexpr double kSampleStep = 0.25;  // of the ball's radius: how far the body moves between two
+constexpr double kSampleStep = 0.25;  // step between samples, as a share of the ball's radius
 constexpr double kTightStep = 0.05;   // the same
 constexpr double kFewestSamples = 32.0;
 constexpr double kMostSamples = 2000.0;
-constexpr double kTightGap = 0.02;      // in radii of the ball: nobody but `kSafest` asks for more
-constexpr double kSameGap = 0.99;       // of the least gap: samples miss more than the rest of it
-constexpr double kWorthAChange = 1e-3;  // of the cost: less is within what the samples miss
+constexpr double kTightGap = 0.02;      // in radii of the ball: enough for all but `kSafest`
+constexpr double kSameGap = 0.99;       // share of the least gap: samples miss more than the rest
+constexpr double kWorthAChange = 1e-3;  // share of the cost: less is within the error of samples
 
 template <class Use>
 void for_each_sample(const motion::CubicPath& path, const Use& use) {
@@ -52,7 +52,7 @@ double length_m(const motion::CubicPath& path) {
   return length_m;
 }
 
-// The acceleration of a cubic changes linearly from end to end.
+// The acceleration of a cubic is linear in time.
 double bending_energy(const CubicPiece& piece) {
   const double duration_s = piece.t1_s - piece.t0_s;
   const auto acceleration = [&](std::size_t i) -> Vec3 {
@@ -64,7 +64,8 @@ double bending_energy(const CubicPiece& piece) {
   return duration_s / 3.0 * (begin.squaredNorm() + begin.dot(end) + end.squaredNorm());
 }
 
-/// Calls `use(gap, way)` with the gap, or `up_to_m`, and how far the eye came since the last time.
+/// Calls `use(gap, way)` with the gap, at most `up_to_m`, and the eye's distance from the last
+/// sample.
 template <class Use>
 void for_each_gap(const motion::CubicPath& path, double step_m, double up_to_m, FreeSpace& space,
                   const Use& use) {
@@ -86,7 +87,8 @@ double least_gap_m(const motion::CubicPath& path, FreeSpace& space) {
   return least_m;
 }
 
-// Over the way rather than over time: who lingers where it is safe is in no less danger elsewhere.
+// Integrates over the curve's length and not over time: otherwise lingering in a safe place would
+// lower the cost of danger elsewhere.
 ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
                      const collision::Deadline& deadline) {
   const double comfort_m = kComfort * space.ball_radius_m();
@@ -96,7 +98,7 @@ ObjectiveCost danger(const motion::CubicPath& path, FreeSpace& space,
                  const double missing = 1.0 - std::clamp(gap_m / comfort_m, 0.0, 1.0);
                  cost.value += missing * missing * way_m;
                });
-  // This is what the answer's measure of safety is: not to be missed between samples.
+  // Answers report this bound, which does not depend on samples.
   const auto clearance =
       collision::path_clearance(space.obstacles(), path.path(), space.body(), deadline);
   if (!clearance) return {std::numeric_limits<double>::infinity(), 0.0};

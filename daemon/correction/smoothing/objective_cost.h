@@ -7,33 +7,37 @@
 
 namespace camway::correction {
 
-/// What an objective says of a stretch of path, as its measures in an answer will: as computed from
-/// samples where there is no closed form, and no part of any proof.
+/// Value of an objective for a part of a path, by the measures that answers report. Computed from
+/// samples where there is no closed form; no part of any proof.
 struct ObjectiveCost {
-  /// Less is better. `kClosest`: largest distance of the eye from the original at the same time
-  /// [Units: metres]; `kShortest`: length of its way [Units: metres]; `kSmoothest`: bending energy
-  /// [Units: m²/s³]; `kSafest`: how much is missing to a gap that is as good as any, squared, as a
-  /// share of that gap, integrated over the way of the eye [Units: metres].
+  /// Less is better.
+  /// - `kClosest`: largest distance of the eye from the original at the same time [Units: metres]
+  /// - `kShortest`: length of the eye's curve [Units: metres]
+  /// - `kSmoothest`: bending energy [Units: m²/s³]
+  /// - `kSafest`: (1 - gap/c)², with gaps above the sufficient gap c counted as c, integrated over
+  ///   the length of the eye's curve [Units: metres]
   double value = 0.0;
-  /// The least gap, or one that is wide enough for the objective: of samples, but for `kSafest`
-  /// `collision::path_clearance`. 0 for `kClosest`, which is asked often, and keeps what gaps
-  /// relaxation leaves. [Units: metres]
+  /// Least gap over the path, or a sufficient gap if that is less: by samples, for `kSafest` by
+  /// `collision::path_clearance`. 0 for `kClosest`, which is evaluated often and relies on the gaps
+  /// that relaxation keeps. [Units: metres]
   double least_gap_m = 0.0;
 };
 
-/// Gaps wider than this, in radii of the ball that holds the body, are as good as any to `kSafest`.
+/// The sufficient gap of `kSafest`, in radii of the ball that holds the body: larger gaps are no
+/// better.
 inline constexpr double kComfort = 3.0;
 
-/// `original` covers the time of `path`. If the deadline strikes, the value is infinite.
+/// Evaluates `objective` on `path`. Requires `original` to cover the time of `path`. For `kSafest`
+/// the value is infinite if the deadline strikes; other objectives ignore the deadline.
 ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
                              const motion::CubicPath& original, FreeSpace& space,
                              const collision::Deadline& deadline);
 
-/// Integral of the squared acceleration of the eye. [Units: m²/s³]
+/// Integral of the squared acceleration of the eye over time. [Units: m²/s³]
 double bending_energy(const motion::CubicPath& path);
 
-/// Whether `now` is better by more than what it takes to be worth a change, and nowhere nearer than
-/// the nearest before, where that was near, rounding and sampling apart.
+/// Whether `now` is better by enough to be worth a change and its least gap is no smaller, up to
+/// sampling and rounding.
 bool is_better(const ObjectiveCost& now, const ObjectiveCost& before);
 
 }  // namespace camway::correction

@@ -22,43 +22,43 @@ using motion::CubicPoint;
 constexpr int kSamplesAStep = 2;      // between two knots
 constexpr double kFloor = 0.03;       // least gap that a step may leave, ...
 constexpr double kKeptShare = 0.8;    // ... or this share of what there was, where that is less
-constexpr double kLeastKept = 0.995;  // of the least gap, by `kSafest`
-constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // kept at the samples
-constexpr double kFirstTrust = 2.0;                              // how far a step may move the body
+constexpr double kLeastKept = 0.995;  // share of the least gap that `kSafest` keeps
+constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // least room at the samples
+constexpr double kFirstTrust = 2.0;                              // radius of the trust region
 constexpr double kMostTrust = 4.0;
 constexpr double kLeastTrust = 0.02;
 constexpr double kDistrust = 0.3;
-constexpr double kHorizon = 1.0;    // gaps are not measured further, but for `kSafest`
-constexpr double kFarEnough = 0.5;  // of that: then a bound of the gap will do
+constexpr double kHorizon = 1.0;    // largest gap that is measured; `kSafest` adds kComfort
+constexpr double kFarEnough = 0.5;  // share of the horizon beyond which a lower bound suffices
 constexpr double kSettled = 0.05;   // a step that moves the body less is the last
-constexpr double kGained = 0.01;    // of the objective: a step that gains less is the last
+constexpr double kGained = 0.01;    // share of the objective: a step that gains less is the last
 constexpr int kMostSteps = 12;
-constexpr int kMostCuts = 3;            // times that a step is looked for again, with more contacts
-constexpr double kForceSettled = 1e-3;  // of where forces move the path
-constexpr std::size_t kMostContacts = 3;  // triangles that a sample keeps in mind
-constexpr int kRounds = 3;                // of relaxing, with more samples each time
+constexpr int kMostCuts = 3;              // attempts at a step, each with more contacts
+constexpr double kForceSettled = 1e-3;    // convergence threshold of the multipliers
+constexpr std::size_t kMostContacts = 3;  // contacts per sample
+constexpr int kRounds = 3;                // rounds of relaxing, with more samples each time
 constexpr double kRetreat = 0.6;
-constexpr int kRetreats = 3;  // towards the correction it began with
+constexpr int kRetreats = 3;  // moves back towards the initial correction
 
-/// A time at which the body is asked to be free.
+/// A time at which the relaxation checks that the body is free.
 struct Sample {
   StackedPoint path;
   Terms terms;
-  double floor_m = 0.0;       ///< gap that has to remain
-  motion::Pose interpolated;  ///< what the rule for orientations compares with
-  double rule_floor = 0.0;    ///< that it has to be met by
-  /// Where the body was asked about last, and its gap: until it has moved by that, there is no need
-  /// to ask again.
+  double floor_m = 0.0;       ///< least gap that a step must leave
+  motion::Pose interpolated;  ///< reference of the orientation policy
+  double rule_floor = 0.0;    ///< least room of the orientation policy that a step must leave
+  /// The last pose with a known gap. The gap is queried again only after the body has moved by as
+  /// much.
   StackedPoint known;
   double known_gap_m = 0.0;
-  std::vector<std::uint32_t> contacts;  ///< triangles that it may run into, the latest last
-  std::vector<Contact> rows;            ///< what they ask for, where the path is now
-  bool has_rows = false;                ///< whether they are up to date
+  std::vector<std::uint32_t> contacts;  ///< obstacles that the body may meet, the latest last
+  std::vector<Contact> rows;            ///< their constraints at the current path
+  bool has_rows = false;                ///< whether `rows` is up to date
 };
 
 class Relaxation {
  public:
-  /// Does `steps_left` at most, and counts them.
+  /// Spends at most `steps_left` steps and subtracts them.
   Relaxation(const Problem& problem, const Offsets& offsets, Ends ends,
              const Improvement& improvement, FreeSpace& space, int& steps_left)
       : problem_(problem),
@@ -83,15 +83,15 @@ class Relaxation {
 
   [[nodiscard]] Offsets offsets() const { return free_.offsets_of(variables_, lever_m_); }
 
-  /// Whether there may be that share to gain, as far as the nearest obstacles tell.
+  /// Whether the objective may fall by `share`, subject to the known contacts.
   [[nodiscard]] bool promises(double share) {
     if (is_safest_) return true;
     const double now = form_.value(variables_);
     return now - form_.value(solved()) > share * now;
   }
 
-  /// Keeping away from what is near may cost more than all else gains. What `kSafest` gains is
-  /// gaps, of which the form does not know.
+  /// Avoiding obstacles may cost more than the other terms gain. Always true for `kSafest`, which
+  /// gains gaps that the form does not contain.
   [[nodiscard]] bool is_no_worse(const Offsets& now, const Offsets& before) const {
     return is_safest_ || form_.value(free_.variables_of(now, lever_m_)) <=
                              form_.value(free_.variables_of(before, lever_m_));
@@ -114,8 +114,8 @@ class Relaxation {
     }
   }
 
-  /// From now on the body has to be free there too. Takes back what was done about it, towards what
-  /// is `free`: as much as it takes to be free at all samples again, old and new.
+  /// Adds samples in `collision` and moves the path back towards `free`, by as much as makes all
+  /// samples free.
   void watch(const collision::CollisionInterval& collision, const Offsets& free) {
     const StackedPoints known = free_.variables_of(free, lever_m_);
     const StackedPoints moved = variables_;
@@ -124,7 +124,7 @@ class Relaxation {
     for (const double share : {0.0, 0.5, 1.0})
       add_sample(std::lerp(collision.t_begin_s, collision.t_end_s, share));
     variables_ = moved;
-    // What is in the way there is what has to be minded.
+    // Adds contacts for the obstacles of the new samples.
     for (std::size_t i = old; i < samples_.size(); ++i) is_free(samples_[i], point(samples_[i]));
     take_back(known, 0.5 * (collision.t_begin_s + collision.t_end_s));
     for (Sample& sample : samples_) sample.has_rows = false;
@@ -146,7 +146,7 @@ class Relaxation {
     samples_.push_back(std::move(sample));
   }
 
-  /// `kSafest` may come nearer somewhere, but nowhere nearer than it was where it was nearest.
+  /// `kSafest` may reduce gaps, but none below the least gap of the whole path.
   void keep_least_gap() {
     double least_m = bounds_.wanted_m();
     for (const Sample& sample : samples_)
@@ -202,7 +202,8 @@ class Relaxation {
     sample.known_gap_m = gap_m(sample, sample.known);
   }
 
-  /// How far the body is from the scene, or less, and minds what is near.
+  /// Returns about the gap of the body, at most `horizon_m_` or a lower bound beyond it, and adds a
+  /// contact for the nearest obstacle.
   double gap_m(Sample& sample, const StackedPoint& there) {
     const motion::Pose pose = this->pose(there);
     const double at_least_m = space_.at_least_m(pose);
@@ -221,7 +222,8 @@ class Relaxation {
     if (sample.contacts.size() > kMostContacts) sample.contacts.erase(sample.contacts.begin());
   }
 
-  /// Asks the scene where what is known does not tell. What is in the way is minded from then on.
+  /// Whether the sample is free at `there`; queries the scene only if the known gap does not
+  /// decide. Adds a contact for an obstacle in the way.
   bool is_free(Sample& sample, const StackedPoint& there) {
     if (!meets_rule(sample, there)) {
       breaks_rule_ = true;
@@ -240,8 +242,9 @@ class Relaxation {
     return rule_room(space_.policy(), pose(there), sample.interpolated) >= sample.rule_floor;
   }
 
-  /// Goes towards what is best, as far as the body stays free, and no further than `trust_m`. How
-  /// far it moved; nothing if it cannot, or is there; 0 if it has to begin again with less trust.
+  /// Steps towards the constrained minimum as far as the samples stay free, and at most `trust_m`.
+  /// Returns the length of the step; nothing at the minimum or if no step is possible; 0 if it must
+  /// be repeated with the reduced `trust_m`.
   std::optional<double> take_step(double& trust_m) {
     for (int cut = 0; cut < kMostCuts; ++cut) {
       const StackedPoints whole = solved() - variables_;
@@ -258,7 +261,7 @@ class Relaxation {
         StackedPoints step = whole_m > trust_m ? StackedPoints(trust_m / whole_m * whole) : whole;
         if (goes(step)) return moved_m;
         if (finds_contacts_) break;
-        // What may not turn as it would may still move.
+        // The turn violated the orientation policy: retry the step without it.
         if (breaks_rule_) step.rightCols<4>().setZero();
         if (breaks_rule_ && goes(step)) return moved_m;
         if (finds_contacts_) break;
@@ -282,7 +285,7 @@ class Relaxation {
     return true;
   }
 
-  /// The least of the objective as far as contacts allow, to first order.
+  /// The minimum of the objective subject to the linearised contacts.
   StackedPoints solved() {
     StackedPoints result = form_.minimum();
     if (!may_turn_) result.rightCols<4>() = variables_.rightCols<4>();
@@ -306,7 +309,7 @@ class Relaxation {
     return result;
   }
 
-  /// Where the samples are at the objective's minimum.
+  /// The samples at the unconstrained minimum of the objective.
   const StackedPoints& unforced(const StackedPoints& minimum) {
     const auto count = static_cast<Eigen::Index>(samples_.size());
     const Eigen::Index old = unforced_.rows();
@@ -317,7 +320,7 @@ class Relaxation {
     return unforced_;
   }
 
-  /// Of each sample to a unit force on each.
+  /// The compliance matrix: displacement of each sample per unit force on each.
   const Eigen::MatrixXd& replies() {
     const auto count = static_cast<Eigen::Index>(samples_.size());
     const Eigen::Index known = replies_.cols();
@@ -405,7 +408,7 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
       if (!relaxation.is_no_worse(better, free.offsets)) return free;
       return {better, std::move(*tried.candidate)};
     }
-    // Something slips through between the samples: then there is to be one.
+    // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);
   }
   double share = kRetreat;

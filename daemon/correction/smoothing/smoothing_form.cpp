@@ -14,7 +14,7 @@ using motion::CubicPoint;
 
 constexpr int kBumpReach = 2;      // knots from a bump's peak to the end of its support
 constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
-constexpr double kRounding = 0.1;  // of the gap: how wide `kShortest` turns about a corner
+constexpr double kRounding = 0.1;  // share of the interval: how wide `kShortest` rounds a corner
 
 /// Weights of the squared distance from the original, and of squared first and second differences
 /// of the path's control points.
@@ -38,7 +38,7 @@ Weights weights_of(Objective objective, int count, double spread) {
   return {1.0, 0.0, 1.0};
 }
 
-/// The path, and beyond its ends the straight line that goes on as it does there: a natural end.
+/// The path, extended beyond its ends along its tangents: natural end conditions.
 CubicPoint extended(const motion::CubicPath& path, double time_s) {
   const bool is_before = time_s < path.begin_s();
   if (!is_before && time_s <= path.end_s()) return path.at(time_s);
@@ -51,8 +51,9 @@ CubicPoint extended(const motion::CubicPath& path, double time_s) {
           piece.image[end] + legs * (piece.image[i + 1] - piece.image[i])};
 }
 
-/// How many knots beyond a keyframe, to one side, a bump may have its peak at without reaching the
-/// next keyframe; 0 also where not even one at the keyframe itself keeps away.
+/// Number of knots beyond a keyframe, to one side, at which a bump may have its peak without
+/// reaching the next keyframe; 0 also where not even a bump at the keyframe itself stays clear of
+/// it.
 int knots_beyond(const motion::KnotRow& knots, int keyframe, int side, double next_s) {
   const auto reaches = [&](int beyond) {
     const double end_s = knots.knot_s(keyframe + side * (beyond + kBumpReach));

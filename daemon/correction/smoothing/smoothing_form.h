@@ -13,10 +13,10 @@
 
 namespace camway::correction {
 
-/// A point of the space in which paths are cubic: the position, then the image times a lever arm,
-/// so that steps of equal length move the body about equally far. [Units: metres]
+/// A point in the space where paths are cubic: the position, then the image in R⁴ times a lever
+/// arm, so that steps of equal length move the body about equally far. [Units: metres]
 using StackedPoint = Eigen::Matrix<double, 7, 1>;
-/// One of them in each row.
+/// One stacked point per row.
 using StackedPoints = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
 inline StackedPoint stacked(const motion::CubicPoint& point, double lever_m) {
@@ -28,21 +28,22 @@ inline motion::CubicPoint unstacked(const StackedPoint& point, double lever_m) {
   return {point.head<3>(), point.tail<4>() / lever_m};
 }
 
-/// A share of a variable in something linear.
+/// A term of a linear combination of variables.
 struct Term {
   Eigen::Index variable;
   double share;
 };
 using Terms = std::vector<Term>;
 
-/// Whether a row of bumps on these knots can have free ends: what keeps the two keyframes of the
-/// gap reaches two knots beyond, and must not reach the keyframes there.
+/// Whether a row of bumps on `knots` can have free ends. The bumps that keep the two keyframes of
+/// the interval reach two knots beyond them, and must not reach the next keyframes.
 bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots);
 
-/// Which coefficients of a row of bumps a correction is free to choose. With free ends also some
-/// before the first keyframe and after the last, as far as they do not reach the next keyframe, so
-/// that the path can swing through; those at the two keyframes follow from their neighbours. Other
-/// keyframes are kept where free ends fit.
+/// The coefficients of a row of bumps that a correction may choose. With free ends they include
+/// some before the first and after the last keyframe of the interval, as far as those do not reach
+/// the next keyframe, so that the path may change its slope at the two keyframes. The coefficients
+/// at the two keyframes are *held*: they follow from their neighbours. Other keyframes are kept
+/// where free ends fit (`fits_free_ends`).
 class FreeCoefficients {
  public:
   FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends);
@@ -55,9 +56,10 @@ class FreeCoefficients {
     return holds_keyframes_ && (k == 0 || k == knots_.count);
   }
 
-  /// Adds `factor` times the coefficient at knot `k` to `terms`; nothing outside the range.
+  /// Adds `factor` times the coefficient at knot `k` to `terms`; nothing outside of the range.
   void add(int k, double factor, Terms& terms) const;
-  /// What the row of bumps is at a time, and 0 where it has ended.
+  /// Value of the row of bumps at a time, as if the knots were equidistant; empty outside of the
+  /// supports.
   [[nodiscard]] Terms at(double time_s) const;
 
   [[nodiscard]] StackedPoints variables_of(const Offsets& offsets, double lever_m) const;
@@ -71,7 +73,7 @@ class FreeCoefficients {
   int last_ = 0;
   bool holds_keyframes_ = false;
   Eigen::Index size_ = 0;
-  /// Of the bumps before and after each keyframe, in the one there.
+  /// For each keyframe: the shares of the coefficients before and after it in the held coefficient.
   std::array<std::pair<double, double>, 2> held_shares_;
 };
 
@@ -81,30 +83,33 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
   return sum;
 }
 
-/// Over how much of the gap an offset from the original fades out, for `kClosest`: what bends less
-/// goes further astray. [Units: share of the gap]
+/// Share of the interval between keyframes over which an offset from the original fades out, for
+/// `kClosest`. A larger spread bends less and deviates more.
 inline constexpr double kSpread = 1.5;
 
-/// An objective as a sum of squares, linear in the free coefficients (Farin 2002, section 9.4, for
-/// bending): distances of control points from the original and their second differences for
-/// `kClosest`, and for `kSafest`, which wants gaps besides; first differences, and a little of the
-/// second, for `kShortest`; second for `kSmoothest`.
+/// An objective as a quadratic form of the free coefficients: a weighted sum of squares (Farin
+/// 2002, section 9.4, for bending) of control points' distances from the original and of the first
+/// and second differences of the path's control points.
+/// - `kClosest` and `kSafest`: distances and second differences; `kSafest` also wants gaps, which
+///   are not part of the form.
+/// - `kShortest`: first differences, and second differences with a small weight.
+/// - `kSmoothest`: second differences.
 class SmoothingForm {
  public:
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
                 double lever_m, double spread = kSpread);
 
   [[nodiscard]] double value(const StackedPoints& variables) const;
-  /// Where it is least.
+  /// The minimiser.
   [[nodiscard]] const StackedPoints& minimum() const { return minimum_; }
-  /// The inverse of its Hessian, which is the same in all seven dimensions.
+  /// The inverse of the Hessian, which is the same in all seven dimensions.
   [[nodiscard]] const Eigen::MatrixXd& inverse() const { return inverse_; }
 
  private:
   void count(double weight, const Terms& terms, const StackedPoint& constant);
 
   Eigen::MatrixXd hessian_;
-  StackedPoints slope_;  ///< at zero
+  StackedPoints slope_;  ///< gradient at zero
   double at_zero_ = 0.0;
   Eigen::MatrixXd inverse_;
   StackedPoints minimum_;

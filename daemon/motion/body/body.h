@@ -15,8 +15,8 @@
 
 namespace camway::motion {
 
-/// What a body is made of. Everything is given in the camera frame C: the eye is the origin, so a
-/// body turns about the eye wherever it is placed.
+/// Shapes of a body, in the camera frame C. The eye is the origin, so a body turns about the eye
+/// wherever it is placed.
 struct BoxShape {
   geometry::Vec3 center_C = geometry::Vec3::Zero();
   geometry::Vec3 size_m = geometry::Vec3::Zero();  ///< full edge lengths [Limit: 0 < value]
@@ -36,57 +36,60 @@ struct MeshShape {
 };
 using BodyShape = std::variant<Camera, BoxShape, SphereShape, ConvexShape, MeshShape>;
 
-/// The convex solid that is the intersection of half-spaces; a scene that lies wholly inside it
-/// touches none of the body's triangles and collides all the same.
+/// A convex solid, the intersection of half-spaces. A part of the scene wholly inside it touches
+/// none of the body's triangles and collides all the same.
 struct Solid {
   std::vector<geometry::HalfSpace> faces_C;
 };
 
-/// Sizes of what a body may be made of.
-inline constexpr std::size_t kMaxBodyPoints = 512;      ///< of all pieces, or vertices of a mesh
-inline constexpr std::size_t kMaxBodyTriangles = 1024;  ///< of a mesh
-inline constexpr double kMaxBodyCoordinate_m = 1e9;     ///< of any point, size or radius
+/// Limits of shapes.
+inline constexpr std::size_t kMaxBodyPoints = 512;  ///< points of all pieces, or vertices of a mesh
+inline constexpr std::size_t kMaxBodyTriangles = 1024;  ///< triangles of a mesh
+inline constexpr double kMaxBodyCoordinate_m = 1e9;     ///< any coordinate, size or radius
 
-/// What is wrong with a shape.
+/// A fault of a shape.
 struct ShapeFault {
-  std::string field;   ///< below the shape, e.g. "size[1]"; empty where all of it is at fault
+  std::string field;   ///< field below the shape, e.g. "size[1]"; empty for the whole shape
   std::string reason;  ///< e.g. "is -1 m; it must be above 0 and at most 1e+09"
 };
 
-/// Checks sizes, counts and finiteness. Nothing if `Body::make` will take the shape. Safe from any
-/// thread.
+/// Checks sizes, counts and finiteness. Returns nothing if `Body::make` accepts the shape.
+/// Thread-safe.
 std::optional<ShapeFault> fault_in(const BodyShape& shape);
 
 /// The rigid body that moves along a path, prepared for collision queries: the points of
-/// `triangles_C`, each thickened by a ball of `ball_radius_m`, and the insides of `solids_C`. The
-/// filled near quadrilateral of a camera is two triangles, a ball of radius 0 and no solid; a
-/// sphere is one triangle that has shrunk to its centre, and a ball; a box or a convex piece with
-/// volume is the triangles of its surface and a solid; a flat piece and a mesh are triangles alone.
-/// Immutable.
+/// `triangles_C`, each thickened by a ball of `ball_radius_m`, and the insides of `solids_C`.
+/// - A camera is the two triangles of its filled near quadrilateral, with a ball of radius 0.
+/// - A sphere is one triangle, shrunk to its centre, and a ball.
+/// - A box or a convex piece with volume is the triangles of its surface and a solid.
+/// - A flat convex piece or a mesh is triangles alone.
+///
+/// Immutable. Thread-safe.
 class Body {
  public:
   /// The filled near quadrilateral: corners c0..c3 of `near_corners_C` as the triangles (c0, c1,
   /// c2) and (c0, c2, c3).
   explicit Body(const Camera& camera);
-  /// The same with the corners as they are.
+  /// The filled near quadrilateral with these corners.
   explicit Body(const Corners& corners_C);
 
-  /// Any shape. Nothing, and why in `error`, exactly if it has a `fault_in`.
+  /// A body of any shape. Returns nothing, with the reason in `error`, exactly if `fault_in`
+  /// returns a fault.
   static std::optional<Body> make(const BodyShape& shape, std::string& error);
 
-  /// The triangles of a solid are counter-clockwise seen from outside, those of a mesh as given.
+  /// Triangles of solids are counter-clockwise seen from outside, those of a mesh as given.
   [[nodiscard]] std::span<const geometry::Triangle> triangles_C() const { return triangles_C_; }
   [[nodiscard]] double ball_radius_m() const { return ball_radius_m_; }
   [[nodiscard]] std::span<const Solid> solids_C() const { return solids_C_; }
-  /// Largest distance of a triangle's vertex from the eye, rounded up: no point of a triangle moves
-  /// further under rotation alone than a point at this radius does, and a ball moves as its centre.
+  /// Largest distance of a triangle's vertex from the eye, rounded up. Under rotation alone no
+  /// point of a triangle moves farther than a point at this radius, and a ball moves as its centre.
   [[nodiscard]] double radius_m() const { return radius_m_; }
-  /// Every point of the shape as it was given is within this of the triangles (and their balls) or
-  /// inside a solid: what rounding the corners of a camera or a box may have left out. 0 for what
-  /// is given by its points: hulls are exact (`convex_hull.h`).
+  /// Bound of the rounding of the shape: every point of the shape as given is within this of the
+  /// triangles (and their balls) or inside a solid. It comes from rounding the corners of a camera
+  /// or a box; 0 for shapes given by their points, as hulls are exact (`convex_hull.h`).
   [[nodiscard]] double slack_m() const { return slack_m_; }
   [[nodiscard]] bool is_camera() const { return is_camera_; }
-  /// Name of a part for a person: of a near quadrilateral "inside" (0), "edge 0" to "edge 3" (1 to
+  /// Name of a feature for users: of a near quadrilateral "inside" (0), "edge 0" to "edge 3" (1 to
   /// 4; edge i joins corners i and i + 1) and "corner 0" to "corner 3" (5 to 8); "surface" of a
   /// sphere; of other bodies "face k" for triangle k.
   [[nodiscard]] std::string feature_name(std::size_t feature) const;

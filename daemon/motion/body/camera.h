@@ -7,8 +7,8 @@
 
 namespace camway::motion {
 
-/// The part of a perspective camera that can run into things: its near quadrilateral, the section
-/// of the view frustum with the near clipping plane (Ptacek & Johnstone 2006, section 2).
+/// The part of a perspective camera that can collide: its near quadrilateral, the section of the
+/// view frustum with the near clipping plane (Ptacek & Johnstone 2006, section 2).
 struct Camera {
   double fov_x_rad = 0.0;  ///< full horizontal field of view [Limit: 0 < value < pi]
   double fov_y_rad = 0.0;  ///< full vertical field of view [Limit: 0 < value < pi]
@@ -25,8 +25,8 @@ Corners near_corners_C(const Camera& camera);
 /// The same corners in the world frame for a camera at `pose`.
 Corners corners_W(const Corners& corners_C, const Pose& pose);
 
-/// Largest distance of a corner from the eye: no point of the body moves further under rotation
-/// alone than a point at this radius does.
+/// Largest distance of a corner from the eye: under rotation alone no point of the body moves
+/// farther than a point at this radius.
 double body_radius_m(const Corners& corners_C);
 
 }  // namespace camway::motion

@@ -9,7 +9,7 @@
 /// every step is a convex combination and nothing is amplified.
 namespace camway::motion::bezier {
 
-/// `n` over `k` for n <= 30; exact in double.
+/// The binomial coefficient `n` over `k` for n <= 30; exact in double.
 constexpr double binomial(std::size_t n, std::size_t k) {
   double value = 1.0;
   for (std::size_t i = 1; i <= k; ++i)
@@ -17,7 +17,7 @@ constexpr double binomial(std::size_t n, std::size_t k) {
   return value;
 }
 
-/// Exact at both ends: `a` at 0 and `b` at 1, bit for bit.
+/// Linear interpolation; exactly `a` at 0 and `b` at 1, bit for bit.
 template <class Value>
 Value lerp(const Value& a, const Value& b, double u) {
   return Value((1.0 - u) * a + u * b);
@@ -44,7 +44,8 @@ struct Jet {
   Value second;
 };
 
-/// From the last three levels of de Casteljau's scheme. Degree 2 or more.
+/// Value and derivatives from the last three levels of de Casteljau's scheme. Requires degree 2 or
+/// more.
 template <class Value, std::size_t N>
 Jet<Value> jet_at(std::array<Value, N> c, double u) {
   static_assert(N >= 3);
@@ -56,9 +57,9 @@ Jet<Value> jet_at(std::array<Value, N> c, double u) {
   return {lerp(c[0], c[1], u), first, second};
 }
 
-/// Coefficients over [u0, u1]: the blossom with k arguments u1 and the others u0. The first and the
-/// last are `value_at(u0)` and `value_at(u1)` bit for bit, so that parts which share a parameter
-/// share the point.
+/// Coefficients of the part over [u0, u1]: the blossom with k arguments u1 and the others u0. The
+/// first and the last are `value_at(u0)` and `value_at(u1)` bit for bit, so that parts which share
+/// a parameter share the point.
 template <class Value, std::size_t N>
 std::array<Value, N> sub_curve(std::array<Value, N> c, double u0, double u1) {
   std::array<Value, N> part;

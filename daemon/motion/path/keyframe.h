@@ -5,14 +5,14 @@
 
 namespace camway::motion {
 
-/// Where the camera frame C stands in the world frame W: `p_W = orientation * p_C + position`.
-/// The camera looks down -Z with +Y up, as in OpenGL; `position` is the eye.
+/// The pose of the camera frame C in the world frame W: `p_W = orientation * p_C + position`. The
+/// camera looks down -Z with +Y up, as in OpenGL; `position` is the eye.
 struct Pose {
   geometry::Vec3 position = geometry::Vec3::Zero();         ///< [Units: metres]
   geometry::Quat orientation = geometry::Quat::Identity();  ///< unit length
 };
 
-/// Who asked for a keyframe: the request, or a correction.
+/// The source of a keyframe: the request, or a correction.
 enum class KeyframeOrigin { kGiven, kInserted };
 
 /// A pose that the path must pass through at a time.
@@ -20,7 +20,8 @@ struct Keyframe {
   double time_s = 0.0;
   Pose pose;
   KeyframeOrigin origin = KeyframeOrigin::kGiven;
-  /// A given one that was moved because it collided (`PlanOptions::repair_keyframes`).
+  /// Whether it is a given keyframe that was moved because it collided
+  /// (`PlanOptions::repair_keyframes`).
   bool is_repaired = false;
 };
 

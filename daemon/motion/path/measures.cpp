@@ -10,7 +10,8 @@ namespace {
 
 using geometry::Vec3;
 
-// In all of a path, about, and in each of its segments: many short ones need fewer each.
+// Number of samples, about, in the whole path, and least number in each segment: many short
+// segments need fewer each.
 constexpr double kSamplesAPath = 256.0;
 constexpr double kFewestSamples = 8.0;
 constexpr double kMostSamples = 32.0;
@@ -58,8 +59,8 @@ PathMeasures measure(const Path& path, const Path& original) {
       raise(measures.largest_deviation_m, (here - before).norm());
       raise(measures.largest_speed_m_per_s, at.velocity_m_per_s.norm());
       raise(measures.largest_acceleration_m_per_s2, at.acceleration_m_per_s2.norm());
-      // A quaternion moves on the sphere at half the rate of the rotation. Of its second
-      // derivative, what is along the sphere belongs to the change of that rate.
+      // A quaternion moves on the sphere at half the rate of the rotation. The tangential part of
+      // its second derivative belongs to the change of that rate.
       raise(measures.largest_turn_rate_rad_per_s, 2.0 * at.orientation_rate_per_s.norm());
       const double squared = at.orientation_acceleration_per_s2.squaredNorm();
       const double inward = at.orientation_rate_per_s.squaredNorm();

@@ -9,23 +9,23 @@
 
 namespace camway::motion {
 
-/// A camera motion: consecutive segments without gap. A value type; safe to read from any thread.
+/// A camera motion: consecutive segments without gaps in time. A value type. Thread-safe to read.
 class Path {
  public:
   Path() = default;
 
-  /// Precondition: `segments` are in order of time and `segments[i].t1_s == segments[i+1].t0_s`.
+  /// Requires `segments` in order of time with `segments[i].t1_s == segments[i+1].t0_s`.
   explicit Path(std::vector<Segment> segments);
 
   [[nodiscard]] bool empty() const { return segments_.empty(); }
   [[nodiscard]] std::span<const Segment> segments() const& { return segments_; }
-  /// Not of a temporary: the span would outlive it.
+  /// Deleted for temporaries: the span would outlive them.
   std::span<const Segment> segments() const&& = delete;
-  /// Precondition of everything below: not empty.
+  /// Requires, like all below, that the path is not empty.
   [[nodiscard]] double begin_s() const;
   [[nodiscard]] double end_s() const;
 
-  /// Index of the segment that holds `time_s`; at a join the later one, outside the path the
+  /// Index of the segment that contains `time_s`: at a join the later one, outside the path the
   /// nearest.
   [[nodiscard]] std::size_t segment_index(double time_s) const;
 

@@ -34,7 +34,7 @@ SegmentDerivatives derivatives_at(const Segment& segment, double u) {
   const double duration_s = segment.t1_s - segment.t0_s;
   const bezier::Jet<Vec3> p = bezier::jet_at(segment.position, u);
   const bezier::Jet<Vec4> n = bezier::jet_at(segment.orientation, u);
-  // With N = |N| q, the product rule gives q' and q'' one after the other.
+  // With N = |N| q, the product rule gives q' and then q''.
   const double length = n.value.norm();
   const Vec4 q = n.value / length;
   const double length_first = q.dot(n.first);

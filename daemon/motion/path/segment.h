@@ -30,7 +30,7 @@ geometry::Vec3 position_at(const Segment& segment, double u);
 /// The orientation's four-vector (w, x, y, z) at `u`, before division by its length.
 geometry::Vec4 orientation_numerator_at(const Segment& segment, double u);
 
-/// Pose at `u`; the orientation has unit length. Precondition: the numerator is not zero there
+/// Pose at `u`; the orientation has unit length. Requires a numerator that is not zero there
 /// (`smallest_orientation_weight` proves it for whole segments).
 Pose pose_at(const Segment& segment, double u);
 
@@ -45,9 +45,10 @@ struct SegmentDerivatives {
 SegmentDerivatives derivatives_at(const Segment& segment, double u);
 
 /// The part of `segment` between parameters `0 <= u0 < u1 <= 1`, exact but for rounding: each
-/// control point is a blossom value, a chain of 3 or 6 convex combinations, and so off by at most
+/// control point is a blossom value, a chain of 3 or 6 convex combinations, so its error is at most
 /// 6·2 units of rounding of the largest control point. Its first and last control points are the
-/// values at `u0` and `u1` bit for bit. Sub-divide the original, not a part again and again.
+/// values at `u0` and `u1` bit for bit. Subdivide the original rather than a part, as errors add
+/// up.
 Segment sub_segment(const Segment& segment, double u0, double u1);
 
 /// Bernstein coefficients of degree 12 of the squared length of the orientation numerator.

@@ -5,16 +5,16 @@
 
 namespace camway::motion {
 
-/// A pose whose quaternion has a sign of its own, so that of the two ways to turn from one to the
-/// other one is meant. A value type.
+/// A pose whose quaternion has a definite sign, which selects one of the two ways to turn between
+/// two poses. A value type.
 struct SignedPose {
   geometry::Vec3 position = geometry::Vec3::Zero();
   geometry::Vec4 orientation = geometry::Vec4::UnitX();  ///< w, x, y, z
 };
 
-/// From `from` to `to` within [0, 1]: the position moves along the line at constant speed, the
-/// orientation along the arc between the two quaternions, as they are signed.
-/// Precondition: they are not opposite.
+/// The motion from `from` to `to` in the time [0, 1]: the position moves along the line at constant
+/// speed, the orientation along the arc between the two signed quaternions. Requires that the
+/// quaternions are not opposite.
 Segment straight_motion(const SignedPose& from, const SignedPose& to);
 
 /// The pose at `u` in [0, 1] of that motion.

@@ -13,18 +13,18 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-// Chains of fewer than sixteen operations on positive numbers, each of which rounds by half of this
-// at most.
+// Upper bound of the rounding of chains of fewer than sixteen operations on positive numbers, half
+// an epsilon each.
 constexpr double kRoundUp = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
 
-// Where the turn is not small, its first order says little.
+// Largest turn whose first order is used.
 constexpr double kLargestTangent = 0.25;
 
 template <class Value, std::size_t N>
 double largest_difference(const std::array<Value, N>& points) {
   double length = 0.0;
   for (const Value& point : points) length = std::max(length, (point - points[0]).norm());
-  // A comparison with "not a number" is false: the sum carries it along.
+  // Adds rather than compares: a comparison would drop "not a number".
   double sum = 0.0;
   for (const Value& point : points) sum += (point - points[0]).squaredNorm();
   return std::isfinite(sum) ? length : std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ Vec3 vector_part(const Vec4& rate, const Vec4& q) {
   return q[0] * u - rate[0] * v - u.cross(v);
 }
 
-/// Nothing is known of where a turn goes, only how far.
+/// Sets the turn to a bound without direction.
 void go_nowhere(Stretch& stretch) {
   stretch.turn_step_W = Vec3::Zero();
   stretch.turn_bend = 2.0 * stretch.turn_sine;
@@ -104,8 +104,8 @@ double Stretch::reach_m(double radius_m) const {
          kValueRounding * eye_m;
 }
 
-// That the matrix, and the place of the eye, are rounded counts once for the middle and once more
-// for the step, which a turn of less than half a radian makes from them.
+// The rounding of the matrix and of the eye counts once for the middle and once for the step, which
+// a turn of less than half a radian derives from them.
 double Stretch::bend_m(double radius_m) const {
   const double eye_m = eye_W.norm() + radius_m;
   const double step_m = eye_step_W.norm() + radius_m * turn_step_W.norm();
@@ -154,14 +154,14 @@ Stretch SegmentMotion::around(double u0, double u1) const {
   return stretch;
 }
 
-/// The part of `around` that is about the turn; `series` about the middle of the stretch.
+/// The part of `around` for the turn. `series`: about the middle of the stretch.
 void SegmentMotion::turn_around(Stretch& stretch, const std::array<Vec4, 7>& series,
                                 double half_width) const {
   const Vec4 q = first_orientation_ + series[0];
   const double squared_length = q.squaredNorm();
   const double length = std::sqrt(squared_length);
   const double rounding = orientation_rounding_ + kValueRounding * length;
-  // Below twice the rounding the direction means nothing; "not a number" ends here too.
+  // Below twice the rounding the direction means nothing; "not a number" also returns here.
   if (!(length > 2.0 * rounding) || !(squared_length > std::numeric_limits<double>::min())) {
     stretch.R_WC.setIdentity();
     stretch.turn_sine = stretch.turn_rounding_sine = 1.0;
@@ -182,7 +182,7 @@ void SegmentMotion::turn_around(Stretch& stretch, const std::array<Vec4, 7>& ser
   stretch.turn_sine = sine_of(across + rounding, length - along - rounding);
   stretch.turn_rounding_sine = sine_of(rounding, length - rounding);
   const double tangent = (across + rounding) / (length - along - rounding) * kRoundUp;
-  // In this order "not a number", and a turn of a right angle or more, end here.
+  // In this order "not a number" and turns of a right angle or more return here.
   if (!(tangent >= 0.0 && tangent < kLargestTangent)) {
     go_nowhere(stretch);
     return;

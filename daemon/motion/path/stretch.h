@@ -7,71 +7,71 @@
 
 namespace camway::motion {
 
-/// Where a body is in the middle of a stretch of a segment, and how far it strays from there.
+/// The pose at the middle of a stretch of a segment, and motion bounds about it.
 struct Stretch {
   geometry::Vec3 eye_W;
   Eigen::Matrix3d R_WC;
-  /// Bound of the eye's distance from `eye_W` anywhere on the stretch, its rounding apart. [Units:
-  /// metres]
+  /// Bound of the eye's distance from `eye_W` anywhere on the stretch, without `travel_rounding_m`.
+  /// [Units: metres]
   double travel_m = 0.0;
-  /// Sine of half the largest turn from `R_WC`; 1 where nothing is known of it. A turn by θ moves a
-  /// point at radius ρ by the chord 2·ρ·sin(θ/2) at most. [Limit: 0 <= value <= 1]
+  /// Sine of half the largest turn from `R_WC`; 1 if the turn is not known. A turn by θ moves a
+  /// point at radius ρ by at most the chord 2·ρ·sin(θ/2). [Limit: 0 <= value <= 1]
   double turn_sine = 0.0;
-  /// Where the motion goes, to first order: from the middle of the stretch to its end the point
-  /// `y = R_WC * x + eye_W` moves by `eye_step_W + turn_step_W.cross(R_WC * x)`, and by as much the
-  /// other way to its beginning. No turn where too little is known of it.
+  /// First order of the motion: from the middle of the stretch to its end the point `y = R_WC * x +
+  /// eye_W` moves by `eye_step_W + turn_step_W.cross(R_WC * x)`, and from the middle to the
+  /// beginning by the negative of that. The turn is 0 if too little is known of it.
   geometry::Vec3 eye_step_W = geometry::Vec3::Zero();
   geometry::Vec3 turn_step_W = geometry::Vec3::Zero();
-  /// How far the motion strays from that: the eye, its rounding apart, and a point at radius 1 by
-  /// the turn. [Units: metres, 1]
+  /// Bounds of the deviation from the first order: of the eye, without `travel_rounding_m`, and of
+  /// a point at radius 1 by the turn. [Units: metres, 1]
   double travel_bend_m = 0.0;
   double turn_bend = 0.0;
-  /// What rounding alone makes of travel and turn: they do not sink below these on any stretch.
+  /// Bound of the rounding of the eye's travel, and the part of `turn_sine` that is rounding.
+  /// Splitting a stretch reduces neither.
   double travel_rounding_m = 0.0;
   double turn_rounding_sine = 0.0;
 
-  /// Let x be a point of the body within `radius_m` of the eye. Nowhere on the stretch is it, by
-  /// the segment's numbers in exact arithmetic, further than this from `R_WC * x + eye_W` as
-  /// computed in doubles. Not a number or infinite where the segment's numbers are too large to
-  /// say.
+  /// Motion bound of a point x of the body within `radius_m` of the eye: anywhere on the stretch,
+  /// by the segment's numbers in exact arithmetic, the point is within this of `R_WC * x + eye_W`
+  /// as computed in doubles. Not a number or infinite if the segment's numbers are too large.
   [[nodiscard]] double reach_m(double radius_m) const;
 
-  /// Nor is it, at the time that divides the stretch at some ratio, further than this from the
-  /// point that divides the straight line between its two ends, to first order and as computed in
-  /// doubles, at the same ratio. Falls with the square of the stretch's length.
+  /// Bound of the deviation from linear motion: at the fraction s of the stretch, the same point is
+  /// within this of lerp(begin, end, s), where begin and end are its places at the two ends to
+  /// first order, as computed in doubles. Of second order in the stretch's length.
   [[nodiscard]] double bend_m(double radius_m) const;
 
-  /// The part of `reach_m` that splitting the stretch cannot take away.
+  /// The part of `reach_m` that is rounding; splitting the stretch does not reduce it.
   [[nodiscard]] double rounding_m(double radius_m) const;
 };
 
-/// Standing still at a pose. Precondition: the orientation has unit length.
+/// The stretch of a body that stands still. Requires an orientation of unit length.
 Stretch standing_at(const Pose& pose);
 
-/// A segment prepared for many questions about stretches of it: the power series of both curves
+/// A segment prepared for the motion bounds of many stretches: the power series of both curves
 /// about the middle of the segment, which is shifted to the middle of each stretch.
 ///
 /// With P(m + s) = Σ Pₖ sᵏ and |s| <= h the eye strays by Σ_{k>0} |Pₖ| hᵏ at most. For the
 /// orientation's four-vector Q(m + s) = Σ Qₖ sᵏ, let e be the direction of Q(m). Across e it has at
 /// most Σ_{k>0} |Qₖ⊥| hᵏ, along e at least |Q₀| - Σ_{k>0} |Qₖ·e| hᵏ: the quotient bounds the
 /// tangent of its angle a from Q(m). An angle a between quaternions is a rotation by 2a, so sin a
-/// is the sine of half the turn. Nothing is sampled; in the limit of short stretches both are
-/// exact.
+/// is the sine of half the turn. Nothing is sampled; in the limit of short stretches both bounds
+/// are exact.
 ///
-/// How far the motion strays from its first order: the eye by Σ_{k>1} |Pₖ| hᵏ. With e as above the
-/// turn from Q(m) is the quaternion of direction (1, τ), τ = V/α, where Q(m + s) e* = (α, V): a
-/// rotation that moves y by 2/(1 + τ²)·(τ×y + τ×(τ×y)). Let τ₁ = V₁s/|Q₀| be its first order and
-/// the step 2·τ₁×y. With T, the bound of |τ| from above, and ε that of |τ - τ₁|, the difference is
-/// at most 2|y|·(ε + T²·T + T²). From τ - τ₁ = (Σ_{k>1} Vₖsᵏ)/|Q₀| - τ·(α - |Q₀|)/|Q₀| follows
-/// ε <= (Σ_{k>1} |Qₖ⊥|hᵏ + T·Σ_{k>0} |Qₖ·e|hᵏ)/|Q₀|.
+/// Deviation from the first order: of the eye, Σ_{k>1} |Pₖ| hᵏ. With e as above the turn from Q(m)
+/// is the quaternion of direction (1, τ), τ = V/α, where Q(m + s) e* = (α, V): a rotation that
+/// moves y by 2/(1 + τ²)·(τ×y + τ×(τ×y)). Let τ₁ = V₁s/|Q₀| be its first order and the step 2·τ₁×y.
+/// With T, the bound of |τ| from above, and ε that of |τ - τ₁|, the difference is at most 2|y|·(ε +
+/// T²·T + T²). From τ - τ₁ = (Σ_{k>1} Vₖsᵏ)/|Q₀| - τ·(α - |Q₀|)/|Q₀| follows ε <= (Σ_{k>1} |Qₖ⊥|hᵏ
+/// + T·Σ_{k>0} |Qₖ·e|hᵏ)/|Q₀|.
 ///
-/// The rounding of all of it is bounded below, relative to the *differences* of control points, and
-/// so does not grow with the distance from the origin; only the eye's own coordinates do.
+/// All rounding is bounded below, relative to the *differences* of control points, and so does not
+/// grow with the distance from the origin, except for the rounding of the eye's own coordinates.
 class SegmentMotion {
  public:
   explicit SegmentMotion(const Segment& segment);
 
-  /// The stretch u0 <= u <= u1. Precondition: 0 <= u0 <= u1 <= 1.
+  /// The stretch u0 <= u <= u1. Requires 0 <= u0 <= u1 <= 1.
   [[nodiscard]] Stretch around(double u0, double u1) const;
 
  private:
@@ -86,28 +86,28 @@ class SegmentMotion {
   double orientation_rounding_ = 0.0;
 };
 
-// Rounding of a series of degree n whose control points differ by E at the most, per coordinate, in
+// Rounding of a series of degree n whose control points differ by at most E per coordinate, in
 // units of rounding u = 2^-53 (half of an epsilon) times E:
-//  1. Differences to the first control point: 1. De Casteljau at 1/2: one sum a level: n.
-//  2. The coefficient of v^k about the middle is C(n,k)·2^k times the k-th difference of the
-//  control
-//     points of the right half. Their errors grow by 2^k, k levels of differences add k·2^k, the
-//     product 2^k: in all C(n,k)·4^k·(n + 2 + k).
-//  3. Shifting to m = 1/2 + v: the coefficients C(j,k)·v^(j-k) meet (|v| + h)^j <= 2^-j in
-//     Σ h^k|Pₖ|, so the errors of 2. add up to Σ_j C(n,j)·2^j·(n + 2 + j) = (n+2)·3^n + 2n·3^(n-1);
-//     the shift itself has at most 2n operations on each term of a sum below 2^n: 2n·2^n.
+// 1. Differences to the first control point: 1. De Casteljau at 1/2: one sum a level: n.
+// 2. The coefficient of v^k about the middle is C(n,k)·2^k times the k-th difference of the control
+//    points of the right half. Their errors grow by 2^k, k levels of differences add k·2^k, the
+//    product 2^k: in all C(n,k)·4^k·(n + 2 + k).
+// 3. Shifting to m = 1/2 + v: the coefficients C(j,k)·v^(j-k) meet (|v| + h)^j <= 2^-j in Σ
+//    h^k|Pₖ|, so the errors of 2. add up to Σ_j C(n,j)·2^j·(n + 2 + j) = (n+2)·3^n + 2n·3^(n-1);
+//    the shift itself has at most 2n operations on each term of a sum below 2^n: 2n·2^n.
 // n = 3: 189 + 48 = 237, and √3 from coordinates to length: 411 u = 206 epsilons.
 inline constexpr double kPositionSeriesRounding = 210.0 * 2.220446049250313e-16;
 // n = 6: 8748 + 768 = 9516, times 2 from coordinates to length; the parts along and across the
-// middle have 8 more operations on terms that sum up to 2^6, and what the first order makes of them
-// 24: 2048. 23128 u = 11564 epsilons.
+// middle have 8 more operations on terms that sum up to 2^6, and the first order 24: 2048. 23128 u
+// = 11564 epsilons.
 inline constexpr double kOrientationSeriesRounding = 11776.0 * 2.220446049250313e-16;
-/// Adding the first control point, and the direction of the middle: relative to the value.
+/// Rounding of adding the first control point, and of the direction of the middle, relative to the
+/// value.
 inline constexpr double kValueRounding = 4.0 * 2.220446049250313e-16;
-/// The rotation matrix of a quaternion of any length: its entries are within 16 units, its product
-/// with a point at radius ρ within 60 units of ρ.
+/// Rounding of the rotation matrix of a quaternion of any length: its entries are within 16 units,
+/// its product with a point at radius ρ within 60 units of ρ.
 inline constexpr double kMatrixRounding = 60.0 * 2.220446049250313e-16;
-/// A step: products and sums of it are fewer than 32 roundings of what it adds up.
+/// Rounding of a step: its products and sums have fewer than 32 roundings of the numbers added.
 inline constexpr double kStepRounding = 16.0 * 2.220446049250313e-16;
 
 }  // namespace camway::motion

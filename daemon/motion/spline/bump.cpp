@@ -15,12 +15,13 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-/// Where `piece` is cut: its ends, and the knots inside.
+/// The times where `piece` is split: its ends and the knots inside.
 std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> rows) {
   std::vector<double> cuts = {piece.t0_s};
   for (const BumpRow& row : rows) {
     const int last = row.first + static_cast<int>(row.bumps.size()) + 1;
-    // Only those between: a step more on either side makes up for knots that are not equidistant.
+    // Only the knots within the piece, and one step more on either side, as knots are not quite
+    // equidistant.
     const auto steps_to = [&](double time_s) {
       return static_cast<int>(std::clamp((time_s - row.knots.begin_s) / row.knots.spacing_s(),
                                          row.first - 3.0, last + 1.0));
@@ -47,10 +48,10 @@ int knot_before(const KnotRow& knots, double time_s) {
   return k;
 }
 
-/// Adds what `row` is on `piece`, which lies between two knots that follow each other.
+/// Adds `row` to `piece`, which lies between two consecutive knots.
 void add(CubicPiece& piece, const BumpRow& row) {
   const double middle_s = 0.5 * (piece.t0_s + piece.t1_s);
-  // So far away, in spacings, as no number of a knot can say.
+  // Outside the supports; returning here also keeps the knot index within int.
   if (middle_s <= row.begin_s() || middle_s >= row.end_s()) return;
   const int before = knot_before(row.knots, middle_s);
   std::array<double, 8> knots_s;  // of all bumps that reach here
@@ -59,7 +60,7 @@ void add(CubicPiece& piece, const BumpRow& row) {
   const double from_s = knots_s[3];
   const double to_s = knots_s[4];
   const auto parameter = [&](double time_s) {
-    // Exact at the knots: there the neighbours have to agree, and the ends to be zero.
+    // Exact at the knots, where neighbours must agree and the ends must be zero.
     if (time_s == to_s) return 1.0;
     return std::clamp((time_s - from_s) / (to_s - from_s), 0.0, 1.0);
   };

@@ -40,7 +40,7 @@ void CubicPath::replace(const CubicPath& part) {
   const auto last = std::ranges::lower_bound(pieces, part.end_s(), {}, &CubicPiece::t0_s);
   assert(first != pieces.end() && first->t0_s == part.begin_s());
   assert(std::prev(last)->t1_s == part.end_s());
-  // Of a long path, what comes after is moved once at the most.
+  // Moves the pieces behind `part` at most once, as a path may be long.
   const auto common = std::min(last - first, std::ssize(part.pieces));
   std::copy_n(part.pieces.begin(), common, first);
   const auto at = pieces.erase(first + common, last);

@@ -68,7 +68,7 @@ Chords<Point> chords_of(std::span<const double> knots, std::span<const Point> po
   return chords;
 }
 
-/// The slopes with which the spline is C² at all inner knots and does at the ends what it is told.
+/// The slopes with which the spline is C² at all inner knots and meets the end conditions.
 template <class Point>
 std::vector<Point> slopes_between(const Chords<Point>& chords, const EndRow<Point>& first,
                                   const EndRow<Point>& last) {

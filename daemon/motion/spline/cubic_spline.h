@@ -10,7 +10,7 @@
 
 namespace camway::motion {
 
-/// What an interpolating cubic spline does at its two ends, where C² leaves one degree of freedom.
+/// End conditions of an interpolating cubic spline, where C² leaves one degree of freedom.
 enum class EndCondition {
   /// No second derivative: least bending energy of all interpolants (Farin 2002, section 9.4).
   kNatural,
@@ -24,7 +24,7 @@ enum class EndCondition {
 /// The system is diagonally dominant whatever the knots; O(n). Linear in the points, so the curve
 /// is the same in every frame; symmetric under reversal.
 ///
-/// Preconditions: at least two knots, strictly increasing, as many points.
+/// Requires at least two knots, strictly increasing, and as many points.
 template <class Point>
 std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,
                                  EndCondition ends);
@@ -36,7 +36,7 @@ extern template std::vector<geometry::Vec4> spline_slopes(std::span<const double
                                                           std::span<const geometry::Vec4>,
                                                           EndCondition);
 
-/// The same with given slopes at the two ends ("complete" spline): where they are those of a smooth
+/// As above, with given slopes at the two ends ("complete" spline). If they are those of a smooth
 /// curve, the error is of fourth order in the spacing up to the ends (de Boor 2001, chapter V).
 template <class Point>
 std::vector<Point> spline_slopes(std::span<const double> knots, std::span<const Point> points,

@@ -14,7 +14,7 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-/// Keyframes as the splines take them.
+/// Keyframes in the form that the splines take.
 struct Columns {
   std::vector<double> times_s;
   std::vector<Vec3> positions;

@@ -11,21 +11,21 @@
 
 namespace camway::motion {
 
-/// Nominal rates of derived times: a step takes as long as its chord at this speed, unless another
-/// is asked for, and its turning angle at this rate, combined as the two legs of a right triangle.
+/// Nominal rates of derived times. A step takes the time of its chord at this speed, unless another
+/// is given, and of its turning angle at this rate, combined as the two legs of a right triangle.
 inline constexpr double kNominalSpeed_m_per_s = 1.0;
 inline constexpr double kNominalTurnRate_rad_per_s = 1.0;
 
-/// Least duration of a step, as a part of the mean step: repeated poses get it.
+/// Least duration of a step, as a share of the mean step; repeated poses get it.
 inline constexpr double kShortestStep = 0.01;
 
 /// Duration of each step if no pose differs from the next.
 inline constexpr double kStepWithoutMotion_s = 1.0;
 
-/// Times for poses that came without: chord length (Farin 2002, section 9.6) blended with the
-/// turning angle, so that turning on the spot takes time and so do repeated poses. Starts at 0,
-/// strictly increasing. Deviation from chord length alone: the turning angle and the floor
-/// `kShortestStep`. `speed_m_per_s` is that of the chords. Preconditions: at least two poses,
+/// Derives times for poses without times: chord length (Farin 2002, section 9.6), blended with the
+/// turning angle, so that turning on the spot and repeated poses take time. The times start at 0
+/// and increase strictly. Deviation from chord length alone: the turning angle and the floor
+/// `kShortestStep`. `speed_m_per_s` is the speed along the chords. Requires at least two poses and
 /// 0 < speed_m_per_s.
 std::vector<double> derive_times_s(std::span<const Pose> poses,
                                    double speed_m_per_s = kNominalSpeed_m_per_s);
@@ -40,11 +40,11 @@ std::vector<double> derive_times_s(std::span<const Pose> poses,
 /// The same motion results from every world frame, for q and -q, and (mirrored in time) for the
 /// reversed keyframes, up to rounding; half turns between neighbours have a sense of their own
 /// (quaternion_spline.h). O(n), deterministic.
-/// Preconditions: at least two keyframes, finite, quaternions of unit length to 1e-3 or so (they
-/// are normalised), times strictly increasing, counted from `origin`.
+/// Requires at least two keyframes, finite numbers, quaternions of unit length to 1e-3 or so (they
+/// are normalised) and times strictly increasing, counted from `origin`.
 Path interpolate(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
 
-/// The same path, as corrections need it.
+/// The same path as the cubic spline that corrections work on.
 CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const TimeOrigin& origin = {});
 
 }  // namespace camway::motion

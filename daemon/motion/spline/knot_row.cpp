@@ -14,8 +14,8 @@ namespace camway::motion {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kPointRoundings = 4.0;  // of a control point, in epsilons of its size
-constexpr double kMostMoved = 0.125;     // of a step: how far a knot may be from where it is wanted
+constexpr double kPointRoundings = 4.0;  // rounding of a control point, in epsilons of its size
+constexpr double kMostMoved = 0.125;     // largest shift of a knot, as a share of a step
 
 std::array<double, 5> support_s(const KnotRow& row, int bump) {
   return {row.knot_s(bump - 2), row.knot_s(bump - 1), row.knot_s(bump), row.knot_s(bump + 1),
@@ -82,8 +82,8 @@ double KnotRow::bump_at_knot(int bump, int knot) const {
 }
 
 // The blossom b of the spline is 1 at the three inner knots, and 0 at the three first and the three
-// last of the five, and at what lies before and after. Each other value is between two of these by
-// the ratio of knots.
+// last of the five knots, and at those before and after. Each other value lies between two of these
+// values, by the ratio of knots.
 std::array<std::array<double, 4>, 4> b_spline_pieces(const std::array<double, 5>& knots) {
   const auto [a, b, c, d, e] = knots;
   const double bbc = (b - a) / (d - a);

@@ -27,7 +27,7 @@ struct Knot {
   Vec4 x;                ///< in the spline's space, unit length, sign free until `align_images`
 };
 
-/// How keyframes become points of the spline's space.
+/// The map from keyframes to points of R⁴.
 struct Image {
   Vec4 reference;
   std::vector<Knot> knots;  ///< at the keyframes

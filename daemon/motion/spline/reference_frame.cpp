@@ -17,24 +17,24 @@ namespace {
 
 using geometry::Vec4;
 
-// Where the least dot product is tied, the orientations' mean wins (it keeps a constant axis), and
-// where that is tied too, a direction that is fixed relative to the middle orientation and in no
-// special position to axes that people use. Each is small against what it must not outweigh.
+// Tie-breakers of the least dot product: first the mean of the orientations, which keeps a constant
+// axis, then a direction that is fixed relative to the middle orientation and not near axes in
+// common use. Each weight is small against the quantity before it.
 constexpr double kMeanWeight = 1e-3;
 constexpr double kAnchorWeight = 1e-5;
 const std::array<double, 4> kAnchor = {0.467, 0.641, 0.389, 0.471};
 
-// Ascent: this many of the best grid directions, this many steps at each temperature of the
-// smoothed minimum, each of a length equal to the temperature, at which the ascent contracts. The
-// first temperature is below what would carry a start away from the gap that it was chosen for. The
-// steps add up to less than 2, so that rounding noise grows by exp(2) at most.
+// Ascent: the number of best grid directions used, and of steps at each temperature of the smoothed
+// minimum. The length of a step equals the temperature, at which the ascent contracts. The first
+// temperature is too low to carry a start away from its gap in the polygon. The steps add up to
+// less than 2, so rounding noise grows by at most exp(2).
 constexpr std::size_t kStarts = 6;
 constexpr int kStepsPerTemperature = 20;
 constexpr std::array<double, 5> kTemperatures = {0.04, 0.02, 0.01, 0.005, 0.0025};
 
-// Samples of the polygon for the ascent are at most this far apart. Of more samples than this, the
-// ascent goes by those that are nearest to -r, which are told anew for each temperature: the others
-// weigh little, and time with all of them would be a hundred times that of the rest.
+// Largest distance of the polygon's samples for the ascent. If there are more than `kMostSamples`,
+// the ascent uses those nearest to -r, chosen again for each temperature: the others have little
+// weight, and using all would take a hundred times as long as the rest.
 constexpr double kSampleSpacing_rad = 0.2;
 constexpr Eigen::Index kMostSamples = 2048;
 
@@ -52,8 +52,7 @@ double least_dot_with_arc(const Vec4& r, const Vec4& from, const Vec4& to) {
   return std::min(a, b);
 }
 
-/// A point of the middle of the polygon that does not depend on its direction; its sign goes with
-/// the data's.
+/// A point at the middle of the polygon, independent of its direction; its sign follows the data.
 Vec4 middle_orientation(std::span<const Vec4> orientations) {
   const std::size_t n = orientations.size();
   return (orientations[(n - 1) / 2] + orientations[n / 2]).normalized();
@@ -100,7 +99,7 @@ class Search {
     preference_ = kMeanWeight * mean +
                   kAnchorWeight * quaternion::multiply(middle, Vec4(kAnchor.data()).normalized());
     for (const Vec4& direction : grid_directions()) add(quaternion::multiply(middle, direction));
-    // Direction of a mean that is no more than noise would depend on the world frame.
+    // The direction of a mean that is only noise would depend on the world frame.
     if (mean.norm() > kOpenHemisphere) add(mean.normalized());
   }
 
@@ -149,7 +148,7 @@ class Search {
     return sum / total + preference_;
   }
 
-  /// The samples that the least dot product with `r` is among; all if there are not too many.
+  /// The samples that may have the least dot product with `r`; all if there are few enough.
   const Samples& samples_near(const Vec4& r) {
     if (samples_.cols() <= kMostSamples) return samples_;
     dots_.noalias() = samples_.transpose() * r;

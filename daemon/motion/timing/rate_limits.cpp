@@ -15,8 +15,8 @@ using geometry::Vec3;
 using geometry::Vec4;
 using Bivector = Eigen::Matrix<double, 6, 1>;
 
-// Bounds by coefficients come closer by a quarter with each halving: after ten, a millionth of how
-// much a rate changes on the segment.
+// Each halving reduces the error of bounds by coefficients to a quarter: after ten it is a
+// millionth of the rate's variation on the segment.
 constexpr int kHalvings = 10;
 
 Bivector wedge(const Vec4& a, const Vec4& b) {

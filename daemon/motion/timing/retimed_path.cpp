@@ -14,8 +14,8 @@ namespace {
 using geometry::Vec3;
 using geometry::Vec4;
 
-/// Slopes of the spline through `points` that begins and ends with the derivative of the given
-/// Bézier curves, slowed by the law.
+/// Slopes of the spline through `points` whose slopes at the ends are those of the given Bézier
+/// curves, slowed by the law.
 template <class Point>
 std::vector<Point> slopes_of(const std::vector<Point>& points, const CubicPath& path,
                              std::array<Point, 4> CubicPiece::*curve, const TimeLaw& law) {

@@ -6,24 +6,24 @@
 
 namespace camway::motion {
 
-/// `path` as a motion of the new times. A time law that is not linear between joints makes other
-/// curves of its cubics, so this is the C² cubic spline through its points at the law's knots, with
-/// its own velocities at the two ends. It meets the path at the knots, positions bit for bit where
-/// they are joints of it; between them it strays by a little, by less the closer the knots, so
-/// what was proved of the path has to be proved anew.
-/// Precondition: the law is for the time span of the path.
+/// `path` with the new times of `law`. A time law that is not linear between joints turns its
+/// cubics into other curves, so the result is the C² cubic spline through its points at the law's
+/// knots, with the path's own velocities at the two ends. It meets the path at the knots, with
+/// positions equal bit for bit at joints of the path. Between the knots it deviates, less with
+/// closer knots, so the path must be proved free anew. Requires the law to cover the time span of
+/// the path.
 CubicPath retimed(const CubicPath& path, const TimeLaw& law);
 
-/// `path` at the times of a law that stretches all alike: the same control points, bit for bit.
-/// Smooth as far as the law stretches all pieces alike: see `stretches_alike`.
+/// `path` at the times of a law that stretches all times alike: the same control points, bit for
+/// bit. It is as smooth as `stretches_alike` says.
 CubicPath stretched(const CubicPath& path, const TimeLaw& law);
 
-/// Whether the law stretches each piece of `path` by the same factor but for `kSameRate`.
+/// Whether the law stretches each piece of `path` by the same factor, up to `kSameRate`.
 bool stretches_alike(const CubicPath& path, const TimeLaw& law);
 
-/// Rates of neighbours that differ by a smaller share leave a path smooth: velocities at a join
-/// then differ by that share, accelerations by twice that. A thousandth of a millionth: far below
-/// what any camera can follow, and above what rounding does to times near 0.
+/// Largest relative difference of the rates of neighbouring pieces that keeps a path smooth:
+/// velocities at a join then differ by that share, accelerations by twice that. A thousandth of a
+/// millionth is far below what any camera can follow, and above the rounding of times near 0.
 inline constexpr double kSameRate = 1e-9;
 
 }  // namespace camway::motion

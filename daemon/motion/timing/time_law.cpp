@@ -19,11 +19,11 @@ using geometry::Vec3;
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// What the limits ask at one given time.
+/// The limits at one given time.
 struct Knot {
   double t_s;
-  bool is_joint;  ///< of two segments, or an end
-  double cap;     ///< of x, by speed, turn rate and the time asked for
+  bool is_joint;  ///< whether it is a joint of two segments, or an end
+  double cap;     ///< cap of x by speed, turn rate and the given time
   Vec3 first;     ///< P'
   Vec3 second;    ///< P''
 };
@@ -56,7 +56,7 @@ class AccelerationBound {
     across_ = (second - along_ * first).norm();
   }
 
-  /// Narrows [least, most] to what the bound allows; false if that is nothing.
+  /// Narrows [least, most] to the range that the bound allows; false if that is empty.
   [[nodiscard]] bool narrow(double x, double& least, double& most) const {
     const double left = limit_ - across_ * x;
     if (!(left >= 0.0)) return false;
@@ -80,7 +80,7 @@ struct Stage {
   std::vector<AccelerationBound> bounds;
 };
 
-/// The passes of the analysis over stages 0..n-1, between control values 0..n.
+/// The two passes of the analysis over stages 0..n-1, between control values 0..n.
 class Reachability {
  public:
   Reachability(const std::vector<Knot>& knots, double limit_m_per_s2) {
@@ -88,7 +88,7 @@ class Reachability {
     const auto clamped = [&](std::size_t i, std::size_t back) { return i < back ? 0 : i - back; };
     for (const Knot& knot : knots)
       floor_ = std::min({floor_, knot.cap, limit_m_per_s2 / knot.second.norm()});
-    // Control value i has a share in the x of knots i - 1 and i alone, and between them.
+    // Control value i affects x only between knots i - 1 and i, both included.
     for (std::size_t i = 0; i <= last + 1; ++i) {
       largest_.push_back(std::min(knots[clamped(i, 1)].cap, knots[std::min(i, last)].cap));
     }
@@ -142,7 +142,7 @@ class Reachability {
     for (const AccelerationBound& bound : stage.bounds) {
       if (!bound.narrow(x, least, most)) return std::nullopt;
     }
-    // So that a rate of 1 stays exactly 1.
+    // A rate of 1 stays exactly 1.
     return most == unlimited ? largest_[i + 1] : x + 2.0 * stage.step_s * most;
   }
 
@@ -199,7 +199,7 @@ TimeLaw TimeLaw::within(const Path& path, const RateLimits& limits, double step_
   assert(!path.empty() && step_s > 0.0);
   const std::vector<Knot> knots = knots_of(path, limits, step_s);
   const std::vector<double> x = Reachability(knots, limits.acceleration_m_per_s2).solve();
-  // Of a quadratic spline, the control values are the inner Bézier points, and the values at knots
+  // The control values of a quadratic spline are the inner Bézier points; the values at knots
   // divide the lines between them as the knots divide time.
   const std::size_t pieces = knots.size() - 1;
   const auto at_knot = [&](std::size_t i) {

@@ -12,15 +12,13 @@
 
 namespace camway::motion {
 
-/// A new time for every time of a path, in order and never sooner: the *rate* of the given time by
-/// the new one, 0 < dt/dτ <= 1, says how much slower the path becomes. Its square is a C¹ piecewise
-/// parabola of the given time, so the rate has a derivative without jumps, and so has the
-/// acceleration of the path no jumps that it had not before. A value type; safe to read from any
-/// thread.
+/// A monotone map from the given times of a path to new ones. The *rate* dt/dτ, of the given time
+/// by the new one, is in (0, 1]: it says how much slower the path becomes. Its square is a C¹
+/// piecewise parabola of the given time, so the rate has a derivative without jumps, and the
+/// acceleration of the path gets no new jumps. A value type. Thread-safe to read.
 class TimeLaw {
  public:
-  /// All times stretched by `factor` alike. Preconditions: two knots or more, increasing, and
-  /// `factor >= 1`.
+  /// Stretches all times by `factor`. Requires two knots or more, increasing, and `factor >= 1`.
   static TimeLaw alike(std::vector<double> knots_s, double factor);
 
   /// The rate is as large as the limits allow, and nowhere above 1: the path stays as fast as it is
@@ -45,22 +43,22 @@ class TimeLaw {
   ///   that of stretching all times alike, knots being what is compared.
   ///
   /// Knots are at the ends of segments, and at most `step_s` apart where the rate is below 1.
-  /// O(knots). Preconditions: not empty, `step_s > 0`, limits above 0.
+  /// O(knots). Requires `path` not to be empty, `step_s > 0` and limits above 0.
   static TimeLaw within(const Path& path, const RateLimits& limits, double step_s);
 
-  /// The law with new times at knots that the sender can be told exactly, with `origin`. What the
-  /// times at `kept_s` move is spread over the knots between; there the given time moves with the
-  /// new one, so that the path by the law is as smooth as before. Nothing where times are not fine
-  /// enough for the knots. Precondition: those of `kept_s` within the law's span are knots, and
-  /// increase.
+  /// Returns the law with new times at knots that are exact as sender's times, with `origin`. The
+  /// shifts of the times at `kept_s` are spread over the knots between them. There the given time
+  /// shifts with the new one, so the path by the law is as smooth as before. Nothing if times are
+  /// not fine enough for the knots. Requires those of `kept_s` within the law's span to be knots
+  /// and to increase.
   [[nodiscard]] std::optional<TimeLaw> sendable(const TimeOrigin& origin,
                                                 std::span<const double> kept_s) const;
 
-  /// The time that takes the place of `given_s`; strictly increasing but for rounding, and at knots
-  /// exactly `new_knots_s`. Clamped to the span of the law.
+  /// The new time for `given_s`; strictly increasing up to rounding, and at knots exactly
+  /// `new_knots_s`. Clamped to the span of the law.
   [[nodiscard]] double new_time_s(double given_s) const;
 
-  /// dt/dτ at `given_s`: how many given seconds pass in a new one. In (0, 1].
+  /// The rate dt/dτ at `given_s`: given seconds per new second. In (0, 1].
   [[nodiscard]] double rate(double given_s) const;
 
   /// Given times between which the squared rate is one parabola, and the new times there.
@@ -69,7 +67,7 @@ class TimeLaw {
   std::span<const double> knots_s() const&& = delete;
   std::span<const double> new_knots_s() const&& = delete;
 
-  /// New duration by given duration; at least 1.
+  /// New duration divided by given duration; at least 1.
   [[nodiscard]] double stretch() const;
 
  private:
@@ -80,7 +78,7 @@ class TimeLaw {
 
   std::vector<double> knots_s_;
   std::vector<double> new_knots_s_;
-  std::vector<std::array<double, 3>> squares_;  ///< Bézier points of the squared rate of a piece
+  std::vector<std::array<double, 3>> squares_;  ///< Bézier points of the squared rate of each piece
 };
 
 }  // namespace camway::motion

@@ -23,8 +23,9 @@ double distance_at_least_m(const Vec3& point, const Box& box) {
   return kRoundDown * gap.norm();
 }
 
-/// What the object's own field says of a point of the world. `error_m` enters twice: for the
-/// triangles, which were rounded on their way into the world, and for the point, on its way back.
+/// The bound that the object's own field gives for a point of the world. `error_m` counts twice:
+/// for the triangles, rounded on their way into the world, and for the point, rounded on its way
+/// back.
 double field_at_least_m(const PlacedField& placed, double reach_m, const Vec3& point_W) {
   const double bound_m = placed.field_O->clearance_at_least_m(placed.placement.to_object(point_W));
   const double error_m =

@@ -12,46 +12,46 @@
 
 namespace camway::scene {
 
-/// What bounds the clearance from one object.
+/// An object's contribution to a `ClearanceField`.
 struct PlacedField {
   std::shared_ptr<const DistanceField> field_O;  ///< in the object's frame; null if it has none
   Placement placement;
-  geometry::Box bounds_O;  ///< of the object's mesh, in its frame
-  geometry::Box bounds_W;  ///< of its triangles in the world, not empty
+  geometry::Box bounds_O;  ///< bounds of the object's mesh, in its frame
+  geometry::Box bounds_W;  ///< bounds of its triangles in the world, not empty
 };
 
-/// A lower bound of the clearance of any point of a scene, without asking its index: the least of
-/// what the distance field of each object says in the object's own frame, and what the boxes of the
-/// objects say. So moving an object computes no field anew. Immutable; safe from any thread.
+/// A lower bound of the clearance of any point of a scene without a query of its index: the least
+/// over the objects of the better of two bounds, by the object's distance field in its own frame
+/// and by its box. No field is computed again when an object moves. Immutable. Thread-safe.
 class ClearanceField {
  public:
-  /// With more objects than this the index is asked at once. A look takes about 5 ns an object,
-  /// asking the index some 1 µs.
+  /// With more objects than this, planning asks the index directly. A look-up takes about 5 ns per
+  /// object, a query of the index some 1 µs.
   static constexpr std::size_t kMaxObjects = 64;
 
-  /// Of one mesh that is where it is. Precondition: not null.
+  /// The field of one mesh whose placement is the identity. Requires a field that is not null.
   explicit ClearanceField(std::shared_ptr<const DistanceField> field);
-  /// Preconditions: at most kMaxObjects; fields are not null everywhere.
+  /// Requires 1 to kMaxObjects objects, of which at least one has a field.
   explicit ClearanceField(std::span<const PlacedField> objects);
 
-  /// Never more than the distance from `point_W` to the nearest triangle, rounding included; 0
-  /// where nothing is known, so near the scene and for a point that is not finite. [Units: metres]
+  /// Lower bound of the distance from `point_W` to the nearest triangle, rounding included; 0 where
+  /// nothing is known: near the scene, and for a point that is not finite. [Units: metres]
   [[nodiscard]] double clearance_at_least_m(const geometry::Vec3& point_W) const {
     return single_ ? single_->clearance_at_least_m(point_W) : least_m(point_W);
   }
 
-  /// Of the fields together: their memory, and all else of the one with the finest cells.
+  /// The memory of all fields, and the other statistics of the field with the finest cells.
   [[nodiscard]] const DistanceFieldStatistics& statistics() const { return statistics_; }
 
  private:
   struct Object {
     PlacedField placed;
-    double reach_m;  ///< no point of the mesh is further from its own origin
+    double reach_m;  ///< bound of the distance of the mesh from its own origin
   };
 
   [[nodiscard]] double least_m(const geometry::Vec3& point_W) const;
 
-  std::shared_ptr<const DistanceField> single_;  ///< where there is nothing else to ask
+  std::shared_ptr<const DistanceField> single_;  ///< the field, if it is all there is to ask
   std::vector<Object> objects_;
   DistanceFieldStatistics statistics_;
 };

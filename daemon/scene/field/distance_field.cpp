@@ -21,8 +21,9 @@ using geometry::Vec3;
 constexpr std::size_t kLevels = 256;
 using SquaredLevels = std::array<std::int32_t, kLevels>;
 
-/// Squares of the levels, in cells: every integer at first, then in steps of 2.7 %, 1.3 % of the
-/// distance, so that the last is just beyond kMaxSquaredCellDistance and the one before it is used.
+/// Squares of the levels, in cells: every integer at first, then in steps of 2.7 % (1.3 % of the
+/// distance), such that the last is just beyond kMaxSquaredCellDistance and the one before it is
+/// used.
 constexpr SquaredLevels kSquaredLevels = [] {
   SquaredLevels levels{};
   for (std::size_t i = 1; i < kLevels; ++i) {
@@ -33,7 +34,7 @@ constexpr SquaredLevels kSquaredLevels = [] {
 static_assert(kSquaredLevels[kLevels - 1] > kMaxSquaredCellDistance);
 static_assert(kSquaredLevels[kLevels - 2] <= kMaxSquaredCellDistance);
 
-/// For every squared distance the highest level that is not above it.
+/// For every squared distance the highest level that does not exceed it.
 CellDistanceCodes level_codes() {
   CellDistanceCodes codes{};
   std::size_t level = 0;
@@ -44,14 +45,15 @@ CellDistanceCodes level_codes() {
   return codes;
 }
 
-/// The lengths of the levels, never more than the distance between a point that is looked up in a
-/// cell and one of a triangle as many cells away.
+/// The lengths of the levels. None exceeds the distance between a point looked up in a cell and a
+/// triangle's point that many cells away.
 ///
-/// Marking pays for all rounding here. With u = 2^-53 and n cells on the longest side, a triangle's
-/// point is at least `reliable_margin_cells` = 12u·n away from each face of the nearest marked cell
-/// that looks to the other cell, or the cell beyond that face would be marked and nearer. The point
-/// looked up is off its cell by `coordinate_error_cells` = 4u·n, so 8u·n is left of each gap that
-/// is not 0, and of the length at least as much. Root and product round by 2u·√3·n.
+/// The margin of marking covers all rounding here. With u = 2^-53 and n cells on the longest side,
+/// a triangle's point in the nearest marked cell is at least `reliable_margin_cells` = 12u·n away
+/// from each face towards the other cell; otherwise the cell beyond that face would be marked, too,
+/// and nearer. The point looked up is off its cell by `coordinate_error_cells` = 4u·n, so 8u·n is
+/// left of each gap that is not 0, and of the length at least as much. Root and product round by
+/// 2u·√3·n.
 std::array<double, kLevels> level_lengths_m(const CellGrid& grid) {
   std::array<double, kLevels> lengths_m{};
   for (std::size_t i = 0; i < kLevels; ++i) {
@@ -60,8 +62,8 @@ std::array<double, kLevels> level_lengths_m(const CellGrid& grid) {
   return lengths_m;
 }
 
-/// The finest grid around `bounds` that `fits`, up to a hundredth of a per cent; nothing if not
-/// even the coarsest does.
+/// The finest grid around `bounds` that `fits`, up to a hundredth of a per cent; nothing if the
+/// coarsest one does not fit.
 template <class Fits>
 std::optional<CellGrid> finest_grid(const geometry::Box& bounds, const Fits& fits) {
   const double longest_m = bounds.sizes().maxCoeff();
@@ -72,7 +74,7 @@ std::optional<CellGrid> finest_grid(const geometry::Box& bounds, const Fits& fit
   };
   std::optional<CellGrid> best = usable(longest_m);
   if (!best) return std::nullopt;
-  // Each halves the logarithm of the ratio of the two resolutions, which is 2^15 at first.
+  // Each halving halves the logarithm of the ratio of the two resolutions, which is 2^15 at first.
   constexpr int kHalvings = 18;
   double too_fine_m = longest_m / CellGrid::kMaxSide;
   for (int i = 0; i < kHalvings; ++i) {
@@ -140,11 +142,12 @@ DistanceField::DistanceField(const CellGrid& grid, std::vector<std::uint8_t> cod
   statistics_.settled_share = settled_share;
 }
 
-// The grid's box is convex and holds the scene, so with q the point of the box nearest to p, every
-// point s of the scene is at an angle of at least 90° seen from q: |p-s|² >= |p-q|² + |q-s|².
+// The grid's box is convex and contains the scene. So with q the point of the box nearest to p, the
+// angle between p and every point s of the scene, seen from q, is at least 90°: |p-s|² >= |p-q|² +
+// |q-s|².
 double DistanceField::clearance_outside_m(const Vec3& point_W) const {
   if (!point_W.allFinite()) return 0.0;
-  // For the same reason a point nearer to the box will do for one whose squares would overflow.
+  // By the same argument a point nearer to the box may replace one whose squares would overflow.
   Vec3 cell = grid_.in_cells(point_W.cwiseMax(-0x1p300).cwiseMin(0x1p300));
   Vec3 beyond_m;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -156,7 +159,7 @@ double DistanceField::clearance_outside_m(const Vec3& point_W) const {
     cell[axis] = std::clamp(cell[axis], 0.0, size - 1.0);
   }
   const double inside_m = level_at(cell);
-  // The factor and products above round by 3u, squares and sums by 4u, halved by the root, and that
+  // The factor and products above round by 3u; squares and sums by 4u, halved by the root; the root
   // by 1u.
   return (1.0 - 8.0 * geometry::kUnitRoundoff) *
          std::sqrt(beyond_m.squaredNorm() + inside_m * inside_m);

@@ -11,13 +11,11 @@
 namespace camway::scene {
 namespace {
 
-/// Eight columns, worked on together: a vector type of GCC and Clang, which make of it what the
-/// processor has.
+/// Eight columns at a time: a vector type of GCC and Clang, compiled to what the processor has.
 using Eight = std::int16_t __attribute__((vector_size(16)));
 constexpr std::size_t kLanes = 32;
 
-/// Written out and not looped over: GCC keeps single vectors in registers, arrays of them it does
-/// not.
+/// Written out instead of an array: GCC keeps single vectors in registers, but not arrays of them.
 struct Lanes {
   Eight a, b, c, d;
 };
@@ -44,7 +42,7 @@ bool any_above(const Lanes& lanes, std::int16_t limit) {
   return (bits[0] | bits[1]) != 0;
 }
 
-/// Takes in two rows that are equally far from one row; `cost` is the way from there.
+/// Takes the minimum with two rows that are equally far away; `cost` is that of the distance.
 void take_least(Lanes& least, const std::int16_t* before, const std::int16_t* after,
                 std::int16_t cost) {
   const Lanes x = load_lanes(before);
@@ -66,14 +64,14 @@ struct Rows {
   }
 };
 
-/// Stands for rows beyond the grid.
+/// A row beyond the grid.
 constexpr std::array<std::int16_t, kLanes> kNothing = [] {
   std::array<std::int16_t, kLanes> lanes{};
   lanes.fill(kMaxSquaredCellDistance);
   return lanes;
 }();
 
-/// The least over all rows of the value there and the cost of the way from `row`, for kLanes
+/// The least, over all rows, of a row's value plus the cost of its distance from `row`, for kLanes
 /// columns.
 Lanes least_over_rows(const Rows& rows, std::ptrdiff_t row) {
   constexpr int kStepsBetweenLooks = 4;
@@ -89,7 +87,7 @@ Lanes least_over_rows(const Rows& rows, std::ptrdiff_t row) {
   return least;
 }
 
-/// Squared distances from a mark to what follows it in its row, and the same the other way round.
+/// Squared distances from a mark to the cells behind it in its row, and to those before it.
 struct Slopes {
   std::array<std::int16_t, kMaxCellDistance> rising;
   std::array<std::int16_t, kMaxCellDistance> falling;
@@ -113,7 +111,7 @@ void fill_before_mark(std::span<std::int16_t> gap) {
               gap.end() - static_cast<std::ptrdiff_t>(count));
 }
 
-/// Squared distances along one row of marks. `out` may be longer; nothing is marked there.
+/// Computes squared distances along one row of marks. `out` may be longer; nothing is marked there.
 void transform_row(std::span<const std::uint8_t> marks, std::span<std::int16_t> out) {
   std::fill(out.begin(), out.end(), std::int16_t{kMaxSquaredCellDistance});
   bool after_mark = false;
@@ -188,7 +186,7 @@ class Transform {
   std::size_t nx_;
   std::size_t ny_;
   std::size_t nz_;
-  std::size_t width_;  ///< of a row, in whole lanes
+  std::size_t width_;  ///< width of a row, in whole lanes
   std::span<std::uint8_t> cells_;
   std::vector<std::int16_t> planar_;               ///< least over x and y
   std::vector<std::vector<std::int16_t>> slices_;  ///< least over x, one for each worker

@@ -45,7 +45,7 @@ Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double at) {
   return a + (at - a[axis]) / (b[axis] - a[axis]) * (b - a);
 }
 
-/// What of the polygon lies between the two planes of the slab.
+/// The piece of the polygon between the two planes of the slab.
 Polygon cut(const Polygon& polygon, const Slab& slab) {
   const auto [axis, low, high] = slab;
   Polygon result;
@@ -53,7 +53,7 @@ Polygon cut(const Polygon& polygon, const Slab& slab) {
     const Vec3& a = polygon.vertices[i];
     const Vec3& b = polygon.vertices[i + 1 == polygon.count ? 0 : i + 1];
     if (a[axis] >= low && a[axis] <= high) result.add(a);
-    // Along the edge the planes come in the order in which it runs through them.
+    // An edge meets the planes in the order of its direction.
     if (a[axis] < b[axis]) {
       if (a[axis] < low && b[axis] >= low) result.add(crossing(a, b, axis, low));
       if (a[axis] <= high && b[axis] > high) result.add(crossing(a, b, axis, high));
@@ -117,7 +117,7 @@ class Marker {
            static_cast<std::size_t>(j)) *
           static_cast<std::size_t>(grid_.size[0]);
       for (std::int32_t i = x.first; i <= x.last; ++i) {
-        // Several threads may set one mark, all to the same.
+        // Several threads may set the same mark, all to the same value.
         std::atomic_ref<std::uint8_t>(marks_[row + static_cast<std::size_t>(i)])
             .store(1, std::memory_order_relaxed);
       }
@@ -132,7 +132,7 @@ class Marker {
 }  // namespace
 
 SurfaceExtent surface_extent(const Mesh& mesh, unsigned threads) {
-  // One sum for each chunk, added up in order: the rounding does not depend on the threads.
+  // One sum per chunk, added up in order, so that the rounding does not depend on the threads.
   std::vector<SurfaceExtent> sums(chunk_count(mesh));
   for_each_chunk(chunk_threads(threads), sums.size(), [&](unsigned, std::size_t chunk) {
     SurfaceExtent sum;
@@ -153,12 +153,12 @@ SurfaceExtent surface_extent(const Mesh& mesh, unsigned threads) {
 }
 
 // With u = 2^-53 and n cells on the longest side, let a point t of a triangle lie in a cell. The
-// vertices in cells are off by 4u·n, so the triangle that we hold has a point within d0 = 4u·n of t
-// in each coordinate; it is in the slab of t's cell if that is extended by d0. A crossing is a
+// vertices in cells are off by 4u·n, so the computed triangle has a point within d0 = 4u·n of t in
+// each coordinate; it is in the slab of t's cell if the slab is extended by d0. A crossing is a
 // point of the edge up to d1 = 7u·n: the fraction is off by 3u, its product with the edge by 2u
-// more, the sum by u·n, all times at most n. So the polygon that we hold after one cut has a point
-// within d0 + d1 of t, in the row if that is extended as much, and after two cuts within d0 + 2·d1
-// = 18u·n. The sums with the margin round by 2u·n.
+// more, the sum by u·n, all times at most n. So the computed polygon after one cut has a point
+// within d0 + d1 of t, in the row if the row is extended as much, and after two cuts within d0 +
+// 2·d1 = 18u·n. The sums with the margin round by 2u·n.
 double mark_margin_cells(const CellGrid& grid) {
   return 20.0 * geometry::kUnitRoundoff * grid.longest_side() + reliable_margin_cells(grid);
 }

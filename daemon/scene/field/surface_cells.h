@@ -9,10 +9,10 @@
 
 namespace camway::scene {
 
-/// How much surface a mesh has, for foretelling what going over its cells costs.
+/// The amount of surface of a mesh, which predicts the cost of marking its cells.
 struct SurfaceExtent {
   double area_m2 = 0.0;
-  double outline_m = 0.0;  ///< lengths of all edges of all triangles
+  double outline_m = 0.0;  ///< sum of the lengths of all edges of all triangles
   double triangles = 0.0;
 
   /// `mark_touched_cells` looks at no more than kCellsPerEffort times this many cells.
@@ -26,26 +26,27 @@ struct SurfaceExtent {
   static constexpr double kCellsPerEffort = 22.0;
 };
 
-/// Bit-identical for any number of threads.
+/// Returns the extent of `mesh`, bit-identical for any number of threads.
 SurfaceExtent surface_extent(const Mesh& mesh, unsigned threads);
 
 /// Sets to 1 the mark of every cell that is within `reliable_margin_cells` of a point of a triangle
-/// along each axis; x runs fastest. A cell that is twice `mark_margin_cells` away from all of them
-/// is left alone. Which cells are marked depends on mesh and grid alone. Preconditions: the mesh
-/// lies in the grid as `CellGrid::around` has it; `marks` has a byte for each cell.
+/// along each axis; x runs fastest. Leaves alone cells that are twice
+/// `mark_margin_cells` away from all triangles. The marked cells depend on mesh and grid alone.
+/// Requires a mesh that lies in the grid as with `CellGrid::around`, and `marks` with a byte for
+/// each cell.
 ///
-/// A triangle is cut into slabs of one cell's height, these into rows of one cell's width, and what
-/// is left is convex: the cells that it touches are those between its ends. So a long run of cells
-/// costs no more than one (no test of a box for each, as in Akenine-Möller 2001).
+/// A triangle is cut into slabs of the height of one cell, and these into rows of the width of one
+/// cell. The piece in a row is convex, so it touches the cells between its ends. Thus a long run of
+/// cells costs no more than one (no test of a box for each cell, as in Akenine-Möller 2001).
 void mark_touched_cells(const Mesh& mesh, const CellGrid& grid, unsigned threads,
                         std::span<std::uint8_t> marks);
 
-/// What marking leaves to its users for their own rounding: whatever is closer than this to the
-/// face of a cell has marked the cell beyond as well. [Units: cells]
+/// The margin for the rounding of users of the marks: the cell beyond a face is marked, too, if a
+/// triangle is closer to that face than this. [Units: cells]
 double reliable_margin_cells(const CellGrid& grid);
 
-/// How far slabs, rows and runs are extended for that, the rounding of marking itself included.
-/// [Units: cells]
+/// The margin by which slabs, rows and runs are extended: `reliable_margin_cells` and the rounding
+/// of marking itself. [Units: cells]
 double mark_margin_cells(const CellGrid& grid);
 
 }  // namespace camway::scene

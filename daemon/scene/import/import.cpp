@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is wrong with the file before anything reads it; empty if nothing is.
+/// The fault of a file before anything reads it; empty if there is none.
 std::string reason_not_to_read(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -61,8 +61,8 @@ std::string describe(const ImportProcessResult& process, const ImportOptions& op
   return "cannot be imported";
 }
 
-/// See `ImportReport::rounding_m`. The reader's own is relative to coordinates or absolute in file
-/// units; the product with the scale rounds once more.
+/// See `ImportReport::rounding_m`. The reader's rounding is relative to coordinates or absolute in
+/// file units; the product with the scale rounds once more.
 double rounding_m(const ImportRecordResult& record, const Mesh& mesh, double scale) {
   if (mesh.triangles.empty()) return 0.0;
   const geometry::Box bounds_m = mesh.bounds();

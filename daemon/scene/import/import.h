@@ -17,24 +17,24 @@
 
 namespace camway::scene {
 
-/// What the reader of a format does to units and axes before we see a coordinate, as a sentence for
-/// the user; empty where coordinates are those of the file.
+/// A sentence for the user about changes of units and axes by the reader of a format; empty if
+/// coordinates are those of the file.
 std::string_view importer_note(std::string_view format);
 
-/// Either a mesh or a reason. `report` is filled as far as the import came.
+/// A mesh, or the reason why there is none. `report` covers the import as far as it got.
 struct ImportResult {
   std::optional<Mesh> mesh;
-  std::shared_ptr<const VoxelMap> map;  ///< of which the mesh is the faces; null for a mesh
+  std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null for a mesh
   ImportReport report;
   std::string error;           ///< names the file; empty exactly when `mesh` holds a value
-  Limit limit = Limit::kNone;  ///< that the error is about
+  Limit limit = Limit::kNone;  ///< limit that the error is about
 };
 
-/// Reads OBJ, OFF, PLY and STL itself (`scene/import/readers/mesh_reader.h`), occupancy maps (.bt
-/// and .ot) with OctoMap and any other format that assimp reads, in a child process with limits of
-/// memory and time, since a hostile file of a few bytes can cost gigabytes or crash the reader;
-/// then checks what came back again (indices, finiteness, counts). Never throws for a bad file. May
-/// be called from any thread. A requested stop ends the import within milliseconds, and it fails.
+/// Reads a scene file in a child process with limits of memory and time, since a hostile file of a
+/// few bytes can cost gigabytes or crash the reader: OBJ, OFF, PLY and STL with our own readers
+/// (`scene/import/readers/mesh_reader.h`), occupancy maps (.bt and .ot) with OctoMap, other formats
+/// with assimp. Checks the result again (indices, finiteness, counts). Never throws for a bad file.
+/// Fails within milliseconds after a stop is requested. Thread-safe.
 ImportResult import_mesh(const std::filesystem::path& file, const ImportOptions& options,
                          const std::stop_token& stop = {});
 

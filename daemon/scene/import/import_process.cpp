@@ -48,14 +48,14 @@ std::optional<fs::path> find_program() {
   while (!rest.empty()) {
     const std::size_t colon = std::min(rest.find(':'), rest.size());
     const fs::path directory(rest.substr(0, colon));
-    // A relative directory would run whatever lies where the daemon was started.
+    // A relative directory could hold any program, depending on where the daemon was started.
     if (directory.is_absolute() && is_program(directory / kProgram)) return directory / kProgram;
     rest.remove_prefix(std::min(colon + 1, rest.size()));
   }
   return std::nullopt;
 }
 
-/// Closes on destruction.
+/// Owns a file descriptor.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int fd) : fd_(fd) {}
@@ -70,14 +70,15 @@ class FileDescriptor {
   int fd_;
 };
 
-/// A file for what the child writes, never in the place of a standard stream: whoever started us may
-/// have closed those, and in the child they are opened anew. Below 0, with `errno` set, on failure.
+/// Opens a file for the output of the child. Its number is never that of a standard stream: these
+/// may be closed in this process, and are opened anew in the child. Returns a negative number, with
+/// `errno` set, on failure.
 int open_output() {
   const FileDescriptor first(memfd_create("camway-import", MFD_CLOEXEC));
   return first.get() < 0 ? -1 : fcntl(first.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
 }
 
-/// What happens between fork and exec, which `posix_spawn` does without running any code of ours.
+/// The actions between fork and exec, which `posix_spawn` performs without running code of ours.
 class SpawnSettings {
  public:
   explicit SpawnSettings(int output_fd) {
@@ -94,7 +95,7 @@ class SpawnSettings {
     sigfillset(&all);
     posix_spawnattr_setsigmask(&attributes_, &none);
     posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setpgroup(&attributes_, 0);  // a Ctrl-C is for us to handle
+    posix_spawnattr_setpgroup(&attributes_, 0);  // this process handles Ctrl-C
     posix_spawnattr_setflags(
         &attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
@@ -105,7 +106,7 @@ class SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 
-  /// 0 or an error number.
+  /// Returns 0 or an error number.
   int spawn(pid_t& pid, const fs::path& program, const std::vector<std::string>& arguments) const {
     std::vector<char*> argv;
     for (const std::string& argument : arguments) {
@@ -122,7 +123,8 @@ class SpawnSettings {
   posix_spawnattr_t attributes_{};
 };
 
-/// The exit status, or nothing if the time or the stop came first; then the process was killed.
+/// Returns the exit status; or nothing, with the process killed, if the deadline or the stop came
+/// first.
 std::optional<int> wait_until(pid_t pid, Clock::time_point deadline, const std::stop_token& stop) {
   std::chrono::microseconds pause(100);
   int status = 0;
@@ -196,7 +198,7 @@ ImportProcessResult run_import_process(const fs::path& file, std::size_t memory_
   }
   const FileDescriptor output(open_output());
   if (output.get() < 0) return {End::kNotStarted, {}, text_of_errno(errno)};
-  // Processor time a little longer, so that it is the wall clock that strikes.
+  // A little more processor time, so that the limit of wall clock is reached first.
   const double cpu_s = std::ceil(std::clamp(time_limit_s, 0.0, 1e6)) + 1.0;
   const std::vector<std::string> arguments = {program->string(), file.string(),
                                               std::to_string(memory_limit_bytes),

@@ -9,14 +9,14 @@
 
 namespace camway::scene {
 
-/// How an import process ended.
+/// The result of an import process.
 struct ImportProcessResult {
   enum class End {
-    kFinished,     ///< `output` holds what it wrote, a mesh or a refusal
-    kOutOfMemory,  ///< it needed more than the limit
-    kOutOfTime,    ///< wall clock or processor time; it was killed
-    kStopped,      ///< a stop was asked for; it was killed
-    kCrashed,      ///< a signal ended it; `detail` names it
+    kFinished,     ///< `output` holds a record: a mesh or a refusal
+    kOutOfMemory,  ///< the process needed more than the limit
+    kOutOfTime,    ///< killed at its limit of wall clock or processor time
+    kStopped,      ///< killed because a stop was requested
+    kCrashed,      ///< ended by a signal or an unknown exit code, which `detail` names
     kNotStarted,   ///< `detail` says why
   };
   End end = End::kNotStarted;
@@ -24,12 +24,12 @@ struct ImportProcessResult {
   std::string detail;
 };
 
-/// Runs `camway-import` on `file` and waits for it. The program is looked for beside the running
-/// executable, then in the absolute directories of PATH. The process gets nothing but the file's
-/// name: no standard streams, no descriptor of ours, no environment, default signals; it dies with
-/// us, and confines itself before it looks at the file (`import_confinement.h`).
-/// A stop ends it within milliseconds.
-/// May be called from any thread: nothing of this process runs in the child but exec.
+/// Runs `camway-import` on `file` and waits for it. Looks for the program beside the running
+/// executable, then in the absolute directories of PATH. The process inherits nothing: no standard
+/// streams, no descriptors but that of its output, no environment, default signals. It is killed
+/// when this process ends, and confines itself before it opens the file (`import_confinement.h`). A
+/// stop ends it within milliseconds.
+/// Thread-safe: no code of this process runs in the child before exec.
 ImportProcessResult run_import_process(const std::filesystem::path& file,
                                        std::size_t memory_limit_bytes, double time_limit_s,
                                        const std::stop_token& stop = {});

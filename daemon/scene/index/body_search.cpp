@@ -30,7 +30,7 @@ BodySearch::BodySearch(std::span<const Triangle> hull, std::size_t of_part, cons
       oblique_(box_),
       error_m_(error_m) {}
 
-// A distance asked may be `error_m_` below the true one, and a bound `error_m_` above it.
+// A computed distance may be `error_m_` below the true one, and a bound `error_m_` above it.
 void BodySearch::shrink_to(double reach_m) {
   const double surely_m = reach_m + 2.0 * error_m_;
   squared_reach_m2_ = surely_m * surely_m * (1.0 + 2.0 * OrientedBox::kRelativeError);
@@ -80,7 +80,7 @@ void BodySearch::ask_few(const Triangle& triangle, std::uint32_t index) {
   if (!part_boxes_) {
     part_boxes_.emplace();
     for (std::size_t i = 0; i < parts(); ++i) {
-      // Two are mostly the halves of a quadrilateral, whose axes fit both.
+      // Two parts are usually the halves of a quadrilateral, whose axes fit both.
       (*part_boxes_)[i] = parts() == 2 ? box_.around(hull_of(i)) : OrientedBox(hull_of(i));
     }
   }

@@ -13,67 +13,68 @@
 
 namespace camway::scene {
 
-/// Puts pairs of a triangle of a body and one of the scene to a question, the most promising first,
-/// and spares those that boxes show to be beyond a reach. What is asked, and what the reach
-/// becomes, is up to the derived class. The body stands, or is anywhere between two ends.
+/// Base class of searches that test pairs of a body triangle and a scene triangle, the most
+/// promising first, and skip those whose boxes prove them to be beyond a reach. The derived class
+/// defines the test and the reach. The body stands still, or is between two end positions.
 class BodySearch {
  public:
   BodySearch(const BodySearch&) = delete;
   BodySearch& operator=(const BodySearch&) = delete;
 
   [[nodiscard]] const BoxSides& sides() const { return sides_; }
-  /// Nothing where it would tell no more than `sides()`.
+  /// The body's oriented box; null if the body is a point, for which `sides()` tells as much.
   [[nodiscard]] const ObliqueSides* oblique() const { return is_point_ ? nullptr : &oblique_; }
-  /// Boxes further than this from `sides()` hold nothing of interest.
+  /// Square of the reach: boxes farther than the reach from `sides()` are skipped.
   [[nodiscard]] double squared_reach_m2() const { return squared_reach_m2_; }
   [[nodiscard]] bool is_beyond(double squared_box_m2) const {
     return squared_box_m2 > squared_reach_m2_ * (1.0 + 2.0 * kBoxGapRelativeError);
   }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
-  /// From now on triangles of this part are considered. Precondition: the list is empty, as it is
-  /// after `settle`. The part must outlive this.
+  /// Sets the part that `consider` refers to, which must outlive this object. Requires that no
+  /// triangle waits, as after `settle`.
   void enter(const IndexedPart& part) { part_ = &part; }
 
-  /// Puts a triangle on the list of those to be asked, unless it is surely of no interest.
-  /// Precondition: it lies in the part that was entered.
+  /// Lets `triangle` wait for its test, unless a box proves it irrelevant. Requires that it lies in
+  /// the part that was entered.
   void consider(std::uint32_t triangle);
 
-  /// Asks those on the list, the most promising first.
+  /// Tests the waiting triangles, the most promising first.
   void settle();
 
  protected:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  /// `hull`: of each part of the body `of_part` triangles, in turn, between which it stays; `box`
-  /// is around them. `error_m`: bound of the rounding of distances. Preconditions: the body is not
-  /// empty and finite, and outlives this.
+  /// `hull` holds `of_part` triangles for each part of the body, part after part: the part itself
+  /// or its end positions. `box` bounds all of them; `error_m` bounds the rounding error of
+  /// distances. Requires a body that is finite and not empty. It must outlive this object.
   BodySearch(std::span<const geometry::Triangle> hull, std::size_t of_part,
              const geometry::Box& box, double error_m);
   virtual ~BodySearch() = default;
 
-  /// From now on only what is not surely further than `reach_m` is asked.
+  /// Reduces the reach: from now on only triangles that may be within `reach_m` are tested.
   void shrink_to(double reach_m);
   void finish() { is_done_ = true; }
-  /// A touch of triangle `index` was found: nothing is nearer, so only a lower index is asked.
+  /// Records that triangle `index` touches the body: nothing is nearer, so from now on only lower
+  /// indices are tested.
   void found_touch(std::uint32_t index) { touched_ = index; }
 
  private:
-  static constexpr std::size_t kMaxOriented = 4;  ///< triangles of a body with a box each
-  static constexpr std::size_t kGroupSize = 8;    ///< triangles of larger bodies with one box
+  static constexpr std::size_t kMaxOriented = 4;  ///< most parts that get an oriented box each
+  static constexpr std::size_t kGroupSize = 8;    ///< parts of larger bodies that share a box
   static constexpr std::size_t kMaxGroups = 128;
 
   struct Waiting {
-    double squared_m2;  ///< lower bound of its distance
+    double squared_m2;  ///< lower bound of the squared distance
     std::uint32_t triangle;
   };
 
-  /// Made when the first triangle is considered: most queries of a free path meet none.
+  /// Made when the first triangle is considered: most queries of a free path never consider one.
   struct Candidates {
     Candidates();
 
-    /// Whether `triangle` was surely considered before; remembers it in any case. A triangle is met
-    /// in every leaf that it lies in. Forgetting one costs time only.
+    /// Returns whether `triangle` was surely considered before, and remembers it. (A triangle is
+    /// met in every leaf that holds it.) Forgetting one costs time only.
     bool was_met(std::uint32_t triangle);
 
     std::array<std::uint32_t, 64> met;
@@ -81,7 +82,7 @@ class BodySearch {
     std::array<Waiting, 64> waiting;
   };
 
-  /// The question, to part `part` of the body and scene triangle `index`.
+  /// Tests part `part` of the body against scene triangle `index`.
   virtual void ask_pair(std::size_t part, const geometry::Triangle& triangle,
                         std::uint32_t index) = 0;
 
@@ -101,7 +102,7 @@ class BodySearch {
   std::size_t of_part_;
   const IndexedPart* part_ = nullptr;
   BoxSides sides_;
-  bool is_point_;  ///< the body, and it stands
+  bool is_point_;  ///< whether the body is a single point that stands still
   geometry::OrientedBox box_;
   ObliqueSides oblique_;
   double error_m_;

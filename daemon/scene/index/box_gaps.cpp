@@ -10,7 +10,7 @@
 namespace camway::scene {
 namespace {
 
-// Vectors of GCC and Clang: written once, compiled to what the processor has.
+// Vector types of GCC and Clang: written once, compiled to what the processor has.
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 using HalfFloats = float __attribute__((vector_size(16)));
@@ -19,8 +19,8 @@ using Longs = std::int64_t __attribute__((vector_size(32)));
 using Shorts = std::uint16_t __attribute__((vector_size(16)));
 using Bytes = std::uint8_t __attribute__((vector_size(8)));
 
-/// Coordinates beyond so many steps are taken for so many: bounds become smaller, nothing
-/// overflows, and what is this far away is far whatever the reach.
+/// Coordinates beyond this many steps are clamped to it. Bounds only become smaller, nothing
+/// overflows, and boxes this far away are beyond any reach.
 constexpr double kFarthestStep = 0x1p60;
 
 /// A coordinate in steps has a rounding of 2^-53 (the difference) and 2^-24 (to float), relative to
@@ -30,8 +30,8 @@ constexpr float kRelativeMove = 0x1p-21F;
 constexpr float kLeastMove = 0x1p-20F;
 
 /// Along an oblique axis a box has three products of at most 255 steps each. A weight is rounded
-/// once, a product once, and each of the sums, with what they are added to, once more: 255·3·5
-/// roundings of 2^-24, less than 2^-12; twice that, for a share of the 2^-24 of the other summand.
+/// once, a product once, and each of the sums once more: 255·3·5 roundings of 2^-24, less than
+/// 2^-12. Twice that covers a share of the 2^-24 of the other summand.
 constexpr float kObliqueMove = 0x1p-11F;
 
 /// The bound's own error, and twice the rounding of the limit to float.
@@ -58,12 +58,12 @@ constexpr double kLargestLimit = 0x1p126;
                                              Floats& out) {
   Bytes bytes;
   std::memcpy(&bytes, steps.data(), sizeof bytes);
-  // Step by step: GCC 12 takes eight bytes apart one by one otherwise.
+  // In single steps: otherwise GCC 12 converts the eight bytes one by one.
   out = __builtin_convertvector(
       __builtin_convertvector(__builtin_convertvector(bytes, Shorts), Ints), Floats);
 }
 
-/// Steps of a frame, in metres and among themselves.
+/// The steps of a frame: their size in metres, and relative to the largest one.
 struct Steps {
   int largest;  ///< exponent
   HalfFloats share_of_largest;
@@ -78,8 +78,9 @@ struct Steps {
   out.share_of_largest = __builtin_convertvector(shares, HalfFloats);
 }
 
-/// Adds the squared gaps on one axis, in units of which a step has `weight`; a product with a power
-/// of two is exact. Sides of the box are given moved down: `minus_to` is the upper one, negated.
+/// Adds the squared gaps on one axis, in units of which a step is `weight`; a product with a power
+/// of two is exact. The sides of the box are rounded down: `from` is the lower one, `minus_to` the
+/// upper one, negated.
 [[gnu::always_inline]] inline void add_gaps(const ByteBoxes& boxes, std::size_t axis, float from,
                                             float minus_to, float weight, Floats& sum) {
   Floats begin, end;
@@ -93,7 +94,7 @@ struct Steps {
   sum += gap * gap;
 }
 
-/// Bit i of the result: lane i is not above `limit`.
+/// Sets bit i of the result if lane i is not above `limit`.
 [[gnu::always_inline]] inline unsigned not_above(const Floats& lanes, float limit) {
   constexpr Ints kBits = {1, 2, 4, 8, 16, 32, 64, 128};
   const Ints above = (lanes > limit) & kBits;
@@ -103,7 +104,7 @@ struct Steps {
   return ~static_cast<unsigned>(joined | joined >> 32U) & 0xFFU;
 }
 
-/// Adds `weight` times the least, and the greatest, that a coordinate of each box can be.
+/// Adds `weight` times the least, and times the greatest, coordinate of each box on this axis.
 [[gnu::always_inline]] inline void add_extremes(const ByteBoxes& boxes, std::size_t axis,
                                                 float weight, Floats& least, Floats& greatest) {
   Floats begin, end;
@@ -143,7 +144,7 @@ void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& bo
   Doubles low, high;
   load(box.low_m, low);
   load(box.high_m, high);
-  // Both sides as numbers that are moved down.
+  // Both sides are rounded down, the upper one negated.
   Doubles down = (low - origin) * steps.steps_per_m;
   Doubles up = (origin - high) * steps.steps_per_m;
   HalfFloats from, minus_to;
@@ -168,7 +169,7 @@ void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueS
   load(body.axis[2], axis_z);
   load(body.low_m, low);
   load(body.high_m, high);
-  // Where the frame begins along the axes of the body.
+  // Origin of the frame along the axes of the body.
   const Doubles offset = axis_x * (frame.origin[0] - body.origin_m[0]) +
                          axis_y * (frame.origin[1] - body.origin_m[1]) +
                          axis_z * (frame.origin[2] - body.origin_m[2]);

@@ -8,7 +8,7 @@
 
 namespace camway::scene {
 
-/// A box, laid out to be loaded four numbers at a time; the fourth are 0.
+/// A box, laid out to be loaded four numbers at a time; the fourth numbers are 0.
 struct BoxSides {
   BoxSides() = default;
   explicit BoxSides(const geometry::Box& box)
@@ -19,42 +19,43 @@ struct BoxSides {
   std::array<double, 4> high_m{};
 };
 
-/// Lower bounds of the squared distances between a box and eight.
+/// Lower bounds of the squared distances between one box and eight others.
 struct BoxGaps {
-  std::array<float, kNodeWidth> squared;  ///< in units of `square_m2`
+  std::array<float, kNodeWidth> squared;  ///< bounds, in units of `square_m2`
   double square_m2;                       ///< the square of the frame's largest step
-  unsigned near;                          ///< bit i: box i is not proved to be beyond the reach
+  unsigned near;  ///< bit i is set unless box i is proved to be beyond the reach
 };
 
-/// How far above its true square a bound may be, relatively: the difference of two floats, its
+/// Largest relative excess of a bound over the true square. The difference of two floats, its
 /// square and the sum of three squares are rounded, 2^-24 each: (1 + 2^-24)^2·(1 + 2^-24)^3 at
 /// most.
 inline constexpr double kBoxGapRelativeError = 8.0 * 0x1p-24;
 
-/// Bounds for `boxes` in `frame`, against `box`, and which of them are not above
-/// `squared_reach_m2` by more than their rounding. A bound is 0 for boxes that touch; a NaN never
-/// makes a bound above 0.
+/// Computes the bounds between `box` and the eight `boxes` of `frame`, and which boxes are near:
+/// those whose bound does not exceed `squared_reach_m2` by more than its rounding. The bound of
+/// boxes that touch is 0; a NaN never makes a bound above 0.
 ///
-/// The same operations in the same order whatever the processor: with AVX2 eight at a time, else
-/// four.
+/// Bit-identical on every processor: the same operations in the same order, eight at a time with
+/// AVX2 and four at a time without.
 void box_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const BoxSides& box,
               double squared_reach_m2, BoxGaps& out);
 
-/// An oriented box, laid out for `oblique_gaps`. Numbers 3 of each array are 0.
+/// An oriented box, laid out for `oblique_gaps`. Entry 3 of each array is 0.
 struct ObliqueSides {
   ObliqueSides() = default;
   explicit ObliqueSides(const geometry::OrientedBox& box);
 
   std::array<double, 4> origin_m{};
-  std::array<std::array<double, 4>, 3> axis{};  ///< [coordinate][axis]
-  std::array<double, 4> low_m{};                ///< along the axes, from the origin
+  std::array<std::array<double, 4>, 3> axis{};  ///< components of the axes, [coordinate][axis]
+  std::array<double, 4> low_m{};                ///< extents along the axes, from the origin
   std::array<double, 4> high_m{};
 };
 
-/// Improves `gaps`, which `box_gaps` has made for the same boxes and a box around `body`: along the
-/// axes of the body they are often further away than along those of the world. Rounding in units of
-/// the steps is taken care of, as there; that of coordinates far from each other adds up to the
-/// error of `OrientedBox::squared_distance_bound_m2`, which the reach must allow for.
+/// Raises the bounds in `gaps`, which `box_gaps` computed for the same boxes and a box around
+/// `body`: along the axes of the body, boxes are often farther away than along those of the world.
+/// The bounds allow for rounding in units of the steps, as those of `box_gaps`. The rounding of
+/// coordinates far from each other adds up to the error of
+/// `OrientedBox::squared_distance_bound_m2`, which the reach must allow for.
 void oblique_gaps(const ByteFrame& frame, const ByteBoxes& boxes, const ObliqueSides& body,
                   double squared_reach_m2, BoxGaps& gaps);
 

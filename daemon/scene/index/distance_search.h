@@ -5,11 +5,11 @@
 
 namespace camway::scene {
 
-/// Keeps the triangle nearest to a body. What is proved to be beyond the nearest so far is not
-/// asked.
+/// Finds the triangle nearest to a body. Skips triangles that are proved to be farther than the
+/// nearest one found so far.
 class DistanceSearch : public BodySearch {
  public:
-  /// Arguments as those of `BodySearch`.
+  /// `body`, `body_box` and `error_m` as for `BodySearch`; the others as for `SceneIndex::near`.
   DistanceSearch(std::span<const geometry::Triangle> body, const geometry::Box& body_box,
                  double cutoff_m, double error_m, DistanceGoal goal, double certain_m,
                  double share);
@@ -23,7 +23,7 @@ class DistanceSearch : public BodySearch {
   DistanceGoal goal_;
   double certain_m_;
   double share_;
-  double limit_m_;  ///< what is further is of no interest
+  double limit_m_;  ///< triangles farther away are skipped
   Nearest best_;
 };
 

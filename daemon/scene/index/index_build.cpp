@@ -19,17 +19,17 @@ using geometry::Box;
 
 namespace {
 
-/// Parts larger than this are built apart, by whatever thread is free. Not a matter of the number
-/// of threads, so that the index is not either.
+/// Larger parts are built as chunks of their own, by any free thread. It does not depend on the
+/// number of threads, so the index does not either.
 constexpr std::size_t kChunkEntries = 4096;
 
-/// Runs `work` on `threads` threads, this one among them; on fewer if the system gives no more.
+/// Runs `work` on `threads` threads, including this one; on fewer if the system has no more.
 void run_on_threads(unsigned threads, const std::function<void()>& work) {
   std::vector<std::jthread> others;
   try {
     for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
   } catch (const std::system_error&) {
-    // Those that started, and this one, do it all.
+    // The threads that started, and this one, do all the work.
   }
   work();
 }
@@ -49,9 +49,9 @@ void for_ranges(unsigned threads, std::size_t count,
   });
 }
 
-/// What one thread builds by itself: a subtree, but for the chunks that hang below it.
+/// The subtree that one thread builds by itself, without the chunks below it.
 struct Chunk {
-  /// A node of this chunk that is the root of another.
+  /// A node of this chunk that is the root of another chunk.
   struct Link {
     std::uint32_t node;
     std::unique_ptr<Chunk> chunk;
@@ -62,11 +62,11 @@ struct Chunk {
       nodes;  ///< all but the root; numbers in nodes count from the chunk's first
   std::vector<std::uint32_t> leaf_ends;  ///< leaf i has the entries up to leaf_ends[i]
   std::vector<std::uint32_t> references;
-  std::vector<ByteBox> boxes;  ///< of the references
+  std::vector<ByteBox> boxes;  ///< boxes of the references
   std::vector<Link> links;
   std::uint32_t depth = 0;
 
-  // Where this chunk's parts begin in the index.
+  // Offsets of this chunk's nodes, leaves and references in the index.
   std::uint32_t first_node = 0;
   std::uint32_t first_leaf = 0;
   std::uint32_t first_reference = 0;
@@ -93,7 +93,7 @@ class ChunkBuilder {
   };
   struct Inner {
     IndexPart part;
-    std::vector<IndexPart> children;  ///< empty for one that becomes a chunk
+    std::vector<IndexPart> children;  ///< empty if it becomes a chunk
   };
 
   void add(Task task) {
@@ -133,7 +133,7 @@ class ChunkBuilder {
     build_node(chunk, chunk.root, std::move(children));
   }
 
-  /// Fills `result`, which is no node of `chunk` yet, and builds what is below it.
+  /// Fills `result`, which is not a node of `chunk` yet, and builds the nodes below it.
   void build_node(Chunk& chunk, IndexNode& result, std::vector<IndexPart> parts) {
     Box box;
     for (const IndexPart& part : parts) {
@@ -162,7 +162,7 @@ class ChunkBuilder {
     build_inner(chunk, node.first_node, inner);
   }
 
-  /// Which parts become nodes, and which become leaves.
+  /// Divides parts into those that become nodes and those that become leaves.
   void sort_out(std::vector<IndexPart>& parts, std::vector<Inner>& inner,
                 std::vector<IndexPart>& leaves) const {
     inner.reserve(parts.size());
@@ -248,7 +248,7 @@ std::vector<IndexEntry> entries_of(const Mesh& mesh, unsigned threads) {
 
 }  // namespace
 
-/// Puts chunks one after the other, in the order in which one thread would have come upon them.
+/// Concatenates the chunks in the order in which a single thread would reach them.
 class IndexAssembler {
  public:
   IndexAssembler(IndexTree& tree, Chunk& root) : tree_(tree) {
@@ -291,7 +291,7 @@ class IndexAssembler {
     return node;
   }
 
-  /// Chunks write to places of their own, so this may run for all at once.
+  /// Chunks write to separate ranges, so this may run for all of them in parallel.
   void copy(const Chunk& chunk) {
     for (std::size_t i = 0; i < chunk.nodes.size(); ++i) {
       tree_.nodes_[chunk.first_node + i] = moved(chunk, chunk.nodes[i]);
@@ -313,7 +313,7 @@ class IndexAssembler {
 
   IndexTree& tree_;
   std::vector<Chunk*> chunks_;
-  std::uint32_t nodes_ = 1;  ///< the root stands before all others
+  std::uint32_t nodes_ = 1;  ///< the root comes first
   std::uint32_t leaves_ = 0;
   std::uint32_t references_ = 0;
   std::uint32_t depth_ = 0;

@@ -23,8 +23,8 @@ int exponent_for(double extent) {
 }  // namespace
 
 ByteFrame::ByteFrame(const Box& box) {
-  // Beyond 2^60 steps distances are not told apart (see box_gaps), so where the box is flat or
-  // small the steps are no finer than they need be.
+  // Distances beyond 2^60 steps are clamped (see box_gaps), so flat or small boxes get no finer
+  // steps than they need.
   constexpr double kFinestOfExtent = 0x1p-32;
   constexpr double kFinestOfCoordinate = 0x1p-48;
   const double extent_m = box.sizes().maxCoeff();

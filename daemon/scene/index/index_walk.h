@@ -10,28 +10,28 @@
 
 namespace camway::scene {
 
-/// What to add to the numbers in a tree, where there are several.
+/// Numbers of the first entry and the first leaf of a tree, where there are several trees.
 struct IndexOffsets {
   std::uint32_t entry = 0;
   std::uint32_t leaf = 0;
 };
 
-/// The one walk of all queries: depth first, nearer children first, through what is not beyond a
-/// reach that the query may shrink as it goes. A query has
+/// The traversal of all queries: depth first, nearer children first, without what is beyond a reach
+/// that the query may shrink on the way. A query has
 ///
-///     const BoxSides& sides() const           what is asked about
-///     const ObliqueSides* oblique() const     the same in axes of its own, or null
-///     double squared_reach_m2() const         how far from it things are of interest
-///     bool is_beyond(double squared) const    the same, of a squared box distance
-///     bool enters(node, slot) const           a closer look at a child, or true
-///     void leaf(const IndexWalk::Leaf&)       asks what is in a leaf
+///     const BoxSides& sides() const           the box that the query is about
+///     const ObliqueSides* oblique() const     the same along its own axes, or null
+///     double squared_reach_m2() const         square of the reach from that box
+///     bool is_beyond(double squared) const    whether a squared box distance is beyond the reach
+///     bool enters(node, slot) const           false if a closer test excludes a child
+///     void leaf(const IndexWalk::Leaf&)       tests the entries of a leaf
 ///     bool is_done() const                    whether to stop
 class IndexWalk {
  public:
   explicit IndexWalk(const IndexTree& tree, const IndexOffsets& offsets = {})
       : tree_(tree), offsets_(offsets) {}
 
-  /// A leaf, and what in it is of interest.
+  /// A leaf, whose entries within reach a query visits.
   class Leaf {
    public:
     Leaf(const IndexTree& tree, const IndexOffsets& offsets, std::uint32_t parent,
@@ -40,7 +40,7 @@ class IndexWalk {
 
     [[nodiscard]] std::uint32_t id() const { return offsets_.leaf + leaf_; }
 
-    /// Calls `visit(entry)` for those whose boxes are within reach, until `visit` returns false.
+    /// Calls `visit(entry)` for each entry whose box is within reach, until `visit` returns false.
     template <class Query, class Visit>
     void for_each(const Query& query, const Visit& visit) const {
       const std::uint32_t begin = tree_.leaf_begin_[leaf_];
@@ -48,7 +48,7 @@ class IndexWalk {
       BoxGaps gaps;
       for (std::uint32_t first = begin - begin % kNodeWidth; first < end; first += kNodeWidth) {
         look(query, tree_.nodes_[parent_].frame, tree_.boxes_[first / kNodeWidth], gaps);
-        // Eight boxes may belong to two leaves.
+        // A group of eight boxes may belong to several leaves.
         unsigned near = gaps.near;
         if (first < begin) near &= 0xFFU << (begin - first);
         if (end - first < kNodeWidth) near &= (1U << (end - first)) - 1U;
@@ -85,13 +85,13 @@ class IndexWalk {
  private:
   static constexpr std::uint32_t kNode = std::numeric_limits<std::uint32_t>::max();
   /// Depth first, each level leaves at most seven siblings waiting. A large part that cannot be
-  /// split adds a level for its leaf.
+  /// split becomes a node with one leaf, which adds a level.
   static constexpr std::size_t kStackSize = (kNodeWidth - 1) * (kMaxIndexDepth + 1) + kNodeWidth;
 
   struct Waiting {
     double squared_m2;
-    std::uint32_t node;  ///< of a leaf: its parent
-    std::uint32_t leaf;  ///< kNode for a node
+    std::uint32_t node;  ///< the node, or the parent of the leaf
+    std::uint32_t leaf;  ///< the leaf; kNode for a node
   };
 
   template <class Query>
@@ -117,7 +117,7 @@ class IndexWalk {
       if (!query.enters(node, slot)) continue;
       const double squared_m2 = static_cast<double>(gaps.squared[slot]) * gaps.square_m2;
       const bool is_leaf = slot >= node.node_count;
-      // The closest child on top, and of equals the first.
+      // The nearest child on top; among equals the first.
       std::size_t place = size_++;
       for (; place > begin && stack_[place - 1].squared_m2 <= squared_m2; --place) {
         stack_[place] = stack_[place - 1];

@@ -12,11 +12,11 @@
 #include "daemon/scene/index/index_tree.h"
 #include "daemon/scene/mesh/mesh.h"
 
-/// How the index is built: one builder for all decompositions, and a dealer for each.
+/// How the index is built: one builder for all decompositions, and a node splitter for each.
 namespace camway::scene {
 
-/// A triangle in a part of the scene, and a box that holds what of it lies there. Plain numbers:
-/// the builders do little else than to move these. Numbers 3 of both arrays are 0.
+/// A triangle in a part of the scene, with a box that holds the piece of it that lies there. Plain
+/// numbers, because the builders do little else than move them. Entry 3 of both arrays is 0.
 struct IndexEntry {
   IndexEntry() = default;
   IndexEntry(const geometry::Box& box, std::uint32_t index)
@@ -37,7 +37,7 @@ struct IndexEntry {
   std::uint32_t triangle;
 };
 
-/// The box of many entries, as it grows.
+/// The bounding box of entries that are added one by one.
 class EntryBounds {
  public:
   EntryBounds() {
@@ -52,14 +52,14 @@ class EntryBounds {
   }
   void extend(const IndexEntry& entry) { extend(entry.low_m, entry.high_m); }
   void extend(const EntryBounds& other) { extend(other.low_m_, other.high_m_); }
-  /// Takes off `entry` what is further than `error_m` outside of these bounds.
+  /// Cuts off the box of `entry` where it is more than `error_m` outside of these bounds.
   void clip(IndexEntry& entry, double error_m) const {
     for (std::size_t k = 0; k < 3; ++k) {
       entry.low_m[k] = std::max(entry.low_m[k], low_m_[k] - error_m);
       entry.high_m[k] = std::min(entry.high_m[k], high_m_[k] + error_m);
     }
   }
-  /// Empty where nothing was added.
+  /// Empty if nothing was added.
   [[nodiscard]] geometry::Box box() const {
     return {geometry::Vec3(low_m_[0], low_m_[1], low_m_[2]),
             geometry::Vec3(high_m_[0], high_m_[1], high_m_[2])};
@@ -76,53 +76,54 @@ inline geometry::Box bounds_of(const std::vector<IndexEntry>& entries) {
   return bounds.box();
 }
 
-/// What a child of a node is made of.
+/// The contents of a child of a node.
 struct IndexPart {
   IndexPart() = default;
-  // Eigen does not promise that boxes move without throwing, and vectors would copy parts.
+  // Eigen does not promise that boxes move without throwing, so vectors would copy parts.
   IndexPart(IndexPart&&) noexcept = default;
   IndexPart& operator=(IndexPart&&) noexcept = default;
 
-  geometry::Box cell;               ///< its share of space; empty where space is not shared out
+  geometry::Box cell;               ///< the octant that it divides further; used by the octree only
   geometry::Box box;                ///< holds the boxes of the entries
-  std::vector<IndexEntry> entries;  ///< triangles increasing
-  double budget = 0.0;              ///< how many entries the leaves below may have
+  std::vector<IndexEntry> entries;  ///< in increasing order of triangles
+  double budget = 0.0;              ///< most entries that the leaves below may have
   std::uint32_t depth = 0;          ///< levels below the root
-  bool is_final = false;            ///< splitting it was found not to pay
+  bool is_final = false;            ///< whether a split was found not to pay
 };
 
-/// Deals the entries of a part to the children of a node. Const calls are safe from any thread, and
-/// the result depends on the arguments only.
+/// Node splitter: distributes the entries of a part to the children of a node. The result depends
+/// on the arguments only.
+/// Thread-safe.
 class IndexDealer {
  public:
   virtual ~IndexDealer() = default;
 
-  /// At most `kNodeWidth` parts, none of them empty, that hold what `part` holds; or none, and
-  /// `part` as it was, where it shall not be split.
+  /// Moves the contents of `part` to at most `kNodeWidth` parts, none of them empty, and returns
+  /// these. Returns none, and leaves the contents in `part`, if it shall not be split.
   [[nodiscard]] virtual std::vector<IndexPart> deal(IndexPart& part) const = 0;
 };
 
-/// Preconditions: `mesh` outlives the dealer; `bounds` holds all its triangles.
+/// Requires that `mesh` outlives the splitter and that `bounds` holds all of its triangles.
 std::unique_ptr<IndexDealer> make_octree_dealer(const Mesh& mesh, const geometry::Box& bounds,
                                                 const IndexOptions& options);
 std::unique_ptr<IndexDealer> make_kd_tree_dealer(const Mesh& mesh, const geometry::Box& bounds,
                                                  const IndexOptions& options);
 std::unique_ptr<IndexDealer> make_bvh_dealer(const IndexOptions& options);
 
-/// Cuts what lies in a part by a plane `x[axis] = at`.
+/// Cuts entries by a plane `x[axis] = at`.
 class TriangleCutter {
  public:
-  /// Rounding of a point where an edge meets a plane, in units of 2^-53 of the largest coordinate:
-  /// the parameter has two differences and a quotient (3), its product with a difference two more,
-  /// all relative to an edge of at most twice that size (10), the sum one; 16 leaves room for the
-  /// second order.
+  /// Rounding error of a point where an edge meets a plane, in units of 2^-53 of the largest
+  /// coordinate. The parameter has two differences and a quotient (3), its product with a
+  /// difference two more, all relative to an edge of at most twice that size (10); the sum has one.
+  /// 16 leaves room for the second order.
   static constexpr double kCutErrorUnits = 16.0;
 
   TriangleCutter(const Mesh& mesh, const geometry::Box& bounds);
 
-  /// Replaces `low` and `high` by what of `entry` lies at most, and at least, at the plane. Their
-  /// boxes are rounded outwards; one that is empty proves that nothing lies there.
-  /// Precondition: `entry.box` has points on both sides of the plane.
+  /// Sets `low` and `high` to the pieces of `entry` with x[axis] <= at and with x[axis] >= at.
+  /// Their boxes are rounded outwards; an empty box proves that nothing lies there. Requires that
+  /// `entry.box` has points on both sides of the plane.
   void cut(const IndexEntry& entry, int axis, double at, IndexEntry& low, IndexEntry& high) const;
 
  private:
@@ -130,8 +131,8 @@ class TriangleCutter {
   double error_m_;
 };
 
-/// About half the surface area of a box: how likely a query is to meet it. A box that is a line
-/// counts a little, by its length. 0 for an empty one.
+/// About half the surface area of a box, to which the probability that a query meets it is
+/// proportional. A box that is a line counts a little, by its length. 0 for an empty box.
 double half_area_m2(const geometry::Box& box);
 
 }  // namespace camway::scene

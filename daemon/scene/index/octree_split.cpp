@@ -15,13 +15,13 @@ namespace {
 
 using Octants = std::array<std::vector<IndexEntry>, 8>;
 
-/// A cube a little larger than `bounds`. A cube, so that cells do not become flatter than the scene
-/// asks for; larger, so that a floor at the very bottom lies inside the lower octants and not on
-/// their boundary, and so that the rounding of a cell's middle never leaves the cell.
+/// A cube slightly larger than `bounds`. A cube, so that cells do not become flatter than the
+/// scene. Larger, so that a floor at the very bottom lies inside the lower octants, not on their
+/// boundary, and so that the rounding of a cell's centre never leaves the cell.
 Box root_cell(const Box& bounds) {
   const double largest = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff();
   const double extent = bounds.sizes().maxCoeff();
-  // The middle of a cell has a rounding of u·largest at each of at most 20 levels.
+  // The centre of a cell has a rounding of u·largest at each of at most 20 levels.
   const double margin = std::max(
       {0x1p-30 * extent, 64.0 * geometry::kUnitRoundoff * largest, geometry::kSmallestNormal});
   const Vec3 low = bounds.min() - Vec3::Constant(margin);
@@ -40,12 +40,12 @@ Box octant_cell(const Box& cell, const Vec3& middle, std::size_t octant) {
   return result;
 }
 
-/// Whether doubles can tell the middle of the cell from its sides.
+/// Whether doubles can tell the centre of the cell from its sides.
 bool splits_space(const Box& cell, const Vec3& middle) {
   return (middle.array() > cell.min().array() && middle.array() < cell.max().array()).all();
 }
 
-/// Replaces `cell` by the octant that `box` lies in, if it lies in one.
+/// Replaces `cell` by the octant that contains `box`. Returns false if there is none.
 bool shrink_to_octant(const Box& box, const Vec3& middle, Box& cell) {
   std::size_t octant = 0;
   for (int k = 0; k < 3; ++k) {
@@ -57,10 +57,10 @@ bool shrink_to_octant(const Box& box, const Vec3& middle, Box& cell) {
   return true;
 }
 
-/// Ptacek & Johnstone 2006, section 3: eight octants, and a triangle goes to every octant that it
-/// lies in. Deviations: a triangle in the plane between octants goes to one side only, the lower; a
-/// triangle is dealt by the box of what of it lies in the cell, so now and then it goes to an
-/// octant that it only comes close to.
+/// Octree splitter (Ptacek & Johnstone 2006, section 3): eight octants, and a triangle goes to
+/// every octant that it lies in. Deviations: a triangle in the plane between octants goes to the
+/// lower side only; a triangle is distributed by the box of its piece in the cell, so it sometimes
+/// goes to an octant that it only comes close to.
 class OctreeDealer : public IndexDealer {
  public:
   OctreeDealer(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
@@ -87,7 +87,8 @@ class OctreeDealer : public IndexDealer {
   }
 
  private:
-  /// Room for about what each octant gets: as many as have their lowest corner in it.
+  /// Reserves about what each octant will get: the number of entries with their lowest corner in
+  /// it.
   static void reserve(const IndexPart& part, const Vec3& middle, Octants& octants) {
     std::array<std::size_t, 8> counts{};
     for (const IndexEntry& entry : part.entries) {
@@ -99,7 +100,8 @@ class OctreeDealer : public IndexDealer {
     for (std::size_t i = 0; i < octants.size(); ++i) octants[i].reserve(counts[i] + counts[i] / 4);
   }
 
-  /// Deals `entry` by the planes of the axes from `axis` on; `octant` has the bits of those before.
+  /// Distributes `entry` by the planes of the axes from `axis` on; `octant` has the bits of the
+  /// axes before.
   void deal_entry(const IndexEntry& entry, const Vec3& middle, int axis, std::size_t octant,
                   Octants& octants) const {
     for (int k = axis; k < 3; ++k) {
@@ -139,9 +141,9 @@ class OctreeDealer : public IndexDealer {
     return parts;
   }
 
-  /// Not if the copies would pass the budget, nor if the octants would on average hold nearly all
-  /// again, nor if a query that comes here would on average have to ask as many entries as before
-  /// (the surface area heuristic of Goldsmith & Salmon 1987).
+  /// False if the copies would exceed the budget, if the octants would hold nearly all entries
+  /// again on average, or if a query in this cell would on average test as many entries as before
+  /// (surface area heuristic, Goldsmith & Salmon 1987).
   static bool worth_splitting(const std::vector<IndexPart>& parts, const IndexPart& part) {
     if (parts.empty()) return false;
     double entries = 0.0;
@@ -161,10 +163,10 @@ class OctreeDealer : public IndexDealer {
   }
 
   static constexpr double kNearlyAll = 0.8;
-  /// What visiting a node costs, in entries asked.
+  /// Cost of visiting a node, in tests of entries.
   static constexpr double kNodeCost = 4.0;
-  /// What a copy costs, in entries asked. Dear where no further split will make up for it: in the
-  /// furnished house that halves the index, and no query takes longer.
+  /// Cost of a copy, in tests of entries. It is high for few entries, where no further split makes
+  /// up for it: in the furnished house that halves the index, and no query takes longer.
   static constexpr double kCopyCost = 0.25;
   static constexpr double kCopyCostOfFew = 1.0;
   static constexpr double kFew = 256.0;

@@ -44,9 +44,9 @@ class Bins {
   double size_;
 };
 
-/// Splits parts in two until a node is full, always the one whose entries cost most. Binned surface
-/// area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies",
-/// section 3.3). Deviation: a node has up to eight children at once.
+/// Splits parts in two until a node is full, always the part of highest cost. Binned surface area
+/// heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies", section
+/// 3.3). Deviation: a node has up to eight children at once.
 class SurfaceAreaDealer : public IndexDealer {
  public:
   explicit SurfaceAreaDealer(const IndexOptions& options) : options_(options) {}
@@ -74,13 +74,13 @@ class SurfaceAreaDealer : public IndexDealer {
   }
 
  protected:
-  /// Moves the upper side out of `part`, or does nothing where that does not pay.
+  /// Moves the upper side out of `part` and returns it. Returns nothing if no split pays.
   [[nodiscard]] virtual std::optional<IndexPart> split(IndexPart& part) const = 0;
 
-  /// What one more split costs a query, in entries asked.
+  /// Cost of one more split for a query, in tests of entries.
   static constexpr double kSplitCost = 1.0;
 
-  /// The best split along the longest side of `box`, or if none pays there along any.
+  /// The best split along the longest side of `box` or, if none pays there, along any side.
   template <class TryAxis>
   static Split best_split(const IndexPart& part, const Box& box, const TryAxis& try_axis) {
     Eigen::Index longest = 0;
@@ -112,7 +112,7 @@ class SurfaceAreaDealer : public IndexDealer {
   IndexOptions options_;
 };
 
-/// A triangle belongs to the side that the middle of its box is on.
+/// BVH splitter: a triangle belongs to the side that contains the centre of its box.
 class BvhDealer : public SurfaceAreaDealer {
  public:
   using SurfaceAreaDealer::SurfaceAreaDealer;
@@ -174,7 +174,7 @@ class BvhDealer : public SurfaceAreaDealer {
     IndexPart upper;
     upper.depth = part.depth;
     upper.entries.reserve(part.entries.size() - best.below);
-    // In place: what stays moves down.
+    // In place: the remaining entries move down.
     std::size_t kept = 0;
     for (const IndexEntry& entry : part.entries) {
       if (bins.bin_of(twice_middle(entry, static_cast<std::size_t>(best.axis))) <= best.bin) {
@@ -190,14 +190,15 @@ class BvhDealer : public SurfaceAreaDealer {
   }
 };
 
-/// A triangle belongs to every side that it lies on.
+/// k-d tree splitter: a triangle belongs to every side that it lies on.
 class KdTreeDealer : public SurfaceAreaDealer {
  public:
   KdTreeDealer(const Mesh& mesh, const Box& bounds, const IndexOptions& options)
       : SurfaceAreaDealer(options), cutter_(mesh, bounds) {}
 
  private:
-  /// Entries that begin, and that end, in each bin tell how many lie on each side of a plane.
+  /// Counts the entries that begin, and those that end, in each bin: their sums are the numbers of
+  /// entries on both sides of a plane.
   static void try_axis(const IndexPart& part, const Bins& bins, int axis, Split& best) {
     std::array<std::size_t, kBins> begins{};
     std::array<std::size_t, kBins> ends{};

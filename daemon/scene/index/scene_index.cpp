@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/scene/index/scene_index.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -12,7 +14,6 @@
 #include "daemon/geometry/triangle_intersection.h"
 #include "daemon/scene/index/distance_search.h"
 #include "daemon/scene/index/index_walk.h"
-#include "daemon/scene/index/scene_index.h"
 #include "daemon/scene/index/swept_search.h"
 
 namespace camway::scene {
@@ -45,7 +46,7 @@ Box bounds_of(std::span<const Triangle> body) {
   return box;
 }
 
-/// For the walk: a search among the triangles near a body.
+/// A query for `IndexWalk` that searches the triangles near a body.
 template <class Search>
 class WalkedBy : public Search {
  public:
@@ -62,7 +63,7 @@ class WalkedBy : public Search {
   }
 };
 
-/// For the walk: leaves that a triangle touches.
+/// A query for `IndexWalk` that visits the leaves that a triangle touches.
 template <class Visit>
 class TouchQuery {
  public:
@@ -75,7 +76,7 @@ class TouchQuery {
   static bool is_beyond(double) { return false; }
   [[nodiscard]] bool is_done() const { return is_done_; }
 
-  /// The box of a long triangle meets far more than the triangle.
+  /// A closer test, because the box of a long triangle meets far more than the triangle.
   [[nodiscard]] bool enters(const IndexNode& node, std::size_t slot) const {
     return geometry::triangle_touches_box(triangle_, node.frame.box_of(get_box(node.boxes, slot)));
   }
@@ -93,7 +94,7 @@ class TouchQuery {
   bool is_done_ = false;
 };
 
-/// For the walk: everything that meets a box.
+/// A query for `IndexWalk` that visits all triangles whose boxes meet a box.
 class BoxQuery {
  public:
   BoxQuery(const Box& box, bool (*visit)(void*, std::uint32_t), void* context)
@@ -131,7 +132,8 @@ class BoxQuery {
   bool is_done_ = false;
 };
 
-/// For the walk over the boxes of parts: each that is of interest to a query is walked for it.
+/// A query for `IndexWalk` over the boxes of parts: runs `query` through the tree of each part in
+/// reach.
 template <class Query>
 class PartsQuery {
  public:
@@ -332,6 +334,12 @@ Passage SceneIndex::passage(const MovingBody& body) const {
 std::optional<Nearest> SceneIndex::any_within(std::span<const Triangle> body,
                                               double distance_m) const {
   return search(body, distance_m, DistanceGoal::kAny);
+}
+
+LeafTriangles SceneIndex::leaf_triangles(std::uint32_t leaf) const {
+  const auto after = std::ranges::upper_bound(parts_, leaf, {}, &IndexedPart::first_leaf);
+  const IndexedPart& part = *std::prev(after);
+  return {part.first_triangle, part.indexed->tree.leaf(leaf - part.first_leaf)};
 }
 
 bool SceneIndex::visit_touching(const Box& box, bool (*visit)(void*, std::uint32_t),

@@ -63,8 +63,8 @@ void PassageSearch::stop_before(std::span<const Triangle> ends, const Triangle& 
   ahead_ = way_ahead(gap.distance_m - body_.keep_m, last_m - gap.distance_m, body_.bend_m);
 }
 
-// All of the way, from its beginning on, is to be clear across one direction, and the part of the
-// room that bends take grows with the square of the length. So f is sought with
+// All of the motion, from its beginning on, must be clear across one direction, and the part of the
+// room that the bend takes grows with the square of the length. So the factor f solves
 //     room + min(0, f·change) = f²·bend.
 double way_ahead(double room_m, double change_m, double bend_m) {
   if (!(room_m > 0.0)) return 0.0;

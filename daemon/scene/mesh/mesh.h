@@ -12,7 +12,7 @@
 
 namespace camway::scene {
 
-/// A named run of triangles of a mesh.
+/// A named range of triangles of a mesh.
 struct MeshObject {
   std::string name;
   std::uint32_t first_triangle = 0;
@@ -23,28 +23,28 @@ struct MeshObject {
 struct Mesh {
   std::vector<geometry::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<MeshObject> objects;  ///< in order; together they cover all triangles
+  std::vector<MeshObject> objects;  ///< in order; cover all triangles together
 
   [[nodiscard]] geometry::Triangle triangle(std::size_t index) const {
     const std::array<std::uint32_t, 3>& t = triangles[index];
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
   }
   [[nodiscard]] geometry::Box bounds() const;
-  /// Of vertices and triangles.
+  /// Memory of vertices and triangles.
   [[nodiscard]] std::uint64_t memory_bytes() const;
 };
 
-/// One of the meshes that together make up a thing, shared by all that have it. Parts of a thing
-/// stand in order of their keys, each key once.
+/// One of the meshes of an object, shared by all revisions that have it. The parts of an object are
+/// ordered by their keys, which are unique.
 struct MeshPart {
   static MeshPart of(std::uint64_t key, Mesh mesh);
 
   std::uint64_t key = 0;
   std::shared_ptr<const Mesh> mesh;  ///< never null
-  geometry::Box bounds;              ///< of it
+  geometry::Box bounds;              ///< bounds of the mesh
 };
 
-/// The parts as one mesh, in their order, as one object without a name. Vertices are not joined.
+/// Joins the parts, in their order, to a mesh with one unnamed object. Vertices are not merged.
 Mesh joined(std::span<const MeshPart> parts);
 
 }  // namespace camway::scene

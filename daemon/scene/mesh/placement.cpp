@@ -9,7 +9,7 @@ using geometry::Quat;
 using geometry::Vec3;
 
 Placement Placement::make(const Vec3& position_W, const Quat& orientation_WO, std::string& fault) {
-  // Lengths of which the square neither overflows nor loses digits.
+  // Lengths whose squares neither overflow nor lose digits.
   constexpr double kShortest = 1e-100;
   constexpr double kLongest = 1e100;
   const double length = orientation_WO.coeffs().cwiseAbs().maxCoeff();

@@ -5,10 +5,10 @@
 
 namespace camway::scene {
 
-/// Which of the limits that a caller sets something would have passed. An error says so in words,
-/// this for those who have names of their own for the limits.
+/// The configured limit that an operation would have exceeded. The error text names it for people;
+/// this is for callers that have their own names for the limits.
 enum class Limit : std::uint8_t {
-  kNone,            ///< it was something else
+  kNone,            ///< the error is about something else
   kScenes,          ///< `SceneStoreLimits::scenes`
   kObjects,         ///< `SceneStoreLimits::objects`
   kTriangles,       ///< `SceneStoreLimits::triangles`
@@ -16,7 +16,7 @@ enum class Limit : std::uint8_t {
   kMirrorVoxels,    ///< `ObjectOptions::mirror_voxels`
   kMapVoxels,       ///< `VoxelMapLimits::voxels`
   kMapTriangles,    ///< `VoxelMapLimits::triangles`
-  kScanVoxels,      ///< of `scanned`
+  kScanVoxels,      ///< `most_voxels` of `scanned`
 };
 
 }  // namespace camway::scene

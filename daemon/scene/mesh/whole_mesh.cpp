@@ -9,7 +9,8 @@
 namespace camway::scene {
 namespace {
 
-/// The name of an object of `mesh` of `part`, which may be the only one.
+/// The name of an object in `mesh`, which belongs to `part`; `is_only` if the scene has no other
+/// part.
 std::string full_name(const WholeMesh::Part& part, bool is_only, const Mesh& mesh,
                       const MeshObject& object) {
   if (is_only) return object.name;
@@ -19,7 +20,8 @@ std::string full_name(const WholeMesh::Part& part, bool is_only, const Mesh& mes
 
 /// The object that holds `triangle`; null if none does.
 const MeshObject* object_of(const Mesh& mesh, std::uint32_t triangle) {
-  // The first that ends behind it: objects without triangles end where they begin, and are passed.
+  // The first object that ends behind it. Objects without triangles end where they begin, so they
+  // are skipped.
   const auto found = std::ranges::partition_point(mesh.objects, [&](const MeshObject& object) {
     return object.first_triangle + object.triangle_count <= triangle;
   });
@@ -44,7 +46,7 @@ void append(const WholeMesh::Part& part, bool is_only, Mesh& whole) {
   const std::size_t first = whole.objects.size();
   for (const auto& mesh : part.meshes) append(part, is_only, *mesh, whole);
   if (part.meshes.size() < 2) return;
-  // One thing in several meshes is still one.
+  // An object with several meshes is one object of the whole mesh.
   MeshObject all = whole.objects[first];
   all.triangle_count = static_cast<std::uint32_t>(whole.triangles.size()) - all.first_triangle;
   whole.objects.resize(first);

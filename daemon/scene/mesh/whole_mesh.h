@@ -10,21 +10,21 @@
 
 namespace camway::scene {
 
-/// All triangles of a scene as one mesh. It is put together when somebody asks for it first, since
-/// few do and a scene that changes often would have to copy all of its triangles each time; of one
-/// mesh it is that mesh. Triangles are numbered as in the scene's index. A handle: copies share the
-/// mesh. Safe from any thread.
+/// All triangles of a scene as one mesh, numbered as in the scene's index. It is joined at the
+/// first use, because few callers need it and each change of the scene would copy all triangles.
+/// The whole mesh of a single mesh is that mesh. Copies share the mesh.
+/// Thread-safe.
 class WholeMesh {
  public:
-  /// An object of the scene; of several meshes if it is an occupancy map.
+  /// An object of the scene; an occupancy map has several meshes.
   struct Part {
     std::string name;
     std::vector<std::shared_ptr<const Mesh>> meshes;  ///< none is null
   };
 
-  /// Of no triangles.
+  /// A mesh without triangles.
   WholeMesh();
-  /// Precondition: not null.
+  /// Requires a mesh that is not null.
   WholeMesh(std::shared_ptr<const Mesh> mesh);  // NOLINT: implicit, it is the same thing
   explicit WholeMesh(std::vector<Part> parts);
 
@@ -32,9 +32,9 @@ class WholeMesh {
   const Mesh* operator->() const { return share().get(); }
   [[nodiscard]] const std::shared_ptr<const Mesh>& share() const;
 
-  /// The name of the object that holds `triangle`, without putting the mesh together. Of several
-  /// parts it begins with the name of the part, and ends there if that has but one object: "table",
-  /// "house/sofa". Empty if there is none.
+  /// The name of the object that contains `triangle`, without joining the meshes; empty if there is
+  /// none. With several parts it is the name of the part, followed by the name of the mesh's object
+  /// if the mesh has several: "table", "house/sofa".
   [[nodiscard]] std::string object_name(std::uint32_t triangle) const;
 
  private:

@@ -13,21 +13,22 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoundDown = kBoxCostRoundDown;
 constexpr double kRoundUp = kBoxCostRoundUp;
 
-/// Newton's steps that are made at most. Head-on one is enough; where the ball just grazes each
-/// halves what is left, so that after these the answer is short by a billionth.
+/// Most steps of Newton's method. Head-on one is enough; if the ball only grazes the box each step
+/// halves the rest, so the result is short by a billionth.
 constexpr int kMaxSteps = 32;
 
-/// For a bound: the first step tells what is out of reach, the next two what the way passes by. (Of
-/// boxes that a way of kilometres passes by two steps know hardly any, three all but 2 %.)
+/// Steps for a bound: the first shows which boxes are out of reach, the next two which ones the
+/// segment passes by. (Along a segment of kilometres two steps recognise hardly any of these, three
+/// all but 2 %.)
 constexpr int kBoundSteps = 3;
 
-/// By how many units of 2^-53 a gap along an axis is off, of the farthest coordinate of the box
-/// from the beginning of the way, and the way's length: the direction by 5 (difference of the ends
-/// 1, length 3, division 1), its product with the way by 1 more; the box from the beginning by 1;
-/// the difference of the two by 1. Doubled.
+/// Rounding error of a gap along an axis, in units of 2^-53 of the sum of two lengths: the distance
+/// of the box's farthest coordinate from the start, and the length of the segment. The direction is
+/// off by 5 (difference of the ends 1, length 3, division 1), its product with the travelled
+/// distance by 1 more; the box relative to the start by 1; the difference of the two by 1. Doubled.
 constexpr double kGapRoundoffs = 16.0;
 
-/// At least the length of a vector of three ones: what three gaps that are off come to.
+/// At least the length of a vector of three ones: the error of a distance made of three gaps.
 constexpr double kNormOfThree = 2.0;
 
 }  // namespace
@@ -65,7 +66,7 @@ double BallWay::way_m(const Part& x, const Part& y, const Part& z, int steps) co
   if (!std::isfinite(length_m_)) return 0.0;
   const double reach_m = std::max(std::max(x.reach, y.reach), z.reach) + length_m_;
   const double error_m = kGapRoundoffs * geometry::kUnitRoundoff * reach_m;
-  // Towards the box on an axis: positive below it, negative above, 0 between.
+  // Signed gap to the box on an axis: positive below it, negative above, 0 between.
   const auto gap = [](const Part& part, double along) {
     return std::max(part.to_low - along, 0.0) - std::max(along - part.to_high, 0.0);
   };
@@ -76,7 +77,7 @@ double BallWay::way_m(const Part& x, const Part& y, const Part& z, int steps) co
     const double distance_m = box_cost_length(gaps.x(), gaps.y(), gaps.z());
     const double room_m = distance_m * kRoundDown - kNormOfThree * error_m - radius_m_;
     if (!(room_m > 0.0)) break;
-    // How fast it comes nearer, at most; never faster than it moves.
+    // Upper bound of the closing speed, which never exceeds the ball's own.
     const Vec3 share = gaps / distance_m;
     const double closing = std::min(
         kRoundUp, share.dot(direction_) + 2.0 * kNormOfThree * error_m / distance_m + kRoundUp - 1);

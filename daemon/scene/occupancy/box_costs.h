@@ -8,15 +8,15 @@
 #include "daemon/geometry/rounding.h"
 #include "daemon/geometry/types.h"
 
-/// What it costs to get to a box, for searches that look for the cheapest of many boxes in a tree
-/// of boxes. Each is, rounding included, a lower bound of the true cost of the box, which is never
-/// more than that of a box inside it: then a search that leaves out boxes that cost at least as
-/// much as the best found so far gives a number that no box in the tree truly undercuts.
+/// Costs of boxes, for searches that find the cheapest of many boxes in a tree of boxes. A cost is,
+/// rounding included, a lower bound of the true cost of the box, and the true cost of a box is
+/// never more than that of a box inside it. So a search that skips boxes whose cost is at least
+/// that of the best one found so far returns a number that no box in the tree truly undercuts.
 ///
-/// A cost is asked for in two steps, `along` each axis and the `total` of three axes, as the eight
-/// octants of a box have but two extents on each axis. `bound` is never more than the true cost
-/// either, and may be cheaper: for boxes that are only ways to others. Value types, safe from any
-/// thread.
+/// A cost is computed in two steps, `along` each axis and the `total` of three axes, because the
+/// eight octants of a box have only two extents on each axis. `bound`, for the inner boxes of the
+/// tree, is also a lower bound of the true cost, and may be cheaper to compute.
+/// Value types. Thread-safe.
 namespace camway::scene {
 
 /// Costs are rounded down by up to this factor: ten roundings of half an ulp, doubled.
@@ -33,10 +33,10 @@ inline double box_cost_length(double x, double y, double z) {
 /// Distance from a point to a box.
 class PointDistance {
  public:
-  /// The gap on one axis.
+  /// Distance on one axis.
   using Part = double;
 
-  /// Precondition: finite.
+  /// Requires a finite point.
   explicit PointDistance(const geometry::Vec3& point) : point_(point) {}
   [[nodiscard]] Part along(Eigen::Index axis, double low, double high) const {
     return std::max(std::max(0.0, low - point_[axis]), point_[axis] - high);
@@ -53,13 +53,13 @@ class PointDistance {
 /// Distance along a ray to where it enters a box; infinite if it misses.
 class RayEntry {
  public:
-  /// Where the ray is between two planes; nowhere if it enters after it leaves.
+  /// Where the ray is between two planes; nowhere if `enter` exceeds `leave`.
   struct Part {
     double enter;
     double leave;
   };
 
-  /// Precondition: finite, and `direction` is not zero.
+  /// Requires finite arguments, and a `direction` that is not zero.
   RayEntry(const geometry::Vec3& origin, const geometry::Vec3& direction);
   [[nodiscard]] Part along(Eigen::Index axis, double low, double high) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ class RayEntry {
 /// 0 if two closed boxes touch, else infinite.
 class BoxTouch {
  public:
-  /// Whether they do on one axis.
+  /// Whether they touch on one axis.
   using Part = bool;
 
   explicit BoxTouch(const geometry::Box& box) : box_(box) {}
@@ -107,24 +107,25 @@ class BoxTouch {
   geometry::Box box_;
 };
 
-/// Way of a ball's centre along a segment to where the ball first touches a box; infinite if it
-/// never does.
+/// Distance that the centre of a ball travels along a segment until the ball first touches a box;
+/// infinite if it never does.
 ///
-/// The distance f of the moving centre from a box is a convex function of the way t. So Newton's
-/// method for f(t) = radius, begun where the distance is more than that, comes near to the first
-/// solution from below and never passes it: every step is a lower bound already, and it does not
-/// matter for that when one stops, or if a step is shorter than it should be. Where f does not fall
-/// any more and is still above the radius, there is no solution.
+/// The distance f(t) of the centre from the box is a convex function of the travelled distance t.
+/// So Newton's method for f(t) = radius, started where f exceeds the radius, approaches the first
+/// solution from below and never passes it. Every iterate is a lower bound, wherever the iteration
+/// stops and even if a step is too short. If f no longer falls and still exceeds the radius, there
+/// is no solution.
 class BallWay {
  public:
-  /// From the beginning of the way to both ends of a box on one axis, and the larger of the two.
+  /// Offsets from the start of the segment to both ends of a box on one axis, and the larger
+  /// magnitude.
   struct Part {
     double to_low;
     double to_high;
     double reach;
   };
 
-  /// Precondition: finite; radius_m >= 0.
+  /// Requires finite arguments and radius_m >= 0.
   BallWay(const geometry::Vec3& from, const geometry::Vec3& to, double radius_m);
   [[nodiscard]] Part along(Eigen::Index axis, double low, double high) const {
     const double to_low = low - from_[axis];
@@ -132,19 +133,18 @@ class BallWay {
     return {to_low, to_high, std::max(std::abs(to_low), std::abs(to_high))};
   }
   [[nodiscard]] double total(const Part& x, const Part& y, const Part& z) const;
-  /// Of a few steps.
+  /// Like `total`, but with few iterations.
   [[nodiscard]] double bound(const Part& x, const Part& y, const Part& z) const;
 
-  /// A cost above this is that of a box that the ball does not touch. Infinite if the segment is so
-  /// long that its length overflows; then every box costs nothing.
+  /// Length of the segment. A greater cost means that the ball does not touch the box. Infinite if
+  /// it overflows; then all boxes cost 0.
   [[nodiscard]] double length_m() const { return length_m_; }
 
  private:
   [[nodiscard]] double way_m(const Part& x, const Part& y, const Part& z, int steps) const;
 
   geometry::Vec3 from_;
-  geometry::Vec3
-      direction_;  ///< of unit length but for rounding; zero for a segment without length
+  geometry::Vec3 direction_;  ///< unit vector but for rounding; zero for a segment without length
   double radius_m_;
   double length_m_ = 0.0;
 };

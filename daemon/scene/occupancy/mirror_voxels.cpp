@@ -15,10 +15,10 @@ namespace {
 using geometry::Box;
 using geometry::Vec3;
 
-/// Whether all triangles were gone through: neither was there too much, nor was a stop asked for.
+/// Marks the voxels of all triangles. Returns false if there were too many or a stop was requested.
 bool mark_touched(const MirrorTask& task, VoxelSet& voxels) {
   VoxelMarker marker(voxels);
-  // After a stop all are wanted, so that the next one that is touched ends it.
+  // After a stop every voxel is wanted, so that the next one touched ends the loop.
   const auto is_new = [&](const Voxel& voxel) {
     return task.stop.stop_requested() || !marker.contains(voxel);
   };
@@ -35,23 +35,23 @@ bool mark_touched(const MirrorTask& task, VoxelSet& voxels) {
   return true;
 }
 
-/// Adds the voxels of a grid with their middle in a solid, cube after cube of the solid's own: of
-/// full ones all voxels about them are asked, others are taken apart.
+/// Adds the voxels of a grid whose centre is inside a solid, cube by cube of the solid: tests all
+/// voxels near full cubes, and divides others.
 class Filling {
  public:
   Filling(const MirrorTask& task, VoxelSet& voxels)
       : task_(task), solid_(*task.solid), voxels_(voxels), marker_(voxels) {
     const Vec3 farthest_W =
         solid_.bounds_W.min().cwiseAbs().cwiseMax(solid_.bounds_W.max().cwiseAbs());
-    // Corners go into the world with one error, middles come back with another, and what holds one
-    // then is up to two away on each axis of the map: less than six in any direction. A quarter of
-    // a voxel is more than the grid's own faces are off.
+    // Corners are mapped to the world with one error, centres back with another, and a point may
+    // then count as inside from up to two errors away on each axis of the map: less than six in any
+    // direction. A quarter of a voxel exceeds the error of the grid's own faces.
     constexpr double kErrors = 6.0;
     const double reach_m = farthest_W.lpNorm<1>() + solid_.placement.position_W().lpNorm<1>();
     error_m_ = kErrors * solid_.placement.error_m(reach_m);
   }
 
-  /// As `mark_touched`.
+  /// Returns false as `mark_touched` does.
   bool run() {
     bool goes_on = true;
     solid_.map->solid().for_each_block([&](const Voxel& low, const VoxelSet::Bits& bits) {
@@ -61,7 +61,7 @@ class Filling {
   }
 
  private:
-  /// `bits` are those of the block that `cube` is in.
+  /// Adds the voxels with their centre in `cube`, which lies in the block with these `bits`.
   bool fill(const VoxelCube& cube, const VoxelSet::Bits& bits) {
     const std::uint64_t full =
         std::uint64_t(cube.size) * std::uint64_t(cube.size) * std::uint64_t(cube.size);
@@ -91,7 +91,8 @@ class Filling {
     return count;
   }
 
-  /// Holds all voxels of the grid with their middle in that cube of the solid; nothing if none is.
+  /// A range that contains all voxels of the grid whose centre is in that cube of the solid;
+  /// nothing if there are none.
   [[nodiscard]] std::optional<VoxelSet::Range> middles_near(const VoxelCube& cube) const {
     Box box_W;
     for (int corner = 0; corner < 8; ++corner) {
@@ -152,8 +153,8 @@ double largest_triangle_m2(const MirrorTask& task) {
   return largest_m2;
 }
 
-/// How many voxels take the room of the solid. Their boxes are larger than voxels, by what each of
-/// the six faces is moved outwards for rounding.
+/// The number of voxels whose boxes have the volume of the solid. The boxes are larger than voxels,
+/// because each of the six faces is moved outwards for rounding.
 double room_in_voxels(const PlacedVoxelMap& solid, const VoxelGrid& grid) {
   const double edge = solid.map->resolution_m() / grid.resolution_m();
   const double larger = 1.0 + 2.0 * grid.face_error_m(VoxelGrid::kMinVoxel) / grid.resolution_m();

@@ -13,10 +13,10 @@
 
 namespace camway::scene {
 
-/// What an occupancy mirror is made of, and when to give it up.
+/// The input of an occupancy mirror, and its limits.
 struct MirrorTask {
   std::span<const Mesh* const> meshes;
-  /// Of which the meshes are the faces, if they are those of a solid.
+  /// The solid whose faces the meshes are, if they are those of an occupancy map.
   const std::optional<PlacedVoxelMap>& solid;
   VoxelGrid grid;
   std::uint64_t max_voxels;
@@ -24,19 +24,19 @@ struct MirrorTask {
 };
 
 struct MirrorVoxels {
-  std::optional<VoxelSet> voxels;  ///< nothing if there are too many, or a stop was asked for
-  bool is_called_off = false;      ///< it was the stop
+  std::optional<VoxelSet> voxels;  ///< nothing if there are too many, or a stop was requested
+  bool is_called_off = false;      ///< whether the stop was the reason
 };
 
-/// A number of voxels that no mirror of this has less than: those of its largest triangle, as no
-/// plane meets more of a cube than the rectangle through two opposite edges, and those that take
-/// the room of its solid. Costs a look at each triangle.
+/// A lower bound of the number of voxels of the mirror, at the cost of one pass over the triangles.
+/// It is the larger of two: the voxels of the largest triangle, as no plane meets more of a cube
+/// than the rectangle through two opposite edges; and those of the volume of the solid.
 double least_voxels(const MirrorTask& task);
 
-/// The voxels that a triangle touches, and those with their middle in the solid: what no face
-/// touches is inside with all of it. Looks at no more voxels than a constant times those and the
-/// voxels of the solid, and at none of what `least_voxels` says is too much; ends within
-/// milliseconds after a stop. Preconditions: the vertices are finite and within the grid's keys.
+/// Computes the voxels that a triangle touches and those whose centre is inside the solid (a voxel
+/// that no face touches is wholly inside or outside). Looks at no more voxels than a constant times
+/// these and the voxels of the solid, and at none if `least_voxels` exceeds the limit. Ends within
+/// milliseconds after a stop is requested. Requires finite vertices within the grid's keys.
 MirrorVoxels mirror_voxels(const MirrorTask& task);
 
 }  // namespace camway::scene

@@ -20,13 +20,13 @@ using geometry::Vec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The least value that `cost` takes on the boxes of occupied cubes, or nothing if none is finite
-/// and <= `limit`. Branch and bound, cheapest octant first; see `box_costs.h` for what a cost has
-/// to keep.
+/// Finds the least `cost` over the boxes of occupied cubes; nothing if none is finite and <=
+/// `limit`. Branch and bound, cheapest octant first; `box_costs.h` states the requirements on a
+/// cost.
 template <typename Cost>
 class CheapestCube {
  public:
-  /// What costs no more than `enough` will do instead of the least.
+  /// A cost of at most `enough` is accepted in place of the least.
   CheapestCube(const VoxelTree& tree, const VoxelGrid& grid, const Cost& cost, double limit,
                double enough)
       : tree_(tree), grid_(grid), cost_(cost), limit_(limit), enough_(enough) {}
@@ -42,7 +42,7 @@ class CheapestCube {
   }
 
  private:
-  /// Lower and upper face, as those of `VoxelGrid::box`.
+  /// Lower and upper face, as in `VoxelGrid::box`.
   using Pair = std::array<double, 2>;
   using Faces = std::array<Pair, 3>;
 
@@ -89,7 +89,7 @@ class CheapestCube {
     }
   }
 
-  /// In order of cost; what costs the same stays in the order of the octants.
+  /// Sorts octants by cost; equal costs stay in the order of the octants.
   template <typename Parts>
   std::size_t sorted_ways(unsigned octants, const Parts& parts, std::array<Way, 8>& ways) const {
     std::size_t count = 0;
@@ -123,7 +123,7 @@ std::string describe(const Box& box) {
 
 using Meshes = std::span<const Mesh* const>;
 
-/// Why what has these bounds cannot be mirrored, or nothing.
+/// Why a scene with these bounds cannot be mirrored, or an empty text.
 std::string refusal(const Box& bounds, double resolution_m) {
   std::ostringstream text;
   if (!VoxelGrid::valid_resolution(resolution_m)) {
@@ -223,7 +223,7 @@ OccupancyMap::OccupancyMap(VoxelTree tree, const VoxelGrid& grid)
   }
 }
 
-/// Whether there is one at all is all that is asked where any that costs `enough` will do.
+/// With `enough` equal to `limit` it only finds out whether there is such a cube.
 template <typename Cost>
 std::optional<double> OccupancyMap::cheapest(const Cost& cost, double limit, double enough) const {
   if (bounds_.isEmpty()) return std::nullopt;

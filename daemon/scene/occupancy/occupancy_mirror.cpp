@@ -36,7 +36,7 @@ void mark(const VoxelCube& cube, OcTree& whole) {
   }
 }
 
-/// All maps in one, as OctoMap has it.
+/// The union of all maps as one OctoMap.
 OcTree united(const Maps& maps, double resolution_m) {
   OcTree whole(resolution_m);
   for (const std::shared_ptr<const OccupancyMap>& map : maps) {
@@ -110,8 +110,8 @@ std::optional<double> OccupancyMirror::sphere_path_hit_m(const Vec3& from_W, con
 void OccupancyMirror::write_bt(std::ostream& out) const {
   const OcTree tree = united(maps_, resolution_m());
   // Not OcTree::writeBinaryConst: it prints the resolution with six digits, which scales the map of
-  // any other resolution, and chats on stderr. The call below is not virtual for the latter reason:
-  // the installed library was built with its debug output on.
+  // any other resolution, and writes to stderr. The call below is not virtual for the latter
+  // reason: the installed library was built with its debug output on.
   const std::streamsize precision = out.precision(std::numeric_limits<double>::max_digits10);
   out << "# Octomap OcTree binary file\n# conservative mirror of a Camway scene\n#\n"
       << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()

@@ -13,14 +13,14 @@
 namespace camway::scene {
 
 /// The OctoMap mirror of a scene of several objects: an occupancy map for each, all of one
-/// resolution, so that a change of one leaves the others as they are, and taking one away frees
-/// just the voxels that no other touches. A voxel is occupied if it is in any of the maps; queries
-/// answer as those of `OccupancyMap`, for all of them. Immutable; safe from any thread.
+/// resolution. So a change of an object leaves the other maps as they are, and removing it frees
+/// the voxels that no other object touches. A voxel is occupied if any map occupies it. Queries are
+/// those of `OccupancyMap` over all maps. Immutable. Thread-safe.
 class OccupancyMirror {
  public:
-  /// Of one map.
+  /// The mirror of one map.
   explicit OccupancyMirror(std::shared_ptr<const OccupancyMap> map);
-  /// Precondition: no map is null and all have this resolution.
+  /// Requires that no map is null and that all have this resolution.
   OccupancyMirror(double resolution_m, std::vector<std::shared_ptr<const OccupancyMap>> maps);
 
   [[nodiscard]] double resolution_m() const { return statistics_.resolution_m; }
@@ -39,8 +39,8 @@ class OccupancyMirror {
                                                         const geometry::Vec3& to_W,
                                                         double radius_m) const;
 
-  /// Writes all voxels as one map in OctoMap's binary format, which octovis opens. Costs what there
-  /// are voxels. Returns an error text, empty on success.
+  /// Writes all voxels as one map in OctoMap's binary format, which octovis opens. The cost depends
+  /// on the number of voxels. Returns an error text, empty on success.
   [[nodiscard]] std::string write_bt(const std::filesystem::path& file) const;
   void write_bt(std::ostream& out) const;
 

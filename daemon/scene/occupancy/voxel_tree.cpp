@@ -13,14 +13,14 @@ namespace {
 
 using Node = VoxelTree::Node;
 
-/// Every third bit of the result is one of `bits`.
+/// Spreads `bits` to every third bit of the result.
 std::uint64_t spread(std::uint32_t bits) {
   std::uint64_t result = 0;
   for (unsigned i = 0; i < 16; ++i) result |= static_cast<std::uint64_t>(bits >> i & 1U) << (3 * i);
   return result;
 }
 
-/// Of a block where the tree has it: the bits of its coordinates in turn.
+/// The Morton code of a block: its position in the order of the tree.
 std::uint64_t order_of(std::uint64_t key) {
   const Voxel low = BlockKey::low_of(key);
   std::uint64_t order = 0;
@@ -32,10 +32,10 @@ std::uint64_t order_of(std::uint64_t key) {
   return order;
 }
 
-/// What a cube is.
+/// The content of a cube: full, a node, or empty.
 struct Part {
   bool full = false;
-  Node node;  ///< without octants: the cube is empty, or full
+  Node node;  ///< has no octants if the cube is empty or full
 
   [[nodiscard]] bool is_node() const { return (node.nodes | node.full) != 0; }
 };
@@ -47,7 +47,7 @@ Part part_of(const Node& node) {
   return {false, node};
 }
 
-/// Appends the octants that are nodes to `nodes`, and gives the node above them.
+/// Appends the octants that are nodes to `nodes`, and returns the node above them.
 Part join(const Octants& octants, std::vector<Node>& nodes) {
   Node node;
   node.first = static_cast<std::uint32_t>(nodes.size());
@@ -63,10 +63,10 @@ Part join(const Octants& octants, std::vector<Node>& nodes) {
 
 }  // namespace
 
-/// Makes a branch from its leaves up: the octants of a node are known before the node is.
+/// Builds a branch from its leaves up: the octants of a node are known before the node.
 class BranchBuilder {
  public:
-  /// Null if there is nothing in it.
+  /// Returns null if the branch is empty.
   static std::shared_ptr<const VoxelTree::Branch> build(const VoxelSet& voxels, std::uint64_t key) {
     auto branch = std::make_shared<VoxelTree::Branch>();
     branch->key = key;
@@ -87,7 +87,7 @@ class BranchBuilder {
   BranchBuilder(const VoxelSet& voxels, VoxelTree::Branch& branch)
       : voxels_(voxels), branch_(branch) {}
 
-  /// Of a cube of 2^levels blocks per edge that begins with block `place` of the branch.
+  /// Builds a cube of 2^levels blocks per edge that begins with block `place` of the branch.
   Part of_blocks(unsigned place, unsigned levels) {
     if (levels == 0) return of_block(BlockKey::in_cube(branch_.key, place));
     Octants octants;
@@ -109,7 +109,7 @@ class BranchBuilder {
     return of_bits(bits, {0, 0, 0}, BlockKey::kBlockSize);
   }
 
-  /// Of a cube of a block that begins at `at`.
+  /// Builds a cube of `size` voxels per edge that begins at voxel `at` of a block.
   Part of_bits(const VoxelSet::Bits& bits, const std::array<unsigned, 3>& at, unsigned size) {
     if (size == 2) return of_voxels(bits, at);
     const unsigned half = size / 2;
@@ -135,7 +135,7 @@ class BranchBuilder {
   VoxelTree::Branch& branch_;
 };
 
-/// Makes what is above the branches.
+/// Builds the nodes above the branches.
 class VoxelTreeTop {
  public:
   explicit VoxelTreeTop(VoxelTree& tree) : tree_(tree) {}
@@ -143,7 +143,7 @@ class VoxelTreeTop {
   void build() {
     const VoxelTree::Branches& branches = tree_.branches_;
     if (branches.empty()) return;
-    // One level above the least that holds all, so that this may be full.
+    // One level above the smallest cube that contains all branches, since that cube may be full.
     const std::uint64_t differing = branches.front()->order ^ branches.back()->order;
     constexpr unsigned kMostLevels = 13 - VoxelTree::kBranchLevels;
     const unsigned levels =
@@ -161,7 +161,7 @@ class VoxelTreeTop {
   }
 
  private:
-  /// Of a cube of 2^levels branches per edge, which holds those from `begin` to `end`.
+  /// Builds a cube of 2^levels branches per edge that contains those from `begin` to `end`.
   Part of_branches(std::size_t begin, std::size_t end, unsigned levels) {
     const VoxelTree::Branches& branches = tree_.branches_;
     std::vector<Node> nodes;
@@ -227,7 +227,7 @@ VoxelTree VoxelTree::updated(const VoxelSet& before, const VoxelSet& after,
     if (auto branch = BranchBuilder::build(after, key)) branches.push_back(std::move(branch));
   }
   std::ranges::sort(branches, {}, [](const auto& branch) { return branch->order; });
-  branches.shrink_to_fit();  // so that nothing tells how the tree came about
+  branches.shrink_to_fit();  // so that the memory does not depend on the tree's history
   return VoxelTree(std::move(branches));
 }
 
@@ -243,7 +243,7 @@ std::uint64_t VoxelTree::memory_bytes() const {
 bool VoxelTree::contains(const Voxel& voxel) const {
   std::array<std::uint32_t, 3> within{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Below the cube becomes far above it.
+    // Unsigned differences: a voxel below the cube counts as far above it.
     within[axis] =
         static_cast<std::uint32_t>(voxel[axis]) - static_cast<std::uint32_t>(root_cube_.min[axis]);
     if (within[axis] >= static_cast<std::uint32_t>(root_cube_.size)) return false;

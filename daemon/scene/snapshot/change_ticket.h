@@ -7,23 +7,23 @@
 
 namespace camway::scene {
 
-/// A change of scenes from when it is begun until it is in force. Whoever makes it says when it
-/// comes into force, and anybody else may call it off before: the first of the two wins, so that
-/// nothing is told to be called off that comes into force after all. Copies are the same
-/// undertaking. Safe from any thread.
+/// The state of a scene change, from its begin to its end: pending, committed or cancelled. The
+/// thread that makes the change commits it; any thread may cancel it before. The first of the two
+/// wins, so a change that was reported as cancelled never takes effect. Copies share the state.
+/// Thread-safe.
 class Undertaking {
  public:
   Undertaking() : shared_(std::make_shared<Shared>()) {}
 
-  /// From now on it does not come into force, and `stop` asks to leave off making it. False if it
-  /// is in force, or was called off before.
+  /// Cancels the change and requests a stop of the work on it. Returns false if it was committed or
+  /// cancelled before.
   bool call_off() const {
     if (!leave(State::kCalledOff)) return false;
     shared_->stop.request_stop();
     return true;
   }
 
-  /// False if it was called off: then it must change nothing.
+  /// Commits the change. Returns false if it was cancelled: then it must change nothing.
   [[nodiscard]] bool come_into_force() const {
     return leave(State::kInForce) || shared_->state.load() == State::kInForce;
   }
@@ -38,7 +38,7 @@ class Undertaking {
     std::stop_source stop;
   };
 
-  /// The state that it is begun in. Whether it was in that.
+  /// Leaves the pending state. Returns whether it was pending.
   [[nodiscard]] bool leave(State next) const {
     State begun = State::kBegun;
     return shared_->state.compare_exchange_strong(begun, next);

@@ -13,7 +13,7 @@ SceneObjects::iterator place_of(const std::string& name, SceneObjects& objects) 
       objects, name, {}, [](const auto& object) -> const std::string& { return object->name; });
 }
 
-/// What is wrong with the change; without an error if it was made.
+/// Applies the change to `objects`. Returns the fault; without an error if there is none.
 SnapshotResult apply(const SceneChange& change, const Snapshot& before, const std::stop_token& stop,
                      SceneObjects& objects) {
   const auto place = place_of(change.object, objects);
@@ -96,8 +96,8 @@ void SceneHistory::State::apply(const SceneChanges& changes) {
   for (const SceneChange& change : changes) apply(change);
 }
 
-// What is kept is no more than what there was at first and what each change brought beside what
-// its object had been. An object has no more than these, so the difference is never below 0.
+// The sources of the newest revision are at most those of the oldest one plus what each change
+// brought beyond the predecessors of its objects. So the difference is never below 0.
 std::uint64_t SceneHistory::bytes() const { return before_.bytes + entry_bytes_ - newest_.bytes; }
 
 std::uint64_t SceneHistory::bytes_beside(const SceneChange& change) const {

@@ -20,87 +20,86 @@ namespace camway::scene {
 /// One change of a scene.
 struct SceneChange {
   enum class Kind : std::uint8_t {
-    kPut,   ///< adds the object, or puts it in the place of the one of that name
-    kMove,  ///< puts it elsewhere
+    kPut,   ///< adds the object, or replaces the one of that name
+    kMove,  ///< changes the placement of the object
     kRemove,
   };
 
   Kind kind = Kind::kPut;
   std::string object;
-  std::shared_ptr<const ObjectSource> source;  ///< of kPut
-  Placement placement;                         ///< of kPut and kMove
+  std::shared_ptr<const ObjectSource> source;  ///< set for kPut
+  Placement placement;                         ///< for kPut and kMove
 };
 
-/// Changes that are made at once, in this order.
+/// Changes that take effect together, made in this order.
 using SceneChanges = std::vector<SceneChange>;
 
-/// The scene after `changes`; nothing of what did not change is built again. Fails, with an error
-/// that names the object, if it is not there or cannot be where it shall be, or if a stop was asked
-/// for meanwhile, as `place_object`. The two snapshots are independent; safe from any thread.
-/// Precondition: a source is there where one is needed.
+/// The scene after `changes`, which builds again only what they change. Fails, with an error that
+/// names the object, if the object does not exist or cannot be placed there, or if a stop is
+/// requested, as in `place_object`. Requires a source where the kind needs one. The two snapshots
+/// are independent.
+/// Thread-safe.
 SnapshotResult changed(const Snapshot& before, const SceneChanges& changes, std::uint64_t revision,
                        const std::stop_token& stop = {});
 SnapshotResult changed(const Snapshot& before, const SceneChange& change, std::uint64_t revision,
                        const std::stop_token& stop = {});
 
-/// What is remembered of a change beside what it did, for people who look for a revision.
+/// A record of a change for people who look for a revision.
 struct ChangeNote {
-  std::string operation = {};           ///< a word of who made it: "load", "move" and so on
-  std::string object = {};              ///< that was changed; empty: all
-  std::string client = {};              ///< who asked for it; empty: nobody
-  std::uint64_t restored_revision = 0;  ///< whose objects it has again; 0: of none
-  std::chrono::system_clock::time_point when = {};  ///< the store sets it
+  std::string operation = {};           ///< word for the operation: "load", "move" and so on
+  std::string object = {};              ///< changed object; empty: all
+  std::string client = {};              ///< client that asked for it; empty: none
+  std::uint64_t restored_revision = 0;  ///< revision whose objects were restored; 0: none
+  std::chrono::system_clock::time_point when = {};  ///< set by the store
 };
 
-/// A revision that can be built again, and the change that led to it.
+/// A revision that can be rebuilt, and the change that led to it.
 struct KeptRevision {
   std::uint64_t revision = 0;
   ChangeNote note = {};
 };
 
-/// The changes that led to the newest revision of a scene, as many as the limits allow, and what it
-/// was before them: so each of these revisions can be built again. A value type.
+/// The latest changes of a scene, as many as the limits allow, and its objects before them, from
+/// which these revisions can be rebuilt. A value type.
 class SceneHistory {
  public:
   struct Limits {
     std::size_t changes = 1024;
-    /// Of what is kept for earlier revisions alone, about: see `SceneHistory::bytes`.
+    /// Limit of `SceneHistory::bytes`.
     std::uint64_t bytes = std::uint64_t{256} << 20;
   };
   struct Entry {
-    KeptRevision made;  ///< that the changes led to, together
+    KeptRevision made;  ///< revision after the changes
     SceneChanges changes;
-    std::uint64_t bytes = 0;  ///< of their sources, beside what those before them had
+    std::uint64_t bytes = 0;  ///< memory of the new sources that their predecessors lack
   };
 
-  /// Begins with `first`.
+  /// A history that begins with `first`.
   SceneHistory(const Snapshot& first, const Limits& limits, ChangeNote note = {});
 
-  /// Precondition: `changed` made `made.revision` of the newest one.
+  /// Requires that `changed`, with `changes`, made `made.revision` from the newest revision.
   void add(SceneChanges changes, KeptRevision made);
 
-  /// What is kept beside the newest revision, so that earlier ones can be built again: about, and
-  /// more only where a source came back that had been gone. What an object's source shares with the
-  /// one before it, as an occupancy map does after a scan, counts once. Above 0 only if there is a
-  /// change.
+  /// Approximate memory that is kept for earlier revisions only. What the source of an object
+  /// shares with its predecessor, as an occupancy map does after a scan, counts once; a source that
+  /// was removed and came back counts twice. Above 0 only if there is a change.
   [[nodiscard]] std::uint64_t bytes() const;
-  /// Precondition: there is a change.
+  /// Requires that there is a change.
   void forget_oldest();
 
-  /// The revision before the first change that is still known.
+  /// The revision before the oldest change that is kept.
   [[nodiscard]] std::uint64_t oldest_revision() const { return oldest_.revision; }
   [[nodiscard]] const std::deque<Entry>& entries() const { return entries_; }
-  /// All that can be built again, oldest first.
+  /// All revisions that can be rebuilt, oldest first.
   [[nodiscard]] std::vector<KeptRevision> revisions() const;
 
-  /// Builds a revision again, from what the objects are and where they were then: equal to what it
-  /// was in everything. Nothing if `revision` is none of those that are known, or if a stop was
-  /// asked for.
+  /// Rebuilds a revision from the sources and placements of its objects: equal to the original in
+  /// everything. Returns null if `revision` is not kept or if a stop is requested.
   [[nodiscard]] std::shared_ptr<const Snapshot> rebuild(std::uint64_t revision,
                                                         const std::stop_token& stop = {}) const;
 
-  /// What makes the newest revision have the objects of that one, each where it was. Nothing if
-  /// that is none of those that are known.
+  /// The changes that turn the newest revision into `revision`: the same objects in the same
+  /// places. Returns nothing if `revision` is not kept.
   [[nodiscard]] std::optional<SceneChanges> changes_back_to(std::uint64_t revision) const;
 
  private:
@@ -110,7 +109,7 @@ class SceneHistory {
   };
   struct State {
     std::map<std::string, Placed, std::less<>> objects;
-    std::uint64_t bytes = 0;  ///< of their sources
+    std::uint64_t bytes = 0;  ///< memory of the objects' sources
 
     void put(std::string_view name, const Placed& placed);
     void remove(std::string_view name);
@@ -118,7 +117,7 @@ class SceneHistory {
     void apply(const SceneChanges& changes);
   };
 
-  /// What the change keeps that the newest revision has not.
+  /// Memory of the change's source that the newest revision does not have.
   [[nodiscard]] std::uint64_t bytes_beside(const SceneChange& change) const;
   [[nodiscard]] std::optional<State> state_at(std::uint64_t revision) const;
 
@@ -126,10 +125,10 @@ class SceneHistory {
   ObjectOptions options_;
   Limits limits_;
   KeptRevision oldest_;
-  State before_;  ///< at `oldest_`
+  State before_;  ///< objects at `oldest_`
   State newest_;
   std::deque<Entry> entries_;
-  std::uint64_t entry_bytes_ = 0;  ///< of all of them
+  std::uint64_t entry_bytes_ = 0;  ///< sum over `entries_`
 };
 
 }  // namespace camway::scene

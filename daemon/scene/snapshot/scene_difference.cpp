@@ -12,8 +12,8 @@ namespace {
 using Object = std::shared_ptr<const SceneObject>;
 using Part = std::shared_ptr<const PlacedPart>;
 
-/// A box in the world that holds these voxels of a map, and one more on each side: far more than
-/// the rounding of their faces on the way.
+/// A box in the world that contains these voxels of a map and one more on each side: far more than
+/// the rounding of their faces.
 geometry::Box box_of(const VoxelSet::Range& voxels, const PlacedVoxelMap& solid) {
   geometry::Box box;
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -62,7 +62,7 @@ class Collector {
   }
 
  private:
-  /// Of a map that stayed where it was.
+  /// For an occupancy map that was not moved.
   void change_parts(const SceneObject& old, const SceneObject& now) {
     const std::vector<MeshPart>& olds = old.source->parts_O;
     const std::vector<MeshPart>& nows = now.source->parts_O;
@@ -81,7 +81,7 @@ class Collector {
     }
   }
 
-  /// What became solid, or is no more, may be deep inside, where no face is near.
+  /// Voxels that became solid, or are no longer, may lie deep inside, where no face is near.
   void change_solid(const PlacedVoxelMap& old, const PlacedVoxelMap& now) {
     Boxes filled;
     Boxes freed;
@@ -96,10 +96,10 @@ class Collector {
     if (!filled.empty()) solids_.push_back(now);
   }
 
-  /// One for what is near each other.
+  /// One box for neighbouring voxels: those of a cube of blocks.
   using Boxes = std::map<std::uint64_t, VoxelSet::Range>;
 
-  /// By the voxels of a block that are in `these` and not in `others`.
+  /// Extends the boxes by the voxels of a block that are in `these` and not in `others`.
   static void extend(Boxes& boxes, std::uint64_t key, const VoxelSet::Bits& these,
                      const VoxelSet::Bits& others) {
     constexpr unsigned kLevelsOfABox = 3;

@@ -8,26 +8,26 @@
 
 namespace camway::scene {
 
-/// Where two revisions of a scene differ. Every triangle of the later one is one of `index`, or a
-/// triangle of the earlier one in the same place; every solid likewise.
+/// The difference of two revisions of a scene. Every triangle of the later one is in `index`, or is
+/// in the earlier one in the same place. The same holds of solids.
 struct SceneDifference {
-  /// What the later one has and the earlier one has not, or has elsewhere.
+  /// Triangles that the later revision has and the earlier one has not, or has elsewhere.
   SceneIndex index;
-  std::shared_ptr<const SceneSolids> solids;  ///< null if nothing of it has an inside
-  /// Boxes that hold all triangles of `index`, and what of `solids` was not solid: of objects, or
-  /// of what changed of an occupancy map.
+  std::shared_ptr<const SceneSolids> solids;  ///< null if none of these has an inside
+  /// Boxes, of objects or of changed regions of an occupancy map, that hold all triangles of
+  /// `index` and all space in `solids` that was not solid before.
   std::vector<geometry::Box> added;
-  /// Boxes of what the earlier one has and the later one has not, or has elsewhere.
+  /// Boxes of what the earlier revision has and the later one has not, or has elsewhere.
   std::vector<geometry::Box> removed;
 
-  bool other_bounds = false;  ///< whether what bodies must not leave is another
+  bool other_bounds = false;  ///< whether the bounds that bodies must not leave differ
 
   [[nodiscard]] bool empty() const { return added.empty() && removed.empty() && !other_bounds; }
 };
 
-/// Objects, and the parts of an occupancy map that stayed where it was, count as the same where the
-/// two snapshots share them, as `changed` makes snapshots; what was made anew counts as another,
-/// however equal. Costs what there are objects, and parts of those that changed.
+/// Computes the difference. Objects are equal, and so are bricks of an occupancy map that was not
+/// moved, if the two snapshots share them, as those made by `changed` do; rebuilt ones count as
+/// different. The cost depends on the number of objects, and of bricks in those that differ.
 SceneDifference difference(const Snapshot& before, const Snapshot& after);
 
 }  // namespace camway::scene

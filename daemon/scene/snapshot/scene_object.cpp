@@ -12,7 +12,8 @@
 namespace camway::scene {
 namespace {
 
-/// Of the mesh itself, its object and the control block, and of the list.
+/// Memory of a part beside its vertices and triangles: the mesh, its object, the control block and
+/// the entry in the list.
 constexpr std::uint64_t kBytesBesideAPart =
     sizeof(MeshPart) + sizeof(Mesh) + sizeof(MeshObject) + 6 * sizeof(void*);
 
@@ -50,7 +51,7 @@ std::shared_ptr<const PlacedPart> placed(const MeshPart& part, const Placement& 
   return result;
 }
 
-/// For each part of `source` what `before` has of it in that place, or null.
+/// For each part of `source` the part of `before` that is equal and in the same place, or null.
 std::vector<std::shared_ptr<const PlacedPart>> parts_there(const ObjectSource& source,
                                                            const Placement& placement,
                                                            const SceneObject* before) {
@@ -66,7 +67,7 @@ std::vector<std::shared_ptr<const PlacedPart>> parts_there(const ObjectSource& s
   return parts;
 }
 
-/// Some of them null if a stop was asked for.
+/// Some are null if a stop is requested.
 std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& source,
                                                             const Placement& placement,
                                                             const IndexOptions& options,
@@ -95,11 +96,11 @@ std::string digest_of(const SceneObject& object) {
   std::vector<std::string> digests;
   digests.reserve(object.parts.size() + 1);
   for (const auto& part : object.parts) digests.push_back(part->digest);
-  digests.emplace_back("solid");  // another thing than its surface alone
+  digests.emplace_back("solid");  // differs from its surface alone
   return text_digest(digests);
 }
 
-/// Whether the mirror has the very voxels of the object.
+/// Whether the voxels of the mirror are those of the object's map.
 bool has_own_voxels(const SceneObject& object, const ObjectOptions& options) {
   return object.source->map_O && object.placement.is_identity() &&
          object.source->map_O->resolution_m() == *options.occupancy_resolution_m;
@@ -241,7 +242,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
     object->bounds_W.extend(part->indexed->tree.bounds());
     object->triangles += part->indexed->mesh->triangles.size();
   }
-  // What was imported where it is keeps its own, wider limit.
+  // An object imported with the identity keeps its own, wider limit.
   if (!placement.is_identity() && is_too_far(object->bounds_W)) {
     return {nullptr, name + ": would lie more than 1e9 m from the origin"};
   }

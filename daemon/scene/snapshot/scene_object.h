@@ -21,100 +21,98 @@
 
 namespace camway::scene {
 
-/// What is built for each object of a scene.
+/// Options of what is built for each object of a scene.
 struct ObjectOptions {
   IndexOptions index;
-  std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: not wanted
-  std::optional<double> occupancy_resolution_m;                        ///< no mirror without it
-  std::uint64_t mirror_voxels = OccupancyMap::kUsualMostVoxels;        ///< of an object, at most
-  /// Of the scene: what no body may leave, whatever a request says. No object, and no digest,
-  /// depends on it.
+  std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: no field
+  std::optional<double> occupancy_resolution_m;                  ///< nothing: no occupancy mirror
+  std::uint64_t mirror_voxels = OccupancyMap::kUsualMostVoxels;  ///< limit for each object
+  /// Bounds of the whole scene, which no body may leave, whatever a request says. Objects and
+  /// digests do not depend on them.
   geometry::Bounds bounds = {};
 };
 
 enum class ObjectKind : std::uint8_t { kMesh, kBox, kSphere, kCylinder, kPointCloud, kMap };
 
-/// The word for a kind: "mesh", "box", "sphere", "cylinder", "point cloud", "occupancy map".
+/// Returns "mesh", "box", "sphere", "cylinder", "point cloud" or "occupancy map".
 const char* to_string(ObjectKind kind);
 
-/// What an object is, wherever it is. Immutable, so that scenes, revisions and their history share
+/// The content of an object without its placement. Immutable; scenes, revisions and histories share
 /// it.
 struct ObjectSource {
   ObjectKind kind = ObjectKind::kMesh;
-  /// In the object's own frame. A mesh, or a shape, is one part; an occupancy map has one for each
-  /// brick with faces, which the maps before and after a scan share where they are alike.
+  /// Meshes in the frame of the object: one for a mesh or a shape; one for each brick with faces of
+  /// an occupancy map, where the maps before and after a scan share equal bricks.
   std::vector<MeshPart> parts_O;
-  std::shared_ptr<const VoxelMap> map_O;         ///< of kMap: what the parts are the faces of
-  geometry::Box bounds_O;                        ///< of all parts
-  std::shared_ptr<const DistanceField> field_O;  ///< null where it is off
+  std::shared_ptr<const VoxelMap> map_O;         ///< map whose faces the parts are; kMap only
+  geometry::Box bounds_O;                        ///< bounds of all parts
+  std::shared_ptr<const DistanceField> field_O;  ///< null if there is none
   std::string why_no_field;                      ///< empty exactly when `field_O` is set
   ImportReport report;
 
-  /// What the source refers to, also where other sources refer to it as well.
+  /// Memory that the source refers to, even if other sources refer to it too.
   [[nodiscard]] std::uint64_t memory_bytes() const;
-  /// The same, without what `other` refers to: of a map after a scan, what the scan changed.
+  /// The part of it that `other` does not refer to: for a map after a scan, what the scan changed.
   [[nodiscard]] std::uint64_t memory_bytes_beside(const ObjectSource& other) const;
 };
 
-/// Builds what does not depend on where the object is. `report` says how the mesh came to be.
-/// Precondition: not kMap.
+/// Builds the content of an object that is no map. `report` describes the origin of the mesh.
 std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, ImportReport report,
                                                 const ObjectOptions& options);
 
-/// The same of an occupancy map, of which `report` counts the faces. It has no distance field:
-/// one depends on all of the map, so a scan would have to build it anew, and measured on maps of
-/// buildings planning is no more than a tenth faster with it. Precondition: the map has a skin.
+/// The same for an occupancy map; `report` counts its faces. It has no distance field: a field
+/// depends on the whole map, so each scan would rebuild it, and measured on maps of buildings,
+/// planning is no more than a tenth faster with one. Requires that the map has a `skin`.
 std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
                                                     ImportReport report,
                                                     const ObjectOptions& options);
 
-/// What an import would have reported of a mesh that is already there.
+/// The report that an import of this mesh would have made.
 ImportReport report_of(const Mesh& mesh, std::string format);
-/// Likewise of the faces of a map. Precondition: it has a skin.
+/// The same for the faces of a map. Requires that the map has a `skin`.
 ImportReport report_of(const VoxelMap& map, std::string format);
 
-/// A part of an object in its place. Immutable.
+/// A mesh of an object, placed in the world. Immutable.
 struct PlacedPart {
-  std::shared_ptr<const IndexedMesh> indexed;  ///< its triangles in the world, and their tree
-  std::string digest;                          ///< `mesh_digest` of them
+  std::shared_ptr<const IndexedMesh> indexed;  ///< triangles in the world, and their tree
+  std::string digest;                          ///< `mesh_digest` of the triangles
 };
 
-/// An object in its place: what paths are planned against. Immutable.
+/// An object placed in the world; paths are planned against its triangles. Immutable.
 struct SceneObject {
   std::string name;
   std::shared_ptr<const ObjectSource> source;
   Placement placement;
-  std::vector<std::shared_ptr<const PlacedPart>> parts;  ///< of the source's, in their order
-  geometry::Box bounds_W;                                ///< of all of them
+  std::vector<std::shared_ptr<const PlacedPart>> parts;  ///< the source's parts, in their order
+  geometry::Box bounds_W;                                ///< bounds of all parts
   std::size_t triangles = 0;
-  std::shared_ptr<const OccupancyMap> occupancy;  ///< null unless a resolution was given
-  /// Of the triangles in the world: of an object of one part `mesh_digest`, of an occupancy map a
-  /// digest of those of its parts in their order.
+  std::shared_ptr<const OccupancyMap> occupancy;  ///< null if no resolution was given
+  /// Digest of the triangles in the world: `mesh_digest` for an object of one part, a digest of the
+  /// parts' digests in their order for an occupancy map.
   std::string digest;
 
-  /// Of an occupancy map: where it is.
+  /// The placed map if the object is an occupancy map, else nothing.
   [[nodiscard]] std::optional<PlacedVoxelMap> solid() const;
 };
 
 struct ObjectResult {
   std::shared_ptr<const SceneObject> object;  ///< null on error
   std::string error;                          ///< names the object
-  Limit limit = Limit::kNone;                 ///< that the error is about
+  Limit limit = Limit::kNone;                 ///< limit that the error is about
 };
 
-/// Puts an object in its place. Costs what there are triangles in it, but for parts that `before`,
-/// which may be null, has in the same place: these it shares. Refuses one that lies beyond
-/// Placement::kLargestCoordinateM there, or that the mirror cannot hold. A `stop` that is asked for
-/// ends the making of parts and of the mirror, and it fails. Precondition: `before` was placed with
-/// equal options.
+/// Places an object in the world. The cost depends on its triangles, without the parts that
+/// `before` (may be null) has in the same place: these are shared. Fails if the placement moves it
+/// beyond Placement::kLargestCoordinateM, if the mirror cannot hold it, or if a stop is requested
+/// while parts or mirror are made. Requires that `before` was placed with equal options.
 ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> source,
                           const Placement& placement, const ObjectOptions& options,
                           const SceneObject* before = nullptr, const std::stop_token& stop = {});
 
-/// Digest of the triangles' coordinates and order, 32 hexadecimal digits.
+/// Digest of the triangles' coordinates in their order, 32 hexadecimal digits.
 std::string mesh_digest(const Mesh& mesh);
 
-/// Digest of texts in their order, likewise.
+/// Digest of texts in their order, 32 hexadecimal digits.
 std::string text_digest(const std::vector<std::string>& texts);
 
 }  // namespace camway::scene

@@ -84,7 +84,7 @@ StoreResult SceneStore::put(std::shared_ptr<const Snapshot> snapshot, ChangeNote
                             const Undertaking& undertaking) {
   assert(snapshot);
   note.when = std::chrono::system_clock::now();
-  std::optional<Entry> old;  // takes its time to go, when nobody waits any more
+  std::optional<Entry> old;  // destroyed after the lock is released, since that takes time
   const Turn turn(*this, snapshot->name);
   if (const std::uint64_t next = next_revision(snapshot->name); snapshot->revision < next) {
     auto numbered = std::make_shared<Snapshot>(*snapshot);

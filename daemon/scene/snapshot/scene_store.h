@@ -21,73 +21,73 @@
 
 namespace camway::scene {
 
-/// What a store holds at most, so that who may change scenes cannot take all memory.
+/// Limits of a store, so that clients that may change scenes cannot use up the memory.
 struct SceneStoreLimits {
   std::size_t scenes = 4096;
-  std::size_t objects = 4096;            ///< of one scene
-  std::uint64_t triangles = 20'000'000;  ///< of all scenes together
-  /// Of the occupancy mirrors of all scenes together.
+  std::size_t objects = 4096;            ///< limit for each scene
+  std::uint64_t triangles = 20'000'000;  ///< limit for all scenes together
+  /// Limit of the occupancy mirrors of all scenes together.
   std::uint64_t occupancy_bytes = std::uint64_t{4} << 30;
-  SceneHistory::Limits history;  ///< changes of each scene, bytes of all together
+  SceneHistory::Limits history;  ///< changes of each scene, bytes of all scenes together
 };
 
-/// Why the store refused something.
+/// The reason why the store refused a change.
 enum class StoreFault : std::uint8_t { kNone, kUnknownScene, kInvalid, kLimit, kCalledOff };
 
 struct StoreResult {
-  std::shared_ptr<const Snapshot> snapshot;  ///< the newest now; null on error
+  std::shared_ptr<const Snapshot> snapshot;  ///< newest snapshot; null on error
   StoreFault fault = StoreFault::kNone;
   std::string error;           ///< empty exactly when `snapshot` is set
-  Limit limit = Limit::kNone;  ///< of `StoreFault::kLimit`
+  Limit limit = Limit::kNone;  ///< limit that was exceeded, for `StoreFault::kLimit`
 };
 
-/// The scenes that a daemon holds, by name: the newest snapshot of each, and how it came to be. A
-/// snapshot that someone took stays as it is when its scene changes. The revisions of a name only
-/// ever increase, even when its scene is removed and another comes.
+/// The scenes of a daemon by name: the newest snapshot of each, and its history. A snapshot never
+/// changes; a change of its scene makes the next one. The revisions of a name only increase, even
+/// if its scene is removed and another one takes the name.
 ///
-/// Safe from any thread. Changes of one scene are made one after the other, those of different ones
-/// side by side: each holds the turn of its scene from its beginning to its end, and what all wait
-/// for, who only looks included, no longer than it takes to put the finished snapshot in its place.
-/// What all scenes together come to is looked at there, too, so no limit is ever broken; what is
-/// being made is not counted yet. What is called off before (`Undertaking`) changes nothing.
+/// Thread-safe. Changes of one scene are serialised; different scenes change in parallel. The
+/// global lock is held only to publish a finished snapshot, so readers never wait for a build.
+/// Limits across scenes are checked on publication, so no limit is ever exceeded, but unfinished
+/// changes do not count. A change that is cancelled before (`Undertaking`, the change ticket)
+/// changes nothing.
 class SceneStore {
  public:
   explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
 
   /// Adds the scene, or replaces the one of that name; a new history begins. Its revision is that
-  /// of the snapshot, or the next that the name has had, whichever is higher.
+  /// of the snapshot or, if that is higher, the next one of the name.
   StoreResult put(std::shared_ptr<const Snapshot> snapshot, ChangeNote note = {},
                   const Undertaking& undertaking = {});
 
-  /// Changes one object of a scene. Precondition as that of `changed`.
+  /// Changes one object of a scene. Requires the same as `changed`.
   StoreResult change(std::string_view scene, SceneChange change, ChangeNote note = {},
                      const Undertaking& undertaking = {});
 
-  /// Makes a new revision with the objects of one that is kept. If it is not, the error says which
-  /// are.
+  /// Makes a new revision with the objects of a kept one. If it is not kept, the error names those
+  /// that are.
   StoreResult restore(std::string_view scene, std::uint64_t revision, ChangeNote note = {},
                       const Undertaking& undertaking = {});
 
-  /// Makes a scene `other` of them, or replaces the one of that name; as `put`.
+  /// Like `restore`, but puts the objects into scene `other`, as `put` does.
   StoreResult restore_as(std::string_view scene, std::uint64_t revision, std::string other,
                          ChangeNote note = {}, const Undertaking& undertaking = {});
 
-  /// Whether there was such a scene; false, too, if it was called off.
+  /// Returns whether the scene was removed: false if it does not exist or the change was cancelled.
   bool remove(std::string_view scene, const Undertaking& undertaking = {});
 
-  /// Calls `listener` from now on after each change, on the thread of whoever made it, but never on
-  /// two at a time; no function ends that. It must not change scenes. Once this returns the one
-  /// before is not called any more.
+  /// Replaces the listener, which is called after each change, on the thread that made the change
+  /// and never on two threads at a time. It must not change scenes. When this returns, the old
+  /// listener is not called any more.
   void on_change(std::function<void()> listener);
 
-  /// The newest snapshot, or null.
+  /// The newest snapshot, or null if there is no such scene.
   [[nodiscard]] std::shared_ptr<const Snapshot> find(std::string_view name) const;
 
-  /// How the newest snapshot came to be, or nothing if there is no such scene.
+  /// The history of a scene, or nothing if there is no such scene.
   [[nodiscard]] std::optional<SceneHistory> history(std::string_view name) const;
 
-  /// The newest snapshot, and all revisions that can be restored, oldest first; the last is the
-  /// newest. Empty and null if there is no such scene.
+  /// The newest snapshot and all revisions that can be restored, oldest first, the newest included.
+  /// Null and empty if there is no such scene.
   struct Kept {
     std::shared_ptr<const Snapshot> newest;
     std::vector<KeptRevision> revisions;
@@ -97,13 +97,13 @@ class SceneStore {
   /// All scenes in order of name.
   [[nodiscard]] std::vector<std::shared_ptr<const Snapshot>> list() const;
 
-  /// For a person who asked for a scene that is not there: the first names, and how many more.
+  /// A text for users who asked for an unknown scene: the first names, and the number of others.
   [[nodiscard]] std::string summary() const;
 
   [[nodiscard]] const SceneStoreLimits& limits() const { return limits_; }
 
  private:
-  /// What counts of a scene, or of all together.
+  /// Amounts that count towards the limits, of one scene or of all.
   struct Load {
     std::uint64_t triangles = 0;
     std::uint64_t occupancy_bytes = 0;
@@ -115,7 +115,7 @@ class SceneStore {
   };
   using Scenes = std::map<std::string, Entry, std::less<>>;
 
-  /// Nobody else changes the scene of that name, which may not be there, while this lives.
+  /// Lock on changes of the scene of that name, which need not exist. Held while this object lives.
   class Turn {
    public:
     Turn(SceneStore& store, std::string_view scene);
@@ -130,33 +130,33 @@ class SceneStore {
 
   static Load load_of(const Snapshot& snapshot);
   [[nodiscard]] StoreResult unknown(std::string_view scene) const;
-  /// Precondition: it is the scene's turn, and `before` is its newest.
+  /// Requires that the caller holds the scene's `Turn` and that `before` is its newest snapshot.
   StoreResult make_next(const Snapshot& before, SceneChanges changes, ChangeNote note,
                         const Undertaking& undertaking);
 
-  /// The lowest revision that the next scene of that name may have. Stays true while its turn
-  /// lasts.
+  /// The lowest revision that the next scene of that name may have. Stays valid while its `Turn` is
+  /// held.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
-  /// What speaks against `next` in the place of the scene of its name; of no fault if nothing
-  /// does. Precondition of this and the next two: mutex_ is held.
+  /// The fault of putting `next` in the place of the scene of its name; without an error if there
+  /// is none. This and the next two functions require that mutex_ is held.
   [[nodiscard]] StoreResult over_limit(const Snapshot& next, const Load& load) const;
-  /// Counts a scene of that load, or of none, in the place of the one that is there, or of none.
+  /// Replaces a scene's load in `total_`; the load of no scene is empty.
   void count(const Load& before, const Load& after);
-  /// Shortens the longest histories until all keep to the limit.
+  /// Shortens the longest histories until the limit of all together is kept.
   void forget_history();
 
   void tell();
 
   const SceneStoreLimits limits_;
-  std::mutex telling_;              ///< held while the listener is called; before mutex_
+  std::mutex telling_;              ///< held while the listener is called; locked before mutex_
   std::function<void()> listener_;  ///< guarded by telling_
-  mutable std::mutex mutex_;        ///< guards all below; held for moments only
+  mutable std::mutex mutex_;        ///< guards all below; held for short times only
   std::condition_variable turn_ended_;
-  std::set<std::string, std::less<>> changing_;  ///< scenes of which it is somebody's turn
+  std::set<std::string, std::less<>> changing_;  ///< scenes whose `Turn` is held
   Scenes scenes_;
-  Load total_;                         ///< of `scenes_`
-  std::uint64_t highest_removed_ = 0;  ///< revision of the scenes that are gone
+  Load total_;                         ///< sum over `scenes_`
+  std::uint64_t highest_removed_ = 0;  ///< highest revision of removed scenes
 };
 
 }  // namespace camway::scene

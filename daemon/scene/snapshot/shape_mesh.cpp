@@ -19,11 +19,11 @@ namespace {
 using geometry::Vec3;
 using Corners = std::array<std::uint32_t, 3>;
 
-/// What is made a little larger than computed encloses what was meant in spite of rounding: a
-/// vertex takes fewer than 16 operations.
+/// Vertices are moved outwards by this factor, so that the mesh encloses the shape in spite of
+/// rounding: a vertex takes fewer than 16 operations.
 constexpr double kOutwards = 1.0 + 32.0 * geometry::kUnitRoundoff;
 
-/// Why a length cannot be used, or nothing; false for NaN.
+/// Why a length is invalid, or an empty text. NaN is invalid.
 std::string length_fault(const char* name, double value_m) {
   if (value_m > 0.0 && value_m <= kLargestShapeM) return {};
   return std::string(name) + ": must be above 0 and at most 1e9 m";
@@ -63,7 +63,8 @@ class Geodesic {
        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-  /// Steps towards two or three of the twelve corners: the same from each face that has the vertex.
+  /// Steps towards two or three of the twelve corners: a key of the vertex that is the same on
+  /// every face that has it.
   using Steps = std::array<std::pair<std::uint32_t, std::uint32_t>, 3>;
 
   void divide(const Corners& face) {
@@ -101,8 +102,8 @@ class Geodesic {
   Mesh mesh_;
 };
 
-/// How near a plane of a face comes to the centre of the unit sphere. All faces of the icosahedron
-/// are divided alike.
+/// The least distance of a face's plane from the centre of the unit sphere. All faces of the
+/// icosahedron are divided alike.
 double inner_radius(std::uint32_t frequency) {
   const Mesh face = Geodesic(frequency).build(1);
   double least = 1.0;
@@ -139,7 +140,7 @@ ShapeMesh sphere_mesh(double radius_m, double chord_error_m) {
        {length_fault("radius_m", radius_m), length_fault("chord_error_m", chord_error_m)}) {
     if (!fault.empty()) return {std::nullopt, std::move(fault)};
   }
-  // A face is about 1.1/n wide and its corners some 0.25/n² above it, which the loop makes sure of.
+  // A face is about 1.1/n wide and its corners some 0.25/n² above it; the loop verifies that.
   const double wanted = std::sqrt(0.2 * radius_m / chord_error_m);
   for (double next = std::max(1.0, wanted);; next = std::max(next + 1.0, 1.05 * next)) {
     if (20.0 * next * next > static_cast<double>(kMaxShapeTriangles))
@@ -186,7 +187,7 @@ ShapeMesh cylinder_mesh(double radius_m, double height_m, double chord_error_m) 
 
 namespace {
 
-/// The cell of each coordinate, or nothing if it is beyond the grid or no number.
+/// The cell of a point, or nothing if it is beyond the grid or not finite.
 std::optional<Voxel> cell_at(const Vec3& point, double cell_m) {
   Voxel cell{};
   for (Eigen::Index k = 0; k < 3; ++k) {

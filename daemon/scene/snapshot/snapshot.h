@@ -25,51 +25,50 @@ struct SnapshotOptions : ObjectOptions {
   ImportOptions import;
 };
 
-/// Objects in order of their names, each name once.
+/// Objects in the order of their names, each name once.
 using SceneObjects = std::vector<std::shared_ptr<const SceneObject>>;
 
-/// One revision of a scene. Planning reads nothing else, so an update can never change the world
-/// under a request: it builds the next snapshot and swaps. The next one shares all objects that did
-/// not change.
+/// One revision of a scene. Planning reads nothing else, so a change never affects a request that
+/// is being planned: it builds the next snapshot, which shares all unchanged objects, and replaces
+/// this one in the store. Immutable.
 struct Snapshot {
   std::string name;
   std::uint64_t revision = 1;
-  /// Of the triangles, 32 hexadecimal digits; equal objects in equal order, equal digest. Of a
-  /// single object it is that object's; of several a digest of theirs.
+  /// Digest of all triangles, 32 hexadecimal digits; equal objects in equal order have equal
+  /// digests. The digest of a single object is that object's, that of several a digest of theirs.
   std::string digest;
   SceneObjects objects;
-  ObjectOptions options;  ///< what objects are built with, and its bounds
-  WholeMesh mesh;         ///< numbered as `index` is
+  ObjectOptions options;  ///< options that objects are built with, and bounds of the scene
+  WholeMesh mesh;         ///< all triangles, numbered as in `index`
   SceneIndex index;
-  std::shared_ptr<const SceneSolids> solids;         ///< null if nothing has an inside
-  std::shared_ptr<const ClearanceField> field;       ///< null where it is off
+  std::shared_ptr<const SceneSolids> solids;         ///< null if no object has an inside
+  std::shared_ptr<const ClearanceField> field;       ///< null if there is none
   std::string why_no_field;                          ///< empty exactly when `field` is set
-  std::shared_ptr<const OccupancyMirror> occupancy;  ///< null unless a resolution was given
-  ImportReport report;                               ///< of all objects together
+  std::shared_ptr<const OccupancyMirror> occupancy;  ///< null if no resolution was given
+  ImportReport report;                               ///< report on all objects together
 
-  /// Null if there is none of that name.
+  /// The object of that name; null if there is none.
   [[nodiscard]] const SceneObject* find(std::string_view object) const;
 };
 
 struct SnapshotResult {
   std::shared_ptr<const Snapshot> snapshot;  ///< null on error
-  std::string error;                         ///< names the file
-  Limit limit = Limit::kNone;                ///< that the error is about
+  std::string error;                         ///< names the file or the object
+  Limit limit = Limit::kNone;                ///< limit that the error is about
 };
 
-/// Puts objects together to a scene. Costs what there are objects and parts of them, whatever is in
-/// these.
-/// Preconditions: in order of name, each once; built with `options`.
+/// Assembles a scene from objects. The cost depends on the number of objects and of their parts,
+/// not on the size of these. Requires objects in the order of their names, each once, that were
+/// built with `options`.
 std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
                                          SceneObjects objects, const ObjectOptions& options);
 
-/// A scene of one object, of the scene's name, from a mesh that is already there.
+/// A scene with one object, which has the name of the scene, made from `mesh`.
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options = {});
 
-/// The same from a file. A requested stop ends the reading of the file, and the building of an
-/// occupancy mirror, within milliseconds, and it fails.
+/// The same from a file. Fails within milliseconds after a stop is requested while the file is read
+/// or an occupancy mirror is built.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
-                             const SnapshotOptions& options = {},
-                             const std::stop_token& stop = {});
+                             const SnapshotOptions& options = {}, const std::stop_token& stop = {});
 
 }  // namespace camway::scene

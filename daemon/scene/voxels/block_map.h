@@ -15,13 +15,13 @@
 
 namespace camway::scene {
 
-/// Where a block of 8 x 8 x 8 voxels is, as one number: 19 bits for each axis, x lowest. They reach
-/// one block further than voxels do, for neighbours.
+/// The number of a block of 8 x 8 x 8 voxels: 19 bits per axis, x lowest, which is enough for the
+/// neighbours of all blocks with voxels, too.
 class BlockKey {
  public:
   static constexpr std::int32_t kBlockSize = 8;
 
-  /// Of the block that holds `voxel`. Precondition: within 2^20 + 8 of 0 on each axis.
+  /// The key of the block that holds `voxel`. Requires coordinates within 2^20 + 8 of 0.
   static std::uint64_t of(const Voxel& voxel) {
     std::uint64_t key = 0;
     for (std::size_t axis = 3; axis-- > 0;) {
@@ -40,18 +40,18 @@ class BlockKey {
     return low;
   }
 
-  /// The first block of the cube of 2^`levels` blocks per edge that the block is in.
+  /// The first block of the aligned cube of 2^`levels` blocks per edge that holds block `key`.
   static constexpr std::uint64_t first_of_cube(std::uint64_t key, unsigned levels) {
     return key & ~(kLowest * ((std::uint64_t{1} << levels) - 1));
   }
 
-  /// Which of the 512 blocks of such a cube of three levels it is, in order of keys.
+  /// The position of a block, in order of keys, among the 512 of its cube of three levels.
   static constexpr unsigned within_cube(std::uint64_t key) {
     return static_cast<unsigned>((key & 7U) | (key >> kAxisBits & 7U) << 3 |
                                  (key >> (2 * kAxisBits) & 7U) << 6);
   }
 
-  /// The block that is number `place` in the cube that begins with block `first`.
+  /// The block at position `place` of the cube of three levels whose first block is `first`.
   static constexpr std::uint64_t in_cube(std::uint64_t first, unsigned place) {
     const std::uint64_t at = place;
     return first | (at & 7U) | (at >> 3 & 7U) << kAxisBits | (at >> 6) << (2 * kAxisBits);
@@ -65,22 +65,23 @@ class BlockKey {
       1 | std::uint64_t{1} << kAxisBits | std::uint64_t{1} << (2 * kAxisBits);
 };
 
-/// Blocks by their keys, kept in regions of 8 x 8 x 8 blocks that copies share until one of them
-/// changes something there: so a copy costs what there are regions, and a change what there is in
-/// one. A value type; const calls, copying among them, are safe from any thread.
+/// A map from block keys to blocks. It stores regions of 8 x 8 x 8 blocks, which copies share until
+/// one of them changes a block there (copy on write). So the cost of a copy depends on the number
+/// of regions, that of a change on the blocks of its region. A value type. Const calls, and
+/// copying, are thread-safe.
 template <class Block>
 class BlockMap {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Null if it is not there.
+  /// The block, or null if there is none.
   [[nodiscard]] const Block* find(std::uint64_t key) const {
     const auto found = regions_.find(region_of(key));
     return found == regions_.end() ? nullptr : found->second->find(BlockKey::within_cube(key));
   }
 
-  /// The block to change; comes into being as `Block{}`. Valid until the next such call, and until
-  /// the map is copied.
+  /// The block, for changing it; inserted as `Block{}` if there is none. Valid until the next call
+  /// of `at` and until the map is copied.
   Block& at(std::uint64_t key) {
     std::shared_ptr<Region>& region = regions_[region_of(key)];
     if (!region) {
@@ -96,7 +97,7 @@ class BlockMap {
     return region->get(place);
   }
 
-  /// Calls `visit(key, block)` for every block, in an order that depends on the keys only.
+  /// Calls `visit(key, block)` for every block. The order depends on the keys only.
   template <class Visit>
   void for_each(const Visit& visit) const {
     std::vector<std::uint64_t> firsts;
@@ -110,9 +111,9 @@ class BlockMap {
     }
   }
 
-  /// Calls `visit(key, before, now)` for every block of the regions that the two do not share, with
-  /// null where one has none; in an order that depends on the keys only. Costs what there are
-  /// regions, and blocks in those.
+  /// Calls `visit(key, before, now)` for every block of the regions that this map and `before` do
+  /// not share, with null for a block that is missing in one of them. The order depends on the keys
+  /// only. The cost depends on the number of regions, and of blocks in those that are not shared.
   template <class Visit>
   void for_each_unshared(const BlockMap& before, const Visit& visit) const {
     std::set<std::uint64_t> firsts;
@@ -134,9 +135,9 @@ class BlockMap {
     }
   }
 
-  /// Of blocks and tables, without what blocks refer to.
+  /// Memory of blocks and tables, without memory that blocks refer to.
   [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_beside({}); }
-  /// The same, without the regions that it shares with `other`.
+  /// The part of `memory_bytes` that is not in regions shared with `other`.
   [[nodiscard]] std::uint64_t memory_bytes_beside(const BlockMap& other) const {
     constexpr std::uint64_t kOfATableEntry = 8 * sizeof(void*);
     std::uint64_t bytes = regions_.size() * kOfATableEntry;
@@ -147,7 +148,7 @@ class BlockMap {
   }
 
  private:
-  /// Those blocks of a cube of 8 x 8 x 8 that are there.
+  /// The existing blocks of a cube of 8 x 8 x 8.
   class Region {
    public:
     static constexpr unsigned kBlocks = 512;
@@ -155,9 +156,9 @@ class BlockMap {
     [[nodiscard]] const Block* find(unsigned place) const {
       return (present_[place / 64] >> place % 64 & 1U) != 0 ? &blocks_[rank(place)] : nullptr;
     }
-    /// Precondition: it is there.
+    /// Requires that the block exists.
     Block& get(unsigned place) { return blocks_[rank(place)]; }
-    /// Precondition: it is not.
+    /// Requires that the block does not exist.
     void add(unsigned place) {
       blocks_.insert(blocks_.begin() + static_cast<std::ptrdiff_t>(rank(place)), Block{});
       present_[place / 64] |= std::uint64_t{1} << place % 64;
@@ -179,7 +180,7 @@ class BlockMap {
     }
 
    private:
-    /// How many blocks stand before it.
+    /// Number of existing blocks before `place`.
     [[nodiscard]] std::size_t rank(unsigned place) const {
       const std::uint64_t below = (std::uint64_t{1} << place % 64) - 1;
       return before_[place / 64] +
@@ -187,8 +188,8 @@ class BlockMap {
     }
 
     std::array<std::uint64_t, kBlocks / 64> present_{};
-    std::array<std::uint16_t, kBlocks / 64> before_{};  ///< blocks of all words before
-    std::vector<Block> blocks_;                         ///< in order of places
+    std::array<std::uint16_t, kBlocks / 64> before_{};  ///< number of blocks in all words before
+    std::vector<Block> blocks_;                         ///< existing blocks in order of places
   };
 
   static std::uint64_t region_of(std::uint64_t key) { return BlockKey::first_of_cube(key, 3); }

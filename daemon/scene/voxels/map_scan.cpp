@@ -18,7 +18,7 @@ using geometry::Vec3;
 using octomap::OcTree;
 using octomap::OcTreeKey;
 
-/// OctoMap's rays have room for 100,000 voxels and do not look whether that is enough.
+/// OctoMap's rays have room for 100,000 voxels and are not checked for overflow.
 constexpr double kMostRayVoxels = 65'000.0;
 
 octomap::point3d single(const Vec3& point) {
@@ -32,7 +32,7 @@ Voxel voxel_of(const OcTreeKey& key) {
   return voxel;
 }
 
-/// A tree that holds nothing and knows resolution and sensor of the map.
+/// An empty tree with the resolution and the sensor model of the map.
 std::unique_ptr<OcTree> model_of(const VoxelMap& map) {
   auto model = std::make_unique<OcTree>(map.resolution_m());
   const SensorModel& sensor = map.sensor();
@@ -43,13 +43,13 @@ std::unique_ptr<OcTree> model_of(const VoxelMap& map) {
   return model;
 }
 
-/// Of a scan: where rays ended, and what they passed through, a voxel of the former maybe as well.
+/// The voxels in which rays ended, and those that rays passed through; a voxel may be in both.
 struct Seen {
   VoxelSet hit;
   VoxelSet passed;
 };
 
-/// As OctoMap's `computeUpdate`, whose sets of keys take several times what the rays take.
+/// As OctoMap's `computeUpdate`, whose sets of keys cost several times what the rays do.
 Seen seen_in(const Scan& scan, double max_range_m, const OcTree& model) {
   Seen seen;
   VoxelMarker hit(seen.hit);
@@ -71,7 +71,7 @@ Seen seen_in(const Scan& scan, double max_range_m, const OcTree& model) {
   return seen;
 }
 
-/// What OctoMap's `updateNode` makes of what is believed of voxels.
+/// Updates log-odds as OctoMap's `updateNode` does.
 class Updater {
  public:
   explicit Updater(const OcTree& model)
@@ -101,7 +101,7 @@ class Updater {
   }
 
  private:
-  /// What the map believes, or as much as its voxels tell.
+  /// The log-odds of the map, or those that follow from the states of its voxels.
   [[nodiscard]] Beliefs beliefs_before(const VoxelMap& map, const ScannedBlock& block) const {
     if (const Beliefs* const known = map.beliefs(block.key)) return *known;
     Beliefs beliefs{};
@@ -125,10 +125,10 @@ class Updater {
   float occupied_;
 };
 
-/// Why the scan cannot be taken; without an error if it can.
+/// Why the scan is refused; without an error if it is not.
 VoxelMapResult fault_of(const VoxelMap& map, const Scan& scan, double most_voxels) {
   const VoxelGrid grid(map.resolution_m());
-  // A voxel less than there are: single precision rounds on its own.
+  // One voxel less than there are, because single precision rounds on its own.
   const double reach_m = (VoxelGrid::kMaxVoxel - 1) * map.resolution_m();
   const auto fits = [&](const Vec3& at) { return (at.array().abs() < reach_m).all(); };
   const std::string beyond =
@@ -168,7 +168,7 @@ VoxelMapResult scanned(const VoxelMap& before, const Scan& scan, double most_vox
   const std::unique_ptr<const OcTree> model = model_of(before);
   const Seen seen = seen_in(scan, before.sensor().max_range_m, *model);
   const Updater updater(*model);
-  // Where rays end is often where others pass: each block once.
+  // Each block once: rays often end in blocks that others pass.
   std::vector<std::uint64_t> keys = seen.passed.sorted_keys();
   for (const std::uint64_t key : seen.hit.sorted_keys()) {
     if (seen.passed.block(key) == VoxelSet::Bits{}) keys.push_back(key);

@@ -28,7 +28,7 @@ std::uint64_t brick_of(std::uint64_t block) {
   return BlockKey::first_of_cube(block, VoxelSkin::kBrickLevels);
 }
 
-/// The block that is beside the one that begins at `low`.
+/// The block beside the block that begins at `low`.
 std::uint64_t beside(const Voxel& low, std::size_t axis, int side) {
   Voxel next = low;
   next[axis] += side == 0 ? -BlockKey::kBlockSize : BlockKey::kBlockSize;
@@ -50,7 +50,7 @@ Bits layer(const Bits& bits, std::size_t axis, int side) {
   return result;
 }
 
-/// The voxels of a block that have none beside them on that side; `next` is the block there.
+/// The voxels of a block without a neighbour on that side; `next` is the neighbouring block.
 Bits exposed(const Bits& bits, const Bits& next, std::size_t axis, int side) {
   Bits neighbours{};
   for (std::size_t z = 0; z < 8; ++z) {
@@ -73,7 +73,7 @@ Bits exposed(const Bits& bits, const Bits& next, std::size_t axis, int side) {
 
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
-/// Which vertex stands at a corner of voxels, anywhere.
+/// The index of the vertex at each corner of voxels, for any corners.
 class HashedCorners {
  public:
   std::uint32_t& at(const Voxel& corner) {
@@ -189,8 +189,8 @@ Mesh mesh_of_brick(const VoxelSet& set, double voxel_m, std::uint64_t brick) {
   return mesh;
 }
 
-/// The parts of these bricks, in their order, without those that have no faces; nothing if they are
-/// more than `max_triangles`.
+/// The meshes of these bricks, in their order, without those that have no faces; nothing if they
+/// have more than `max_triangles`.
 std::optional<std::vector<MeshPart>> parts_of(const VoxelSet& set, double voxel_m,
                                               std::span<const std::uint64_t> bricks,
                                               std::size_t max_triangles) {
@@ -206,7 +206,7 @@ std::optional<std::vector<MeshPart>> parts_of(const VoxelSet& set, double voxel_
   return parts;
 }
 
-/// The bricks in which a face comes or goes when voxels do, or stays for another reason.
+/// The bricks in which a changed voxel may change a face.
 std::set<std::uint64_t> bricks_touched(const VoxelSet& before, const VoxelSet& after) {
   std::set<std::uint64_t> bricks;
   after.for_each_difference(before, [&](std::uint64_t key, const Bits& old, const Bits& now) {

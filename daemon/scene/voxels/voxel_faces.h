@@ -11,32 +11,33 @@
 
 namespace camway::scene {
 
-/// The faces between the voxels of `set`, of edge `voxel_m`, and all others: of each two triangles,
-/// turned outwards, that share vertices with their neighbours. A closed surface up to the rounding
-/// of i * voxel_m. Nothing if there would be more than `max_triangles`.
+/// The mesh of the faces between voxels of `set`, of edge `voxel_m`, and all others. Each is two
+/// triangles turned outwards that share vertices with their neighbours: a closed surface up to the
+/// rounding of i * voxel_m. Returns nothing if it would have more than `max_triangles`.
 std::optional<Mesh> skin_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles);
 
-/// The same faces in parts: a mesh for each brick of 16 x 16 x 16 voxels in which a voxel has one.
-/// Parts share no vertices, but where they meet they have equal coordinates. So where a set
-/// changes, few parts do; the others are shared. Which parts there are, what is in them and their
-/// order follow from the set alone. A value type; const calls are safe from any thread.
+/// The same faces, with a mesh of its own for each brick of 16 x 16 x 16 voxels that has any.
+/// Bricks share no vertices, but have equal coordinates where they meet. So a change of the set
+/// changes few bricks, and the others are shared. The bricks and their order follow from the set.
+/// A value type. Const calls are thread-safe.
 class VoxelSkin {
  public:
-  /// Blocks of a brick along an edge are 2^kBrickLevels. Measured: larger bricks answer queries no
-  /// faster, and smaller ones make more of a scene's upper tree.
+  /// A brick has 2^kBrickLevels blocks along an edge. Measured: larger bricks answer queries no
+  /// faster, and smaller ones enlarge the upper tree of the scene's index.
   static constexpr unsigned kBrickLevels = 1;
 
-  /// Nothing if there are more than `max_triangles`. On all processors; the result does not depend
-  /// on them.
+  /// The faces of `set`. Returns nothing if there are more than `max_triangles` triangles. Works on
+  /// all processors; the result does not depend on their number.
   static std::optional<VoxelSkin> of(const VoxelSet& set, double voxel_m,
                                      std::size_t max_triangles);
 
-  /// What `of` makes of `after`, sharing every part that is equal to one of this skin. Costs what
-  /// differs, and a little for each part. Preconditions: this is that of `before`, with this edge.
+  /// Returns what `of` returns for `after`, but shares all equal bricks with this object. The cost
+  /// depends on the difference, with a little for each brick. Requires that this object was made
+  /// from `before` with the same `voxel_m`.
   [[nodiscard]] std::optional<VoxelSkin> updated(const VoxelSet& before, const VoxelSet& after,
                                                  double voxel_m, std::size_t max_triangles) const;
 
-  /// By the key of the first block of their bricks (`BlockKey`), increasing; none is empty.
+  /// The meshes of the bricks, none empty, by the key of the first block (`BlockKey`), increasing.
   [[nodiscard]] const std::vector<MeshPart>& parts() const { return parts_; }
 
  private:

@@ -39,7 +39,7 @@ VoxelCube enclosing_cube(const VoxelRanges& ranges) {
   return cube;
 }
 
-/// One triangle's way down the cubes.
+/// Descends through the cubes that a triangle touches.
 class Descent {
  public:
   Descent(const VoxelGrid& grid, const geometry::Triangle& triangle, const VoxelRanges& ranges,
@@ -47,7 +47,7 @@ class Descent {
           const std::function<bool(const Voxel&)>& visit)
       : grid_(grid), triangle_(triangle), ranges_(ranges), wanted_(wanted), visit_(visit) {}
 
-  /// Every voxel of the ranges.
+  /// Tests every voxel of the ranges.
   bool run_through() const {
     Voxel voxel{};
     for (voxel[2] = ranges_[2].first; voxel[2] <= ranges_[2].last; ++voxel[2]) {
@@ -79,7 +79,7 @@ class Descent {
   const std::function<bool(const Voxel&)>& visit_;
 };
 
-/// Below this the way down from the root costs more than it spares.
+/// For fewer voxels the descent from an enclosing cube costs more than it saves.
 constexpr std::int64_t kFewVoxels = 64;
 
 std::int64_t voxels_in(const VoxelRanges& ranges) {

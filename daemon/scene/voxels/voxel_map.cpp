@@ -13,11 +13,11 @@ namespace {
 using geometry::Box;
 using geometry::Vec3;
 
-/// Units of 2^-53 of a coordinate that a quotient by the resolution, and a face of a voxel, are
-/// off: 1 each, and 2 for the sums about them. Doubled.
+/// Error of a quotient by the resolution, and of a voxel's face, in units of 2^-53 of a coordinate:
+/// 1 each, and 2 for the sums about them. Doubled.
 constexpr double kVoxelRoundoffs = 8.0;
 
-/// The voxels on one axis that something within `error_m` of a coordinate can be in.
+/// The voxels on one axis that a point within `error_m` of a coordinate can be in.
 VoxelRange voxels_near(double coordinate_m, double error_m, double resolution_m) {
   const double off_m =
       error_m + kVoxelRoundoffs * geometry::kUnitRoundoff * (std::abs(coordinate_m) + resolution_m);
@@ -121,7 +121,7 @@ VoxelMapResult VoxelMap::with(std::span<const ScannedBlock> blocks) const {
   return {std::move(next), ""};
 }
 
-/// Why there cannot be such a map, or nothing.
+/// Why such a map is refused, or an empty text.
 std::string VoxelMap::fault() const {
   if (occupied_.size() > limits_.voxels || free_.size() > limits_.voxels) {
     return too_many(limits_, "occupied or free voxels");
@@ -132,7 +132,7 @@ std::string VoxelMap::fault() const {
   return {};
 }
 
-/// What the unknown fills; no voxels if nothing is known.
+/// The box that unknown space fills; no voxels if nothing is known.
 VoxelSet::Range VoxelMap::box() const {
   return is_empty(known_) ? known_ : with_a_layer_about(known_);
 }
@@ -145,7 +145,7 @@ void VoxelMap::fill(std::uint64_t key) {
   solid_.set_block(key, bits);
 }
 
-/// All blocks of the box that do not lie in the one that was `before`.
+/// Fills all blocks of the box that do not lie in the former box `before`.
 void VoxelMap::fill_beyond(const VoxelSet::Range& before) {
   constexpr std::int32_t kStep = BlockKey::kBlockSize;
   const VoxelSet::Range now = box();
@@ -170,15 +170,14 @@ std::uint64_t VoxelMap::memory_bytes() const {
 }
 
 std::uint64_t VoxelMap::memory_bytes_beside(const VoxelMap& other) const {
-  std::uint64_t bytes = occupied_.memory_bytes_beside(other.occupied_) +
-                        free_.memory_bytes_beside(other.free_) +
-                        solid_.memory_bytes_beside(other.solid_) +
-                        beliefs_.memory_bytes_beside(other.beliefs_);
-  beliefs_.for_each_unshared(other.beliefs_, [&](std::uint64_t, const auto* theirs,
-                                                 const auto* ours) {
-    const bool is_shared = theirs != nullptr && ours != nullptr && *theirs == *ours;
-    if (ours != nullptr && !is_shared) bytes += sizeof(Beliefs);
-  });
+  std::uint64_t bytes =
+      occupied_.memory_bytes_beside(other.occupied_) + free_.memory_bytes_beside(other.free_) +
+      solid_.memory_bytes_beside(other.solid_) + beliefs_.memory_bytes_beside(other.beliefs_);
+  beliefs_.for_each_unshared(
+      other.beliefs_, [&](std::uint64_t, const auto* theirs, const auto* ours) {
+        const bool is_shared = theirs != nullptr && ours != nullptr && *theirs == *ours;
+        if (ours != nullptr && !is_shared) bytes += sizeof(Beliefs);
+      });
   return bytes;
 }
 
@@ -188,7 +187,7 @@ bool VoxelMap::is_solid_near(const Vec3& point_O, double error_m) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     near[axis] = voxels_near(point_O[static_cast<Eigen::Index>(axis)], error_m, resolution_m_);
   }
-  // An error of several voxels: coordinates that doubles cannot tell apart there.
+  // The error is several voxels: doubles cannot resolve coordinates there.
   if (volume(near) > 64.0) return true;
   Voxel voxel{};
   for (voxel[2] = near[2].first; voxel[2] <= near[2].last; ++voxel[2]) {
@@ -203,7 +202,7 @@ bool VoxelMap::is_solid_near(const Vec3& point_O, double error_m) const {
 
 bool PlacedVoxelMap::holds(const Vec3& point_W) const {
   if (point_W.allFinite() && !bounds_W.contains(point_W)) return false;
-  // Of the faces on their way into the world, and of the point on its way back.
+  // One error for the faces, mapped to the world, and one for the point, mapped back.
   const double reach_m =
       std::max(point_W.lpNorm<1>(), (point_W - placement.position_W()).lpNorm<1>());
   return map->is_solid_near(placement.to_object(point_W), 2.0 * placement.error_m(reach_m));

@@ -19,100 +19,99 @@
 
 namespace camway::scene {
 
-/// What the voxels of a map count as of which nothing is known.
+/// The state that unknown voxels of a map count as.
 enum class UnknownSpace : std::uint8_t {
   kFree,
-  /// All within the box of what is known, and a layer about it: so nothing that is in the map can
-  /// leave what is known to be free. Beyond that layer the map says nothing.
+  /// All unknown voxels in the box of the known ones and in a layer around it count as occupied, so
+  /// that no body inside can leave the known free space. Beyond the layer the map says nothing.
   kOccupied,
 };
 
-/// How far a scan is to be believed, as OctoMap has it: a voxel is occupied if it is so with a
-/// probability of a half or more.
+/// The reliability of scans in OctoMap's sensor model, which counts a voxel as occupied from a
+/// probability of one half on.
 struct SensorModel {
-  double hit_probability = 0.7;       ///< of a voxel that was seen [Limit: 0.5 < value < 1]
-  double miss_probability = 0.4;      ///< of one that was seen through [Limit: 0 < value < 0.5]
-  double least_probability = 0.1192;  ///< nothing is surer to be free [Limit: 0 < value < 0.5]
-  double most_probability = 0.971;    ///< nor occupied [Limit: 0.5 < value < 1]
-  /// Points further away say only that there is nothing up to there. [Limit: 0 < value]
+  double hit_probability = 0.7;   ///< occupied, when a point lies in it [Limit: 0.5 < value < 1]
+  double miss_probability = 0.4;  ///< occupied, when a ray passes it [Limit: 0 < value < 0.5]
+  double least_probability = 0.1192;  ///< clamping limit of free voxels [Limit: 0 < value < 0.5]
+  double most_probability = 0.971;    ///< clamping limit of occupied ones [Limit: 0.5 < value < 1]
+  /// Points farther away only show that the ray is free up to this range. [Limit: 0 < value]
   double max_range_m = std::numeric_limits<double>::infinity();
 };
 
-/// Which of its numbers cannot be, or an empty text.
+/// Names the first invalid number and says why; empty if all are valid.
 std::string fault_in(const SensorModel& sensor);
 
-/// How large a map may be.
+/// Largest size of a map.
 struct VoxelMapLimits {
-  /// That are known to be occupied, or known to be free, or in the box of both where the unknown
-  /// counts as occupied. [Limit: 1 <= value]
+  /// Limit of the occupied voxels, of the free voxels and, where the unknown counts as occupied, of
+  /// all voxels in the box of both and its layer. [Limit: 1 <= value]
   std::uint64_t voxels = std::uint64_t{1} << 27;
-  std::size_t triangles = 8'000'000;  ///< of its faces [Limit: 12 <= value]
+  std::size_t triangles = 8'000'000;  ///< limit of its faces [Limit: 12 <= value]
 };
 
 struct VoxelMapResult;
 
-/// What a map believes of the voxels of a block: the logarithm of the odds that it is occupied, as
-/// OctoMap computes it; x runs fastest, then y. 0 where nothing is known.
+/// For each voxel of a block the log-odds that it is occupied, as OctoMap computes them; x runs
+/// fastest, then y. 0 where nothing is known.
 using Beliefs = std::array<float, 512>;
 
-/// What a scan makes of a block.
+/// The new contents of a block after a scan.
 struct ScannedBlock {
-  std::uint64_t key = 0;  ///< as `BlockKey` has it
+  std::uint64_t key = 0;  ///< `BlockKey` of the block
   VoxelSet::Bits occupied{};
   VoxelSet::Bits free{};
   std::shared_ptr<const Beliefs> beliefs;
 };
 
-/// An occupancy map as a thing in a scene: a solid that consists of voxels, and what is known of
-/// the space about them. Its faces are an ordinary mesh, but only those between solid voxels and
-/// others; so what is inside must be asked for apart, or a body that is there would meet nothing.
-/// Immutable; safe from any thread.
+/// An occupancy map: a solid of voxels, and what is known of the space around it. Its faces are
+/// an ordinary mesh, but lie only between solid voxels and others. So a body deep inside the solid
+/// meets no face, and callers must ask for the inside separately. Immutable. Thread-safe.
 class VoxelMap {
  public:
-  /// A voxel in both sets is occupied. One of too many voxels is refused; of its faces, `skin`
-  /// knows the limit. Preconditions: within the limits of `VoxelGrid`; the sensor has no
-  /// `fault_in`.
+  /// Builds a map; a voxel in both sets is occupied. Fails if the resolution is invalid or there
+  /// are too many voxels. Too many triangles are no failure: then `skin` is empty. Requires voxels
+  /// within the limits of `VoxelGrid` and a sensor without `fault_in`.
   static VoxelMapResult build(double resolution_m, VoxelSet occupied, VoxelSet free,
                               UnknownSpace unknown, const VoxelMapLimits& limits = {},
                               const SensorModel& sensor = {});
 
-  /// The map with these blocks in the place of its own: equal in everything to one that was built
-  /// of the same voxels, but it shares what did not change, and costs what did. What is known stays
-  /// known: precondition.
+  /// The map with `blocks` in place of its own: equal to a map built from the same voxels, but
+  /// sharing unchanged parts, at a cost that depends on the change. Fails as `build`. Requires that
+  /// `blocks` leave no voxel unknown that is known here.
   [[nodiscard]] VoxelMapResult with(std::span<const ScannedBlock> blocks) const;
 
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   [[nodiscard]] UnknownSpace unknown() const { return unknown_; }
   [[nodiscard]] const VoxelMapLimits& limits() const { return limits_; }
   [[nodiscard]] const SensorModel& sensor() const { return sensor_; }
-  /// Of a block; null if it was never scanned.
+  /// Log-odds of a block; null if it was never scanned.
   [[nodiscard]] const Beliefs* beliefs(std::uint64_t key) const {
     const std::shared_ptr<const Beliefs>* const found = beliefs_.find(key);
     return found != nullptr ? found->get() : nullptr;
   }
   [[nodiscard]] const VoxelSet& occupied() const { return occupied_; }
   [[nodiscard]] const VoxelSet& free() const { return free_; }
-  /// The voxels that nothing may be in.
+  /// The voxels that no body may enter.
   [[nodiscard]] const VoxelSet& solid() const {
     return unknown_ == UnknownSpace::kFree ? occupied_ : solid_;
   }
-  /// Without its faces.
+  /// Memory of the map without its faces.
   [[nodiscard]] std::uint64_t memory_bytes() const;
-  /// The same, without what it shares with `other`.
+  /// The part of `memory_bytes` that is not shared with `other`.
   [[nodiscard]] std::uint64_t memory_bytes_beside(const VoxelMap& other) const;
 
-  /// The faces of the solid, in the frame of the map; nothing if there are too many.
+  /// The faces of the solid in the frame of the map; nothing if they exceed the limit of triangles.
   [[nodiscard]] const std::optional<VoxelSkin>& skin() const { return skin_; }
 
-  /// Whether a point of the solid is within `error_m` of `point_O` on every axis, or may be. True
-  /// for what is not finite.
+  /// Whether a point of the solid is, or may be, within `error_m` of `point_O` on every axis. True
+  /// for a point that is not finite.
   [[nodiscard]] bool is_solid_near(const geometry::Vec3& point_O, double error_m) const;
 
  private:
   VoxelMap(double resolution_m, VoxelSet occupied, VoxelSet free, UnknownSpace unknown);
 
   [[nodiscard]] std::string fault() const;
-  // Where the unknown is occupied:
+  // For maps whose unknown space is occupied:
   [[nodiscard]] VoxelSet::Range box() const;
   void fill(std::uint64_t key);
   void fill_beyond(const VoxelSet::Range& before);
@@ -121,39 +120,40 @@ class VoxelMap {
   UnknownSpace unknown_;
   VoxelSet occupied_;
   VoxelSet free_;
-  // Both where the unknown is occupied.
+  // Used only if unknown space is occupied.
   VoxelSet solid_;
-  VoxelSet::Range known_ = VoxelSet::kNoVoxels;  ///< holds what is occupied or free
+  VoxelSet::Range known_ = VoxelSet::kNoVoxels;  ///< contains what is occupied or free
   VoxelMapLimits limits_;
   SensorModel sensor_;
   BlockMap<std::shared_ptr<const Beliefs>> beliefs_;
   std::optional<VoxelSkin> skin_;
 };
 
-/// A map, or why there is none.
+/// A map, or the reason why there is none.
 struct VoxelMapResult {
   std::shared_ptr<const VoxelMap> map;
   std::string error;           ///< empty exactly when `map` is set
-  Limit limit = Limit::kNone;  ///< that the error is about
+  Limit limit = Limit::kNone;  ///< limit that the error is about
 };
 
-/// A map in its place.
+/// An occupancy map with its placement in the world.
 struct PlacedVoxelMap {
   std::shared_ptr<const VoxelMap> map;
   Placement placement;
-  geometry::Box bounds_W;  ///< of its mesh
+  geometry::Box bounds_W;  ///< bounds of its placed mesh
 
-  /// Whether `point_W` is inside the solid, or so near to it that rounding hides the difference.
+  /// Whether `point_W` is inside the solid, or so near to it, within `bounds_W`, that rounding
+  /// hides the difference. True for a point that is not finite.
   [[nodiscard]] bool holds(const geometry::Vec3& point_W) const;
 };
 
-/// What of a scene has an inside. Immutable; safe from any thread.
+/// The solids of a scene: its objects that have an inside. Immutable. Thread-safe.
 class SceneSolids {
  public:
   explicit SceneSolids(std::vector<PlacedVoxelMap> maps) : maps_(std::move(maps)) {}
 
-  /// Whether `point_W` is inside one of them. Something that is connected and touches no triangle
-  /// of the scene is inside with all of its points or with none.
+  /// Whether `point_W` is inside one of the solids. A connected body that touches no triangle of
+  /// the scene is inside with all of its points or with none.
   [[nodiscard]] bool hold(const geometry::Vec3& point_W) const;
 
  private:

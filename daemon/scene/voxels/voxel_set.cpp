@@ -6,7 +6,7 @@
 namespace camway::scene {
 namespace {
 
-/// Which bits of a row of eight, beginning with voxel `low`, lie in `range`.
+/// The bits of a row of eight voxels, beginning with voxel `low`, that lie in `range`.
 std::uint64_t row_in(const VoxelRange& range, std::int32_t low) {
   std::uint64_t bits = 0;
   for (std::int32_t i = 0; i < 8; ++i) {

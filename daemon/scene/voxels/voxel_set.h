@@ -12,50 +12,50 @@
 
 namespace camway::scene {
 
-/// A set of voxels of a grid, as bits in blocks of 8 x 8 x 8: a look-up costs one of a hash table,
-/// and neighbours share what they cost. A value type whose copies share what neither of them
-/// changes (`BlockMap`); const calls are safe from any thread.
+/// A set of voxels, stored as bits in blocks of 8 x 8 x 8. A look-up is one in a hash table, which
+/// neighbours can share. Copies share the regions that neither of them changes (`BlockMap`).
+/// A value type. Const calls are thread-safe.
 class VoxelSet {
  public:
-  /// Voxels from -kMostVoxels to kMostVoxels - 1 on each axis.
+  /// Voxels lie between -kMostVoxels and kMostVoxels - 1 on each axis.
   static constexpr std::int32_t kMostVoxels = std::int32_t{1} << 20;
 
-  /// Of a block: bit y * 8 + x of word z.
+  /// The voxels of a block: voxel (x, y, z) is bit y * 8 + x of word z.
   using Bits = std::array<std::uint64_t, 8>;
 
   /// The first and the last voxel on each axis.
   using Range = std::array<VoxelRange, 3>;
-  /// Of no voxels: what `extend` begins with.
+  /// The range without voxels, with which `extend` begins.
   static constexpr Range kNoVoxels{VoxelRange{kMostVoxels, -kMostVoxels},
                                    VoxelRange{kMostVoxels, -kMostVoxels},
                                    VoxelRange{kMostVoxels, -kMostVoxels}};
 
-  /// Whether it was not in the set. Precondition: within kMostVoxels.
+  /// Inserts a voxel; returns whether it was new. Requires a voxel within kMostVoxels.
   bool insert(const Voxel& voxel);
-  /// All voxels of the cube. Precondition: it is aligned to its size, and within kMostVoxels.
+  /// Inserts all voxels of a cube. Requires a cube aligned to its size and within kMostVoxels.
   void insert(const VoxelCube& cube);
 
   [[nodiscard]] bool contains(const Voxel& voxel) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::uint64_t memory_bytes() const { return blocks_.memory_bytes(); }
-  /// The same, without what it shares with `other`.
+  /// The part of `memory_bytes` that is not shared with `other`.
   [[nodiscard]] std::uint64_t memory_bytes_beside(const VoxelSet& other) const {
     return blocks_.memory_bytes_beside(other.blocks_);
   }
-  /// Of its voxels; kNoVoxels if it is empty.
+  /// The range of its voxels; kNoVoxels if it is empty.
   [[nodiscard]] Range bounds() const;
 
-  /// The voxels of a block, which `BlockKey` has the numbers of.
+  /// The voxels of the block with this `BlockKey`.
   [[nodiscard]] Bits block(std::uint64_t key) const;
-  /// Makes these the voxels of a block.
+  /// Replaces the voxels of a block.
   void set_block(std::uint64_t key, const Bits& bits);
-  /// Those of a block that lie in `range`.
+  /// The voxels of a block that lie in `range`.
   static Bits bits_in(const Range& range, std::uint64_t key);
-  /// Makes `range` hold these voxels of a block, too.
+  /// Extends `range` to contain the voxels `bits` of a block.
   static void extend(Range& range, std::uint64_t key, const Bits& bits);
 
-  /// Calls `visit` for every voxel, in an order that depends on the set only.
+  /// Calls `visit` for every voxel. The order depends on the set only.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for_each_block([&](const Voxel& low, const Bits& bits) {
@@ -68,7 +68,7 @@ class VoxelSet {
     });
   }
 
-  /// Calls `visit` for every block with its lowest voxel and its bits, in such an order. A
+  /// Calls `visit(lowest voxel, bits)` for every block, in an order that depends on the set only. A
   /// block may have no voxels.
   template <class Visit>
   void for_each_block(const Visit& visit) const {
@@ -76,11 +76,11 @@ class VoxelSet {
         [&](std::uint64_t key, const Bits& bits) { visit(BlockKey::low_of(key), bits); });
   }
 
-  /// Of all blocks, increasing.
+  /// The keys of all blocks, increasing.
   [[nodiscard]] std::vector<std::uint64_t> sorted_keys() const;
 
-  /// Calls `visit(key, old_bits, bits)` for every block that is another one than in `before`. Costs
-  /// what was changed since one of the two was a copy of the other.
+  /// Calls `visit(key, old_bits, bits)` for every block that differs from that in `before`. The
+  /// cost depends on the changes since one of the two sets was a copy of the other.
   template <class Visit>
   void for_each_difference(const VoxelSet& before, const Visit& visit) const {
     blocks_.for_each_unshared(before.blocks_,
@@ -100,13 +100,13 @@ class VoxelSet {
   std::uint64_t size_ = 0;
 };
 
-/// Puts voxels into a set, quickly where one is near the one before. For one thread; the set must
-/// outlive it, and nothing else change or copy it meanwhile.
+/// Inserts voxels into a set, quickly if each is near the one before. The set must outlive it, and
+/// nothing else may change or copy the set meanwhile. Not thread-safe.
 class VoxelMarker {
  public:
   explicit VoxelMarker(VoxelSet& set) : set_(set) {}
 
-  /// Both as those of the set. Precondition: within VoxelSet::kMostVoxels.
+  /// `contains` and `insert` as in `VoxelSet`. Require a voxel within VoxelSet::kMostVoxels.
   bool contains(const Voxel& voxel) { return (word_of(voxel) & bit_of(voxel)) != 0; }
   bool insert(const Voxel& voxel);
 
@@ -118,7 +118,7 @@ class VoxelMarker {
 
   VoxelSet& set_;
   std::uint64_t key_ = 0;
-  VoxelSet::Bits* bits_ = nullptr;  ///< of that block
+  VoxelSet::Bits* bits_ = nullptr;  ///< block `key_` of the set
 };
 
 }  // namespace camway::scene

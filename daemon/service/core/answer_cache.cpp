@@ -57,7 +57,8 @@ void AnswerCache::finish(const RequestKey& key, Pages pages) {
 }
 
 void AnswerCache::replace(const RequestKey& key, const RequestDigest& digest, Pages pages) {
-  if (find_or_begin(key, digest).known == Known::kRunning) return;
+  const Known known = find_or_begin(key, digest).known;
+  if (known == Known::kRunning || known == Known::kConflict) return;
   Entry& entry = entries_.find(key)->second;
   if (!entry.pages) {
     finish(key, std::move(pages));

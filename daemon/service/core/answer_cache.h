@@ -13,25 +13,26 @@
 
 namespace camway::service {
 
-/// Digest of a request's content: all but `utime` and how it was cut into pages. XXH3-128: it
-/// guards clients against their own mistakes, not the daemon against forgery.
+/// Digest of the content of a request, without `utime` and its division into pages. XXH3-128:
+/// protects clients from their own mistakes, not the daemon from forgery.
 using RequestDigest = std::array<std::uint64_t, 2>;
 RequestDigest digest_of(const plan_request_t& whole);
 
-/// Remembers which requests are being planned, and the answers to as many of the others as its
-/// limits allow, so that sending a request again is harmless and cheap. For one thread at a time.
+/// Remembers which requests are being planned and, within its limits, the answers to earlier ones,
+/// so that sending a request again is harmless and cheap.
+/// Not thread-safe.
 class AnswerCache {
  public:
   struct Limits {
     std::size_t max_answers = 4096;
-    std::size_t max_bytes = std::size_t{128} << 20;  ///< of encoded answers
+    std::size_t max_bytes = std::size_t{128} << 20;  ///< size of the encoded answers
   };
 
   enum class Known {
-    kNew,       ///< never seen or forgotten; it counts as being planned from now on
-    kRunning,   ///< is being planned
+    kNew,       ///< unknown or forgotten; counts as being planned from now on
+    kRunning,   ///< being planned
     kAnswered,  ///< `pages` is the answer
-    kConflict,  ///< the same ids were used for another content
+    kConflict,  ///< the ids belong to a request with other content
   };
   struct Found {
     Known known = Known::kNew;
@@ -44,24 +45,24 @@ class AnswerCache {
 
   Found find_or_begin(const RequestKey& key, const RequestDigest& digest);
 
-  /// The answer under these ids, whatever was asked; null if there is none.
+  /// Returns the answer to the request with these ids, whatever its content; null if there is none.
   [[nodiscard]] Pages find(const RequestKey& key);
 
-  /// Keeps the answer to a request that was being planned; the answers that were longest not asked
-  /// for make room.
+  /// Keeps the answer to a request that was being planned. To make room, forgets the answers that
+  /// were not asked for during the longest time.
   void finish(const RequestKey& key, Pages pages);
 
-  /// Another answer in the place of one that is known or was forgotten; nothing if the request is
-  /// being planned.
+  /// Replaces the answer to a request, or adds it if it was forgotten; does nothing while the
+  /// request is being planned.
   void replace(const RequestKey& key, const RequestDigest& digest, Pages pages);
 
-  /// The path of that answer is watched from now on.
+  /// Records that the path of this answer is watched.
   void mark_watched(const RequestKey& key);
 
   /// Forgets the answer, so that the request counts as new.
   void forget_answer(const RequestKey& key);
 
-  /// Forgets a request that was not planned after all.
+  /// Forgets a request that was not planned in the end.
   void forget(const RequestKey& key);
 
   [[nodiscard]] std::size_t answers() const { return by_age_.size(); }
@@ -79,7 +80,7 @@ class AnswerCache {
 
   Limits limits_;
   std::map<RequestKey, Entry> entries_;
-  std::list<RequestKey> by_age_;  ///< answered ones, longest not asked for first
+  std::list<RequestKey> by_age_;  ///< answered requests, longest not asked for first
   std::size_t bytes_ = 0;
 };
 

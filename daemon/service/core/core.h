@@ -25,33 +25,33 @@
 
 namespace camway::service {
 
-/// `planning::plan`, or a stand-in for it in tests. Called from several threads at a time.
+/// `planning::plan`, or a substitute in tests. Called on several threads at a time.
 using Planner = std::function<planning::PlanResult(
     const scene::Snapshot&, const planning::PlanRequest&, const collision::Deadline&)>;
 
-/// Microseconds since 1970.
+/// Returns the time in microseconds since 1970.
 std::int64_t utime_now();
 
-/// What the services for the different requests share. Owned by `Service`; all but `mailbox`,
-/// `workers`, `scenes` and `log` belong to the loop thread.
+/// State that all services share. Owned by `Service`. All members except `mailbox`, `workers`,
+/// `scenes` and `log` belong to the loop thread.
 struct Core {
-  Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-       CoreConfig core_config, std::shared_ptr<Log> service_log);
+  Core(Transport& inner_transport, const scene::SceneStore& scene_store, CoreConfig core_config,
+       std::shared_ptr<Log> service_log);
 
-  /// Publishes CAMWAY_ERROR: `message` came in on `channel` and there is nobody to answer to.
+  /// Publishes CAMWAY_ERROR about `message` on `channel`, whose sender is not known.
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
                            std::string_view reason);
 
-  /// Queues `job`; what is not run for it is abandoned here and now.
+  /// Queues `job`. Abandons, before it returns, the job that the queue refused or dropped.
   void submit(Job job);
 
-  /// Abandons what waited for too long.
+  /// Abandons the jobs that waited for too long.
   void expire_jobs();
 
-  /// For whoever asked for a job that is refused for want of room or time to live.
+  /// Returns the message to the sender of a job that is refused.
   [[nodiscard]] std::string refusal_text(Refusal why) const;
 
-  /// Counts and logs a message that could not be read. Whether its sender may be told.
+  /// Counts and logs a message that could not be read. Returns whether its sender may be answered.
   bool note_malformed(std::string_view channel, std::size_t size, std::string_view reason);
 
   const CoreConfig config;

@@ -9,7 +9,7 @@
 
 namespace camway::service {
 
-/// Answers by status; a status of a number that has no place is not counted.
+/// Numbers of answers by status. A status beyond the range is not counted.
 class AnswerCounts {
  public:
   static constexpr std::size_t kStatuses = 16;
@@ -24,8 +24,8 @@ class AnswerCounts {
   std::array<std::int64_t, kStatuses> counts_{};
 };
 
-/// What was done since the start; `status_t` says what each counts. Written and read by the loop
-/// thread only.
+/// Numbers since the start; `status_t` describes each.
+/// Not thread-safe: for the loop thread.
 struct Counters {
   std::int64_t answered = 0;
   std::int64_t repeated = 0;
@@ -36,7 +36,7 @@ struct Counters {
   std::int64_t answer_pages_asked_again = 0;
   std::int64_t scene_changes = 0;
   std::int64_t broken_paths = 0;
-  std::int32_t watched_paths = 0;  ///< now
+  std::int32_t watched_paths = 0;  ///< present number
   AnswerCounts plan_answers;
   AnswerCounts occupancy_answers;
   AnswerCounts scene_answers;

@@ -10,11 +10,11 @@
 
 namespace camway::service {
 
-/// How long something took, counted in buckets of a logarithmic scale: constant memory, whatever
-/// comes. For one thread at a time.
+/// Histogram of durations with buckets on a logarithmic scale. Takes constant memory.
+/// Not thread-safe.
 class LatencyHistogram {
  public:
-  /// Takes in a duration; what is negative or not a number counts as 0.
+  /// Adds a duration; a negative one or NaN counts as 0.
   void add(double seconds);
 
   [[nodiscard]] latency_t to_wire() const;

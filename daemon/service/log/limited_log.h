@@ -13,10 +13,10 @@
 
 namespace camway::service {
 
-/// Lines of one kind that somebody else can provoke, limited by a `TokenBucket` so that he cannot
-/// fill the disk: so many at once, then so many a second. What is left out is counted, and the
-/// number said when there is room again, but not in each pause of a flood: at most every
-/// `kTellEvery`. For one thread at a time.
+/// Log for lines of one kind that clients can provoke, limited by a `TokenBucket` so that they
+/// cannot fill the disk. Lines beyond the limit are counted; their number is logged when the limit
+/// permits a line again, but at most every `kTellEvery`.
+/// Not thread-safe.
 class LimitedLog {
  public:
   using Clock = std::chrono::steady_clock;
@@ -27,7 +27,7 @@ class LimitedLog {
     double burst_lines = 50.0;  ///< [Limit: 1 <= value]
   };
 
-  /// `kind` is what the lines are called where some were left out: "answers".
+  /// `kind` names the lines in the report of those left out: "answers".
   LimitedLog(std::shared_ptr<Log> log, LogLevel level, std::string kind, const Limits& limits)
       : log_(std::move(log)),
         level_(level),
@@ -37,8 +37,8 @@ class LimitedLog {
   /// Logs a line, or only counts it.
   void write(std::string_view event, LogFields facts = {}, Clock::time_point now = Clock::now());
 
-  /// Says what was left out since that was last said, if anything was, it is time to, and there is
-  /// room. To be called now and then, for there may be no next line.
+  /// Logs how many lines were left out since the last report, if there are any, a report is due and
+  /// the limit permits a line. To be called now and then, since no further line may follow.
   void tell_left_out(Clock::time_point now = Clock::now());
 
  private:
@@ -47,23 +47,23 @@ class LimitedLog {
   std::string kind_;
   TokenBucket bucket_;
   std::int64_t left_out_ = 0;
-  Clock::time_point tell_at_ = Clock::time_point::min();  ///< not before
+  Clock::time_point tell_at_ = Clock::time_point::min();  ///< earliest time of the next report
 };
 
-/// The lines of the service that clients can provoke, each kind within the same limits of its own.
+/// The lines of the service that clients can provoke; each kind has the same limits, for itself.
 struct LimitedLogs {
   LimitedLogs(const std::shared_ptr<Log>& log, const LimitedLog::Limits& limits);
 
-  /// Of all kinds; see there.
+  /// Calls `LimitedLog::tell_left_out` for all kinds.
   void tell_left_out(LimitedLog::Clock::time_point now);
 
-  LimitedLog answers;    ///< of plan requests
-  LimitedLog occupancy;  ///< answers about it
-  LimitedLog scenes;     ///< what was done to them
-  LimitedLog watches;    ///< watched paths that collide or are not watched any more
+  LimitedLog answers;    ///< answers to plan requests
+  LimitedLog occupancy;  ///< answers to occupancy queries
+  LimitedLog scenes;     ///< answers to scene requests
+  LimitedLog watches;    ///< watched paths that collide or are no longer watched
   LimitedLog malformed;  ///< messages that could not be read
   LimitedLog refused;    ///< requests for which there was no room
-  LimitedLog trouble;    ///< of the daemon itself, which may come from too much work
+  LimitedLog trouble;    ///< faults of the daemon itself, perhaps from too much work
 };
 
 }  // namespace camway::service

@@ -17,7 +17,7 @@ namespace camway::service {
 namespace {
 
 constexpr char kTextPattern[] = "[%Y-%m-%d %H:%M:%S.%e] [camwayd] [%l] %v";
-/// The rest of the object is what is logged.
+/// The line itself is the rest of the object.
 constexpr char kJsonPattern[] = R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l",%v)";
 
 spdlog::level::level_enum library_level(LogLevel level) {
@@ -46,14 +46,14 @@ bool needs_quotes(char c) {
   return is_control(c) || is_beyond_ascii(c) || c == ' ' || c == '"' || c == '=' || c == '\\';
 }
 
-/// What a character may be that has its place in a log: no control (of Latin-1, U+0080 and on), and
-/// none that begins a line or turns the direction of writing.
+/// Returns whether a character beyond ASCII may stand in the log: no control of Latin-1 (U+0080 and
+/// on), no line separator, and none that changes the direction of writing.
 bool is_shown(char32_t c) {
   return c >= 0xA0 && !(c >= 0x2028 && c <= 0x202E) && !(c >= 0x2066 && c <= 0x2069);
 }
 
-/// The bytes of the character beyond ASCII that `text` begins with, if it is well-formed UTF-8 and
-/// to be shown; else none.
+/// Returns the bytes of the character beyond ASCII that `text` begins with; nothing if it is not
+/// well-formed UTF-8 or not to be shown.
 std::string_view shown_character(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
@@ -70,8 +70,8 @@ std::string_view shown_character(std::string_view text) {
   return is_right && is_shown(character) ? text.substr(0, size) : std::string_view{};
 }
 
-/// Text without control characters and bytes that are no text; in quotes, and escaped as in C, if
-/// it could be taken for several words.
+/// Returns `text` without control characters and bytes that are no text; in quotes, and escaped as
+/// in C, if it could be taken for several words.
 std::string as_value(std::string_view text) {
   if (!text.empty() && std::ranges::none_of(text, needs_quotes)) return std::string(text);
   std::string value = "\"";
@@ -114,8 +114,8 @@ std::string json_line(std::string_view event, LogFields facts) {
   return object.dump(-1, ' ', kEscapeBeyondAscii, Json::error_handler_t::replace).substr(1);
 }
 
-/// Writes each line at once. A line that found no room (a full disk) is lost, but not those after
-/// it.
+/// Writes each line at once. A line that cannot be written (a full disk) is lost, but later ones
+/// are not.
 class StreamSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit StreamSink(std::ostream& out) : out_(out) {}

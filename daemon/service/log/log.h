@@ -15,12 +15,12 @@ namespace camway::service {
 enum class LogLevel : std::uint8_t { kTrace, kDebug, kInfo, kWarn, kError, kOff };
 enum class LogFormat : std::uint8_t { kText, kJson };
 
-/// What `--log-level` and the configuration take, in the order of the values.
+/// Names for `--log-level` and the configuration, in the order of the values.
 inline constexpr std::array<std::string_view, 6> kLogLevels{"trace", "debug", "info",
                                                             "warn",  "error", "off"};
 inline constexpr std::array<std::string_view, 2> kLogFormats{"text", "json"};
 
-/// A fact of a line of the log. It does not keep its texts.
+/// A key with a value in a line of the log. Does not copy its texts.
 struct LogField {
   using Value = std::variant<std::string_view, std::int64_t, double>;
 
@@ -35,16 +35,17 @@ struct LogField {
 };
 using LogFields = std::initializer_list<LogField>;
 
-/// The daemon's log: a line for each event, with facts that a machine can read. The only place that
-/// knows the logging library (spdlog). From any thread; nothing here throws.
+/// The daemon's log: one line for each event, with fields that a machine can read. The only place
+/// that sees the logging library (spdlog). Nothing here throws.
+/// Thread-safe.
 ///
 /// As text: `[time] [camwayd] [info] answered client=a request=7 message="no way"`. As JSON: an
-/// object on each line with `time`, `level`, `event` and the facts, of which none has such a name.
-/// Control characters and bytes that are no UTF-8 never reach the log as they are (`\x1b`), so
-/// nobody can forge a line, or have a reader of logs take one for binary data.
+/// object on each line with `time`, `level`, `event` and the fields, none of which has such a name.
+/// Control characters and bytes that are not UTF-8 are written in another form (`\x1b`), so that
+/// nobody can forge a line, or make a reader of logs take the log for binary data.
 class Log {
  public:
-  /// `out` must outlive this, and be written to by nobody else.
+  /// `out` must outlive this, and nothing else may write to it.
   Log(std::ostream& out, LogFormat format, LogLevel level);
   ~Log();
   Log(const Log&) = delete;
@@ -61,7 +62,7 @@ class Log {
     write(LogLevel::kError, event, facts);
   }
 
-  /// Whether lines of that level are written.
+  /// Returns whether lines of that level are written.
   [[nodiscard]] bool writes(LogLevel level) const;
   void set_level(LogLevel level);
   [[nodiscard]] LogLevel level() const;

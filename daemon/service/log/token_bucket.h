@@ -6,16 +6,16 @@
 
 namespace camway::service {
 
-/// Lets something happen so many times at once, then so many times a second. For one thread at a
-/// time.
+/// Limits a rate: permits a burst at once, then a number of events per second.
+/// Not thread-safe.
 class TokenBucket {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// It is full at first. [Limit: 0 < per_s, 1 <= burst]
+  /// The bucket begins full. [Limit: 0 < per_s, 1 <= burst]
   TokenBucket(double per_s, double burst) : per_s_(per_s), burst_(burst), tokens_(burst) {}
 
-  /// Whether it may happen now; then it counts as having happened.
+  /// Returns whether an event is permitted now, and counts it if so.
   bool take(Clock::time_point now) {
     const std::chrono::duration<double> passed = now - filled_;
     if (passed.count() > 0.0) {

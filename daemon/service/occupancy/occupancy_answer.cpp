@@ -28,7 +28,7 @@ bool finite(const Numbers& numbers, std::size_t count) {
                      [](double number) { return std::isfinite(number); });
 }
 
-/// Reason against one element, or nothing.
+/// Each returns an error about one element, or an empty text.
 std::string_view point_fault(const Numbers& point) {
   return finite(point, 3) ? "" : "is not finite";
 }
@@ -70,7 +70,8 @@ std::string list_fault(std::string_view name, const std::vector<Numbers>& list, 
   return {};
 }
 
-/// Asks the queries of a list in turn, until the deadline strikes; how many were answered.
+/// Answers the queries of a list in turn, until the deadline strikes. Returns how many were
+/// answered.
 template <class Answer, class Ask>
 std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer>& answers,
                          const collision::Deadline& deadline, const Ask& ask) {
@@ -82,7 +83,7 @@ std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer
   return static_cast<std::int32_t>(answers.size());
 }
 
-/// The wire's word for "nothing found".
+/// On the wire -1 means that nothing was found.
 double wire_distance(const std::optional<double>& distance_m) { return distance_m.value_or(-1.0); }
 
 void answer_on(const scene::OccupancyMirror& map, const occupancy_request_t& request,

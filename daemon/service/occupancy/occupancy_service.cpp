@@ -16,7 +16,7 @@ namespace {
 
 using Response = occupancy_response_t;
 
-/// The answer of the map, whatever happens.
+/// Returns the answer of the map. Does not throw.
 Response answer_of(const scene::Snapshot& snapshot, const occupancy_request_t& request,
                    const collision::Deadline& deadline) {
   try {
@@ -31,7 +31,7 @@ RequestKey key_of(const occupancy_request_t& request) {
   return {request.client_id, request.request_id};
 }
 
-/// Whether both ask for the same; `utime` does not count.
+/// Returns whether both ask for the same; `utime` does not count.
 bool same(const occupancy_request_t& a, const occupancy_request_t& b) {
   return a.scene == b.scene && a.deadline_s == b.deadline_s && a.points_m == b.points_m &&
          a.boxes_m == b.boxes_m && a.spheres_m == b.spheres_m && a.rays_m == b.rays_m &&
@@ -75,7 +75,7 @@ void OccupancyService::on_malformed(const std::string& channel,
 void OccupancyService::on_message(std::span<const std::uint8_t> message) {
   auto request = read<occupancy_request_t>(core_.channels.occupancy_request(), message);
   if (!request) return;
-  // No scene of ours has a name with control characters, so nothing is lost.
+  // No scene has a name with control characters, so nothing is lost.
   request->scene = wire::printable(request->scene);
   on_request(std::make_shared<const occupancy_request_t>(std::move(*request)));
 }
@@ -92,7 +92,8 @@ void OccupancyService::on_cancel(std::span<const std::uint8_t> message) {
                                 "the daemon knows no such request"));
     return;
   }
-  // A worker that is at it looks up before its next query; one that waits ends when its turn comes.
+  // A worker that is at it checks before its next query; a batch that waits ends when its turn
+  // comes.
   flight->second.stop.request_stop();
   const Request called_off = flight->second.request;
   finish(called_off, plain_occupancy_answer(*called_off, Response::STATUS_CANCELLED,

@@ -17,18 +17,19 @@
 
 namespace camway::service {
 
-/// Answers batches of occupancy queries. The loop thread calls it; workers ask the map. Nothing is
-/// cached: the map never changes under a revision and asking it again costs little, so a repeated
-/// request gets the same lists. Deadlines run from the receipt. One that is sent again while it
-/// waits or is being answered changes nothing.
+/// Answers batches of occupancy queries. Workers query the map; all else runs on the loop thread.
+/// Nothing is cached: the map of a revision never changes and querying it again costs little, so a
+/// repeated request gets equal lists. Deadlines count from the receipt. A batch that is sent again
+/// while it waits or is being answered is ignored.
+/// Not thread-safe: for the loop thread.
 class OccupancyService {
  public:
-  /// `core` must outlive the service; `deadline`: of batches.
+  /// `core` must outlive the service; `deadline` applies to batches.
   OccupancyService(Core& core, const DeadlineLimits& deadline) : core_(core), deadline_(deadline) {}
 
-  /// A message on the occupancy request channel. Throws only for want of memory.
+  /// Handles a message on the occupancy request channel. Throws only if memory runs out.
   void on_message(std::span<const std::uint8_t> message);
-  /// One on the channel that calls them off. Throws likewise.
+  /// Handles a message on the channel that cancels batches. Throws only if memory runs out.
   void on_cancel(std::span<const std::uint8_t> message);
 
  private:
@@ -47,7 +48,7 @@ class OccupancyService {
   void on_request(const Request& request);
   void begin(const Request& request, std::shared_ptr<const scene::Snapshot> snapshot);
   void abandon(const Request& request, Refusal why);
-  /// Sends the answer to a batch, unless that was called off.
+  /// Sends the answer to a batch, unless that was cancelled.
   void finish(const Request& request, occupancy_response_t answer);
   void send(occupancy_response_t answer);
 

@@ -24,7 +24,7 @@ std::int8_t wire_stage(collision::Progress::Stage stage) {
   return plan_progress_t::WAITING;
 }
 
-/// A period beyond that is as good as never, and would overflow the clock.
+/// A longer period is as good as none, and would overflow the clock.
 constexpr double kLongestPeriod_s = 1e6;
 
 }  // namespace

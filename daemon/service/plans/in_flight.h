@@ -17,29 +17,30 @@
 
 namespace camway::service {
 
-/// The plan requests that wait or are being planned: who may call them off, and who wants to hear
-/// how far they are. For one thread at a time.
+/// The plan requests that wait or are being planned, with what is needed to cancel them and to
+/// report their progress.
+/// Not thread-safe.
 class InFlight {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// More often than this nobody is told.
+  /// Shortest period of progress reports.
   static constexpr std::chrono::milliseconds kLeastPeriod{100};
 
-  /// From now on the request is in flight. Its deadline, `deadline_s` from now, hears of `cancel`
-  /// and hands on how far planning is. `progress_period_s` is how often to say so; not above 0:
-  /// never.
+  /// Adds a request. Returns its deadline, `deadline_s` from now, which `cancel` ends and to which
+  /// planning reports its progress. `progress_period_s` is the period of progress reports; none if
+  /// it is not above 0.
   collision::Deadline begin(const RequestKey& key, double deadline_s, double progress_period_s);
 
-  /// Tells planning to stop; false if no such request is in flight.
+  /// Tells planning to stop. Returns false if no such request is in flight.
   bool cancel(const RequestKey& key);
   [[nodiscard]] bool cancelled(const RequestKey& key) const;
 
   void end(const RequestKey& key);
 
-  /// How far those are who want to be told by now, all but `requests_ahead`.
+  /// Returns the progress reports that are due by `now`, complete except for `requests_ahead`.
   std::vector<plan_progress_t> take_due(Clock::time_point now);
-  /// When `take_due` has something next; the end of time if nobody wants to be told.
+  /// Returns the time of the next report; the end of time if none is wanted.
   [[nodiscard]] Clock::time_point next_due() const;
 
  private:

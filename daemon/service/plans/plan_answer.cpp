@@ -15,14 +15,14 @@
 namespace camway::service {
 namespace {
 
-/// What the sender should know beside the answer: behind its message, where it is read.
+/// Appends warnings to the message, where the sender reads them.
 void append_warnings(const scene::ImportReport& report, const planning::PlanRequest& request,
                      planning::PlanResult& result) {
   const auto append = [&](const std::string& warning) {
     result.message += "; warning: " + warning;
   };
   const bool is_planned = result.status != planning::Status::kInvalid;
-  // Cameras that are turned wrongly often collide where they are.
+  // Cameras with wrong orientations often collide at their keyframes.
   if (is_planned || !result.keyframe_faults.empty()) {
     if (const auto warning = planning::quaternion_order_warning(request)) append(*warning);
   }

@@ -13,26 +13,26 @@
 #include "daemon/scene/snapshot/snapshot.h"
 #include "daemon/service/core/core.h"
 
-/// From a whole request to the messages of its answer. Functions without state, safe from any
-/// thread.
+/// From a complete request to the messages of its answer. Functions without state.
+/// Thread-safe.
 namespace camway::service {
 
-/// `snapshot` may be null: the answer is about no scene then.
+/// Returns the header of an answer; with a null `snapshot`, of one that concerns no scene.
 AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
 
-/// The answer of `planner`, whatever happens: a planner that throws is an internal error.
+/// Returns the answer of `planner`. Does not throw: an exception of the planner is an internal
+/// error.
 plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                           const plan_request_t& wire, const DeadlineLimits& limits,
                           const collision::Deadline& deadline);
 
-/// What of an answer can be watched: null unless the request asks for that and the answer proves a
-/// path.
+/// Returns the path of an answer for watching; null unless the request asks for that and the answer
+/// proves a path.
 std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
                                                             const plan_response_t& answer,
                                                             const DeadlineLimits& limits);
 
-/// Encodes `answer`, or what takes its place: an answer that says that it has more than
-/// `most_pages`.
+/// Encodes `answer`. If it has more than `most_pages`, replaces it by an answer that says so.
 Pages encode_answer(plan_response_t& answer, int most_pages);
 
 }  // namespace camway::service

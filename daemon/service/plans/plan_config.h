@@ -10,13 +10,13 @@
 
 namespace camway::service {
 
-/// How plan requests are answered.
+/// Configuration of plan requests.
 struct PlanConfig {
-  /// Bytes of the plan requests that wait or are planned.
+  /// Size of the plan requests that wait or are being planned.
   std::size_t request_bytes = std::size_t{256} << 20;
-  /// Of an answer; `queue.answer_pages` [Limit: 1 <= value <= wire::kMaxResponsePages]
+  /// Pages of an answer; `queue.answer_pages` [Limit: 1 <= value <= wire::kMaxResponsePages]
   int answer_pages = wire::kMaxResponsePages;
-  DeadlineLimits deadline;  ///< of plan requests
+  DeadlineLimits deadline;  ///< deadlines of plan requests
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;
   PageAssembly<plan_request_t>::Limits assembly;

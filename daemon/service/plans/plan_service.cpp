@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kMillisecondsPerSecond = 1e3;
 
-/// What is wrong with what a request says of its own handling, which planning does not see.
+/// Checks the members that concern the handling of a request, which planning does not see. Returns
+/// an error or an empty text.
 std::string fault_of_handling(const plan_request_t& request) {
   for (const auto& [name, value] : {std::pair{"deadline_s", request.deadline_s},
                                     std::pair{"progress_period_s", request.progress_period_s},
@@ -32,7 +33,7 @@ std::string fault_of_handling(const plan_request_t& request) {
   return {};
 }
 
-/// Precondition: it has no `fault_of_handling`.
+/// Requires that `fault_of_handling` finds nothing.
 Priority priority_of(const plan_request_t& request) {
   switch (request.priority) {
     case plan_request_t::LOW:
@@ -44,7 +45,7 @@ Priority priority_of(const plan_request_t& request) {
   }
 }
 
-/// Of watched paths, so many are planned again or wait for that.
+/// Watched paths, per worker, that are planned again or wait for that.
 constexpr std::size_t kReplansPerWorker = 2;
 
 Pages one_page(Bytes bytes) {
@@ -53,17 +54,17 @@ Pages one_page(Bytes bytes) {
 
 }  // namespace
 
-/// A request on its way to and through a worker.
+/// A request that waits for a worker or is being planned.
 struct PlanService::Pending {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
   std::shared_ptr<const scene::Snapshot> snapshot;
-  std::size_t bytes;  ///< of the request
+  std::size_t bytes;  ///< size of the request
   double deadline_s;
   collision::Deadline deadline;
 };
 
-/// A watched path that collides, or for which there may be a better one, on its way likewise.
+/// A watched path that collides, or for which there may be a better one, and is planned again.
 struct PlanService::Replan {
   RequestKey key;
   std::shared_ptr<const plan_request_t> request;
@@ -71,7 +72,7 @@ struct PlanService::Replan {
   bool for_offer;
 };
 
-/// What came of it.
+/// Result of planning it again.
 struct PlanService::Replanned {
   plan_response_t answer;
   Pages pages;
@@ -115,7 +116,7 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
   const std::string channel = core_.channels.plan_request();
   std::optional<plan_request_t> page = read<plan_request_t>(channel, message);
   if (!page) return;
-  // No scene or method of ours has a name with control characters, so nothing is lost.
+  // No scene or method has a name with control characters, so nothing is lost.
   page->scene = wire::printable(page->scene);
   page->method = wire::printable(page->method);
   PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
@@ -135,7 +136,7 @@ void PlanService::on_cancel(std::span<const std::uint8_t> message) {
   if (!cancel) return;
   const RequestKey key{cancel->client_id, cancel->request_id};
   if (in_flight_.cancel(key)) {
-    // One that is being planned ends by itself.
+    // A request that is being planned ends by itself.
     if (const std::optional<Job> waiting = core_.workers.take(key.client_id, key.request_id)) {
       waiting->abandon(Refusal::kCancelled);
     }
@@ -214,7 +215,7 @@ void PlanService::take(plan_request_t request) {
       return;
     case AnswerCache::Known::kAnswered:
       if (found.was_watched && !watches_.renew(key, Clock::now())) {
-        // Its lease is over, so the answer is as old as that.
+        // The lease is over, so the answer may be out of date.
         cache_.forget_answer(key);
         take(std::move(request));
         return;
@@ -268,7 +269,7 @@ void PlanService::begin(std::shared_ptr<const plan_request_t> request, const Req
   core_.submit(std::move(job));
 }
 
-// On a worker: touches nothing of the service but the planner and what is made for many threads.
+// Runs on a worker: uses nothing of the service but the planner and thread-safe members.
 void PlanService::run(const Pending& pending) {
   if (pending.deadline.passed()) {
     const Refusal why = pending.deadline.stopped() ? Refusal::kCancelled : Refusal::kExpired;
@@ -276,8 +277,8 @@ void PlanService::run(const Pending& pending) {
     return;
   }
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
-  auto answer = std::make_shared<plan_response_t>(answer_of(
-      planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
+  auto answer = std::make_shared<plan_response_t>(
+      answer_of(planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
   auto path = watchable_path(*pending.request, *answer, config_.deadline);
   Pages pages = encode_answer(*answer, config_.answer_pages);
   core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
@@ -321,8 +322,8 @@ void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::
   if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
 }
 
-// Few at a time: they must neither fill the queue nor all be planned in a scene that has changed
-// again since.
+// Plans a few at a time: they must not fill the queue, nor all be planned in a scene that has
+// changed again by then.
 void PlanService::plan_broken(Clock::time_point now) {
   const std::size_t most = kReplansPerWorker * static_cast<std::size_t>(core_.config.workers);
   if (replanning_ >= most) return;
@@ -350,7 +351,7 @@ void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
   core_.submit(std::move(job));
 }
 
-// On a worker.
+// Runs on a worker.
 void PlanService::run_again(const Replan& replan) {
   auto done = std::make_shared<Replanned>();
   done->snapshot = core_.scenes.find(replan.request->scene);
@@ -394,8 +395,8 @@ void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   }
 }
 
-// The client has its pages, but may have lost them since, and one that asks for the request gets
-// them.
+// Sends the pages although the client had them with the offer: it may have lost them since, and a
+// client that repeats the request gets them too.
 void PlanService::put_in_force(Watches::Taken taken, Clock::time_point now) {
   const RequestKey& key = taken.answer.key;
   cache_.replace(key, digest_of(*taken.answer.request), taken.pages);

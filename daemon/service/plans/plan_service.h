@@ -16,13 +16,14 @@
 
 namespace camway::service {
 
-/// Answers plan requests. The loop thread calls it; workers only run the planner and encode.
+/// Answers plan requests. Workers run the planner and encode; all else runs on the loop thread.
 ///
-/// A request takes this way: bytes checked, decoded, pages joined, known ones answered from the
-/// cache or left alone while they are being planned, scene looked up, queued, planned, encoded,
-/// cached, sent. Deadlines run from when all pages are there. All answers to requests that were
-/// read are cached but `overloaded`, so that the same request can be sent again later, and
-/// conflicts, whose ids belong to another request, and what is refused before it is looked up.
+/// Stages of a request: bytes checked, decoded, pages joined, looked up in the cache (answered from
+/// there, or ignored while it is being planned), scene looked up, queued, planned, encoded, cached,
+/// sent. Deadlines count from the arrival of the last page. All answers to requests that were read
+/// are cached, except `overloaded`, so that the same request can be sent again later; conflicts,
+/// whose ids belong to another request; and refusals before the look-up.
+/// Not thread-safe: for the loop thread.
 class PlanService {
  public:
   using Clock = std::chrono::steady_clock;
@@ -36,16 +37,16 @@ class PlanService {
         pages_(config.assembly),
         cache_(core.config.cache) {}
 
-  // Messages on the channels for plan requests, for calling them off, for pages of answers that did
-  // not come. They throw only for want of memory.
+  // Handlers of the channels for plan requests, for cancelling them, and for missing pages of
+  // answers. They throw only if memory runs out.
   void on_request(std::span<const std::uint8_t> message);
   void on_cancel(std::span<const std::uint8_t> message);
   void on_missing_pages(std::span<const std::uint8_t> message);
 
-  /// Sends what is due by now: how far planning is, and questions for pages of requests. Has
-  /// watched paths planned again that collide.
+  /// Sends progress reports and questions for missing pages that are due by `now`. Has watched
+  /// paths that collide planned again.
   void tick(Clock::time_point now);
-  /// When `tick` has something to do next; the end of time if never.
+  /// Returns when `tick` is due next; the end of time if never.
   [[nodiscard]] Clock::time_point next_tick() const;
 
  private:
@@ -64,7 +65,7 @@ class PlanService {
   void finish(const Pending& pending, const plan_response_t& answer, Pages pages);
   void finish_plainly(const Pending& pending, std::int32_t status, std::string_view message);
   void abandon(const Pending& pending, Refusal why);
-  /// Answers that there is no room; a request that is sent again is as good as new.
+  /// Answers that there is no room, and forgets the request, so that it can be sent again.
   void refuse(const plan_request_t& request, const std::string& message);
   void answer_uncached(const plan_request_t& request, std::int32_t status,
                        std::string_view message);
@@ -87,7 +88,7 @@ class PlanService {
   PageAssembly<plan_request_t> pages_;
   AnswerCache cache_;
   InFlight in_flight_;
-  std::size_t bytes_ = 0;       ///< of the requests in flight
+  std::size_t bytes_ = 0;       ///< size of the requests in flight
   std::size_t replanning_ = 0;  ///< watched paths that wait for a worker or are being planned
 };
 

@@ -7,7 +7,7 @@
 namespace camway::service {
 namespace {
 
-/// No job is free, so that clients whose jobs take no time to speak of still take turns.
+/// Every job is charged something, so that clients with very short jobs take turns too.
 constexpr double kLeastCharge_s = 1e-4;
 
 double weight_of(Priority priority) {
@@ -118,7 +118,7 @@ std::optional<std::size_t> FairQueue::ahead_of(const std::string& client, std::i
   const auto found =
       std::ranges::find_if(waiting, [id](const auto& place) { return place.second.job.id == id; });
   if (found == waiting.end()) return std::nullopt;
-  // Every other client has one turn for each of this one's.
+  // Every other client has one turn for each turn of this one.
   const auto before = static_cast<std::size_t>(std::distance(waiting.begin(), found));
   std::size_t ahead = before;
   for (const auto& [name, other] : clients_) {
@@ -141,7 +141,7 @@ FairQueue::Clients::iterator FairQueue::find_or_begin(const std::string& name) {
     client.turn = ++next_number_;
     client.is_newcomer = !known_.contains(name);
   }
-  // Who asked for nothing has no claim to make up for it now.
+  // A client that was idle has no claim to the time that it did not use.
   if (client.waiting.empty() && client.running == 0) {
     unlink(position);
     client.used_s = std::max(client.used_s, now_s_);
@@ -188,7 +188,7 @@ std::optional<FairQueue::Clients::iterator> FairQueue::crowd() {
     const Clients::iterator client = clients_.find(std::get<std::string>(turn));
     const std::size_t waiting = client->second.waiting.size();
     jobs += waiting;
-    // Of those who have as many, who is last in turn.
+    // Among those with equally many, the last in turn.
     if (longest == clients_.end() || waiting >= longest->second.waiting.size()) longest = client;
   }
   return 2 * jobs > limits_.jobs ? std::optional(longest) : std::nullopt;
@@ -223,8 +223,8 @@ Job FairQueue::take(Clients::iterator client, std::map<Place, Waiting>::iterator
   return job;
 }
 
-/// Before anything changes that a client is sorted by; `link` puts it where it belongs then, which
-/// may be nowhere: the iterator is not valid afterwards.
+/// Removes a client from the sorted sets. Required before any change of the values that these sort
+/// by. `link` inserts it again, or erases it: then the iterator is not valid any more.
 void FairQueue::unlink(Clients::iterator client) {
   const Turn turn{client->second.used_s, client->second.turn, client->first};
   ready_.erase(turn);

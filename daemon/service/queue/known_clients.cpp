@@ -12,7 +12,7 @@ void KnownClients::note_served(const std::string& id) {
     half(false).push_front(id);
     place.position = half(false).begin();
   } else {
-    // From whichever half it is in to the front of the second; the iterator stays what it is.
+    // From either half to the front of the second; the iterator stays valid.
     half(true).splice(half(true).begin(), half(place.again), place.position);
     place.again = true;
   }

@@ -9,10 +9,11 @@
 
 namespace camway::service {
 
-/// The ids of clients that were served, as many as there is room for: in one half those that were
-/// served once, in the other those that were served again since. So whoever invents ids makes only
-/// those forgotten that are as new as his. In each half the oldest goes first; out of the second
-/// half it goes back to the first (segmented LRU; Karedla, Love and Wherry, 1994). For one thread.
+/// The ids of clients that were served, within a limit: one half for clients that were served once,
+/// the other for clients that were served again since. So a client that invents ids displaces only
+/// ids that are as new as these. Each half drops its oldest id; one from the second half returns to
+/// the first (segmented LRU; Karedla, Love and Wherry, 1994).
+/// Not thread-safe.
 class KnownClients {
  public:
   /// [Limit: 2 <= most]
@@ -23,7 +24,7 @@ class KnownClients {
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 
  private:
-  using Ids = std::list<std::string>;  ///< the newest first
+  using Ids = std::list<std::string>;  ///< newest first
   struct Place {
     bool again = false;
     Ids::iterator position;

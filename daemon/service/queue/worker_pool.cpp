@@ -81,14 +81,14 @@ void WorkerPool::work() {
     changed_.wait(lock, [this] { return closed_ || queue_.can_begin(); });
     if (queue_.empty()) return;
     FairQueue::Begun begun = queue_.pop();
-    // The end of a job may let two begin: the next of its strand, and another of its client.
+    // The end of a job may permit two others: the next of its strand, and one of its client.
     if (queue_.can_begin()) changed_.notify_one();
     const Job::Clock::time_point start = Job::Clock::now();
     const auto mark = begun_.insert(start);
     lock.unlock();
     begun.job.run();
     const Job::Clock::duration took = Job::Clock::now() - start;
-    begun.job.run = nullptr;  // what it holds goes outside the lock
+    begun.job.run = nullptr;  // destroyed outside the lock
     begun.job.abandon = nullptr;
     lock.lock();
     queue_.finish(begun, took);

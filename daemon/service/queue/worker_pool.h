@@ -14,40 +14,41 @@
 
 namespace camway::service {
 
-/// A fixed number of threads and the queue that feeds them. All members may be called from any
-/// thread. Jobs that leave the queue unrun are handed to the caller, who abandons them.
+/// A fixed number of threads and the queue that feeds them. Jobs that leave the queue without being
+/// run are returned to the caller, who abandons them.
+/// Thread-safe.
 class WorkerPool {
  public:
   /// [Limit: 1 <= workers]
   WorkerPool(int workers, const FairQueue::Limits& limits);
-  /// As `stop`.
+  /// Calls `stop`.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Queues `job`. Hands back the job that is not run for want of room, this one or another, or
-  /// this one if the pool is closed.
+  /// Queues `job`. Returns the job that is not run for want of room, this one or another, or this
+  /// one if the pool is closed.
   [[nodiscard]] std::optional<FairQueue::Refused> submit(Job job);
 
-  /// The jobs that expired before anybody began them, and when the next will.
+  /// See `FairQueue`.
   [[nodiscard]] std::vector<Job> take_expired(Job::Clock::time_point now);
   [[nodiscard]] Job::Clock::time_point next_expiry() const;
 
-  /// As those of the queue.
+  /// See `FairQueue`.
   [[nodiscard]] std::optional<Job> take(const std::string& client, std::int64_t id);
   [[nodiscard]] std::optional<std::size_t> ahead_of(const std::string& client,
                                                     std::int64_t id) const;
 
-  /// Lets no more jobs in and hands back those that nobody has begun.
+  /// Accepts no more jobs and returns those that have not begun.
   [[nodiscard]] std::vector<Job> close();
 
-  /// Drops the jobs that nobody has begun, waits for the others and ends the threads. To be called
-  /// before anything goes that a job uses. Not for two threads at a time.
+  /// Drops the jobs that have not begun, waits for the others and ends the threads. To be called
+  /// before anything is destroyed that a job uses. Not for two threads at a time.
   void stop();
 
   [[nodiscard]] std::size_t queued() const;
   [[nodiscard]] std::size_t running() const;
-  /// How long the worker that is at one job for the longest has been; 0 if none is.
+  /// Returns the longest time that a worker has been at its present job; 0 if all are idle.
   [[nodiscard]] Job::Clock::duration longest_run(Job::Clock::time_point now) const;
   [[nodiscard]] int workers() const { return workers_; }
 
@@ -58,7 +59,7 @@ class WorkerPool {
   mutable std::mutex mutex_;  ///< guards everything below but threads_
   std::condition_variable changed_;
   FairQueue queue_;
-  std::multiset<Job::Clock::time_point> begun_;  ///< when the jobs that run were begun
+  std::multiset<Job::Clock::time_point> begun_;  ///< start times of the running jobs
   bool closed_ = false;
   std::vector<std::jthread> threads_;
 };

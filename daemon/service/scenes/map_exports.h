@@ -14,31 +14,31 @@
 
 namespace camway::service {
 
-/// The pages of `bytes`, as the export that `key` asked for sends them: at least one.
+/// Returns the pages that carry `bytes` as the export that `key` asked for: at least one.
 Pages map_pages(const RequestKey& key, const std::vector<std::uint8_t>& bytes);
 
-/// What a client is told that asks for pages of an export that is not there.
+/// Returns the answer to a client that asks for pages of an export that is not there.
 map_page_t no_such_map(const RequestKey& key);
 
-/// Exported maps that clients fetch, page by page. The one that nobody asked for the longest makes
-/// room. For one thread.
+/// Exported maps that clients fetch page by page. To make room, forgets the one unused for longest.
+/// Not thread-safe.
 class MapExports {
  public:
   using Clock = std::chrono::steady_clock;
 
   struct Limits {
     std::size_t exports = 16;
-    std::size_t bytes = std::size_t{256} << 20;  ///< of all
-    std::chrono::milliseconds idle{600'000};     ///< then it is forgotten
+    std::size_t bytes = std::size_t{256} << 20;  ///< size of all exports
+    std::chrono::milliseconds idle{600'000};     ///< time after which an unused one is forgotten
   };
 
   MapExports() : MapExports(Limits{}) {}
   explicit MapExports(const Limits& limits) : limits_(limits) {}
 
-  /// Whether there is room for it, once all others made way.
+  /// Keeps an export. Returns false if there is no room for it even without all others.
   [[nodiscard]] bool keep(const RequestKey& key, Pages pages, Clock::time_point now);
 
-  /// Null if it is not there, or not any more.
+  /// Returns the pages; null if they are not there, or no longer.
   [[nodiscard]] Pages find(const RequestKey& key, Clock::time_point now);
 
   [[nodiscard]] std::size_t bytes() const { return bytes_; }

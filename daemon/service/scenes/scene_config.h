@@ -9,9 +9,9 @@
 
 namespace camway::service {
 
-/// How scene requests are answered.
+/// Configuration of scene requests.
 struct SceneConfig {
-  /// Of changes of scenes: generous, as a large scene takes its time.
+  /// Deadlines of changes of scenes: generous, since a large scene takes its time.
   DeadlineLimits change_deadline{.default_s = 600.0, .max_s = 3600.0};
   SceneRules scene_rules;
   Uploads::Limits uploads;     ///< `scenes.uploads` and others
@@ -19,7 +19,7 @@ struct SceneConfig {
   /// Changes of different scenes that are made at the same time; `scenes.workers`
   /// [Limit: 1 <= value <= kMaxWorkers]
   int scene_workers = 4;
-  FairQueue::Limits changes;  ///< of scenes that wait for the ones before them
+  FairQueue::Limits changes;  ///< waiting changes; `scenes.waiting_changes` and others
 };
 
 }  // namespace camway::service

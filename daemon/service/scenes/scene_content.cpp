@@ -72,7 +72,7 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
     const scene::ObjectKind kind = result.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
     return {Content{kind, std::move(*result.mesh), std::move(result.report), result.map}, {}};
   }
-  // Where the daemon keeps things is nobody's business: the name is that of the request.
+  // The path on the daemon's disk is replaced by the name in the request: clients must not see it.
   std::string error = std::move(result.error);
   if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
     error.replace(at, file.string().size(), shown);

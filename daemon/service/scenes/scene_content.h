@@ -19,47 +19,47 @@
 
 namespace camway::service {
 
-/// What came of reading or making something, or what is wrong, by the name of the request's field.
+/// A value, or an error that begins with the name of the request's member.
 template <class Value>
 struct Made {
   std::optional<Value> value;
   std::string error;
-  scene::Limit limit = scene::Limit::kNone;  ///< that the error is about
+  scene::Limit limit = scene::Limit::kNone;  ///< limit that the error is about
 };
 
-/// What an object will be made of.
+/// The content of an object that is to be made.
 struct Content {
   scene::ObjectKind kind;
-  scene::Mesh mesh;  ///< of a map: none
+  scene::Mesh mesh;  ///< empty if the content is a map
   scene::ImportReport report;
   std::shared_ptr<const scene::VoxelMap> map = nullptr;
 };
 
-/// What an object of that content is, with all that is built for it. Costs what there is in it.
+/// Returns the source of an object with that content; takes time proportional to the content.
 std::shared_ptr<const scene::ObjectSource> source_of(Content content,
                                                      const scene::ObjectOptions& options);
 
-/// Nothing if the request's kind is none.
+/// Returns the kind of the request's object; nothing if it is unknown.
 std::optional<scene::ObjectKind> kind_of(const scene_request_t& request);
 
-/// Where the request wants an object; an orientation of zeros is none.
+/// Returns the placement that the request asks for. An orientation of zeros means not turned.
 Made<scene::Placement> placement_of(const scene_request_t& request);
 
 geometry::Vec3 vec3(const double (&values)[3]);
 
-/// The mesh or map of the request's file or upload, read by the import process. `upload` is null if
-/// what the request names is not there.
+/// Reads the mesh or map of the request's file or upload, in the import process. `upload` is null
+/// if the upload that the request names is not there.
 Made<Content> read_mesh(const scene_request_t& request, const UploadedBytes& upload,
                         const SceneContext& context);
 
-/// What a new object of that kind is made of: read, or built from the request's numbers.
+/// Makes the content of a new object: reads it, or builds it from the numbers of the request.
 Made<Content> make_mesh(const scene_request_t& request, scene::ObjectKind kind,
                         const UploadedBytes& upload, const SceneContext& context);
 
-/// Doubles of an upload of points; nothing, with an error, if its size is not that of any.
+/// Reads the points of an upload of doubles. An error if its size is not that of whole points.
 Made<std::vector<geometry::Vec3>> read_points(const UploadedBytes& upload);
 
-/// The object that is a map.
+/// Returns the content of an object that is this map.
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map);
 
 }  // namespace camway::service

@@ -9,13 +9,14 @@
 
 namespace camway::service {
 
-/// What a request is carried out on. All references outlive the call.
+/// References that a request is carried out with. All outlive the call.
 struct SceneContext {
   const SceneRules& rules;
   scene::SceneStore& scenes;
-  std::mutex& writing;  ///< held by who writes a file below the roots: two might mean the same
-  /// Called off, nothing is changed any more, and the reading of files and the making of mirrors
-  /// ends.
+  /// Held while a file below the roots is written: two requests may name the same file.
+  std::mutex& writing;
+  /// Cancelling it prevents any further change, and ends the reading of files and the building of
+  /// mirrors.
   scene::Undertaking undertaking;
 };
 

@@ -25,7 +25,14 @@ bool is_set(const double (&numbers)[kCount]) {
   return std::any_of(std::begin(numbers), std::end(numbers), [](double v) { return v != 0.0; });
 }
 
-/// Not turned is as good as not set.
+bool is_set(const bounds_t& bounds) {
+  const auto holds = [](std::int8_t flag) { return flag != 0; };
+  return std::any_of(std::begin(bounds.has_min), std::end(bounds.has_min), holds) ||
+         std::any_of(std::begin(bounds.has_max), std::end(bounds.has_max), holds) ||
+         is_set(bounds.min_m) || is_set(bounds.max_m);
+}
+
+/// The identity counts as not set.
 bool is_turned(const double (&wxyz)[4]) {
   return wxyz[1] != 0.0 || wxyz[2] != 0.0 || wxyz[3] != 0.0;
 }
@@ -37,7 +44,7 @@ class Counting {
   [[nodiscard]] bool in(std::initializer_list<std::int8_t> operations) const {
     return std::ranges::count(operations, request_.operation) > 0;
   }
-  /// Whether an object of one of these kinds is put.
+  /// Returns whether the request puts an object of one of these kinds.
   [[nodiscard]] bool of(std::initializer_list<std::int8_t> kinds) const {
     return in({Request::PUT}) && std::ranges::count(kinds, request_.kind) > 0;
   }
@@ -47,7 +54,7 @@ class Counting {
   const Request& request_;
 };
 
-/// What the object is made of.
+/// Returns the members that describe the content of the object.
 std::vector<Member> members_of_content(const Request& r, const Counting& counts) {
   const bool has_upload =
       counts.of_mesh() || counts.in({Request::SCAN}) || counts.of({Request::POINTS});
@@ -83,6 +90,7 @@ std::vector<Member> members(const Request& r) {
       {"object", !r.object.empty(),
        counts.in({Request::PUT, Request::MOVE, Request::REMOVE, Request::SCAN})},
       {"occupancy_resolution_m", r.occupancy_resolution_m != 0.0, counts.in({Request::LOAD})},
+      {"body_bounds", is_set(r.body_bounds), counts.in({Request::LOAD})},
       {"kind", r.kind != 0, counts.in({Request::PUT})},
       {"position_m", is_set(r.position_m), is_posed || counts.in({Request::SCAN})},
       {"orientation_wxyz", is_turned(r.orientation_wxyz), is_posed},

@@ -7,9 +7,9 @@
 
 namespace camway::service {
 
-/// Names the first member of a scene request that is neither zero nor empty though its operation,
-/// or the kind of its object, does not name it, in a sentence for the answer: it was meant. Empty
-/// if there is none, and of operations and kinds that do not exist.
+/// Names the first member of a scene request that has a value but no effect with the request's
+/// operation or kind of object, in a sentence for the answer: its sender meant it. Empty if there
+/// is none, and for unknown operations and kinds.
 std::string idle_member(const scene_request_t& request);
 
 }  // namespace camway::service

@@ -16,14 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Component by component, so that /scenes2 is not below /scenes. Both are canonical.
+/// Compares component by component, so that /scenes2 is not below /scenes. Requires canonical
+/// paths.
 bool is_below(const fs::path& file, const fs::path& folder) {
   const auto [in_folder, in_file] =
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return in_folder == folder.end() && in_file != file.end();
 }
 
-/// Closes on destruction.
+/// A file descriptor that is closed by the destructor.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int fd) : fd_(fd) {}
@@ -39,7 +40,7 @@ class FileDescriptor {
   int fd_;
 };
 
-/// Where the folder that is open really is, whatever its name led to when it was looked up.
+/// Returns the real path of the open folder, whatever its name led to when it was opened.
 fs::path place_of(const FileDescriptor& folder) {
   std::error_code failed;
   return fs::read_symlink("/proc/self/fd/" + std::to_string(folder.get()), failed);
@@ -55,7 +56,8 @@ bool write_all(int fd, std::string_view bytes) {
   return true;
 }
 
-/// Under a name of its own first, so that nobody reads the half of it. Returns an error text.
+/// Writes under another name first, so that no reader sees half of the file. Returns an error or an
+/// empty text.
 std::string write_in(const FileDescriptor& folder, const std::string& name,
                      std::string_view bytes) {
   const std::string unfinished = "." + name + ".unfinished";

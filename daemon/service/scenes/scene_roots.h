@@ -8,30 +8,31 @@
 
 namespace camway::service {
 
-/// A file below a root, or why there is none.
+/// A file below a root, or an error.
 struct RootedFile {
   std::filesystem::path file;  ///< canonical; empty on error
-  std::string error;           ///< names what was asked for, not what lies outside the roots
+  std::string error;           ///< names the requested file, but nothing outside the roots
 };
 
-/// The folders that clients may have scene files read from. Immutable; safe from any thread.
+/// The folders that clients may have scene files read from. Immutable.
+/// Thread-safe.
 class SceneRoots {
  public:
   SceneRoots() = default;
-  /// What is wrong with a folder (it does not exist, it is none) stands in `error`.
+  /// Looks up the folders. Sets `error` if one does not exist or is no folder.
   static SceneRoots make(const std::vector<std::filesystem::path>& folders, std::string& error);
 
   [[nodiscard]] bool empty() const { return folders_.empty(); }
 
-  /// The regular file that `asked` names: relative to a root, of which the first that has it
-  /// counts, or absolute and below one. Refused is what has a component "..", and what leads out of
-  /// the root, by whatever links. Who may write below a root could still exchange a folder for a
-  /// link between this and the reading of the file: roots are for people that one trusts.
+  /// Returns the regular file that `asked` names: relative to a root (the first root that has it
+  /// counts), or absolute and below one. Refuses a component "..", and a file that any links lead
+  /// out of the root. A user who may write below a root could still replace a folder by a link
+  /// between this call and the reading of the file, so roots are for trusted users only.
   [[nodiscard]] RootedFile resolve(std::string_view asked) const;
 
-  /// Writes `bytes` as the file that `asked` names, in a folder below a root that is there already.
-  /// A file of that name is replaced, when all is written. The name must end with `extension`, so
-  /// that nothing else can be. Returns what is wrong, or an empty text.
+  /// Writes `bytes` as the file that `asked` names, in an existing folder below a root. Replaces a
+  /// file of that name once all bytes are written. Refuses a name that does not end with
+  /// `extension`, so that no other files can be replaced. Returns an error or an empty text.
   [[nodiscard]] std::string write(std::string_view asked, std::string_view extension,
                                   std::string_view bytes) const;
 

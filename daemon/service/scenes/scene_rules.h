@@ -12,21 +12,21 @@
 
 namespace camway::service {
 
-/// What clients may do with files, and how much a change may cost.
+/// Permissions of clients on files, and limits on the cost of a change.
 struct SceneRules {
-  SceneRoots roots;  ///< of files that clients may name; `scenes.roots`
-  /// Whether clients may have maps written below the roots, over a file of the same name.
+  SceneRoots roots;  ///< folders of the files that clients may name; `scenes.roots`
+  /// Whether clients may write maps below the roots, over a file of the same name.
   bool write_maps = false;
-  double scan_voxels = scene::kMostScanVoxels;  ///< that the rays of a scan may pass
+  double scan_voxels = scene::kMostScanVoxels;  ///< most voxels that the rays of a scan may pass
   scene::VoxelMapLimits maps;                   ///< `scenes.map_voxels` and `scenes.map_triangles`
-  /// Of the mirror of an object; `scenes.mirror_voxels`.
+  /// Largest number of voxels of the mirror of an object; `scenes.mirror_voxels`.
   std::uint64_t mirror_voxels = scene::OccupancyMap::kUsualMostVoxels;
 };
 
-/// The key of the setting that a limit is, e.g. "scenes.map_voxels"; empty of none.
+/// Returns the key of the setting of a limit, e.g. "scenes.map_voxels"; empty for kNone.
 std::string_view setting_of(scene::Limit limit);
 
-/// `error` with the setting that would have to be higher behind it, if one would.
+/// Returns `error`, followed by the setting that would have to be higher, if there is one.
 std::string with_setting(std::string_view error, scene::Limit limit);
 
 }  // namespace camway::service

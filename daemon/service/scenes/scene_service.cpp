@@ -19,7 +19,7 @@
 namespace camway::service {
 namespace {
 
-/// Of all but when it was sent.
+/// Returns the digest of the request with `utime` zeroed.
 RequestDigest digest_of(scene_request_t request) {
   request.utime = 0;
   const Bytes bytes = wire::encode(request);
@@ -31,7 +31,7 @@ RequestKey key_of(const scene_request_t& request) {
   return {request.client_id, request.request_id};
 }
 
-/// One that says nothing but whose it is.
+/// Returns a request that holds only these ids.
 scene_request_t request_of(const RequestKey& key) {
   scene_request_t request{};
   request.client_id = key.client_id;
@@ -39,7 +39,7 @@ scene_request_t request_of(const RequestKey& key) {
   return request;
 }
 
-/// The answer, whatever happens.
+/// Returns the answer. Does not throw.
 Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
                     const SceneContext& context) {
   try {
@@ -51,7 +51,7 @@ Performed answer_of(const scene_request_t& request, const UploadedBytes& upload,
   }
 }
 
-/// Of a client run all but one of the workers at most.
+/// Lets one client use all workers but one at most, if there are several.
 FairQueue::Limits with_room_for_others(FairQueue::Limits limits, int workers) {
   limits.running_of_a_client = static_cast<std::size_t>(std::max(workers - 1, 1));
   return limits;
@@ -101,7 +101,7 @@ void SceneService::refuse_malformed(const std::string& channel,
 void SceneService::on_request(std::span<const std::uint8_t> message) {
   auto decoded = read<scene_request_t>(core_.channels.scene_request(), message);
   if (!decoded) return;
-  // No scene or object of ours has a name with control characters, so nothing is lost.
+  // No scene or object has a name with control characters, so nothing is lost.
   decoded->scene = wire::printable(decoded->scene);
   decoded->object = wire::printable(decoded->object);
   decoded->restore_as = wire::printable(decoded->restore_as);
@@ -172,7 +172,7 @@ void SceneService::take_done(const Request& request, Performed done, const Pages
   left_behind_.erase(request);
   const RequestKey key = key_of(*request);
   const auto pending = unanswered_.find(key);
-  if (pending == unanswered_.end() || pending->second.request != request) return;  // called off
+  if (pending == unanswered_.end() || pending->second.request != request) return;  // cancelled
   if (map && !exports_.keep(key, map, MapExports::Clock::now())) {
     done.answer = plain_scene_answer(
         *request, scene_response_t::STATUS_LIMIT,
@@ -212,7 +212,7 @@ void SceneService::tick(Clock::time_point now) {
   while (!deadlines_.empty() && deadlines_.begin()->first <= now) {
     const Pending pending = unanswered_.at(deadlines_.begin()->second);
     deadlines_.erase(deadlines_.begin());
-    if (!call_off(pending)) continue;  // it is in force, and its answer on the way
+    if (!call_off(pending)) continue;  // committed, and its answer is on the way
     finish(*pending.request,
            plain_scene_answer(*pending.request, scene_response_t::STATUS_TIMEOUT,
                               "the deadline passed before the change was in force, and nothing was "
@@ -348,7 +348,7 @@ void SceneService::close() {
 }
 
 void SceneService::give_up() {
-  // Each refusal takes one out.
+  // Each refusal removes one.
   while (!unanswered_.empty()) {
     const Request request = unanswered_.begin()->second.request;
     refuse(*request, Refusal::kStopping);

@@ -20,18 +20,18 @@
 
 namespace camway::service {
 
-/// Lets clients look at scenes and change them. Threads of its own do the changes, so that planning
-/// waits for no import of a large file: those of different scenes side by side, those of one scene
-/// one after the other, so that two moves of one client do not overtake each other. Clients take
-/// turns as for planning (`FairQueue`), and no client has all threads at a time, so that the
-/// imports of one leave room for the moves of others. Who only looks is answered at once. The loop
-/// thread calls everything here.
+/// Lets clients query and change scenes. Queries are answered at once. Changes run on threads of
+/// their own, so that planning does not wait for the import of a large file: changes of different
+/// scenes in parallel, those of one scene one after the other, so that two moves of one client keep
+/// their order. Clients take turns as for planning (`FairQueue`), and no client uses all threads
+/// (if there are several), so that imports of one client leave room for moves of others.
+/// Not thread-safe: for the loop thread.
 ///
-/// A change has a deadline from its receipt on, and may be called off: it is answered at once then,
-/// whatever a worker is at, and changes nothing; unless it is in force already, and its answer on
-/// the way.
+/// A change has a deadline from its receipt on, and can be cancelled. Then it is answered at once,
+/// whatever a worker is doing, and changes nothing; unless it is committed already, with its answer
+/// on the way.
 ///
-/// A change that is asked for again, by its ids and content, is not made again: it gets the same
+/// A change that is sent again, with equal ids and content, is not made again: it gets the same
 /// answer.
 class SceneService {
  public:
@@ -40,31 +40,32 @@ class SceneService {
   /// `core` and `scenes` must outlive the service.
   SceneService(Core& core, scene::SceneStore& scenes, const SceneConfig& config);
 
-  /// A message on the scene request channel. Throws only for want of memory.
+  /// Handles a message on the scene request channel. Throws only if memory runs out.
   void on_request(std::span<const std::uint8_t> message);
 
-  /// A message on the channel that calls changes off. Throws only for want of memory.
+  /// Handles a message on the channel that cancels changes. Throws only if memory runs out.
   void on_cancel(std::span<const std::uint8_t> message);
 
-  /// A message on the upload channel. Throws only for want of memory.
+  /// Handles a message on the upload channel. Throws only if memory runs out.
   void on_upload(std::span<const std::uint8_t> message);
 
-  /// A message on the channel for missing pages of maps. Throws only for want of memory.
+  /// Handles a message on the channel for missing pages of maps. Throws only if memory runs out.
   void on_missing_map_pages(std::span<const std::uint8_t> message);
 
-  /// Answers the changes whose deadline has come by `now`.
+  /// Answers the changes whose deadline has passed by `now`.
   void tick(Clock::time_point now);
-  /// When there is something to do for that; the end of time if never.
+  /// Returns when `tick` is due next; the end of time if never.
   [[nodiscard]] Clock::time_point next_tick() const;
 
-  /// Takes no more changes, and refuses all that are not in force yet.
+  /// Accepts no more changes, and refuses all that are not committed yet.
   void close();
-  /// Refuses what is not answered yet, and waits no longer for what was called off.
+  /// Refuses all changes that are not answered yet, and waits no longer for cancelled ones.
   void give_up();
-  /// How many changes wait, are being made, though they may have been called off, or were just made
-  /// and are not answered yet.
+  /// Returns how many changes wait, are being made (cancelled ones included), or are made and not
+  /// answered yet.
   [[nodiscard]] std::size_t unfinished() const { return unanswered_.size() + left_behind_.size(); }
-  /// Calls off what can be, and waits for what is being done. Before `Core` goes.
+  /// Cancels all changes that are not committed, and waits for the workers. To be called before
+  /// `Core` is destroyed.
   void stop();
 
  private:
@@ -83,13 +84,13 @@ class SceneService {
                         std::string_view reason);
   void take_change(const Request& request);
   void begin(const Request& request);
-  /// What a worker made of a change.
+  /// Handles the result of a worker.
   void take_done(const Request& request, Performed done, const Pages& map);
-  /// Calls a change off, whoever is at it; false if it is in force already.
+  /// Cancels a change, wherever it is. Returns false if it is committed already.
   bool call_off(const Pending& pending);
   void finish(const scene_request_t& request, scene_response_t answer);
   void refuse(const scene_request_t& request, Refusal why);
-  /// Of a change that is answered.
+  /// Forgets a change that is answered.
   void forget(const RequestKey& key);
   Pages send(scene_response_t answer);
   [[nodiscard]] SceneContext context(const scene::Undertaking& undertaking);
@@ -101,7 +102,8 @@ class SceneService {
   MapExports exports_;
   AnswerCache cache_;
   std::map<RequestKey, Pending> unanswered_;
-  std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< of those, till they come
+  std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< unanswered changes by time
+  /// Changes that were cancelled and answered while a worker is still at them.
   std::set<Request> left_behind_;  ///< called off and answered, but a worker is still at it
   std::mutex writing_;             ///< see `SceneContext`
   WorkerPool workers_;

@@ -29,7 +29,7 @@ using scene::SceneChange;
 using Request = scene_request_t;
 using Answer = scene_response_t;
 
-/// Appends what fits a message, from element `first` on.
+/// Appends the elements from index `first` on that fit into a message.
 template <class Elements, class List, class Convert>
 std::int32_t put_list(const Elements& elements, std::int32_t first, const Convert& convert,
                       const Answer& answer, List& list) {
@@ -68,7 +68,7 @@ std::string warnings_of(const scene::ImportReport& report) {
   return text;
 }
 
-/// One request on its way.
+/// Carries out one request.
 class Work {
  public:
   Work(const Request& request, const UploadedBytes& upload, const SceneContext& context)
@@ -107,7 +107,7 @@ class Work {
     }
   }
 
-  /// What is exported to the client.
+  /// Returns the map that is exported to the client.
   std::vector<std::uint8_t> take_map() { return std::move(map_); }
 
  private:
@@ -115,7 +115,7 @@ class Work {
     return plain_scene_answer(request_, Answer::STATUS_INVALID, reason);
   }
 
-  /// What could not be made, for whatever reason.
+  /// Returns the answer to a request that failed, for whatever reason.
   [[nodiscard]] Answer refused(std::string_view reason, scene::Limit limit) const {
     if (limit == scene::Limit::kNone) return invalid(reason);
     return plain_scene_answer(request_, Answer::STATUS_LIMIT, with_setting(reason, limit));
@@ -127,12 +127,12 @@ class Work {
         fmt::format("scene: '{}' is unknown; {}", request_.scene, scenes_.summary()));
   }
 
-  /// What the scene's history says of this.
+  /// Returns the entry about this change in the history of the scene.
   [[nodiscard]] scene::ChangeNote note(std::string object) const {
     return {operation_name(request_), std::move(object), request_.client_id, 0, {}};
   }
 
-  /// What the store made of a change.
+  /// Returns the answer for the result of a change in the store.
   [[nodiscard]] Answer answer_to(const scene::StoreResult& result, std::string_view message) const {
     if (result.limit != scene::Limit::kNone) return refused(result.error, result.limit);
     Answer answer = plain_scene_answer(request_, status_of(result.fault),

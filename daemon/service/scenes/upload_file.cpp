@@ -30,7 +30,7 @@ bool write_all(int file, const std::uint8_t* at, std::size_t size) {
   return true;
 }
 
-/// Waits where it has to: who removes what was left behind holds a lock for a moment.
+/// Waits if necessary: a process that removes abandoned files holds a lock for a moment.
 bool lock(int file) {
   while (flock(file, LOCK_EX) != 0) {
     if (errno != EINTR) return false;
@@ -38,13 +38,13 @@ bool lock(int file) {
   return true;
 }
 
-/// Whether somebody removed the file between its making and its locking.
+/// Returns whether another process removed the file between its creation and its locking.
 bool is_gone(int file) {
   struct stat status {};
   return fstat(file, &status) != 0 || status.st_nlink == 0;
 }
 
-/// Whether that is a file of this user's that no process holds; then it is removed.
+/// Removes a file of this user that no process has locked. Returns whether it did.
 bool remove_if_left(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;

@@ -9,18 +9,19 @@
 
 namespace camway::service {
 
-/// An upload as a file of our own, as the import process opens files by name; it goes when this
-/// does. As long as its process lives the file is locked, so that who finds it knows whose it is.
+/// An upload as a temporary file, since the import process opens files by name. The destructor
+/// removes it. The file is locked as long as this process lives, so that other processes can tell
+/// it from a file that was left behind.
 class UploadFile {
  public:
-  /// In the folder for temporary files. The name ends with `.extension`, which tells the importer
-  /// the format.
+  /// Writes the file into the folder for temporary files. Its name ends with `.extension`, by which
+  /// the importer knows the format.
   UploadFile(const UploadRoom& bytes, const std::string& extension);
   ~UploadFile();
   UploadFile(const UploadFile&) = delete;
   UploadFile& operator=(const UploadFile&) = delete;
 
-  /// Whether all bytes are in it.
+  /// Returns whether all bytes were written.
   [[nodiscard]] bool is_good() const { return is_good_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -30,8 +31,7 @@ class UploadFile {
   bool is_good_ = false;
 };
 
-/// Removes the files of uploads that processes of this user left behind when they were killed, and
-/// no others. How many it were.
+/// Removes upload files that killed processes of this user left, and no others. Returns how many.
 std::size_t remove_left_upload_files();
 
 }  // namespace camway::service

@@ -18,7 +18,7 @@ std::int64_t pages_of(std::int64_t total_bytes) { return (total_bytes + kPage - 
 
 }  // namespace
 
-/// Precondition: its `total_bytes` are within the limits.
+/// Requires that `total_bytes` is within the limits.
 std::string Uploads::fault_of(const upload_page_t& page) const {
   const std::int64_t pages = pages_of(page.total_bytes);
   if (page.num_bytes == 0) return {};
@@ -87,8 +87,8 @@ Uploads::Taken Uploads::take(const upload_page_t& page, Clock::time_point now) {
   return taken;
 }
 
-/// Of the pages' checksums, which were checked: another look at all bytes could take a tenth of a
-/// second.
+/// Combines the checksums of the pages, which were checked: reading all bytes again could take a
+/// tenth of a second.
 std::int64_t Uploads::checksum_of(const Upload& complete) {
   const std::size_t last = complete.checksums.size() - 1;
   const wire::Crc64Joint whole_page(wire::kUploadPageBytes);
@@ -108,7 +108,7 @@ void Uploads::report(const Upload& upload, upload_status_t& status) {
   status.num_missing = static_cast<std::int32_t>(status.missing.size());
 }
 
-/// Null if there is no room.
+/// Returns null if there is no room.
 Uploads::Upload* Uploads::find_or_begin(const UploadKey& key, Clock::time_point now) {
   auto found = uploads_.find(key);
   if (found == uploads_.end()) {
@@ -134,7 +134,7 @@ void Uploads::forget(Map::iterator upload) {
 
 bool Uploads::is_read(const Upload& upload) { return upload.bytes.use_count() > 1; }
 
-/// Of what was forgotten while a change still reads it, or waits to.
+/// Returns the size of forgotten uploads that a change still reads, or waits to read.
 std::size_t Uploads::held_bytes() {
   std::erase_if(held_, [](const std::weak_ptr<const UploadRoom>& room) { return room.expired(); });
   std::size_t bytes = 0;
@@ -144,14 +144,15 @@ std::size_t Uploads::held_bytes() {
   return bytes;
 }
 
-/// Of all that changes read, or wait to.
+/// Returns the size of all uploads that changes read, or wait to read.
 std::size_t Uploads::read_bytes() {
   std::size_t bytes = held_bytes();
   for (const auto& [key, upload] : uploads_) bytes += is_read(upload) ? upload.bytes->size() : 0;
   return bytes;
 }
 
-/// By who takes the most, in number or in bytes: what was not touched for the longest.
+/// Returns the upload that was not touched during the longest time, of the client that has the
+/// most, in number or in bytes.
 Uploads::Map::iterator Uploads::next_to_forget(bool by_number) {
   std::map<std::string_view, std::int64_t> shares;
   for (const auto& [key, upload] : uploads_) {
@@ -166,14 +167,15 @@ Uploads::Map::iterator Uploads::next_to_forget(bool by_number) {
       });
 }
 
-/// Whether there is room now. If not, all is as it was.
+/// Forgets uploads to make room. Returns false if that is impossible; then only idle ones are
+/// forgotten.
 bool Uploads::make_room(std::size_t bytes, Clock::time_point now) {
   for (auto upload = uploads_.begin(); upload != uploads_.end();) {
     const auto next = std::next(upload);
     if (now - upload->second.touched > limits_.idle) forget(upload);
     upload = next;
   }
-  // To forget what is read makes no room.
+  // Forgetting an upload that is read makes no room.
   if (read_bytes() + bytes > limits_.total_bytes) return false;
   while (uploads_.size() >= limits_.uploads ||
          bytes_ + held_bytes() + bytes > limits_.total_bytes) {

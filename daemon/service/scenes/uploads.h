@@ -15,8 +15,8 @@
 
 namespace camway::service {
 
-/// Room for bytes that come in any order. It is not written to before they come, so it takes the
-/// memory of what is there, and beginning it takes no time.
+/// Memory for bytes that arrive in any order. It is not initialised, so it takes only the memory of
+/// the bytes that arrived, and allocating it takes no time.
 class UploadRoom {
  public:
   explicit UploadRoom(std::size_t size)
@@ -31,11 +31,11 @@ class UploadRoom {
   std::size_t size_;
 };
 
-/// What was uploaded, complete. Shared, so that it may go from the store while it is read.
+/// A complete upload. Shared, so that it can be read while the store forgets it.
 using UploadedBytes = std::shared_ptr<const UploadRoom>;
 
-/// What names an upload: who sent it, and what it is. So sending again what was interrupted goes on
-/// where it stopped, whoever was started anew on the client's side.
+/// Identifies an upload by its sender and content. So an interrupted upload continues where it
+/// stopped, even if the client was restarted.
 struct UploadKey {
   std::string client_id;
   std::int64_t total_bytes = 0;
@@ -44,42 +44,43 @@ struct UploadKey {
   auto operator<=>(const UploadKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Puts uploads together from their pages, which come in any order and any number of times. Who
-/// takes the most makes room for what is new: his upload that was not touched for the longest. So
-/// nobody's is driven out by somebody who begins many. For one thread.
+/// Joins the pages of uploads, which arrive in any order and any number of times. To make room,
+/// forgets an upload of the client that takes the most: the one that was not touched during the
+/// longest time. So a client that begins many uploads displaces only its own.
+/// Not thread-safe.
 class Uploads {
  public:
   using Clock = std::chrono::steady_clock;
 
   struct Limits {
-    std::size_t uploads = 16;                   ///< begun or complete
-    std::size_t bytes = std::size_t{64} << 20;  ///< of one upload
-    /// Of all, and of those that are forgotten but still read.
+    std::size_t uploads = 16;                   ///< uploads that are begun or complete
+    std::size_t bytes = std::size_t{64} << 20;  ///< size of one upload
+    /// Size of all uploads, including those that are forgotten but still read.
     std::size_t total_bytes = std::size_t{256} << 20;
-    std::chrono::milliseconds idle{600'000};  ///< then it is forgotten
+    std::chrono::milliseconds idle{600'000};  ///< time after which an untouched one is forgotten
   };
 
   explicit Uploads(const Limits& limits) : limits_(limits) {}
 
-  /// Takes a page. Whether to answer it, and with what: see `upload_status_t`.
-  /// Precondition: the client id is right.
+  /// Takes a page. Returns whether to answer it, and with what (`upload_status_t`). Requires a
+  /// valid client id.
   struct Taken {
     bool answer = false;
     upload_status_t status;
   };
   Taken take(const upload_page_t& page, Clock::time_point now);
 
-  /// The complete upload, or null.
+  /// Returns the complete upload, or null.
   [[nodiscard]] UploadedBytes find(const UploadKey& key) const;
 
-  /// Of all uploads that can be found, begun or complete.
+  /// Returns the size of all uploads that can be found, begun or complete.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
   struct Upload {
     std::shared_ptr<UploadRoom> bytes;
     std::vector<bool> has_page;
-    std::vector<std::int64_t> checksums;  ///< of the pages
+    std::vector<std::int64_t> checksums;  ///< checksums of the pages
     std::size_t missing = 0;
     Clock::time_point touched;
   };
@@ -99,7 +100,7 @@ class Uploads {
   Limits limits_;
   Map uploads_;
   std::size_t bytes_ = 0;
-  std::vector<std::weak_ptr<const UploadRoom>> held_;  ///< forgotten, but perhaps still read
+  std::vector<std::weak_ptr<const UploadRoom>> held_;  ///< forgotten uploads that may still be read
 };
 
 }  // namespace camway::service

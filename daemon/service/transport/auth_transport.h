@@ -12,15 +12,17 @@
 
 namespace camway::service {
 
-/// Another transport, on which everything that goes out is signed, and what comes in without a
-/// good signature is dropped, counted and, now and then, logged.
+/// A transport that signs all outgoing messages, and drops, counts and logs (limited) incoming ones
+/// without a valid signature.
+/// Not thread-safe: for the thread that owns the transport.
 class AuthTransport final : public Transport {
  public:
-  /// Messages by why they were not trusted: the index is the `wire::Distrust`.
+  /// Numbers of messages by the reason why they were not trusted: the index is the
+  /// `wire::Distrust`.
   using Distrusted = std::array<std::int64_t, wire::kDistrusts>;
 
-  /// `inner` must outlive this. Unless signatures are `required`, unsigned messages are handed on
-  /// all the same, and counted.
+  /// `inner` must outlive this. If signatures are not `required`, unsigned messages are counted and
+  /// delivered all the same.
   AuthTransport(Transport& inner, std::shared_ptr<wire::MessageAuth> auth, bool required,
                 LimitedLog log);
 
@@ -33,9 +35,9 @@ class AuthTransport final : public Transport {
   }
   void wake() noexcept override { inner_.wake(); }
 
-  /// Since it was made. For the thread that owns the transport.
+  /// Returns the numbers since this was made.
   [[nodiscard]] const Distrusted& distrusted() const { return distrusted_; }
-  /// See `LimitedLog`. For the same thread.
+  /// See `LimitedLog`.
   void tell_left_out() { log_.tell_left_out(); }
 
  private:

@@ -18,10 +18,10 @@
 namespace camway::service {
 namespace {
 
-/// So that a flood of messages cannot keep the loop from publishing.
+/// Limits a round, so that a flood of messages cannot keep the loop from publishing.
 constexpr int kMaxMessagesPerPoll = 64;
 
-/// A file descriptor that is closed once.
+/// An eventfd that is closed by the destructor.
 class EventFd {
  public:
   EventFd() : fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
@@ -74,7 +74,7 @@ class LcmTransport final : public Transport {
 
   void wake() noexcept override {
     const std::uint64_t one = 1;
-    // A full counter wakes as well as one more does, so the result does not matter.
+    // A full counter wakes as well as another increment, so the result does not matter.
     [[maybe_unused]] const ssize_t written = write(wake_.get(), &one, sizeof one);
   }
 

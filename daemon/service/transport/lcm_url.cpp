@@ -16,10 +16,10 @@ namespace camway::service {
 namespace {
 
 constexpr std::string_view kMulticast = "udpm";
-/// LCM has "file" as well, which either reads or writes.
+/// LCM also has "file", which either reads or writes.
 constexpr std::array<std::string_view, 4> kProviders{kMulticast, "mpudpm", "tcpq", "memq"};
 
-/// A whole number from `least` to `most`, or what to say of another text.
+/// Reads a whole number from `least` to `most`. Returns an error or an empty text.
 template <class Number>
 std::string read_number(std::string_view name, std::string_view text, std::int64_t least,
                         std::int64_t most, Number& number) {
@@ -32,7 +32,7 @@ std::string read_number(std::string_view name, std::string_view text, std::int64
   return {};
 }
 
-/// Applies one `key=value` of a url of udpm; returns what is wrong with it.
+/// Applies one `key=value` of a url of udpm. Returns an error or an empty text.
 std::string apply_option(std::string_view option, LcmNetwork& network) {
   constexpr int kLargestTtl = std::numeric_limits<std::uint8_t>::max();
   const std::size_t equals = std::min(option.find('='), option.size());
@@ -43,7 +43,7 @@ std::string apply_option(std::string_view option, LcmNetwork& network) {
     return read_number(key, value, 1, std::numeric_limits<int>::max(),
                        network.receive_buffer_bytes);
   }
-  if (key == "transmit_only") return {};  // means nothing to LCM any more
+  if (key == "transmit_only") return {};  // LCM ignores it by now
   return fmt::format("'{}' is no option of {}; ttl and recv_buf_size are", key, kMulticast);
 }
 
@@ -52,9 +52,9 @@ bool is_multicast_group(const std::string& text) {
   return ::inet_pton(AF_INET, text.c_str(), &address) == 1 && IN_MULTICAST(ntohl(address.s_addr));
 }
 
-/// Applies the GROUP[:PORT] of a url of udpm; returns what is wrong with it.
+/// Applies the GROUP[:PORT] of a url of udpm. Returns an error or an empty text.
 std::string apply_group(std::string_view text, LcmNetwork& network) {
-  if (text.empty()) return {};  // LCM's own
+  if (text.empty()) return {};  // LCM's own group
   const std::size_t colon = std::min(text.find(':'), text.size());
   network.group = text.substr(0, colon);
   if (!is_multicast_group(network.group)) {

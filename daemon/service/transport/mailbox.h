@@ -9,17 +9,18 @@
 
 namespace camway::service {
 
-/// Work that any thread leaves for the loop thread, done in the order in which it was left.
+/// Tasks that other threads leave for the loop thread, run in the order of `post`.
 class Mailbox {
  public:
   using Task = std::function<void()>;
 
   explicit Mailbox(Transport& transport) : transport_(transport) {}
 
-  /// From any thread. Wakes the loop.
+  /// Adds a task and wakes the loop.
+  /// Thread-safe.
   void post(Task task);
 
-  /// From the loop thread: does what was left so far.
+  /// Runs the tasks that are there. For the loop thread.
   void run_all();
 
   [[nodiscard]] bool empty() const;

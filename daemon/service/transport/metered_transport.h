@@ -7,16 +7,17 @@
 
 namespace camway::service {
 
-/// Another transport, with a count of what goes through it.
+/// A transport that counts the messages of another one.
+/// Not thread-safe: for the thread that owns the transport.
 class MeteredTransport final : public Transport {
  public:
-  /// Since it was made. For the thread that owns the transport.
+  /// Numbers since this was made.
   struct Traffic {
     std::int64_t received_messages = 0;
     std::int64_t received_bytes = 0;
     std::int64_t sent_messages = 0;
     std::int64_t sent_bytes = 0;
-    std::int64_t unsent_messages = 0;  ///< that the transport did not take
+    std::int64_t unsent_messages = 0;  ///< refused by the transport
   };
 
   /// `inner` must outlive this.

@@ -11,7 +11,7 @@ bool Outbox::add(const std::string& channel, Pages pages, std::vector<std::size_
   const auto [position, is_new] = channels_.try_emplace(channel);
   std::size_t bytes = 0;
   for (const Bytes& page : *pages) bytes += page.size();
-  // An answer that is larger than the limit has its turn when nothing else waits.
+  // An answer that is larger than the limit is accepted when nothing else waits.
   const bool is_too_much = bytes_ > 0 && bytes_ + bytes > limits_.bytes;
   const bool one_refusal_more = kind == Kind::kRefusal && refusals_ >= limits_.refusals;
   if (here_.size() >= limits_.answers || is_too_much || one_refusal_more ||
@@ -35,7 +35,8 @@ void Outbox::send_burst() {
     const Bytes& page = answer.page();
     if (page.size() > room) return;
     room -= page.size();
-    // What the transport does not take is lost, like what the network loses; it counts that itself.
+    // A message that the transport refuses is lost, as it may be in the network; the transport
+    // counts it.
     static_cast<void>(transport_.publish(turns_.front()->first, page));
     ++answer.next;
     end_turn();

@@ -15,37 +15,38 @@
 
 namespace camway::service {
 
-/// Answers on their way out, a few pages at a time: a receiver's socket buffer holds only about
+/// Queue of answers to send, a few pages at a time: a receiver's socket buffer holds only about
 /// three messages of full size with Debian's default of 212,992 bytes, so a long answer that is
-/// sent at once is lost. Channels take turns, page by page, and so do the answers on a channel: a
-/// long one holds up neither other clients nor the short ones behind it. For the loop thread.
+/// sent at once is lost. Channels take turns, page by page, and so do the answers on one channel: a
+/// long answer delays neither other clients nor the short answers behind it.
+/// Not thread-safe: for the loop thread.
 class Outbox {
  public:
   /// Bytes that may be sent before the next pause: two messages of full size.
   static constexpr std::size_t kBurstBytes = 120'000;
-  /// Messages likewise: each takes a place in the receiver's queue, of 30 by default.
+  /// Messages that may be sent before the next pause: the receiver's queue holds 30 by default.
   static constexpr int kBurstMessages = 16;
-  /// How long the receiver is given to empty its buffer after a burst.
+  /// Time that the receiver has to empty its buffer after a burst.
   static constexpr std::chrono::milliseconds kPause{2};
 
-  /// Of answers that wait; the rest is refused, its clients ask again.
+  /// Limits of the answers that wait. Further ones are dropped, and their clients ask again.
   struct Limits {
     std::size_t answers = 4096;
     std::size_t answers_of_a_channel = 1024;
     std::size_t bytes = std::size_t{256} << 20;
-    /// Refusals among them, which cost who causes them nothing: they must not take the room of
-    /// what was worked for.
+    /// Limit of the refusals among them. These cost their clients nothing, so they must not take
+    /// the room of answers that took work.
     std::size_t refusals = 1024;
   };
-  /// Whether something was done for it.
+  /// Whether the answer took work, or refuses it.
   enum class Kind : bool { kAnswer, kRefusal };
 
   explicit Outbox(Transport& transport) : Outbox(transport, Limits{}) {}
   Outbox(Transport& transport, const Limits& limits) : transport_(transport), limits_(limits) {}
 
-  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. False if
-  /// there is no room, or if this very answer is still waiting to be sent.
-  /// Precondition: `which` counts pages that there are.
+  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. Returns
+  /// false if there is no room, or if this very answer is still waiting. Requires valid indices in
+  /// `which`.
   bool add(const std::string& channel, Pages pages, std::vector<std::size_t> which = {},
            Kind kind = Kind::kAnswer);
 
@@ -54,15 +55,15 @@ class Outbox {
 
   [[nodiscard]] bool empty() const { return turns_.empty(); }
 
-  /// Answers for which there was no room.
+  /// Returns the number of answers for which there was no room.
   [[nodiscard]] std::int64_t dropped() const { return dropped_; }
 
  private:
   struct Answer {
     Pages pages;
     std::vector<std::size_t> which;
-    std::size_t bytes = 0;  ///< of all pages, which stay as long as one of them waits
-    std::size_t next = 0;   ///< in `which`, or in `pages` if that is empty
+    std::size_t bytes = 0;  ///< size of all pages, which stay as long as one of them waits
+    std::size_t next = 0;   ///< index into `which`, or into `pages` if `which` is empty
     Kind kind = Kind::kAnswer;
 
     [[nodiscard]] const Bytes& page() const { return (*pages)[which.empty() ? next : which[next]]; }
@@ -72,16 +73,16 @@ class Outbox {
   };
   using Channels = std::map<std::string, std::deque<Answer>>;
 
-  /// Who was served goes to the back.
+  /// Moves the channel that was served to the back.
   void end_turn();
 
   Transport& transport_;
   const Limits limits_;
-  Channels channels_;                         ///< those on which answers wait
-  std::deque<Channels::iterator> turns_;      ///< the same, who is next first
-  std::set<const std::vector<Bytes>*> here_;  ///< the pages of all answers that wait
-  std::size_t bytes_ = 0;                     ///< likewise
-  std::size_t refusals_ = 0;                  ///< that wait
+  Channels channels_;                         ///< channels with waiting answers
+  std::deque<Channels::iterator> turns_;      ///< the same channels, the next one first
+  std::set<const std::vector<Bytes>*> here_;  ///< the pages of all waiting answers
+  std::size_t bytes_ = 0;                     ///< size of all waiting answers
+  std::size_t refusals_ = 0;                  ///< number of waiting refusals
   std::int64_t dropped_ = 0;
 };
 

@@ -9,9 +9,9 @@
 
 namespace camway::service {
 
-/// What carries messages: LCM in the daemon, memory in tests. One thread owns it; that thread alone
-/// subscribes, publishes and polls, since not every LCM provider takes calls from several
-/// (lcm-proj/lcm issue 614). `wake` is the exception.
+/// Carrier of messages: LCM in the daemon, memory in tests.
+/// Not thread-safe, except for `wake`: one thread subscribes, publishes and polls, since not every
+/// LCM provider takes calls from several (lcm-proj/lcm issue 614).
 class Transport {
  public:
   /// `message` is valid during the call.
@@ -29,15 +29,17 @@ class Transport {
   [[nodiscard]] virtual bool subscribe(const std::string& channel, int queue_capacity,
                                        Handler handler) = 0;
 
-  /// Hands over a message. That it was sent does not mean that anyone received it.
+  /// Sends a message. Success does not mean that anyone received it.
   [[nodiscard]] virtual bool publish(const std::string& channel,
                                      std::span<const std::uint8_t> message) = 0;
 
-  /// Waits until a message comes, `wake` is called or `timeout` passes, then calls the handlers for
-  /// what is there, a bounded number. Returns false when the transport is broken for good.
+  /// Waits until a message arrives, `wake` is called or `timeout` passes; then calls the handlers
+  /// for the messages that are there, up to a bounded number. Returns false if the transport is
+  /// broken for good.
   [[nodiscard]] virtual bool poll(std::chrono::milliseconds timeout) = 0;
 
-  /// Ends a wait in `poll`, or the next one. From any thread, also from a signal handler.
+  /// Ends a wait in `poll`, or the next one. May be called from a signal handler.
+  /// Thread-safe.
   virtual void wake() noexcept = 0;
 };
 

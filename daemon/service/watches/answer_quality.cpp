@@ -9,8 +9,8 @@
 namespace camway::service {
 namespace {
 
-/// Above 0 if `now` is better, below if it is worse, 0 if it is alike. `least`: what is less is
-/// alike.
+/// Returns a number above 0 if `now` is better, below 0 if it is worse, 0 if they are alike. A
+/// difference below `least` counts as alike.
 int compare(double now, double before, double least, bool more_is_better) {
   const double gain = more_is_better ? now - before : before - now;
   const double margin = std::max(least, kBetterShare * std::max(std::abs(now), std::abs(before)));

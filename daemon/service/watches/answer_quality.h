@@ -8,7 +8,7 @@
 
 namespace camway::service {
 
-/// What decides which of two answers to one request is the better one.
+/// The values by which two answers to one request are compared.
 struct AnswerQuality {
   std::size_t repaired_keyframes = 0;
   double near_scale = 1.0;
@@ -18,15 +18,15 @@ struct AnswerQuality {
   static AnswerQuality of(const plan_response_t& answer);
 };
 
-/// By how much of itself a number has to be better to count.
+/// Least relative difference that counts as better.
 inline constexpr double kBetterShare = 0.01;
-/// And by how much at least where it is a length. [Units: metres]
+/// Least difference of lengths that counts as better. [Units: metres]
 inline constexpr double kBetterLength_m = 1e-3;
 
-/// Whether `now` is worth a change from `before`: fewer given keyframes repaired; or as many and a
-/// larger near distance; or that alike and slowed less; or all that alike and better by the measure
-/// of the request's objective (`plan_request_t.objective`), by the margins above. `SAFEST` goes by
-/// the clearance, and where that is alike by the deviation, as `CLOSEST` does.
+/// Returns whether `now` is worth a change from `before`. Compares the number of repaired keyframes
+/// (fewer is better); if equal, by the margins above and until two values differ: the near distance
+/// (larger), the slow-down (less), and the measure of the request's objective
+/// (`plan_request_t.objective`). `SAFEST` compares clearances, then deviations as `CLOSEST` does.
 bool is_better(const AnswerQuality& now, const AnswerQuality& before, std::int8_t objective);
 
 }  // namespace camway::service

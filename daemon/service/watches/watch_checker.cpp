@@ -9,15 +9,15 @@ namespace {
 
 using collision::Deadline;
 
-/// A path that takes longer counts as colliding, so that one does not keep all others waiting.
+/// A path whose check takes longer counts as colliding, so that it does not delay all others.
 constexpr double kCheckBudget_s = 1.0;
-/// Verdicts that are told together, and how long the first of them waits.
+/// Largest number of verdicts that are reported together, and longest delay of the first of them.
 constexpr std::size_t kVerdictsTogether = 64;
 constexpr std::chrono::milliseconds kLongestWait{20};
 
 }  // namespace
 
-/// Tells verdicts in groups.
+/// Reports verdicts in groups.
 class WatchChecker::Teller {
  public:
   Teller(const Tell& tell, std::string scene, std::uint64_t revision)

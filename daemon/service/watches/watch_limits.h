@@ -6,12 +6,12 @@
 
 namespace camway::service {
 
-/// What clients may leave with the daemon to be watched.
+/// Limits on the paths that clients may have watched.
 struct WatchLimits {
-  std::size_t paths = 16384;                         ///< of all clients [Limit: 0 <= value]
-  std::size_t paths_of_a_client = 16384;             ///< likewise
-  std::size_t bytes = std::size_t{512} << 20;        ///< of paths and requests together
-  std::chrono::milliseconds longest_lease{300'000};  ///< without a word from the client
+  std::size_t paths = 16384;                         ///< paths of all clients [Limit: 0 <= value]
+  std::size_t paths_of_a_client = 16384;             ///< paths of one client [Limit: 0 <= value]
+  std::size_t bytes = std::size_t{512} << 20;        ///< size of paths and requests together
+  std::chrono::milliseconds longest_lease{300'000};  ///< longest lease without a renewal
 };
 
 }  // namespace camway::service

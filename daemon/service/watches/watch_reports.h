@@ -14,20 +14,21 @@
 
 namespace camway::service {
 
-/// Puts states of a client's paths into reports, as many to a message as fit. For the loop thread.
+/// Reports states of a client's paths, as many to a message as fit.
+/// Not thread-safe: for the loop thread.
 class WatchReports {
  public:
-  /// Of so many intervals of a path, the last reaches to the end of all that follow.
+  /// Largest number of intervals of a path. The last one extends to the end of all that follow.
   static constexpr std::size_t kMostIntervals = 32;
 
-  /// `request_id`: of the message that is answered, 0 for none.
+  /// `request_id`: id of the message that is answered; 0 for none.
   WatchReports(Core& core, std::string client_id, std::int64_t request_id);
 
   void add(const path_state_t& state,
            const std::vector<collision::CollisionInterval>& collisions = {});
-  /// Why a path is refused.
+  /// Adds the reason why a path is refused.
   void explain(std::string_view message);
-  /// Sends what is left. An answer is sent even if there is nothing in it.
+  /// Sends the rest. An answer is sent even if it is empty.
   void finish();
 
  private:

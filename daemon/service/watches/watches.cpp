@@ -14,16 +14,16 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// How long after news was told it is told again, at first; each time twice as long, up to the
-/// second: within a status period three are out.
+/// A state that is not confirmed is sent again after the first pause, then after twice the pause
+/// each time, up to the longest: three times within a status period.
 constexpr milliseconds kFirstPause{200};
 constexpr milliseconds kLongestPause{5000};
 /// How long planning waits after a full queue refused it.
 constexpr milliseconds kPlanAgainIn{500};
-/// A better path is not looked for before a change had so long to be followed by another.
+/// Pause after a change before a better path is looked for, in case another change follows.
 constexpr milliseconds kSettle{100};
 constexpr milliseconds kLongestImprovePause{30'000};
-/// Paths that were watched before, of each that is.
+/// Number of former paths that are kept for each watched path.
 constexpr std::size_t kFormers = 2;
 
 std::chrono::steady_clock::duration lease_of(double lease_s, milliseconds most) {
@@ -40,7 +40,7 @@ path_state_t unwatched(std::int64_t request_id, std::int8_t state) {
   return none;
 }
 
-/// Of all intervals together.
+/// Returns the sum of the lengths of all intervals.
 double length_s(const std::vector<collision::CollisionInterval>& intervals) {
   double length_s = 0.0;
   for (const collision::CollisionInterval& interval : intervals) {
@@ -49,7 +49,7 @@ double length_s(const std::vector<collision::CollisionInterval>& intervals) {
   return length_s;
 }
 
-/// Numbers of another daemon are not taken for ours: it begins anywhere.
+/// Returns a random first number, so that the numbers of another daemon are not taken for ours.
 std::int64_t random_serial() {
   std::random_device device;
   return static_cast<std::int64_t>(device()) << 20U;
@@ -287,10 +287,10 @@ void Watches::note(Watch& watch, const WatchChecker::Verdict& verdict, std::uint
   watch.revision = revision;
   watch.is_outdated = true;
   const bool is_free = watch.collisions.empty();
-  if (is_first && is_free) return;  // it was told so when it began
+  if (is_first && is_free) return;  // the client was told so when the watch began
   if (was_free && !is_free) {
     ++core_.counters.broken_paths;
-    withdraw_offer(watch);  // what is planned now is as good
+    withdraw_offer(watch);  // the path that is planned now is as good
     core_.limited_log.watches.write("watched path collides",
                                     {{"client", watch.answer.key.client_id},
                                      {"request", watch.answer.key.request_id},
@@ -342,17 +342,17 @@ void Watches::forget_former(Watch& watch, std::size_t which) {
   watch.formers.erase(watch.formers.begin() + static_cast<std::ptrdiff_t>(which));
 }
 
-// What only might lead to a better path goes first.
+// Drops what could only lead to a better path first.
 void Watches::make_room(Watch& watch, std::size_t bytes) {
   withdraw_offer(watch);
   if (bytes_ + bytes <= limits_.bytes) return;
   while (!watch.formers.empty()) forget_former(watch, 0);
 }
 
-/// The path that `watch` has, and that another of `next_bytes` takes the place of, stays with the
-/// checker if it may become better than that.
+/// Keeps the present path of `watch` in the checker, although one of `next_bytes` replaces it, if
+/// it may become better than that one.
 void Watches::keep_former(Watch& watch, std::size_t next_bytes) {
-  // Than those that are free, a plan of today is no worse.
+  // A plan of today is no worse than former paths that are free.
   for (std::size_t i = watch.formers.size(); i-- > 0;) {
     if (watch.formers[i].colliding_s == 0.0) forget_former(watch, i);
   }
@@ -379,7 +379,7 @@ std::optional<Watches::Request> Watches::take_improvable(Clock::time_point now) 
     improvable_.erase(improvable_.begin());
     Watch& watch = watches_.at(key);
     watch.improve_at.reset();
-    // One that collides is planned again anyway.
+    // A path that collides is planned again anyway.
     if (!watch.collisions.empty() || watch.planning != Planning::kNot) continue;
     improving_ = key;
     return Request{key, watch.answer.request};
@@ -430,7 +430,7 @@ void Watches::not_improved(const RequestKey& key, Clock::time_point now) {
   if (position != watches_.end()) improve_soon(position->second, now);
 }
 
-/// What a client says of an offer.
+/// Handles the client's reply to an offer.
 void Watches::apply_offers(Watch& watch, const watched_path_t& path) {
   if (!watch.offer || !watch.offer->is_checked) return;
   const auto revision = static_cast<std::int64_t>(watch.offer->answer.proved_in->revision);

@@ -33,17 +33,17 @@ struct WatchableAnswer {
   AnswerQuality quality;
 };
 
-/// The answered paths that clients left with the daemon: who wants to hear of them for how long,
-/// what became of them, and what of that each client knows. A path is watched until its lease ends
-/// unless the client renews it. News is told at once, and again with longer and longer pauses until
-/// the client says that it knows: so messages may be lost, and a client or the daemon may be
-/// started anew.
+/// The watched paths of all clients: their leases, their states, and which state each client knows.
+/// A path is watched until its lease ends, unless the client renews it. A new state is sent at
+/// once, and again with growing pauses until the client confirms it: so messages may be lost, and a
+/// client or the daemon may be restarted.
 ///
-/// A path that replaced a broken one stays when the obstacle goes. So of the paths before it the
-/// first and the last are looked after too: when one of them collides less than it did, the request
-/// is planned again, one at a time and of each path rarely, and an answer that is better (see
-/// `is_better`) is put on offer. It is the client who takes it, or not; an offer that a change
-/// breaks is withdrawn. The loop thread calls everything here.
+/// A path that replaced a broken one stays in use when the obstacle goes. Therefore the first and
+/// the last of the paths before it are watched too: when one of them collides for less time than
+/// before, the request is planned again, one request at a time and each one rarely, and a better
+/// answer (`is_better`) is offered. The client decides whether to take it; an offer that a change
+/// breaks is withdrawn.
+/// Not thread-safe: for the loop thread.
 class Watches {
  public:
   using Clock = std::chrono::steady_clock;
@@ -51,50 +51,50 @@ class Watches {
   /// `core` and `scenes` must outlive this.
   Watches(Core& core, scene::SceneStore& scenes, const WatchLimits& limits);
 
-  /// Watches the path of a first answer, or another one in the place of what is watched under that
-  /// key. False where a limit is in the way, which the client is told.
+  /// Watches the path of a first answer, or replaces the path that is watched under its key.
+  /// Returns false if a limit prevents that, and tells the client.
   bool begin(const WatchableAnswer& answer, Clock::time_point now);
 
-  /// The client asked again: begins the lease anew and tells all. False if nothing is watched under
-  /// that key.
+  /// The client asked again: renews the lease and reports the state. Returns false if nothing is
+  /// watched under that key.
   bool renew(const RequestKey& key, Clock::time_point now);
 
-  /// A message on the watch channel. Throws only for want of memory.
+  /// Handles a message on the watch channel. Throws only if memory runs out.
   void on_message(std::span<const std::uint8_t> message);
 
-  /// Tells what is due, and ends leases.
+  /// Sends the reports that are due, and ends leases.
   void tick(Clock::time_point now);
-  /// When `tick` or `take_broken` has something to do next, work that is due already apart; the end
-  /// of time if never.
+  /// Returns when `tick`, `take_broken` or `take_improvable` has something to do next, apart from
+  /// work that is due already; the end of time if never.
   [[nodiscard]] Clock::time_point next_tick(Clock::time_point now) const;
 
   struct Request {
     RequestKey key;
     std::shared_ptr<const plan_request_t> request;
   };
-  /// Up to `most` requests whose paths collide now, to be planned again. Of each, `ended` or
-  /// `not_planned` has to be told.
+  /// Returns up to `most` requests whose paths collide now, to be planned again. Requires a call of
+  /// `ended` or `not_planned` for each.
   std::vector<Request> take_broken(std::size_t most, Clock::time_point now);
-  /// It was planned. Whether the path collides still, so that the answer is worth sending; then
-  /// `begin` or `answered` has to be told.
+  /// The request was planned. Returns whether the path still collides, so that the answer is worth
+  /// sending; then requires a call of `begin` or `answered`.
   bool ended(const RequestKey& key);
-  /// It was not planned: to be tried again a little later.
+  /// The request was not planned; it is tried again a little later.
   void not_planned(const RequestKey& key, Clock::time_point now);
-  /// An answer was sent that proves no path: the one before is watched on.
+  /// The answer that was sent proves no path: the path before it remains watched.
   void answered(const RequestKey& key, std::int64_t answer_revision, Clock::time_point now);
 
-  /// A request whose path is free, but for which there may be a better one by now. Before the next
-  /// is taken, `offer`, `no_offer` or `not_improved` has to be told of it.
+  /// Returns a request whose path is free, but for which there may be a better one by now. Requires
+  /// a call of `offer`, `no_offer` or `not_improved` before the next is taken.
   std::optional<Request> take_improvable(Clock::time_point now);
-  /// It was planned, and this is the answer: an offer, if it is better.
+  /// The request was planned, with this answer: offers it, if it is better.
   void offer(const WatchableAnswer& answer, Pages pages, Clock::time_point now);
-  /// It was planned, and the answer proves no path.
+  /// The request was planned, and the answer proves no path.
   void no_offer(const RequestKey& key, Clock::time_point now);
-  /// It was not planned: to be tried again later.
+  /// The request was not planned; it is tried again later.
   void not_improved(const RequestKey& key, Clock::time_point now);
 
-  /// An offer that a client took: the answer to its request from now on. Of each, `begin` has to be
-  /// told.
+  /// An offer that a client took, which is the answer to its request from now on. Requires a call
+  /// of `begin` for each.
   struct Taken {
     WatchableAnswer answer;
     Pages pages;
@@ -103,20 +103,20 @@ class Watches {
 
  private:
   enum class Planning : std::uint8_t { kNot, kWaits, kRuns };
-  /// A better path is looked for of each path no more often; the longer, the more often in vain.
+  /// Least pause between two searches for a better path of one request. It grows with each failure.
   static constexpr std::chrono::milliseconds kFirstImprovePause{1000};
   /// A path that was watched before.
   struct Former {
     WatchChecker::Id id = 0;
     std::size_t bytes = 0;
-    double colliding_s = 0.0;  ///< for how much of its time it collides
+    double colliding_s = 0.0;  ///< total time during which it collides
   };
   struct Offer {
     WatchableAnswer answer;
     Pages pages;
     WatchChecker::Id id = 0;
     std::size_t bytes = 0;
-    bool is_checked = false;  ///< and free: it is told of
+    bool is_checked = false;  ///< checked and free: the client is told of it
   };
   struct Watch {
     WatchableAnswer answer;
@@ -124,18 +124,18 @@ class Watches {
     std::size_t bytes = 0;
     Clock::duration lease{};
     Clock::time_point until;
-    bool is_checked = false;  ///< a verdict has come
+    bool is_checked = false;  ///< it has a verdict
     std::vector<collision::CollisionInterval> collisions;
-    std::uint64_t revision = 0;  ///< that they hold for
+    std::uint64_t revision = 0;  ///< revision of the scene that `collisions` hold for
     std::int64_t answer_revision = 0;
-    std::int64_t serial = 0;  ///< of the newest state
-    bool is_known = false;    ///< by the client
+    std::int64_t serial = 0;  ///< number of the newest state
+    bool is_known = false;    ///< the client knows the newest state
     Clock::time_point tell_at;
-    Clock::duration pause{};  ///< until it is told again
+    Clock::duration pause{};  ///< until the state is sent again
     Planning planning = Planning::kNot;
-    bool is_outdated = false;  ///< what is being planned; something near the path has changed since
-    Clock::time_point due;     ///< its place in `due_`
-    std::vector<Former> formers;  ///< the first, and the one before this
+    bool is_outdated = false;     ///< something near the path has changed since planning began
+    Clock::time_point due;        ///< its place in `due_`
+    std::vector<Former> formers;  ///< the first path, and the one before this
     std::optional<Offer> offer;
     std::optional<Clock::time_point> improve_at;  ///< its place in `improvable_`
     Clock::time_point improve_not_before{};
@@ -161,7 +161,7 @@ class Watches {
   void plan_at(Watch& watch, Clock::time_point time);
   void schedule(Watch& watch);
   void end(WatchMap::iterator position);
-  /// What speaks against another path, or nothing.
+  /// Returns the limit that prevents watching another path; an empty text if there is none.
   [[nodiscard]] std::string limit_hit(const RequestKey& key, bool is_new, std::size_t bytes) const;
   [[nodiscard]] path_state_t state_of(const Watch& watch) const;
 
@@ -171,16 +171,17 @@ class Watches {
   std::map<WatchChecker::Id, RequestKey> keys_;
   std::map<std::string, std::size_t> of_client_;
   std::size_t bytes_ = 0;
+  /// Revision for which all paths of a scene were checked.
   std::map<std::string, std::uint64_t>
       checked_;  ///< revision that all paths of a scene were brought to
   Times due_;
-  Times broken_;                         ///< to be planned, not before
-  Times improvable_;                     ///< likewise, in hope of a better path
-  std::optional<RequestKey> improving_;  ///< which is being planned for that
+  Times broken_;      ///< to be planned again, not before that time
+  Times improvable_;  ///< to be planned again in hope of a better path, not before that time
+  std::optional<RequestKey> improving_;  ///< request that is being planned for a better path
   std::vector<Taken> taken_;
   WatchChecker::Id next_id_ = 1;
   std::int64_t next_serial_;
-  WatchChecker checker_;  ///< last: its thread ends before all above goes
+  WatchChecker checker_;  ///< last: its thread ends before all above is destroyed
 };
 
 }  // namespace camway::service

@@ -12,6 +12,7 @@ namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
 using collision::Deadline;
+using geometry::Bounds;
 
 constexpr double kBall_m = 0.02;
 constexpr std::size_t kEnough = 400'000;  // cells
@@ -99,6 +100,123 @@ TEST(CellWay, SaysWhenThereIsNone) {
     EXPECT_TRUE(result.way_W.empty());
     EXPECT_TRUE(result.exhausted) << result.cells;
   }
+}
+
+/// Points of a grid in a box, each joined to those beside it where the straight way between the two
+/// keeps `keep_m` away from all triangles: what a ball can do at the least.
+class GridOfRoom {
+ public:
+  GridOfRoom(const SearchScene& scene, const geometry::Box& within, double spacing_m, double keep_m)
+      : low_W_(within.min()), spacing_m_(spacing_m) {
+    for (int axis = 0; axis < 3; ++axis)
+      count_[axis] = 1 + static_cast<int>(within.sizes()[axis] / spacing_m);
+    for (int i = 0; i < count_.prod(); ++i)
+      has_room_.push_back(scene.distance_m(point_W(i)) >= keep_m + 0.5 * spacing_m);
+  }
+
+  [[nodiscard]] Vec3 point_W(int i) const {
+    const Eigen::Array3d at(i % count_[0], i / count_[0] % count_[1], i / count_[0] / count_[1]);
+    return low_W_.array() + spacing_m_ * at;
+  }
+
+  /// The parts in which all points are joined, by number; -1 where there is no room.
+  [[nodiscard]] std::vector<int> parts() const {
+    std::vector<int> part(has_room_.size(), -1);
+    int parts = 0;
+    for (std::size_t first = 0; first < part.size(); ++first) {
+      if (part[first] >= 0 || !has_room_[first]) continue;
+      std::vector<std::size_t> open = {first};
+      part[first] = parts;
+      while (!open.empty()) {
+        const std::size_t at = open.back();
+        open.pop_back();
+        for_each_beside(static_cast<int>(at), [&](std::size_t next) {
+          if (part[next] >= 0 || !has_room_[next]) return;
+          part[next] = parts;
+          open.push_back(next);
+        });
+      }
+      ++parts;
+    }
+    return part;
+  }
+
+ private:
+  template <class Visit>
+  void for_each_beside(int i, const Visit& visit) const {
+    const std::array<int, 3> stride = {1, count_[0], count_[0] * count_[1]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int at = i / stride[axis] % count_[static_cast<Eigen::Index>(axis)];
+      if (at > 0) visit(static_cast<std::size_t>(i - stride[axis]));
+      if (at + 1 < count_[static_cast<Eigen::Index>(axis)])
+        visit(static_cast<std::size_t>(i + stride[axis]));
+    }
+  }
+
+  Vec3 low_W_;
+  double spacing_m_;
+  Eigen::Array3i count_;
+  std::vector<bool> has_room_;
+};
+
+/// Boxes without lids and walls that stand apart by more or less than the ball: much is nearly
+/// closed.
+scene::Mesh plates_with_slits(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(-0.6, 0.6);
+  std::uniform_real_distribution<double> length(0.5, 1.6);
+  std::uniform_int_distribution<int> axis(0, 2);
+  std::uniform_int_distribution<int> count(10, 22);
+  scene::Mesh mesh;
+  for (int i = count(random); i > 0; --i) {
+    const Quat turn_W = i % 3 == 0 ? testing::random_rotation(random) : Quat::Identity();
+    Vec3 half = 0.5 * Vec3(length(random), length(random), length(random));
+    half[axis(random)] = 0.002;
+    const Vec3 center(place(random), place(random), place(random));
+    scene::Mesh plate;
+    testing::add_cuboid(plate, -half, half);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Vec3& vertex : plate.vertices) mesh.vertices.push_back(center + turn_W * vertex);
+    for (auto triangle : plate.triangles) {
+      for (std::uint32_t& vertex : triangle) vertex += first;
+      mesh.triangles.push_back(triangle);
+    }
+  }
+  return mesh;
+}
+
+// Cells that are spared must not be those that a way leads through: where a grid finds one for a
+// ball with room to spare, the search does not say that there is none.
+TEST(CellWay, IsExhaustedOnlyWhereThereIsNoWay) {
+  std::mt19937_64 random = testing::seeded(5203);
+  std::uniform_int_distribution<std::size_t> any;
+  constexpr double kSpacing_m = 0.05;
+  constexpr double kSmallest_m = 0.25 * kSpacing_m;
+  // Half of a diagonal of the smallest cells on either side.
+  constexpr double kToSpare_m = 2.0 * kSmallest_m;
+  int ways = 0;
+  int without = 0;
+  for (int run = 0; run < 12; ++run) {
+    SCOPED_TRACE(run);
+    const SearchScene scene(plates_with_slits(random));
+    Bounds bounds{Vec3::Constant(-0.6), Vec3::Constant(0.6)};
+    const GridOfRoom grid(scene, {bounds.min_W, bounds.max_W}, kSpacing_m, kBall_m + kToSpare_m);
+    bounds = bounds.shrunk_by(-2.0 * kBall_m);
+    const FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body,
+                          scene.detect);
+    const std::vector<int> parts = grid.parts();
+    for (int pair = 0; pair < 30; ++pair) {
+      const std::size_t from = any(random) % parts.size();
+      const std::size_t to = any(random) % parts.size();
+      if (parts[from] < 0 || parts[to] < 0) continue;
+      const CellResult found =
+          cell_way(space, grid.point_W(static_cast<int>(from)), grid.point_W(static_cast<int>(to)),
+                   options_of(kSmallest_m), Deadline::never());
+      EXPECT_FALSE(found.exhausted && parts[from] == parts[to]) << from << " to " << to;
+      ++(found.way_W.empty() ? without : ways);
+    }
+  }
+  EXPECT_GT(ways, 30);
+  EXPECT_GT(without, 10);
 }
 
 // However large the rest is, and from whichever end: about the box that is shut, of bare walls.

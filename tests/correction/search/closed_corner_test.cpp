@@ -8,6 +8,7 @@
 namespace camway::correction {
 namespace {
 
+using geometry::Bounds;
 using geometry::Box;
 using geometry::Quat;
 using geometry::Vec3;
@@ -26,8 +27,9 @@ struct Seen {
       scene::Mesh turned = mesh;
       for (Vec3& vertex : turned.vertices) vertex = turn_W * vertex;
       const Vec3 half = Vec3::Constant(half_m);
-      const bool closed = is_closed_corner(scene::SceneIndex::build(turned), Box(-half, half),
-                                           turn_W * from, kKeep_m);
+      const scene::SceneIndex index = scene::SceneIndex::build(turned);
+      const bool closed =
+          closed_corner(index, Box(-half, half), turn_W * from, kKeep_m).has_value();
       if (run == 0) first = closed;
       EXPECT_EQ(closed, first) << run;
     }
@@ -90,6 +92,31 @@ TEST(ClosedCorner, AWallStandsOnAFloorIfTheSlitIsTooNarrow) {
     testing::add_cuboid(corner, {-0.1, -2.9, slit_m}, {0.0, 2.8, 4.0});
     EXPECT_EQ(Seen(corner).closed({0.3, 0, 0.3}), slit_m < kKeep_m) << slit_m;
   }
+}
+
+// As if a wall without holes stood there.
+TEST(ClosedCorner, ASideOfTheBoundsIsAWall) {
+  const auto closed = [](const scene::Mesh& mesh, const Bounds& bounds, const Vec3& from) {
+    const scene::SceneIndex index = scene::SceneIndex::build(mesh);
+    const Vec3 half = Vec3::Constant(0.5);
+    return closed_corner(collision::Obstacles(index).within(bounds), Box(-half, half), from,
+                         kKeep_m)
+        .has_value();
+  };
+  Bounds bounds;
+  bounds.min_W.z() = 0.0;
+  EXPECT_TRUE(closed({}, bounds, {0, 0, 0.3}));
+  EXPECT_FALSE(closed({}, bounds, {0, 0, 0.5 * kKeep_m}));
+  EXPECT_FALSE(closed({}, bounds, {0, 0, -0.3})) << "beyond the bounds";
+  scene::Mesh hole_beyond;
+  add_wall(hole_beyond, -0.1, 0.2);
+  EXPECT_TRUE(closed(hole_beyond, bounds, {0, 0, 0.3}));
+  scene::Mesh opposite;
+  add_wall(opposite, 0.4, 0.0);
+  EXPECT_FALSE(closed(opposite, bounds, {0, 0, 0.2})) << "what is between them leads on";
+  scene::Mesh beside;
+  testing::add_cuboid(beside, {-0.1, -3, -3}, {0.0, 3, 3});
+  EXPECT_TRUE(closed(beside, bounds, {0.3, 0, 0.3})) << "a corner with a wall";
 }
 
 TEST(ClosedCorner, EmptySpaceIsNone) {

@@ -85,6 +85,19 @@ TEST(AnswerCache, RunningRequestsAreNeverDropped) {
   EXPECT_EQ(cache.find_or_begin({"slow", 1}, kDigest).known, Known::kRunning);
 }
 
+// A path may be watched for longer than its answer is kept, and the ids be used again by then.
+TEST(AnswerCache, AnAnswerReplacesNoneOfAnotherRequest) {
+  AnswerCache cache;
+  const RequestKey key{"client", 1};
+  cache.find_or_begin(key, kOtherDigest);
+  cache.replace(key, kDigest, answer_of(10));
+  EXPECT_EQ(cache.find_or_begin(key, kOtherDigest).known, Known::kRunning);
+  const Pages own = answer_of(20);
+  cache.finish(key, own);
+  cache.replace(key, kDigest, answer_of(10));
+  EXPECT_EQ(cache.find_or_begin(key, kOtherDigest).pages, own);
+}
+
 TEST(RequestDigest, IsOfContentAlone) {
   testing::Random random(testing::kSeed);
   const plan_request_t request =

@@ -30,6 +30,7 @@ TEST(SceneIdle, WhatTheOperationNamesCounts) {
   load.up = Request::UP_Z_TO_Y;
   load.unknown = Request::UNKNOWN_OCCUPIED;
   load.occupancy_resolution_m = 0.1;
+  load.body_bounds.has_min[1] = 1;
   EXPECT_EQ(idle_member(load), "");
   Request put = request(Request::PUT, Request::CYLINDER);
   put.object = "pillar";
@@ -53,6 +54,12 @@ TEST(SceneIdle, WhatWouldNotCountIsNamed) {
   move.object = "chair";
   move.scale = 2.0;
   EXPECT_EQ(idle_member(move), "scale: does not count with this operation; leave it zero or empty");
+  Request bounded = request(Request::PUT, Request::SPHERE);
+  bounded.body_bounds.has_max[2] = 1;
+  EXPECT_THAT(idle_member(bounded), StartsWith("body_bounds: "));
+  bounded = request(Request::MOVE);
+  bounded.body_bounds.min_m[0] = -1.0;
+  EXPECT_THAT(idle_member(bounded), StartsWith("body_bounds: "));
   Request box = request(Request::PUT, Request::BOX);
   box.radius_m = 1.0;
   EXPECT_EQ(idle_member(box),

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What no reader of files has a use for: to try is to be stopped.
+/// System calls that no file reader needs: an attempt kills the process.
 constexpr std::initializer_list<int> kDeadly = {SCMP_SYS(socket),
                                                 SCMP_SYS(socketpair),
                                                 SCMP_SYS(connect),
@@ -42,7 +42,7 @@ constexpr std::initializer_list<int> kDeadly = {SCMP_SYS(socket),
                                                 SCMP_SYS(process_vm_writev),
                                                 SCMP_SYS(io_uring_setup)};
 
-/// What reading files and building a mesh needs, whatever the arguments.
+/// System calls that reading files and building a mesh need, with any arguments.
 constexpr std::initializer_list<int> kAllowed = {
     // files, whose opening has a rule of its own
     SCMP_SYS(read), SCMP_SYS(pread64), SCMP_SYS(readv), SCMP_SYS(close), SCMP_SYS(lseek),
@@ -114,7 +114,7 @@ bool filter_system_calls(int output_fd) {
   return add_conditions(filter, output_fd) && seccomp_load(filter.get()) == 0;
 }
 
-/// Adds a folder to what may be read. One that is not there adds nothing.
+/// Adds a folder to those that may be read. A missing folder adds nothing.
 void allow_reading_below(int ruleset, const fs::path& folder) {
   const int fd = open(folder.c_str(), O_PATH | O_CLOEXEC);
   if (fd < 0) return;
@@ -125,7 +125,7 @@ void allow_reading_below(int ruleset, const fs::path& folder) {
   close(fd);
 }
 
-/// Closes all files to this process but those beside `file`, where the kernel can.
+/// Denies this process all files but those beside `file`, if the kernel can.
 void limit_files(const fs::path& file) {
   landlock_ruleset_attr attributes{};
   // All of the first version of Landlock, from execution to symbolic links; writing is closed by

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-/// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE, OBJ, OFF, PLY and STL by our own
-/// readers, occupancy maps with OctoMap and all else with assimp, and writes what `import_format.h`
-/// describes to file descriptor
-/// 3. Started by `import_mesh` only. The one place that sees assimp; a process of its own, because
-/// a file of a few bytes can make assimp crash or take all memory.
+/// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE and writes the record of
+/// `import_format.h` to file descriptor 3. OBJ, OFF, PLY and STL are read by our own readers,
+/// occupancy maps by OctoMap, all else by assimp. Started by `import_mesh` only. The only program
+/// that sees assimp; a process of its own, because a file of a few bytes can make assimp crash or
+/// take all memory.
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -44,7 +44,7 @@ namespace {
 namespace format = camway::scene::import_format;
 namespace mesh_readers = camway::scene::mesh_readers;
 
-/// A scene file and what it refers to, one after the other.
+/// Enough for a scene file and the files that it refers to, one after the other.
 constexpr rlim_t kMaxOpenFiles = 64;
 
 bool set_limit(int resource, rlim_t value) {
@@ -66,7 +66,7 @@ bool limit_this_process(rlim_t memory_bytes, rlim_t cpu_s) {
 
 bool confine([[maybe_unused]] const char* file) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return true;  // sanitizers need more of the system than is left
+  return true;  // sanitizers need more system calls than are left
 #else
   return camway::scene::confine_this_process(file, format::kOutputFd);
 #endif
@@ -151,8 +151,8 @@ void append_nodes(const aiNode& node, const aiScene& scene, format::Record& reco
   }
 }
 
-/// By how much assimp may be off where it only reads numbers: it makes a decimal of whole part and
-/// fraction, each rounded, and their sum, and multiplies by a power of ten, rounded too.
+/// Error of a number that assimp only reads: it makes a decimal of whole part and fraction, each
+/// rounded, and their sum, and multiplies by a power of ten, rounded too.
 constexpr double kReadingRoundoffs = 8.0;
 constexpr double kRoundoff = double{std::numeric_limits<ai_real>::epsilon()} / 2.0;
 
@@ -243,7 +243,7 @@ int import_with_assimp(const std::string& file) {
   return write_record(record) ? format::kExitOk : format::kExitInternal;
 }
 
-/// The bytes of a file, mapped. One that shrinks meanwhile ends this process, which is its purpose.
+/// The bytes of a file, mapped. If the file shrinks meanwhile this process crashes, as it may.
 class MappedFile {
  public:
   explicit MappedFile(const std::string& file) : fd_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -310,7 +310,7 @@ int main(int argc, char** argv) {
     return format::kExitInternal;
   }
   if (!confine(argv[1])) return format::kExitNotConfined;
-  // assimp catches bad_alloc and calls it something else; this comes before.
+  // Called before assimp can catch bad_alloc and report it as something else.
   std::set_new_handler([] { _exit(format::kExitOutOfMemory); });
   int code = format::kExitInternal;
   try {
@@ -318,6 +318,6 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     code = refuse(e.what());
   }
-  // What was written is complete; what assimp left behind at exit can only fail.
+  // The output is complete; the destructors of assimp at exit could only fail.
   _exit(code);
 }

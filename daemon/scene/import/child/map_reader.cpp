@@ -52,7 +52,7 @@ std::string read_binary(const std::string& file, format::Record& record) {
 }
 
 std::string read_full(const std::string& file, format::Record& record) {
-  // Their types are known to OctoMap once they are made.
+  // OctoMap knows these types once an object of them was made.
   const octomap::ColorOcTree with_colours(1.0);
   const octomap::OcTreeStamped with_times(1.0);
   const std::unique_ptr<const octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(file));
@@ -73,7 +73,7 @@ bool is_map_extension(std::string_view extension) {
 
 std::string read_map(const std::string& file, std::string_view extension, format::Record& record) {
   record.text = "OctoMap";
-  record.header.relative_rounding = geometry::kUnitRoundoff;  // of a face, number times edge
+  record.header.relative_rounding = geometry::kUnitRoundoff;  // of a face: number times edge
   return equals_ignoring_case(extension, ".bt") ? read_binary(file, record)
                                                 : read_full(file, record);
 }

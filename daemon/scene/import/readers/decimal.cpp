@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The exponent behind the e, cut to what no mantissa in a file can bring back into range.
+/// The exponent behind the e, clamped to a magnitude that no mantissa in a file can compensate.
 std::int64_t clamped_exponent(std::string_view text) {
   constexpr std::int64_t kEnough = std::int64_t{1} << 60;
   const bool negative = text.starts_with('-');
@@ -23,8 +23,8 @@ std::int64_t clamped_exponent(std::string_view text) {
   return negative ? -value : value;
 }
 
-/// Of a decimal that no double holds: whether it is too large, not too small. The power of ten of
-/// its first digit that is not 0 says so.
+/// Whether a decimal beyond the range of doubles is too large, not too small. The power of ten of
+/// its first nonzero digit decides.
 bool is_too_large(std::string_view digits) {
   const std::size_t e = digits.find_first_of("eE");
   const std::string_view mantissa = digits.substr(0, e);
@@ -36,7 +36,7 @@ bool is_too_large(std::string_view digits) {
   return power > 0;
 }
 
-/// `from_chars` takes no plus.
+/// `from_chars` accepts no plus.
 std::string_view without_plus(std::string_view token) {
   const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-';
   return plus ? token.substr(1) : token;

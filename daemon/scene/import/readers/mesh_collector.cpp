@@ -81,7 +81,7 @@ import_format::Record MeshCollector::finish(std::string_view format, double rela
   end_object();
   if (record_.objects.empty()) record_.objects.push_back({0, 0});
   record_.text = format;
-  // Number, weight and quotient round once each; the fourth is more than their products come to.
+  // Number, weight and quotient round once each; the fourth exceeds their products.
   record_.header.relative_rounding = (weighted_ ? 4.0 : 1.0) * relative_rounding;
   return std::move(record_);
 }

@@ -13,39 +13,39 @@
 
 namespace camway::scene::mesh_readers {
 
-/// For a corner whose vertex does not exist.
+/// Index of a corner whose vertex does not exist.
 inline constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
-/// Takes what a reader finds and makes the record of it: cuts polygons, counts what is no surface.
+/// Builds the record of a mesh from the parts that a reader finds: cuts polygons into triangles and
+/// counts what is no surface.
 class MeshCollector {
  public:
-  /// For a count that the bytes have been seen to hold.
+  /// Requires a count that fits the bytes of the file.
   void reserve_vertices(std::size_t count) { record_.vertices.reserve(count); }
   std::uint32_t add_vertex(const Point& vertex);
   [[nodiscard]] std::size_t vertex_count() const { return record_.vertices.size(); }
 
-  /// The vertex of that number, counted from 0; `kNoVertex` if there is none so far.
+  /// Index of vertex `number`, counted from 0; `kNoVertex` if it does not exist yet.
   [[nodiscard]] std::uint32_t vertex(std::int64_t number) const;
 
-  /// Triangles from here on belong to an object of this name, of which the first 256 bytes count.
-  /// Objects without a triangle leave no trace.
+  /// Begins an object, which owns the triangles that follow. Only the first 256 bytes of its name
+  /// count. Objects without triangles are dropped.
   void begin_object(std::string_view name);
 
-  /// One of 3 corners or more becomes triangles, one of fewer counts as a point or line. A corner
-  /// `kNoVertex` spoils its polygon, which then is one triangle that the receiver drops and counts;
-  /// of one with a corner that is not finite, or so large that areas overflow, every triangle has
-  /// that corner, and the receiver decides.
+  /// Adds a polygon as triangles; one or two corners count as a point or line. With a corner
+  /// `kNoVertex` it becomes one triangle that the receiver drops and counts. With a corner that is
+  /// not finite, or too large for areas, all triangles contain that corner; the receiver decides.
   void add_polygon(std::span<const std::uint32_t> corners);
 
   void add_points_and_lines(std::uint64_t count) {
     record_.header.dropped_points_and_lines += count;
   }
-  /// Some coordinates were divided by a weight, which is rounded itself.
+  /// Records that coordinates were divided by a weight, which is rounded itself.
   void note_weight() { weighted_ = true; }
   void add_freeform_surface() { ++record_.header.dropped_freeform; }
   void add_ignored_statement() { ++record_.header.ignored_statements; }
 
-  /// The record, with one object at least. `relative_rounding`: of reading one number.
+  /// Returns the record, with at least one object. `relative_rounding`: of reading one number.
   import_format::Record finish(std::string_view format, double relative_rounding);
 
  private:
@@ -55,7 +55,7 @@ class MeshCollector {
   import_format::Record record_;
   std::string name_;
   bool weighted_ = false;
-  std::size_t first_triangle_ = 0;  ///< of the object begun last
+  std::size_t first_triangle_ = 0;  ///< first triangle of the current object
   PolygonCutter cutter_;
   std::vector<Point> corners_;
 };

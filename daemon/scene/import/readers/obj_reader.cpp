@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Gives the lines of a file, with those that end in a backslash joined to the next.
+/// Splits a file into lines, joining those that end in a backslash to the next.
 class Lines {
  public:
   explicit Lines(std::string_view bytes) : rest_(bytes) {
@@ -47,13 +47,13 @@ class Lines {
   std::string joined_;
 };
 
-/// The next word before a comment.
+/// The next word before a comment; empty if there is none.
 std::string_view take_word(std::string_view& line) {
   const std::string_view word = take_token(line);
   return word.starts_with('#') ? std::string_view() : word;
 }
 
-/// What is no number makes the vertex unusable, but it keeps its place among the others.
+/// A word that is no number makes the vertex unusable, but it keeps its index.
 Point read_vertex(std::string_view line, MeshCollector& mesh) {
   std::array<double, 6> numbers{};
   std::size_t count = 0;
@@ -79,7 +79,7 @@ std::size_t count_words(std::string_view line) {
   return count;
 }
 
-/// To which object a face belongs.
+/// Determines the object that a face belongs to.
 class Grouping {
  public:
   explicit Grouping(MeshCollector& mesh) : mesh_(mesh) {}
@@ -127,7 +127,7 @@ class Grouping {
   bool has_faces_ = false;
 };
 
-/// Second pass: every vertex is known, and only how many came before is counted again.
+/// Second pass: all vertices are known; only the number of vertices so far is counted again.
 class FaceReader {
  public:
   explicit FaceReader(MeshCollector& mesh) : mesh_(mesh), grouping_(mesh) {}
@@ -156,10 +156,10 @@ class FaceReader {
   }
 
  private:
-  /// What makes a curve or a surface of its own, also of the oldest versions.
+  /// Statements that begin a curve or a surface, also in the oldest versions.
   static constexpr std::array<std::string_view, 7> kFreeform = {"surf", "curv", "bzp", "bsp",
                                                                 "cdc",  "cdp",  "res"};
-  /// What is known, and puts nothing into the scene.
+  /// Known statements that add nothing to the scene.
   static constexpr std::array<std::string_view, 29> kHarmless = {
       "vt",        "vn",  "vp",    "s",     "mg",       "mtllib",   "maplib", "usemap",
       "bevel",     "lod", "ctech", "stech", "c_interp", "d_interp", "cstype", "shadow_obj",

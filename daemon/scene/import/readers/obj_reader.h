@@ -8,13 +8,13 @@
 
 namespace camway::scene::mesh_readers {
 
-/// Wavefront OBJ: vertices (three coordinates, then perhaps a weight w, by which they are divided,
-/// or a colour), faces, groups and materials; `\` at the end of a line, indices from the end,
-/// comments. Lines, points and free-form curves and surfaces (`surf`, `curv`, and
-/// `bzp` and its like of old versions) are counted, and so are statements that nobody knows: a slip
-/// may have been a face. Any text is an OBJ file, if
-/// an empty one. Materials are not looked up; they part objects, which are named as assimp names
-/// them: by the last `o` or `g`, with `/material` behind it where the material changes within.
+/// Reads Wavefront OBJ: vertices (three coordinates, then perhaps a weight w, by which they are
+/// divided, or a colour), faces, groups and materials; `\` at the end of a line, indices from the
+/// end, comments. Counts lines, points, free-form curves and surfaces (`surf`, `curv`, and `bzp`
+/// and the like of old versions), and unknown statements, since a misspelt one may have been a
+/// face. Any text is an OBJ file, if only an empty one. Materials are not loaded, but divide
+/// objects, whose names are those that assimp gives: the last `o` or `g`, followed by `/material`
+/// where the material changes within.
 void read_obj(std::string_view bytes, MeshCollector& mesh);
 
 }  // namespace camway::scene::mesh_readers

@@ -30,7 +30,7 @@ class Words {
     }
   }
   void skip_line() { line_ = {}; }
-  /// Gives back what of the last word was not meant.
+  /// Puts back the unused tail of the last word.
   void put_back(std::string_view tail) {
     const std::size_t size = static_cast<std::size_t>(line_.data() - tail.data()) + line_.size();
     line_ = std::string_view(tail.data(), size);
@@ -77,7 +77,7 @@ class OffReader {
   }
 
  private:
-  /// `[ST][C][N][4][n]OFF`, or nothing at all.
+  /// `[ST][C][N][4][n]OFF`, or no keyword.
   std::string read_keyword() {
     const std::string_view word = words_.next();
     const std::size_t off = word.find("OFF");
@@ -108,7 +108,7 @@ class OffReader {
     std::string_view second = words_.next_on_line();
     const bool on_one_line = !second.empty();
     if (!on_one_line) second = words_.next();
-    // The number of edges, which nobody needs and some leave out.
+    // The number of edges, which is unused and sometimes missing.
     if (!on_one_line) words_.next();
     words_.skip_line();
     return take_counts(first, second);

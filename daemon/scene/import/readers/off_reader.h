@@ -8,10 +8,10 @@
 
 namespace camway::scene::mesh_readers {
 
-/// Geomview's OFF in text, with or without its keyword, and its kin (COFF, NOFF, STOFF, 4OFF with a
-/// weight by which coordinates are divided, nOFF of three dimensions). One vertex and one face a
-/// line, as all write it: what a line holds beyond is colour and the like. The number of edges may
-/// be missing. Returns why the file is refused, or an empty text.
+/// Reads Geomview's OFF in text, with or without its keyword, and its variants (COFF, NOFF, STOFF,
+/// 4OFF with a weight by which coordinates are divided, nOFF of three dimensions). Expects one
+/// vertex or face per line, as all programs write it, and ignores the rest of the line: colours and
+/// the like. The number of edges may be missing. Returns why the file is refused, or an empty text.
 std::string read_off(std::string_view bytes, MeshCollector& mesh);
 
 }  // namespace camway::scene::mesh_readers

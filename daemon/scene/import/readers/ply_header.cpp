@@ -63,7 +63,7 @@ class HeaderReader {
       if (keyword == "format") error = read_format(line);
       if (keyword == "element") error = read_element(line);
       if (keyword == "property") error = read_property(line);
-      // All else is "comment", "obj_info" or an invention that no data follows from.
+      // All other lines are "comment", "obj_info" or extensions without data.
       if (!error.empty()) return error;
     }
     return "has a header without an end";

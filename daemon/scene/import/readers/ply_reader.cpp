@@ -22,7 +22,7 @@ namespace {
 class TextValues {
  public:
   explicit TextValues(std::string_view body) : rest_(body) {}
-  /// False at the end. What is no number is a NaN.
+  /// Returns false at the end. A word that is no number gives a NaN.
   bool next(PlyType /*type*/, double& value) {
     const std::string_view word = take_token(rest_);
     value = parse_decimal(word);
@@ -80,7 +80,7 @@ class BinaryValues {
   std::string_view rest_;
 };
 
-/// Walks over the body, with the vertices before the faces whatever the order in the file.
+/// Reads the body; vertices come before faces, whatever the order in the file.
 template <class Values>
 class BodyReader {
  public:
@@ -103,7 +103,7 @@ class BodyReader {
     bool met_vertices = false;
     for (const PlyElement& element : header_.elements) {
       const std::size_t least = element.least_bytes(kBinary);
-      if (least == 0) continue;  // nothing is written of it
+      if (least == 0) continue;  // it takes no bytes
       if (element.count > values.bytes_left() / least) return too_many(element);
       const bool is_vertex = element.name == "vertex";
       const bool is_face = element.name == "face" || element.name == "tristrips";
@@ -134,7 +134,7 @@ class BodyReader {
            std::to_string(number);
   }
 
-  /// One property; `list` gets the values of a list if not null, `scalar` that of any other.
+  /// Reads one property: into `list`, unless null, if it is a list, else into `scalar`.
   bool take(Values& values, const PlyProperty& property, double& scalar,
             std::vector<double>* list) {
     if (!property.count_type) return values.next(property.type, scalar);

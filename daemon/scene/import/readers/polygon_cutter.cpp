@@ -12,8 +12,8 @@ namespace {
 
 using Point2 = std::array<double, 2>;
 
-/// Twice the area vector, about the first corner, so that a small polygon far from the origin
-/// loses nothing.
+/// Twice the area vector, relative to the first corner, so that a small polygon far from the origin
+/// keeps its precision.
 Point area_vector(std::span<const Point> corners) {
   Point sum = {0.0, 0.0, 0.0};
   const Point& origin = corners[0];
@@ -117,7 +117,8 @@ double PolygonCutter::turn_at(Index corner) const {
   return turn(before_[corner], corner, after_[corner]);
 }
 
-/// The diagonal from the first corner, unless one beside it is not convex: at most one corner is.
+/// The diagonal from the first corner, unless a corner beside it is not convex: at most one corner
+/// is.
 void PolygonCutter::cut_quadrilateral() {
   if (turn(0, 1, 2) > 0.0 && turn(2, 3, 0) > 0.0) {
     cuts_.push_back({0, 1, 2});
@@ -142,7 +143,7 @@ void PolygonCutter::link() {
   }
 }
 
-/// Corners are tried in turn, from the first; behind an ear comes the corner after it.
+/// Tries the corners in order from the first; after an ear it goes on with the next corner.
 void PolygonCutter::cut_ears() {
   link();
   std::size_t remaining = points_.size();
@@ -188,8 +189,8 @@ bool PolygonCutter::is_ear(Index corner) const {
                       [&](Index other) { return encloses(ear, other); });
 }
 
-/// A corner at the very place of one of the ear's own does not count: outlines that lead to a hole
-/// and back pass through the same point twice.
+/// A corner at the same place as one of the ear's own does not count: outlines that lead to a hole
+/// and back pass through a point twice.
 bool PolygonCutter::encloses(const Cut& ear, Index corner) const {
   const Point2& point = points_[corner];
   for (const Index own : ear) {

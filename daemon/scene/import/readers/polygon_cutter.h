@@ -10,22 +10,23 @@ namespace camway::scene::mesh_readers {
 
 using Point = std::array<double, 3>;
 
-/// Cuts polygons into triangles by their corners, by cutting ears (Meisters 1975, "Polygons have
-/// ears"): a planar polygon whose outline does not meet itself, convex or not, is covered exactly.
-/// All decisions are exact: the polygon is looked at along the axis to which its normal (Newell) is
-/// nearest, which drops a coordinate and rounds nothing, and orientations of three corners are
-/// computed without rounding.
+/// Cuts polygons into triangles between their corners, by cutting ears (Meisters 1975, "Polygons
+/// have ears"). It covers a planar polygon whose outline does not meet itself, convex or not,
+/// exactly. All decisions are exact: the polygon is projected along the axis nearest to its normal
+/// (Newell), which drops a coordinate and rounds nothing, and orientations of three corners are
+/// exact.
 ///
-/// Of a polygon that is not quite planar the same is true in that view; in space the triangles span
-/// its corners. Where the outline meets itself no surface is defined: what is left when no ear is
-/// found is cut into a fan, so that nothing is left out. Not safe from two threads at once.
+/// For a polygon that is not quite planar the same holds in the projection; in space the triangles
+/// span its corners. An outline that meets itself defines no surface: the remainder without an ear
+/// is cut into a fan, so that nothing is left out.
+/// Not thread-safe.
 class PolygonCutter {
  public:
-  using Cut = std::array<std::uint32_t, 3>;  ///< three of the corners
+  using Cut = std::array<std::uint32_t, 3>;  ///< indices of three corners
 
-  /// `corners.size() - 2` triangles in the polygon's sense of turning, valid until the next call.
-  /// Preconditions: 3 corners or more; each coordinate is 0 or its magnitude within 2^±200, or
-  /// else what is said above of exactness does not hold.
+  /// Returns `corners.size() - 2` triangles that turn like the polygon, valid until the next call.
+  /// Requires 3 corners or more. The exactness above requires that each coordinate is 0 or has a
+  /// magnitude within 2^±200.
   std::span<const Cut> cut(std::span<const Point> corners);
 
  private:
@@ -44,16 +45,15 @@ class PolygonCutter {
   [[nodiscard]] bool encloses(const Cut& ear, Index corner) const;
 
   std::vector<std::array<double, 2>> points_;
-  std::vector<Index> before_;  ///< the corners that are left, as a ring
+  std::vector<Index> before_;  ///< the remaining corners, as a ring
   std::vector<Index> after_;
-  std::vector<Index>
-      reflex_;  ///< corners that are not strictly convex; only these can be in an ear
+  std::vector<Index> reflex_;  ///< corners not strictly convex; only these can lie in an ear
   std::vector<Cut> cuts_;
 };
 
-/// Above 0 if a, b, c turn counter-clockwise, below 0 if clockwise, 0 if they are on a line: the
-/// sign is exact (Shewchuk 1997, "Adaptive precision floating-point arithmetic", section 4.1, with
-/// but one stage after the filter), as long as nothing over- or underflows.
+/// The sign of the turn a, b, c: above 0 if counter-clockwise, below 0 if clockwise, 0 on a line.
+/// It is exact as long as nothing over- or underflows (Shewchuk 1997, "Adaptive precision
+/// floating-point arithmetic", section 4.1). Deviation: only one stage after the filter.
 double orientation(const std::array<double, 2>& a, const std::array<double, 2>& b,
                    const std::array<double, 2>& c);
 

@@ -23,7 +23,7 @@ std::uint32_t little_endian_word(std::string_view bytes) {
   return value;
 }
 
-/// Bytes that a binary file of this header has.
+/// Size of a binary file with this header, in bytes.
 std::size_t promised_size(std::string_view bytes) {
   return kHeaderBytes + kFacetBytes * std::size_t{little_endian_word(bytes.substr(80))};
 }
@@ -58,7 +58,7 @@ std::string read_binary(std::string_view bytes, MeshCollector& mesh) {
   return "";
 }
 
-/// Takes no notice of words that it does not need (`outer loop`, `normal`, what others invented).
+/// Ignores words that it does not need (`outer loop`, `normal`, extensions).
 class TextReader {
  public:
   TextReader(std::string_view bytes, MeshCollector& mesh) : rest_(bytes), mesh_(mesh) {}

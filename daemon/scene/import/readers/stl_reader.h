@@ -8,12 +8,12 @@
 
 namespace camway::scene::mesh_readers {
 
-/// Whether the bytes are a binary STL file: as long as its number of facets says, or longer while
-/// they do not begin as text does. (Many binary files begin with "solid" too.)
+/// Whether the bytes are a binary STL file: they have the length that their number of facets
+/// demands, or do not begin like text. (Many binary files begin with "solid", too.)
 bool is_binary_stl(std::string_view bytes);
 
-/// Stereolithography files, binary (floats) and text, with any number of solids. Normals and
-/// attributes are not read. Returns why the file is refused, or an empty text.
+/// Reads stereolithography files, binary (floats) or text, with any number of solids. Ignores
+/// normals and attributes. Returns why the file is refused, or an empty text.
 std::string read_stl(std::string_view bytes, MeshCollector& mesh);
 
 }  // namespace camway::scene::mesh_readers

@@ -6,12 +6,12 @@
 
 namespace camway::scene::mesh_readers {
 
-/// What parts words in all text formats. A NUL too: it is in no number and no name.
+/// Whether `c` separates words in the text formats. NUL does, too: no number or name contains it.
 constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f' || c == '\0';
 }
 
-/// Takes the next word off `text`; empty exactly if there is none.
+/// Removes the next word from `text` and returns it; empty exactly if there is none.
 inline std::string_view take_token(std::string_view& text) {
   std::size_t begin = 0;
   while (begin < text.size() && is_blank(text[begin])) ++begin;
@@ -22,8 +22,8 @@ inline std::string_view take_token(std::string_view& text) {
   return token;
 }
 
-/// Takes the next line off `text`, without its end, which is LF, CR or CR LF. Precondition: `text`
-/// is not empty.
+/// Removes the next line from `text` and returns it without its end: LF, CR or CR LF. Requires that
+/// `text` is not empty.
 inline std::string_view take_line(std::string_view& text) {
   std::size_t end = 0;
   while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
@@ -33,14 +33,14 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Without the blanks at both ends.
+/// `text` without the blanks at both ends.
 constexpr std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
 }
 
-/// Of ASCII letters alone, so whatever the locale.
+/// Compares ASCII letters without case, in any locale. Requires that `lower` is in lower case.
 inline bool equals_ignoring_case(std::string_view text, std::string_view lower) {
   if (text.size() != lower.size()) return false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -50,7 +50,7 @@ inline bool equals_ignoring_case(std::string_view text, std::string_view lower) 
   return true;
 }
 
-/// Whether nothing is there but blanks. What else follows the faces that a header promises could be
+/// Whether `rest` holds only blanks. Anything else after the faces that a header promises could be
 /// more of them.
 constexpr bool is_blank(std::string_view rest) { return trimmed(rest).empty(); }
 

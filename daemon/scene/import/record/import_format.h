@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-/// What the import process hands back to the process that started it: one flat record in the byte
+/// The record that the import process returns to the process that started it: flat, in the byte
 /// order of the machine, since both are the same build on the same machine.
 ///
 ///     Header · text · vertices · triangles · objects · names · occupied cubes · free cubes
 ///
-/// The reader of an untrusted file may have been taken over, so the receiver trusts no count.
+/// A hostile file may have taken over its reader, so the receiver trusts no count.
 namespace camway::scene::import_format {
 
 inline constexpr std::uint64_t kMagic = 0x344D'5941'574D'4143;  // "CAMWAYM4"
@@ -27,20 +27,20 @@ inline constexpr int kExitNotConfined = 43;  ///< seccomp does not work here, so
 
 struct Header {
   std::uint64_t magic = kMagic;
-  std::uint64_t text_bytes = 0;  ///< name of the format, or the error
+  std::uint64_t text_bytes = 0;  ///< size of the format's name, or of the error
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
   std::uint64_t objects = 0;
-  std::uint64_t name_bytes = 0;  ///< all names, one after the other
+  std::uint64_t name_bytes = 0;  ///< size of all names, one after the other
   std::uint64_t dropped_points_and_lines = 0;
   std::uint64_t dropped_freeform = 0;    ///< curved surfaces that the reader does not know
-  std::uint64_t ignored_statements = 0;  ///< that no reader knows
-  /// Of how coordinates differ from the numbers in the file: up to `relative_rounding` times their
+  std::uint64_t ignored_statements = 0;  ///< statements that no reader knows
+  /// Coordinates differ from the numbers in the file by up to `relative_rounding` times their
   /// magnitude and, in file units, `absolute_rounding`.
   double relative_rounding = 0.0;
   double absolute_rounding = 0.0;
   std::uint64_t single_precision = 0;  ///< 1 if the reader keeps coordinates as floats
-  /// Edge of a voxel in file units, of an occupancy map, which has nothing but cubes; else 0.
+  /// Edge of a voxel in file units for an occupancy map, which has nothing but cubes; else 0.
   double map_resolution = 0.0;
   std::uint64_t occupied = 0;
   std::uint64_t free = 0;
@@ -50,18 +50,18 @@ using Vertex = std::array<double, 3>;  ///< node transforms applied, in file uni
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct Object {
-  std::uint32_t triangles = 0;  ///< follow those of the object before
+  std::uint32_t triangles = 0;  ///< number, following those of the object before
   std::uint32_t name_bytes = 0;
 };
 
-/// Voxels of an occupancy map, numbered as `VoxelGrid` does.
+/// Voxels of an occupancy map, numbered as in `VoxelGrid`.
 struct Cube {
   std::array<std::int32_t, 3> min{};
-  std::int32_t size = 1;  ///< per edge
+  std::int32_t size = 1;  ///< voxels per edge
 };
 
-/// The whole of it in memory, in the order in which it is written. The header's counts are those of
-/// the members only once it has been written or read.
+/// A record in memory, its members in the order in which they are written. The header's counts
+/// equal the sizes of the members only after it was written or read.
 struct Record {
   Header header;
   std::string text;

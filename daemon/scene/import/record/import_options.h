@@ -7,19 +7,19 @@
 
 namespace camway::scene {
 
-/// Axes are turned only when asked for.
+/// How axes are turned; only on request.
 enum class UpAxis {
-  kAsInFile,  ///< coordinates of the file, node transforms applied
+  kAsInFile,  ///< keeps coordinates of the file, node transforms applied
   kZToY,      ///< the file has Z up, the scene shall have Y up: (x, y, z) -> (x, z, -y)
   kYToZ,      ///< the file has Y up, the scene shall have Z up: (x, y, z) -> (x, -z, y)
 };
 
-/// How to read a file, and how much it may cost.
+/// How to read a file, and the limits of the import process.
 struct ImportOptions {
   double scale = 1.0;  ///< file units to metres; multiplies every coordinate [Limit: 0 < value]
   UpAxis up = UpAxis::kAsInFile;
-  UnknownSpace unknown = UnknownSpace::kFree;             ///< of an occupancy map
-  VoxelMapLimits map_limits = {};                         ///< of an occupancy map
+  UnknownSpace unknown = UnknownSpace::kFree;             ///< for an occupancy map
+  VoxelMapLimits map_limits = {};                         ///< for an occupancy map
   std::size_t memory_limit_bytes = std::size_t{4} << 30;  ///< address space of the import process
   double time_limit_s = 60.0;                             ///< wall clock of the import process
 };

@@ -18,8 +18,7 @@ namespace format = import_format;
 using format::Record;
 using geometry::Vec3;
 
-/// Takes a record apart. Every count is checked against the bytes that are there before anything is
-/// allocated for it.
+/// Parses a record. Checks every count against the remaining bytes before it allocates anything.
 class RecordReader {
  public:
   explicit RecordReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -61,7 +60,7 @@ bool parse(std::span<const std::byte> bytes, Record& record) {
          reader.read(record.free, record.header.free) && reader.at_end();
 }
 
-/// Texts out of a file end up in logs and JSON: what is not printable ASCII becomes '?'.
+/// Texts from a file reach logs and JSON: characters other than printable ASCII become '?'.
 std::string printable(std::string text) {
   for (char& c : text) {
     if (c < 0x20 || c > 0x7e) c = '?';
@@ -88,7 +87,7 @@ bool usable(const Vec3& p) {
   return (p.array().abs() < geometry::kLargestCoordinate_m).all();
 }
 
-/// Builds the mesh of what is sound in a record, and counts the rest.
+/// Builds the mesh of the valid triangles of a record, and counts the others.
 class MeshBuilder {
  public:
   MeshBuilder(const Record& record, const ImportOptions& options, ImportReport& report)
@@ -176,7 +175,8 @@ bool is_sound(const format::Cube& cube) {
   });
 }
 
-/// As `to_scene`, for voxels: what goes the other way ends at the voxel before its beginning.
+/// As `to_scene` above, for voxels: on a reversed axis a cube ends at the voxel before the mirrored
+/// first one.
 VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
   const auto turned = [&](std::int32_t low) { return -low - cube.size; };
   switch (up) {
@@ -190,7 +190,7 @@ VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
   return {cube.min, cube.size};
 }
 
-/// The voxels of the cubes, or nothing if they are too many. Precondition: all are sound.
+/// The voxels of the cubes, or nothing if there are too many. Requires that all are sound.
 std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up,
                                   std::uint64_t most_voxels) {
   std::uint64_t voxels = 0;
@@ -204,7 +204,7 @@ std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis
   return set;
 }
 
-/// Makes map and mesh of a record with cubes, or says why not.
+/// Makes the map and the mesh of a record with cubes. Returns why not, or an empty text.
 std::string read_map(const Record& record, const ImportOptions& options,
                      ImportRecordResult& result) {
   if (!std::ranges::all_of(record.occupied, is_sound) ||

@@ -15,24 +15,24 @@
 
 namespace camway::scene {
 
-/// What the import process answered, checked as if an enemy had written it.
+/// The answer of the import process, checked as if an enemy had written it.
 struct ImportRecordResult {
   std::optional<Mesh> mesh;  ///< may have no triangle left; nothing if the file was refused
-  std::shared_ptr<const VoxelMap> map;  ///< of which the mesh is the faces; null if it is none
-  std::string refusal;                  ///< why the reader refused the file, printable; else empty
-  Limit limit = Limit::kNone;           ///< that the refusal is about
-  bool broken = false;                  ///< the bytes are no record; nothing else is set
-  double relative_rounding = 0.0;       ///< as in the record's header; never negative or NaN
+  std::shared_ptr<const VoxelMap> map;  ///< map whose faces the mesh is; null if there is none
+  std::string refusal;         ///< why the reader refused the file, in printable ASCII; else empty
+  Limit limit = Limit::kNone;  ///< limit that the refusal is about
+  bool broken = false;         ///< the bytes are no record; nothing else is set
+  double relative_rounding = 0.0;  ///< as in the record's header; never negative or NaN
   double absolute_rounding = 0.0;
 };
 
-/// Takes apart the record of `import_format.h`: no count is believed before the bytes are there,
-/// every index and coordinate is checked, scale and axes are applied. Triangles that cannot be used
-/// are left out and counted in `report`, which also gets the name of the format.
-/// An occupancy map becomes the faces of its voxels.
+/// Parses the record of `import_format.h`: believes no count before its bytes are seen, checks
+/// every index and coordinate, applies scale and axes. Leaves out unusable triangles and counts
+/// them in `report`, which also gets the name of the format. The mesh of an occupancy map is the
+/// faces of its voxels.
 ///
-/// Left out as degenerate is only what has no area at all, in exact arithmetic on the scaled
-/// coordinates: however thin, anything with an area is an obstacle.
+/// Degenerate triangles are left out only if they have no area at all, in exact arithmetic on the
+/// scaled coordinates: any triangle with an area, however thin, is an obstacle.
 ImportRecordResult read_import_record(std::span<const std::byte> bytes,
                                       const ImportOptions& options, ImportReport& report);
 

@@ -9,7 +9,7 @@
 
 namespace camway::scene {
 
-/// How command lines, configurations and requests spell the ways to read a scene file.
+/// The words for options of reading a scene file in command lines, configurations and requests.
 inline constexpr std::array<std::pair<std::string_view, UpAxis>, 3> kUpAxes{{
     {"as-in-file", UpAxis::kAsInFile},
     {"z-to-y", UpAxis::kZToY},
