@@ -7,6 +7,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefi
 
 foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
              share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/README.md
+             share/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
              include/camway/client.h)
   if(NOT EXISTS ${prefix}/${file})

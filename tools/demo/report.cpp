@@ -85,7 +85,7 @@ std::size_t count_inserted(const PlanResponse& response) {
                     [](const PathKeyframe& keyframe) { return keyframe.inserted; }));
 }
 
-constexpr const char* kRow = "{:<24} {:<44} {:>8} {:>9} {:<10} {:>9} {:>10}";
+constexpr const char* kRow = "{:<24} {:<51} {:>8} {:>9} {:<10} {:>9} {:>10}";
 
 }  // namespace
 

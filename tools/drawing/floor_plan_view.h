@@ -7,7 +7,7 @@
 
 #include "tools/drawing/floor_plan.h"
 
-/// The drawing inside the frames of a floor plan. Only floor_plan.cpp uses it.
+/// The drawing inside the frames of a floor plan. Only the sources of this folder use it.
 namespace camway::draw {
 
 struct Color {
@@ -45,6 +45,14 @@ struct View {
   }
 };
 
+using PlanBox = Eigen::AlignedBox2d;
+
+/// Returns the bounds of all paths and keyframes, with a margin; of the scene if there are none.
+PlanBox world_shown(const FloorPlan& plan);
+
+/// Returns the view of the whole `box`, as large as `frame` allows.
+View fitted(const Frame& frame, const PlanBox& box);
+
 void set_color(cairo_t* cr, const Color& color);
 /// Draws text with a light rim, which keeps it legible on lines. `anchor` 0 is left-aligned, 0.5
 /// centred, 1 right-aligned.
@@ -56,6 +64,9 @@ void draw_keyframe_mark(cairo_t* cr, const PlanPoint& at, double direction_rad, 
 
 /// Draws the mark of a collision: an open circle, with a cross if the collision remains.
 void draw_collision_mark(cairo_t* cr, const PlanPoint& at, bool remains);
+
+/// Draws a scale bar of 1, 2 or 5 times a power of ten that ends at `right`.
+void draw_scale_bar(cairo_t* cr, const PlanPoint& right, double px_per_m, double letters_px);
 
 /// Draws scene, paths and keyframes in one view, with a border.
 void draw_view(cairo_t* cr, const View& view, const FloorPlan& plan, const FloorSection& section);

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "tools/drawing/side_by_side.h"
 
 namespace camway::draw {
 namespace {
@@ -195,6 +196,16 @@ TEST(FloorPlan, SurvivesAlmostNothing) {
   only_keyframe.keyframes = {keyframe(0, {0, 0, 0}, motion::KeyframeOrigin::kGiven)};
   only_keyframe.collisions = {{0.0, 1.0}};  // without a path to show them on
   EXPECT_EQ(draw_floor_plan(only_keyframe, files), "");
+}
+
+/// Collisions are drawn on the left, and without a path there is nothing to draw.
+TEST(FloorPlan, TwoPlansSideBySide) {
+  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_two.svg",
+                           fs::path(testing::TempDir()) / "floor_plan_two.png"};
+  ASSERT_EQ(draw_side_by_side(through_the_wall(), files), "");
+  EXPECT_EQ(big_endian(contents(files.png), 16), 920U);
+  EXPECT_THAT(contents(files.svg), testing::HasSubstr("rgb(83.5%,36.9%,0%)"));
+  EXPECT_EQ(draw_side_by_side({}, files), "");
 }
 
 TEST(FloorPlan, FailureNamesTheFile) {
