@@ -69,10 +69,12 @@ const char* name_of(WatchEvent::Kind kind) {
 
 std::string text_of(const WatchEvent& event) {
   switch (event.kind) {
-    case WatchEvent::Kind::kAnswer:
-      return fmt::format("revision {}: {}, {} segments: {}", event.scene_revision,
-                         to_string(event.answer->status), event.answer->path.segments().size(),
+    case WatchEvent::Kind::kAnswer: {
+      const std::size_t segments = event.answer->path.segments().size();
+      return fmt::format("revision {}: {}, {} segment{}: {}", event.scene_revision,
+                         to_string(event.answer->status), segments, segments == 1 ? "" : "s",
                          event.answer->message);
+    }
     case WatchEvent::Kind::kBroken: {
       std::string text = event.scene_revision == 0
                              ? std::string("the scene is gone")

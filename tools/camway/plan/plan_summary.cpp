@@ -143,7 +143,8 @@ void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lin
   const std::size_t shown = std::min(result.keyframe_faults.size(), kMostLines);
   for (std::size_t i = 0; i < shown; ++i) {
     const planning::KeyframeFault& fault = result.keyframe_faults[i];
-    std::string line = fmt::format("keyframe {}: collides", fault.keyframe);
+    std::string line = fmt::format("keyframe {}: {}", fault.keyframe,
+                                   fault.leaves_bounds ? "leaves the bounds" : "collides");
     if (fault.depth_m > 0.0) line += fmt::format(" by {:.2g} m", fault.depth_m);
     if (fault.free_pose) {
       const geometry::Vec3& p = fault.free_pose->position;
