@@ -54,8 +54,8 @@ LoadedAuthentication authentication_from(const std::string& key_file, double win
   wire::MessageKeys::Read read = wire::MessageKeys::from_file(key_file);
   if (!read.keys) return {nullptr, std::move(read.error)};
   wire::ReplayGuard::Limits limits;
-  // A client lives for moments, and the daemon's clock may be behind. Old answers are no danger to
-  // it, since nobody else has its id.
+  // A client lives briefly, and the daemon's clock may be behind, so messages from before its start
+  // are accepted. Old answers cannot harm it, because no other client has its id.
   limits.only_since_start = false;
   limits.window_us = std::llround(window_s * kMicrosecondsPerSecond);
   return {std::make_shared<const KeyAuthentication>(std::move(read.keys), limits), {}};

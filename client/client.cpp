@@ -9,6 +9,7 @@
 #include "client/engine/ask_scene.h"
 #include "client/engine/context.h"
 #include "client/engine/engine.h"
+#include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
 #include "client/messages/constraints.h"
 #include "client/messages/scene.h"
@@ -16,7 +17,7 @@
 namespace camway {
 namespace {
 
-/// How often progress is told where the request does not say.
+/// Period of progress reports if the request has none.
 constexpr double kProgressPeriod_s = 0.5;
 
 template <class Answer>
@@ -54,13 +55,13 @@ class Client::Impl {
     if (error.empty()) engine.emplace(link, context);
   }
 
-  /// Why a call cannot be made, if it cannot.
+  /// Returns why no call can be made, or nothing.
   std::optional<Failure> failure() const {
     if (!error.empty()) return Failure{error_status, error};
     return std::nullopt;
   }
 
-  /// The same for a call that waits.
+  /// Returns why no call can be made that waits for its answer, or nothing.
   std::optional<Failure> failure_to_wait() const {
     if (engine && engine->is_this_thread()) {
       return Failure{Status::kBusy,
@@ -87,14 +88,14 @@ class Client::Impl {
   std::string warning;
   Status error_status = Status::kInvalid;
   SceneCancel scene_cancel;
-  std::optional<Engine> engine;  ///< last: its thread uses all else
+  std::optional<Engine> engine;  ///< last member: its thread uses the others
 };
 
 Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 
 Client::~Client() {
   if (!impl_->engine || !impl_->engine->is_this_thread()) return;
-  // The thread that is here uses all of it until the handler has returned to it.
+  // The engine's thread uses `impl_` until the handler has returned, so it destroys it at its end.
   Engine& engine = *impl_->engine;
   engine.close_from_handler(
       [impl = std::shared_ptr<Impl>(std::move(impl_))]() mutable { impl.reset(); });
@@ -118,7 +119,7 @@ PendingPlan Client::plan_async(const PlanRequest& request, PlanHandlers handlers
   }
   if (failure) {
     const auto response = failed<PlanResponse>(*failure);
-    if (handlers.on_answer) handlers.on_answer(response);
+    call_handler(handlers.on_answer, response);
     return {0, ready(response)};
   }
   PlanRequest sent = request;
@@ -145,8 +146,9 @@ std::int64_t Client::watch(const PlanRequest& request, WatchHandler on_event) {
   if (failure) {
     WatchEvent event;
     event.kind = WatchEvent::Kind::kEnded;
+    event.status = failure->status;
     event.error = failure->error;
-    if (on_event) on_event(event);
+    call_handler(on_event, event);
     return 0;
   }
   PlanRequest sent = request;

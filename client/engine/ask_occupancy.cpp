@@ -18,7 +18,7 @@
 namespace camway {
 namespace {
 
-/// The parts of a large batch are asked anew so often when the scene changes between them.
+/// How often a large batch is sent again if the scene changes between its parts.
 constexpr int kMaxRestarts = 3;
 
 std::string explain(const occupancy_response_t& response) {
@@ -27,13 +27,13 @@ std::string explain(const occupancy_response_t& response) {
          "\"): " + said;
 }
 
-/// A part's answer, or why there is none.
+/// The answer to a part of a batch, or the reason why there is none.
 struct PartAnswer {
   std::optional<occupancy_response_t> response;
   Failure failure{Status::kOk, {}};
 };
 
-/// A part of a batch on its way.
+/// A pending part of a batch.
 class PartCall final : public Call {
  public:
   PartCall(Context& context, const occupancy_request_t& request, Clock::time_point deadline)
@@ -80,13 +80,13 @@ class PartCall final : public Call {
   std::promise<PartAnswer> promise_;
 };
 
-/// Asks the parts one after the other, and one while another is being answered.
+/// Sends the parts of a batch in order, each while the one before is being answered.
 class PartsInTurn {
  public:
   PartsInTurn(Context& context, Engine& engine, std::vector<occupancy_request_t>& parts,
               Clock::time_point deadline)
       : context_(context), engine_(engine), parts_(parts), deadline_(deadline) {}
-  /// Nobody waits for those that are still on their way: the daemon need not answer them.
+  /// Cancels the pending parts.
   ~PartsInTurn() {
     for (std::size_t i = taken_; i < begun_; ++i) {
       engine_.cancel(Call::Kind::kOccupancy, parts_[i].request_id);
@@ -95,7 +95,7 @@ class PartsInTurn {
   PartsInTurn(const PartsInTurn&) = delete;
   PartsInTurn& operator=(const PartsInTurn&) = delete;
 
-  /// The answer to the next part. Precondition: there is one.
+  /// Returns the answer to the next part. Requires that there is one.
   PartAnswer next() {
     while (begun_ < parts_.size() && begun_ < taken_ + kAtOnce) begin_next();
     PartAnswer answer = answers_.front().get();
@@ -105,8 +105,8 @@ class PartsInTurn {
   }
 
  private:
-  /// So that the daemon's workers need not wait for the wire; no more, since each part is a message
-  /// of full size, and the usual receive buffer holds few of them.
+  /// Two, so that the daemon's workers do not wait for the network. Not more, because each part is
+  /// a message of full size, and the usual receive buffer holds few of them.
   static constexpr std::size_t kAtOnce = 2;
 
   void begin_next() {
@@ -126,7 +126,7 @@ class PartsInTurn {
   std::size_t taken_ = 0;
 };
 
-/// Asks all parts; nothing if the scene changed between them.
+/// Returns the answer to all parts; nothing if the scene changed between them.
 std::optional<OccupancyAnswer> ask_parts(Context& context, Engine& engine,
                                          std::vector<occupancy_request_t>& parts,
                                          Clock::time_point deadline) {

@@ -8,7 +8,8 @@
 
 namespace camway {
 
-/// Asks a scene's map in as many parts as the batch needs, one after the other, and waits for all.
+/// Queries the occupancy map of a scene and waits for the answer. Sends as many requests as the
+/// batch needs, and repeats them if the scene changes in between. Not for the engine's own thread.
 OccupancyAnswer ask_occupancy(Context& context, Engine& engine, const OccupancyBatch& batch);
 
 }  // namespace camway

@@ -21,10 +21,10 @@
 namespace camway {
 namespace {
 
-/// Pages of an upload that are sent before the daemon is asked what came: some 3 MB.
+/// Pages of an upload, about 3 MB, that are sent before the daemon is asked which ones came.
 constexpr std::size_t kPagesAtOnce = 64;
-/// A list that changes while it is read, or an upload that is gone when it is to be used, is begun
-/// anew so often.
+/// How often a call begins anew if the list changes while it is read, or if the daemon has dropped
+/// the upload or the export.
 constexpr int kMaxRestarts = 3;
 
 std::string explain(std::int32_t status, const std::string& message) {
@@ -34,14 +34,14 @@ std::string explain(std::int32_t status, const std::string& message) {
 
 Failure cancelled() { return {Status::kCancelled, "cancelled before anything was changed"}; }
 
-/// What came of one question.
+/// The answer to one request, or the reason why there is none.
 template <class Response>
 struct Asked {
   std::optional<Response> response;
   Failure failure{Status::kOk, {}};
 };
 
-/// A question on its way that one message answers.
+/// A pending request that one message answers.
 template <class Response>
 class OneAnswer final : public Call {
  public:
@@ -69,7 +69,7 @@ class OneAnswer final : public Call {
   }
   bool answered() const override { return response_.has_value() || ends_; }
   void cancel() override {
-    // The daemon does nothing for an upload that would have to end.
+    // An upload keeps no worker busy, so there is nothing to cancel at the daemon.
     ends_ = kind() != Kind::kScene;
     if (ends_ || std::exchange(is_cancelled_, true)) return;
     cancel_t question{};
@@ -97,12 +97,12 @@ class OneAnswer final : public Call {
   std::optional<Response> response_;
   std::optional<Failure> refusal_;
   std::string fault_;
-  bool ends_ = false;          ///< nobody wants the answer any more
-  bool is_cancelled_ = false;  ///< so the daemon was told
+  bool ends_ = false;          ///< whether the call ends without an answer
+  bool is_cancelled_ = false;  ///< whether the daemon was told to cancel
   std::promise<Asked<Response>> promise_;
 };
 
-/// What one call about scenes asks with, one question after the other.
+/// One call about scenes, which may send several requests in turn.
 class Asker {
  public:
   explicit Asker(const SceneAsker& asker)
@@ -127,13 +127,13 @@ class Asker {
     return answer.get();
   }
 
-  /// Whether that was asked for since the call began.
+  /// Returns whether calls about scenes were cancelled since this one began.
   bool is_cancelled() const { return cancel_.count() != cancels_; }
 
-  /// Starts a question that hears of it, too.
+  /// Starts a request and lets a cancel end it.
   void start(const std::shared_ptr<Call>& call) const {
     engine.start(call);
-    // One that was asked for just before did not find the question.
+    // A cancel that came before the start did not find the request.
     if (is_cancelled()) engine.cancel(call->kind(), call->request_id());
   }
 
@@ -142,7 +142,7 @@ class Asker {
   const std::uint64_t cancels_;
 };
 
-/// Sends these pages and asks what is missing then.
+/// Sends some pages, then asks which ones are missing.
 Asked<upload_status_t> ask_upload(const Asker& asker, const std::vector<std::uint8_t>& bytes,
                                   std::int64_t checksum, const std::vector<std::int32_t>& pages) {
   const std::int64_t request_id = asker.context.new_request_id();
@@ -158,13 +158,13 @@ Asked<upload_status_t> ask_upload(const Asker& asker, const std::vector<std::uin
   return asker.ask<upload_status_t>(Call::Kind::kUpload, request_id, std::move(question));
 }
 
-/// What came of an upload.
+/// The result of an upload.
 struct Uploaded {
-  bool was_there = false;  ///< all of it, before anything was sent
+  bool was_there = false;  ///< whether the daemon had all of it before anything was sent
   std::optional<Failure> failure;
 };
 
-/// Sends what the daemon does not have yet, until it has all.
+/// Sends missing pages until the daemon has all of them.
 Uploaded upload(const Asker& asker, const std::vector<std::uint8_t>& bytes) {
   const std::int64_t checksum = wire::crc64(bytes.data(), bytes.size());
   std::vector<std::int32_t> pages;  // none at first: the daemon may have some
@@ -219,7 +219,7 @@ SceneAnswer answer_of(const Asked<scene_response_t>& asked) {
   return answer;
 }
 
-/// Why `request` has no form on the wire.
+/// Returns the fault of a request that cannot be sent, or nothing.
 std::optional<std::string> fault_in_form(const scene_request_t& request) {
   for (const auto& fault :
        {fault_in_text("scene", request.scene, wire::kMaxSceneNameBytes),
@@ -249,7 +249,7 @@ SceneAnswer ask_scene(const SceneAsker& with, scene_request_t request,
   const Asker asker(with);
   if (bytes.empty()) return answer_of(ask_once(asker, std::move(request)));
   SceneAnswer answer;
-  // Between upload and request the daemon may be started anew, or give its room to others.
+  // Between upload and request the daemon may restart, or drop the upload in favour of others.
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
     Uploaded uploaded = upload(asker, bytes);
     if (uploaded.failure) return failed<SceneAnswer>(*std::move(uploaded.failure));
@@ -262,7 +262,7 @@ SceneAnswer ask_scene(const SceneAsker& with, scene_request_t request,
 
 namespace {
 
-/// Pages of a map on their way.
+/// A pending request for pages of a map.
 class MapPages final : public Call {
  public:
   MapPages(Context& context, std::int64_t request_id, std::int32_t num_pages,
@@ -274,7 +274,7 @@ class MapPages final : public Call {
     replace_question(missing());
   }
 
-  /// Those that came, or why not all did.
+  /// The pages that came, or the reason why some did not.
   struct Came {
     std::vector<map_page_t> pages;
     Failure failure{Status::kOk, {}};
@@ -330,11 +330,11 @@ class MapPages final : public Call {
   Came came_;
   std::optional<std::string> refusal_;
   std::string fault_;
-  bool ends_ = false;  ///< nobody wants the pages any more
+  bool ends_ = false;  ///< whether the call ends without the pages
   std::promise<Came> promise_;
 };
 
-/// All bytes of the map that `exported` tells of.
+/// Fetches all bytes of the map that `exported` describes.
 SceneMap fetch_map(const Asker& asker, const scene_response_t& exported) {
   SceneMap map;
   map.scene = from_wire(exported.scene);
@@ -374,7 +374,7 @@ SceneMap ask_scene_map(const SceneAsker& with, const scene_request_t& request) {
   }
   const Asker asker(with);
   SceneMap map;
-  // Another client's exports may have taken its room, or the daemon was started anew.
+  // The daemon may have dropped the export in favour of others, or restarted.
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
     const Asked<scene_response_t> asked = ask_once(asker, request);
     const SceneAnswer exported = answer_of(asked);

@@ -15,34 +15,35 @@
 
 namespace camway {
 
-/// Ends the questions about scenes that are on their way, and those that each of their askers would
-/// put next. Safe from any thread.
+/// Cancels calls about scenes. A call may send several requests in turn; it compares `count()` with
+/// the value at its begin to see whether it was cancelled between two of them. Thread-safe.
 class SceneCancel {
  public:
+  /// Cancels the requests that are pending, and the calls that they belong to.
   void cancel(Engine& engine);
-  /// How often that was; grows before the questions hear of it.
+  /// Returns how often `cancel` was called. It is incremented before the requests are cancelled.
   std::uint64_t count() const { return count_.load(); }
 
  private:
   std::atomic<std::uint64_t> count_ = 0;
 };
 
-/// What questions about scenes are asked with. All outlive the call.
+/// The objects that a call about scenes uses. All must outlive the call.
 struct SceneAsker {
   Context& context;
   Engine& engine;
   const SceneCancel& cancel;
 };
 
-/// Sends `upload` first, if there is one, then asks for what `request` says; client, request id and
-/// deadline are set here. Waits for the answer; not for the engine's own thread.
+/// Sends `upload`, if it is not empty, then `request`, and waits for the answer. Sets the request's
+/// client id, request id, time and deadline. Not for the engine's own thread.
 SceneAnswer ask_scene(const SceneAsker& asker, scene_request_t request,
                       const std::vector<std::uint8_t>& upload = {});
 
-/// Asks for a map until all of it is here.
+/// Exports a map and fetches all its pages. Not for the engine's own thread.
 SceneMap ask_scene_map(const SceneAsker& asker, const scene_request_t& request);
 
-/// Asks for a list until all of it is here.
+/// Requests a list until all of it has come. Not for the engine's own thread.
 SceneAnswer ask_scene_list(const SceneAsker& asker, scene_request_t request);
 
 }  // namespace camway

@@ -11,23 +11,25 @@
 
 namespace camway {
 
-/// How a call ended.
+/// The outcome of a call.
 enum class Outcome {
   kAnswered,
-  kSilence,   ///< as many tries in a row as allowed without a sign of a daemon
+  kSilence,   ///< no sign of life of a daemon during as many tries as allowed
   kDeadline,  ///< the deadline came first
   kBroken,    ///< the network cannot send or receive
-  kUnsigned,  ///< the daemon drops what is not signed, and we have no keys
-  kClosed,    ///< the client went away
+  kUnsigned,  ///< the daemon drops unsigned messages, and this client has no keys
+  kClosed,    ///< the client was destroyed, or a later call replaced this one
 };
 
-/// Bytes on their way out.
+/// An encoded message to send, and its channel.
 struct Outgoing {
   std::string channel;
   Bytes bytes;
 };
 
-/// A question on its way. After it was handed to an engine only that engine's thread uses it.
+/// A pending request: the messages to send, the state of their repetition, and the collection of
+/// the answer. Not thread-safe: once it was passed to an engine, only the engine's thread may use
+/// it.
 class Call {
  public:
   enum class Kind { kPlan, kOccupancy, kScene, kUpload, kMap };
@@ -42,20 +44,20 @@ class Call {
   std::int64_t request_id() const { return request_id_; }
   Retry& retry() { return retry_; }
   const Retry& retry() const { return retry_; }
-  /// All that is sent in a try.
+  /// Returns all messages of one try.
   const std::vector<Outgoing>& question() const { return question_; }
 
-  /// A message on the channel for answers came, for this request.
+  /// Takes a message from the channel for answers. It is for this request, or cannot be read.
   virtual void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) = 0;
-  /// How far the daemon is.
+  /// Takes a progress report.
   virtual void take_progress(std::span<const std::uint8_t> /*bytes*/) {}
-  /// Whether the whole answer is here.
+  /// Returns whether the answer is complete.
   virtual bool answered() const = 0;
-  /// What asks for the parts of the answer that did not come.
+  /// Returns the messages that ask for the missing pages of the answer.
   virtual std::vector<Outgoing> missing() const { return {}; }
-  /// Nobody wants the answer any more.
+  /// Cancels the request.
   virtual void cancel() {}
-  /// The last thing that is called, once.
+  /// Ends the call. Called exactly once, after all other members.
   virtual void finish(Outcome outcome) = 0;
 
  protected:

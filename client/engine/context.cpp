@@ -118,7 +118,7 @@ Failure Context::explain(Outcome outcome, bool ever_heard, std::string_view part
   std::string text = outcome == Outcome::kSilence ? "the daemon fell silent"
                                                   : "the daemon did not answer by the deadline";
   if (!partly.empty()) text += ", only " + std::string(partly) + " came";
-  // What came in part was asked with the right keys.
+  // If a part of the answer came, the keys are right.
   return {Status::kNoAnswer, text + where() + "; wait longer, or look at the daemon's log" +
                                  (partly.empty() ? about_keys() : std::string())};
 }
@@ -132,7 +132,7 @@ Failure Context::silence(double silent_s) const {
 }
 
 Clock::time_point after(double seconds) {
-  // A wait of a year is a wait for ever; more could overflow the clock.
+  // A longer wait than a year could overflow the clock.
   constexpr double kYear_s = 365.0 * 24 * 3600;
   const double bounded = std::isnan(seconds) ? 0.0 : std::clamp(seconds, 0.0, kYear_s);
   return Clock::now() +

@@ -13,7 +13,7 @@
 
 namespace camway {
 
-/// How a call failed, with a text for a person.
+/// The failure of a call, with a text for the user.
 struct Failure {
   Status status;
   std::string error;
@@ -27,38 +27,40 @@ Answer failed(Failure failure) {
   return answer;
 }
 
-/// Why the options cannot be used; empty if they can.
+/// Returns the fault of options that cannot be used; empty if they can.
 std::string fault_in(const ClientOptions& options);
 
-/// What all calls of a client share. Safe from any thread.
+/// State that all calls of a client share. Thread-safe, except for `set_url`.
 class Context {
  public:
-  /// Makes up a client id if there is none.
+  /// Picks a random client id if the options have none.
   explicit Context(ClientOptions options);
 
   const ClientOptions& options() const { return options_; }
   const wire::Channels& channels() const { return channels_; }
 
-  /// A number this client id never used: from the clock, so that it holds across restarts too.
+  /// Returns an id that this client id has not used before. It comes from the clock, so ids stay
+  /// unique across restarts.
   std::int64_t new_request_id();
 
-  /// When to repeat a question that has to be answered by `deadline`.
+  /// Returns the repetition state of a request that ends at `deadline`.
   Retry retry(Clock::time_point deadline);
 
-  /// Why there is no answer. `partly` and `fault` may be empty: what came of the answer, and what
-  /// was wrong with a message that came on the answer's channel.
+  /// Returns the failure of a call without an answer. `partly` names the part of the answer that
+  /// came
+  /// ("2 of 5 pages"), `fault` the fault of a message on the answer's channel; both may be empty.
   Failure explain(Outcome outcome, bool ever_heard, std::string_view partly,
                   std::string_view fault) const;
 
-  /// Why a daemon that was heard before counts as gone, so long after the last sign of life.
+  /// Returns the failure for a daemon that gave no sign of life for `silent_s`.
   Failure silence(double silent_s) const;
 
-  /// The network, for texts.
+  /// Sets the network's URL for messages. Requires that no other thread uses this object yet.
   void set_url(std::string url) { url_ = std::move(url); }
 
  private:
   std::string where() const;
-  /// Keys that do not match look like a daemon that is not there.
+  /// Returns a hint about keys, because a daemon with other keys seems not to be there.
   std::string about_keys() const;
 
   ClientOptions options_;
@@ -68,7 +70,7 @@ class Context {
   std::atomic<std::uint64_t> next_seed_;
 };
 
-/// The instant so many seconds from now.
+/// Returns the instant `seconds` from now, at most a year away; now for NaN.
 Clock::time_point after(double seconds);
 
 }  // namespace camway

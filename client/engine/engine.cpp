@@ -24,12 +24,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Answers may come twice at once, and of several requests.
+/// Room for two copies of the largest answer, or answers to several requests.
 constexpr int kResponseQueue = 2 * wire::kMaxResponsePages;
 constexpr int kSmallQueue = 256;
 
-/// What leaves without a breath: two messages of full size fit the usual receive buffer of 208 KiB
-/// with room for others.
+/// Bytes that are sent without a pause: two messages of full size fit the usual receive buffer of
+/// 208 KiB, with room for others.
 constexpr std::size_t kBurstBytes = 120'000;
 constexpr milliseconds kSendPause{1};
 
@@ -69,7 +69,7 @@ void Engine::close_from_handler(std::function<void()> release) {
 
 void Engine::run_thread() {
   run();
-  // Nothing of this is left once it is called.
+  // `release` destroys this object.
   if (const std::function<void()> release = std::move(release_)) release();
 }
 
@@ -77,7 +77,8 @@ template <class Response>
 void Engine::take_answers(Call::Kind kind, const std::string& channel, int queue) {
   link_.listen(channel, queue, [this, kind](auto bytes) {
     const auto id = request_of<Response>(bytes);
-    // A message that cannot be read is for whoever waits: it says so if nothing else comes.
+    // A message that cannot be read goes to every call of this kind, for its text about the
+    // failure.
     if (closing_) return;
     for (auto& [key, call] : calls_) {
       if (key.first == kind && (!id || *id == key.second)) call->take_answer(bytes, Clock::now());
@@ -119,7 +120,7 @@ void Engine::start(std::shared_ptr<Call> call) {
       return;
     }
     const auto [position, is_new] = calls_.try_emplace({call->kind(), call->request_id()}, call);
-    // The same question again while it is being asked: the later call is the one that is answered.
+    // If the same request is pending, the later call replaces the earlier one.
     if (!is_new) std::exchange(position->second, call)->finish(Outcome::kClosed);
   });
 }
@@ -187,7 +188,7 @@ void Engine::run() {
     send_some(now);
     if (link_.wait(next_wake()) == Link::Wait::kBroken) broken_ = true;
     if (broken_) end_all(Outcome::kBroken);
-    // By the next heartbeat it may be another daemon that says so.
+    // The next heartbeat may be of another daemon.
     if (std::exchange(is_unheard_, false)) end_calls(Outcome::kUnsigned);
   }
   run_tasks();
@@ -196,7 +197,7 @@ void Engine::run() {
 
 void Engine::run_tasks() {
   std::unique_lock<std::mutex> lock(mutex_);
-  // Those that these leave behind have their turn the next time.
+  // Tasks that these tasks post run at the next call.
   for (std::size_t left = tasks_.size(); left > 0 && !tasks_.empty(); --left) {
     const std::function<void()> task = std::move(tasks_.front());
     tasks_.pop_front();
@@ -208,7 +209,7 @@ void Engine::run_tasks() {
 
 void Engine::step(Clock::time_point now) {
   for (auto position = calls_.begin(); !closing_ && position != calls_.end();) {
-    // A call may be ended and the user's code run by it: it must not be among the calls then.
+    // Ending a call runs the user's code, so the call is removed first.
     const std::optional<Outcome> outcome = step(*position->second, now);
     if (!outcome) {
       ++position;
@@ -277,7 +278,7 @@ void Engine::end_waiters(Clock::time_point now) {
 
 void Engine::end_leavers(Clock::time_point now) {
   std::erase_if(pending_unwatches_, [&](PendingUnwatch& pending) {
-    // What is being planned would be watched once it is answered.
+    // A request that is still being planned would be watched once it is answered.
     const bool is_over = find(Call::Kind::kPlan, pending.request_id) == nullptr &&
                          !watches_.is_ending(pending.request_id);
     if (!is_over && now < pending.until) return false;
@@ -296,7 +297,7 @@ void Engine::end_calls(Outcome outcome) {
   for (const auto& [key, call] : calls_) ending_.push_back(call);
   calls_.clear();
   while (!ending_.empty()) {
-    // A handler may come back here, by closing.
+    // A handler may call this function again by closing the client.
     const std::shared_ptr<Call> call = std::move(ending_.front());
     ending_.pop_front();
     call->finish(outcome);
@@ -308,7 +309,7 @@ Call* Engine::find(Call::Kind kind, std::int64_t request_id) {
   return position == calls_.end() ? nullptr : position->second.get();
 }
 
-/// The daemon lacks pages of a request.
+/// Sends the pages of a request that the daemon is missing.
 void Engine::take_missing_pages(std::span<const std::uint8_t> bytes) {
   const auto decoded = wire::decode<missing_pages_t>(bytes);
   if (!decoded.message) return;

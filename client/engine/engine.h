@@ -23,50 +23,52 @@
 
 namespace camway {
 
-/// The thread of a client: owns the link, sends questions and repeats them, and gives what comes in
-/// to the calls that it is for. Any thread may start and cancel calls.
+/// The thread of a client. It alone uses the link: it sends requests, repeats them, and passes each
+/// received message to its call. The public members are thread-safe.
 class Engine {
  public:
-  /// `link` is open; both must outlive this. Subscribes, then starts the thread.
+  /// Subscribes to all channels and starts the thread. Requires an open link; link and context must
+  /// outlive the engine.
   Engine(Link& link, Context& context);
-  /// Ends all calls with `Outcome::kClosed`. Not for the engine's own thread, unless
+  /// Ends all calls with `Outcome::kClosed`. In the engine's own thread it requires that
   /// `close_from_handler` was called.
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// For a handler, which runs on the engine's own thread and cannot wait for its end: ends all
-  /// calls now, so that no handler is called once this returns, and has the thread call `release`
-  /// as the last thing that it does.
+  /// Closes the engine from a handler, which runs on the engine's own thread and therefore cannot
+  /// join it. Ends all calls; no handler runs after it returns. The thread calls `release` as its
+  /// last action.
   void close_from_handler(std::function<void()> release);
 
   void start(std::shared_ptr<Call> call);
   void cancel(Call::Kind kind, std::int64_t request_id);
-  /// All calls of that kind.
+  /// Cancels all calls of a kind.
   void cancel_all(Call::Kind kind);
 
-  /// As those of `WatchList`.
+  /// These call `WatchList::add`, `remove` and `take_better` on the engine's thread.
   void watch(const PlanRequest& request, WatchHandler handler);
   void unwatch(std::int64_t request_id);
   void take_better(std::int64_t request_id);
-  /// The same, and cancels its planning: true once the daemon does not watch it any more, as it
-  /// said or as the lease is over; false if `until` passes or the network breaks.
+  /// Ends a watch and cancels its planning. The result is true once the daemon has confirmed the
+  /// end or the lease is over; false if `until` passes or the network fails.
   std::future<bool> unwatch(std::int64_t request_id, Clock::time_point until);
 
-  /// The next heartbeat; none if `until` passes or the network breaks.
+  /// Returns the next heartbeat; nothing if `until` passes or the network fails.
   std::future<std::optional<DaemonStatus>> next_heartbeat(Clock::time_point until);
 
-  /// Whether this is the engine's own thread, which must not wait for itself.
+  /// Returns whether the caller runs on the engine's own thread, which must not wait for a call.
   bool is_this_thread() const { return std::this_thread::get_id() == thread_.get_id(); }
 
  private:
   using Key = std::pair<Call::Kind, std::int64_t>;
+  /// A caller that waits for a heartbeat.
   struct PendingStatus {
     Clock::time_point until;
     std::promise<std::optional<DaemonStatus>> promise;
   };
 
-  /// Somebody who waits for the end of a watch.
+  /// A caller that waits for the end of a watch.
   struct PendingUnwatch {
     std::int64_t request_id;
     Clock::time_point until;
@@ -74,7 +76,7 @@ class Engine {
   };
 
   void listen(const std::string& client_id);
-  /// Gives messages on `channel` to the calls of that kind that they answer.
+  /// Subscribes to `channel` and passes each message to the call of that kind that it answers.
   template <class Response>
   void take_answers(Call::Kind kind, const std::string& channel, int queue);
   void post(std::function<void()> task);
@@ -100,17 +102,17 @@ class Engine {
   std::deque<std::function<void()>> tasks_;
   std::atomic<bool> closing_ = false;
 
-  // All else belongs to the thread.
+  // Only the engine's thread uses the members below.
   std::map<Key, std::shared_ptr<Call>> calls_;
   WatchList watches_;
   std::vector<PendingStatus> pending_statuses_;
   std::vector<PendingUnwatch> pending_unwatches_;
   std::deque<Outgoing> outgoing_;
-  Clock::time_point send_at_{};  ///< no message leaves before
+  Clock::time_point send_at_{};  ///< earliest time to send the next message
   bool broken_ = false;
-  bool is_unheard_ = false;  ///< the last heartbeat says that the daemon drops what we send
-  std::deque<std::shared_ptr<Call>> ending_;  ///< calls that `end_all` has not come to
-  std::vector<std::shared_ptr<Call>> kept_;  ///< one of them may be calling the handler that closes
+  bool is_unheard_ = false;  ///< whether the last heartbeat says that the daemon drops our messages
+  std::deque<std::shared_ptr<Call>> ending_;  ///< calls that `end_all` has still to finish
+  std::vector<std::shared_ptr<Call>> kept_;   ///< calls kept alive: one may run the closing handler
   std::function<void()> release_;
 
   std::thread thread_;

@@ -20,10 +20,10 @@
 namespace camway {
 namespace {
 
-/// LCM's usual group and port; ttl 0 keeps traffic on this host unless the user asks otherwise.
+/// LCM's default group and port; ttl 0 keeps the traffic on this host.
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-/// Bounded, so that somebody who floods the channels cannot keep us here.
+/// Most messages to handle in one call, so that a flood on the channels cannot block the thread.
 constexpr int kMostHandled = 256;
 
 std::string url_or_default(const std::string& url) {
@@ -71,7 +71,7 @@ void Link::on_message(const lcm::ReceiveBuffer* buffer, const std::string& chann
                        : wire::payload_unchecked({bytes, buffer->data_size});
     if (message) listener->handler(*message);
   } catch (...) {
-    // Out of memory, say. LCM's C code must not be unwound; the message is as good as lost, and
+    // For example out of memory. LCM's C code must not be unwound. The message counts as lost, and
     // lost messages are asked for again.
   }
 }
@@ -93,7 +93,7 @@ bool Link::publish(const std::string& channel, const Bytes& bytes) {
 Link::Wait Link::wait(Clock::time_point until) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
   const int left_ms = static_cast<int>(std::clamp<long long>(left.count(), 0, 1000));
-  // poll leaves out what is negative.
+  // poll ignores negative descriptors.
   std::array<pollfd, 2> inputs{pollfd{wake_.read_end, POLLIN, 0},
                                pollfd{broken_ ? -1 : lcm_->getFileno(), POLLIN, 0}};
   const int ready = ::poll(inputs.data(), inputs.size(), left_ms);
@@ -111,7 +111,7 @@ Link::Wait Link::wait(Clock::time_point until) {
 }
 
 void Link::wake() const {
-  // A full pipe wakes as well as one more byte does.
+  // If the pipe is full, the wait ends anyway.
   [[maybe_unused]] const ssize_t written = ::write(wake_.write_end, "", 1);
 }
 

@@ -23,8 +23,8 @@ namespace camway {
 
 using Clock = std::chrono::steady_clock;
 
-/// A connection to an LCM network: raw bytes in and out. The only place of the client that sees
-/// LCM. For one thread, `wake` apart.
+/// A connection to an LCM network that sends and receives raw bytes. The rest of the client does
+/// not use LCM. Not thread-safe, except for `wake`.
 class Link {
  public:
   using Handler = std::function<void(std::span<const std::uint8_t>)>;
@@ -34,46 +34,46 @@ class Link {
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// Connects; returns what is wrong and what mends it, nothing if all is well. With ttl 0 only
-  /// this host is heard. An empty url means LCM_DEFAULT_URL, or multicast with ttl 0 where that is
-  /// not set.
+  /// Connects. Returns the fault and its remedy; empty on success. With ttl 0 only this host is
+  /// heard. An empty URL stands for LCM_DEFAULT_URL, or for multicast with ttl 0 if that is not
+  /// set.
   std::string open(const std::string& url);
 
-  /// The network in use.
+  /// Returns the URL of the network in use.
   const std::string& url() const { return url_; }
 
-  /// Why other hosts can be heard though they should not; empty if all is well.
+  /// Returns why other hosts can be heard although the ttl is 0; empty otherwise.
   const std::string& warning() const { return warning_; }
 
-  /// Whether messages are signed and checked.
+  /// Returns whether messages are signed and checked.
   bool signs() const { return authentication_ != nullptr; }
-  /// From now on they are. Before `listen`.
+  /// Makes the link sign and check messages. Call it before `listen`; null changes nothing.
   void authenticate(std::unique_ptr<Authentication::Session> session);
 
-  /// Calls `handler` in `wait` for every message on `channel`, of which up to `capacity` wait for
-  /// their turn: with what stands in it, where it is signed; those that are not to be trusted are
-  /// dropped. What `handler` throws is swallowed. Precondition: open.
+  /// Has `wait` call `handler` with the content of every message on `channel`. Messages that are
+  /// not to be trusted are dropped, and those beyond a queue of `capacity`. Exceptions of `handler`
+  /// are ignored. Requires an open link.
   void listen(const std::string& channel, int capacity, Handler handler);
 
-  /// Whether the network took the bytes. Precondition: open.
+  /// Sends a message. Returns whether LCM accepted it. Requires an open link.
   bool publish(const std::string& channel, const Bytes& bytes);
 
   enum class Wait { kSomething, kTimeUp, kBroken };
-  /// Waits until a message comes, `wake` is called or `until` passes; handles the messages that are
-  /// here, a bounded number of them. A network that broke stays broken.
+  /// Waits until a message comes, `wake` is called or `until` passes, at most 1 s. Handles received
+  /// messages, a bounded number in a call. Once it has returned kBroken, it always does.
   Wait wait(Clock::time_point until);
 
-  /// Ends a wait, or the next one. From any thread.
+  /// Ends the present wait, or the next one. Thread-safe.
   void wake() const;
 
  private:
-  /// Two ends of a pipe.
+  /// The file descriptors of a pipe.
   struct Pipe {
     int read_end = -1;
     int write_end = -1;
   };
 
-  /// A channel that is listened to.
+  /// A subscription to a channel.
   struct Listener {
     Link* link;
     Handler handler;
@@ -88,8 +88,8 @@ class Link {
   Pipe wake_;
   bool broken_ = false;
   std::unique_ptr<lcm::LCM> lcm_;
-  std::unique_ptr<Authentication::Session> authentication_;  ///< null: nothing is signed
-  std::list<Listener> listeners_;                            ///< LCM keeps their addresses
+  std::unique_ptr<Authentication::Session> authentication_;  ///< null: messages are not signed
+  std::list<Listener> listeners_;  ///< a list, because LCM holds pointers to its elements
 };
 
 }  // namespace camway

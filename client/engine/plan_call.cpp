@@ -10,13 +10,14 @@
 #include <camway/missing_pages_t.hpp>
 #include <camway/plan_progress_t.hpp>
 
+#include "client/engine/handler.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 
 namespace camway {
 namespace {
 
-/// The sentence for a person about an answer that is not ok.
+/// Returns the sentence for the user about an answer that is not ok.
 std::string explain(const PlanResponse& response) {
   const std::string said = response.message.empty() ? "(no reason given)" : response.message;
   switch (response.status) {
@@ -33,8 +34,8 @@ std::string explain(const PlanResponse& response) {
   }
 }
 
-/// A call ends by then. Not before the request's own deadline, and the answer needs some time to
-/// travel.
+/// Returns when a call ends: not before the request's own deadline plus the time for the answer to
+/// arrive.
 Clock::time_point deadline_of(const PlanRequest& request, const ClientOptions& options) {
   const double planning_s = std::isfinite(request.deadline_s) ? request.deadline_s : 0.0;
   return after(std::max(options.deadline_s, planning_s + options.try_timeout_s));
@@ -47,17 +48,6 @@ std::vector<Outgoing> question_of(const Context& context, const PlanRequest& req
     question.push_back({context.channels().plan_request(), std::move(page)});
   }
   return question;
-}
-
-/// What users do in their handlers must not end our thread.
-template <class Handler, class Argument>
-void call_handler(const Handler& handler, const Argument& argument) {
-  if (!handler) return;
-  try {
-    handler(argument);
-  } catch (...) {
-    // There is nobody to tell: the handler's own affair.
-  }
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 
 namespace camway {
 
-/// A request for a path on its way.
+/// A pending request for a path. Not thread-safe; see `Call`.
 class PlanCall final : public Call {
  public:
-  /// `id` is the request's. Precondition: no `fault_in_form(request)`.
+  /// `id` is the id of the request. Requires a request without `fault_in_form`.
   PlanCall(Context& context, const PlanRequest& request, std::int64_t id, PlanHandlers handlers);
 
   std::future<PlanResponse> answer() { return promise_.get_future(); }
@@ -33,7 +33,7 @@ class PlanCall final : public Call {
   Context& context_;
   PlanHandlers handlers_;
   PlanCollector collector_;
-  std::optional<PlanResponse> refusal_;  ///< what the daemon said when it refused for now
+  std::optional<PlanResponse> refusal_;  ///< the last answer of a daemon that was overloaded
   const Clock::time_point start_ = Clock::now();
   std::promise<PlanResponse> promise_;
 };

@@ -6,10 +6,9 @@
 namespace camway {
 namespace {
 
-/// So long after the last page that came, a missing one counts as lost: pages are sent back to
-/// back.
+/// Time after the last page at which a missing page counts as lost: pages are sent back to back.
 constexpr double kPageGap_s = 0.1;
-/// How long the daemon is given to send what was asked for.
+/// Time for the daemon to send missing pages.
 constexpr double kMissingWait_s = 0.25;
 constexpr int kMostAsked = 2;
 
@@ -60,16 +59,16 @@ void Retry::note_part(Clock::time_point now) {
 
 void Retry::note_stopping(Clock::time_point now) {
   note_life();
-  // Longer than any deadline has no duration.
+  // The wait would pass the deadline, and may be infinite, which no clock duration can hold.
   if (std::chrono::duration<double>(deadline_ - now).count() < rules_.successor_wait_s) return;
-  // Each repetition is answered so until the daemon is gone.
+  // The daemon gives the same answer to each repetition until it is gone, so the minimum counts.
   give_up_at_ = std::min(give_up_at_, now + duration(rules_.successor_wait_s));
 }
 
 void Retry::note_heartbeat(double uptime_s, Clock::time_point now) {
   note_life();
   give_up_at_ = Clock::time_point::max();
-  // Such a daemon cannot have seen the question.
+  // A daemon that started after the request was sent cannot have received it.
   const std::chrono::duration<double> since_sent = now - sent_at_;
   if (tries_ > 0 && uptime_s < since_sent.count()) send_now_ = true;
 }

@@ -10,17 +10,17 @@ namespace camway {
 
 using Clock = std::chrono::steady_clock;
 
-/// When a question is sent again, and when it is given up: a state machine without a clock or a
-/// network of its own. For one thread at a time.
+/// Decides when a request is sent again and when it is given up. A state machine without a clock or
+/// network of its own. Not thread-safe.
 ///
-/// - The question is sent again after `try_timeout_s`, then after longer and longer waits, each
-///   blurred by `jitter`, so that clients that were refused together do not come back together.
-/// - When part of the answer is here and no more comes, the rest is asked for, twice; then the
-///   question is sent again.
-/// - It is sent again at once when a heartbeat shows a daemon that was started after it was sent.
-/// - It is given up after `retries` repetitions without a sign of life, at the deadline, or when
-/// the
-///   daemon said that it ends and no other is heard within `successor_wait_s`.
+/// - A request is repeated after `try_timeout_s`, then after growing waits. Each wait is changed at
+///   random by up to `jitter`, so that clients that were refused together do not come back
+///   together.
+/// - If a part of the answer has come and no more follows, the missing pages are asked for, twice.
+///   Then the request is repeated.
+/// - It is repeated at once if a heartbeat shows that the daemon started after it was sent.
+/// - It is given up after `retries` repetitions without a sign of life, at the deadline, or if the
+///   daemon announced its end and no other daemon is heard within `successor_wait_s`.
 class Retry {
  public:
   struct Rules {
@@ -29,7 +29,7 @@ class Retry {
     double max_try_timeout_s;
     double jitter;
     int retries;
-    /// How long another daemon is waited for when one said that it ends.
+    /// Time to wait for another daemon after one has announced its end.
     double successor_wait_s = std::numeric_limits<double>::infinity();
   };
 
@@ -37,32 +37,33 @@ class Retry {
       : rules_(rules), deadline_(deadline), random_(seed), wait_s_(rules.try_timeout_s) {}
 
   enum class Action {
-    kWait,        ///< until `wake`, unless something comes before
-    kSend,        ///< the whole question
-    kAskMissing,  ///< for the parts of the answer that did not come
-    kSilence,     ///< give up: nobody is there
-    kDeadline,    ///< give up: it took too long
+    kWait,        ///< wait until `wake`, or until a message comes
+    kSend,        ///< send the whole request
+    kAskMissing,  ///< ask for the missing pages of the answer
+    kSilence,     ///< give up: no daemon is there
+    kDeadline,    ///< give up: the deadline has passed
   };
-  /// What to do now; to be asked again at `wake`, and after anything came.
+  /// Returns the next action. Call it again at `wake`, and after every message.
   Action next(Clock::time_point now);
   Clock::time_point wake() const;
 
-  /// A new part of the answer came.
+  /// Notes that a new page of the answer came.
   void note_part(Clock::time_point now);
-  /// Something else came from the daemon.
+  /// Notes that the daemon gave another sign of life.
   void note_life() { life_ = ever_heard_ = true; }
-  /// The daemon said that it ends: it is given up soon, unless another is heard.
+  /// Notes that the daemon announced its end. The request is given up after `successor_wait_s`
+  /// unless a heartbeat comes.
   void note_stopping(Clock::time_point now);
-  /// A heartbeat came, of a daemon that has run for so long.
+  /// Notes a heartbeat of a daemon that has run for `uptime_s`.
   void note_heartbeat(double uptime_s, Clock::time_point now);
-  /// All parts that came were of an answer that does not count.
+  /// Forgets that pages came, because their answer was discarded.
   void forget_parts() { has_part_ = false; }
 
-  /// Another question takes the place of this one: it is sent at once.
+  /// Begins anew for another request in place of this one, which is sent at once.
   void restart();
 
   bool ever_heard() const { return ever_heard_; }
-  /// How often the whole question was sent.
+  /// Returns how often the whole request was sent.
   int tries() const { return tries_; }
 
  private:
@@ -74,15 +75,15 @@ class Retry {
   double wait_s_;
   int tries_ = 0;
   int silent_tries_ = 0;
-  bool life_ = false;  ///< in this try
+  bool life_ = false;  ///< whether the daemon gave a sign of life in this try
   bool ever_heard_ = false;
   bool has_part_ = false;
   bool send_now_ = true;
-  int asked_missing_ = 0;  ///< since the last part came
+  int asked_missing_ = 0;  ///< requests for missing pages since the last page came
   Clock::time_point sent_at_{};
   Clock::time_point again_at_{};
   Clock::time_point missing_at_{};
-  Clock::time_point give_up_at_ = Clock::time_point::max();  ///< as the daemon ends
+  Clock::time_point give_up_at_ = Clock::time_point::max();  ///< set when a daemon stops
 };
 
 }  // namespace camway

@@ -6,6 +6,7 @@
 
 #include <camway/watch_t.hpp>
 
+#include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
@@ -13,26 +14,27 @@
 namespace camway {
 namespace {
 
-/// Leases are renewed three times before they end, so that two renewals may be lost.
+/// Renewals within the time of a lease, so that two of them may be lost.
 constexpr double kRenewals = 3.0;
-/// How long the daemon is given to answer a renewal, at first.
+/// First wait for the answer to a renewal.
 constexpr double kAnswerWait_s = 0.5;
-/// How long the pages of a corrected answer may be on their way before they are asked for.
+/// Time for the pages of a corrected answer to arrive before they are asked for.
 constexpr double kPagesWait_s = 0.3;
-/// Pauses between attempts to have a path watched.
+/// Waits between attempts to have a path watched.
 constexpr double kFirstPause_s = 0.2;
 constexpr double kLongestPause_s = 30.0;
 constexpr double kGrowth = 2.0;
-/// A daemon is heard once a second, unless its configuration says otherwise (status.period_s). One
-/// heartbeat may be late or lost; then the daemon is asked, so that neither a network that loses
-/// messages nor another period counts as silence, and after three it counts as gone.
+/// A daemon sends a heartbeat once a second, or as often as its status.period_s says. When one is
+/// missing, the client asks the daemon for a sign of life, so that neither lost messages nor a
+/// longer period count as silence. Without any for the time of three heartbeats the daemon counts
+/// as gone.
 constexpr double kPingAfter_s = 1.3;
 constexpr double kPingAgain_s = 0.4;
 constexpr double kSilence_s = 3.25;
-/// The engine takes a step each second at least. What is longer between two was spent elsewhere, in
-/// a handler or suspended, and says nothing of the daemon.
+/// Longest time between two steps of the engine, which are at most 1 s apart. Any longer time was
+/// spent in a handler or while the process was suspended, and does not count as silence.
 constexpr double kLongestStep_s = 1.2;
-/// As many as fit a message of the largest size.
+/// Number of paths that fit a message of the largest size.
 constexpr std::size_t kPathsPerMessage = 1800;
 
 Clock::duration seconds(double value) {
@@ -41,7 +43,7 @@ Clock::duration seconds(double value) {
 
 bool has_proof(const PlanResponse& response) { return response.certified; }
 
-/// Whether the daemon gave an answer at all, rather than nobody or none for now.
+/// Returns whether the response is a final answer of the daemon.
 bool is_answer(const PlanResponse& response) {
   return static_cast<int>(response.status) < static_cast<int>(Status::kNoDaemon) &&
          response.status != Status::kOverloaded;
@@ -94,7 +96,7 @@ void WatchList::ask(Watched& watched) {
 void WatchList::answered(std::int64_t request_id, const PlanResponse& response) {
   const auto position = watched_.find(request_id);
   if (position == watched_.end()) {
-    // It was planned while it was taken from the list, and is watched since.
+    // The path was removed while it was planned; the daemon watches it since its answer.
     if (has_proof(response)) unwanted_.insert(request_id);
     return;
   }
@@ -122,7 +124,7 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
     if (watched.refusal) tell_lost(watched, *watched.refusal);
     return;
   }
-  if (!is_first && watched.serial != 0) {  // the path before is watched on
+  if (!is_first && watched.serial != 0) {  // the previous path stays watched
     tell(watched, std::move(event));
     return;
   }
@@ -163,7 +165,7 @@ void WatchList::take_offer(std::int64_t request_id, std::span<const std::uint8_t
   tell_offer(position->second);
 }
 
-/// Once the report and all pages are here, whichever come first.
+/// Reports an offer once the watch report and all pages of the answer have come, in any order.
 void WatchList::tell_offer(Watched& watched) {
   if (!watched.offer || watched.offer->is_told || !watched.offered.complete()) return;
   PlanResponse response = watched.offered.response();
@@ -221,7 +223,7 @@ void WatchList::take_report(std::span<const std::uint8_t> bytes, Clock::time_poi
   if (is_renewed) tell_watched_again();
 }
 
-/// The answer to a renewal says nothing of paths whose state is known here.
+/// Reports kWatched for lost paths: the answer to a renewal does not list paths with a known state.
 void WatchList::tell_watched_again() {
   for (auto& [id, watched] : watched_) {
     const bool is_asked_for = watched.is_asked || watched.ask_at != Clock::time_point::max();
@@ -248,8 +250,8 @@ void WatchList::take_state(const path_state_t& state, const watch_report_t& repo
       watched.serial = 0;
       watched.offer.reset();
       ask_later(watched, now);
-      // It is asked for again and again, and to say so each time is no news. The refusal may
-      // overtake the first answer, which is told before it.
+      // The request is repeated, but only the first refusal is reported. If it comes before the
+      // first answer, it is reported after that.
       if (!watched.refusal) {
         watched.refusal = {Status::kLimit, "the daemon has no room to watch it: " + report.message};
         if (watched.held_revision >= 0) tell_lost(watched, *watched.refusal);
@@ -275,7 +277,7 @@ void WatchList::take_new_state(Watched& watched, const path_state_t& state,
     watched.ask_at = std::min(watched.ask_at, now + seconds(kPagesWait_s));
   }
   take_offer_state(watched, state, now);
-  // Of an answer that was corrected since, whose report was overtaken.
+  // The state is of an earlier answer: its report was overtaken.
   if (state.answer_revision < watched.held_revision) return;
   WatchEvent event;
   event.scene_revision = state.scene_revision;
@@ -305,7 +307,7 @@ void WatchList::take_offer_state(Watched& watched, const path_state_t& state,
     tell_offer(watched);
     return;
   }
-  // A path that breaks, and the answer that the offer has become, say so themselves.
+  // Other events already report a path that breaks, and an offer that became the answer.
   const bool is_current = state.answer_revision <= watched.held_revision;
   if (!was_told || state.state != path_state_t::FREE || !is_current ||
       watched.held_revision >= before) {
@@ -325,13 +327,13 @@ void WatchList::ask_later(Watched& watched, Clock::time_point now) {
 void WatchList::note_life(Clock::time_point now) {
   heard_at_ = std::max(heard_at_, now);
   was_heard_ = true;
-  // It may watch on, or know nothing any more.
+  // The daemon may still watch the paths, or may have restarted.
   if (std::exchange(is_silent_, false)) renew_at_ = now;
 }
 
 void WatchList::take_heartbeat(double uptime_s, Clock::time_point now) {
   note_life(now);
-  // A daemon that was started since knows nothing of what is watched.
+  // A daemon that started after the last renewal does not know the watched paths.
   if (!watched_.empty() && std::chrono::duration<double>(now - renewed_at_).count() > uptime_s) {
     renewed_at_ = now;
     renew_at_ = now;
@@ -400,14 +402,14 @@ void WatchList::renew(Clock::time_point now) {
     if (paths.size() == kPathsPerMessage) flush();
   }
   flush();
-  // Whatever else is heard of the daemon.
+  // The lease is over, even if the daemon is heard otherwise.
   if (now - renewed_at_ >= seconds(lease_s)) {
     lose_all(context_.explain(Outcome::kSilence, was_heard_, {}, {}));
   }
 }
 
 void WatchList::lose_all(const Failure& why) {
-  // A handler may end watches.
+  // A handler may remove paths.
   std::vector<std::int64_t> ids;
   for (const auto& [id, watched] : watched_) ids.push_back(id);
   for (const std::int64_t id : ids) {
@@ -467,13 +469,9 @@ void WatchList::send(std::vector<watched_path_t> paths, std::int64_t id, double 
 void WatchList::tell(Watched& watched, WatchEvent event) {
   watched.is_lost = event.kind == WatchEvent::Kind::kLost;
   if (!watched.is_lost) watched.scene_revision = event.scene_revision;
-  if (!watched.handler || is_closed_) return;
+  if (is_closed_) return;
   event.request_id = watched.request.request_id;
-  try {
-    watched.handler(event);
-  } catch (...) {
-    // There is nobody to tell: the handler's own affair.
-  }
+  call_handler(watched.handler, event);
 }
 
 void WatchList::tell_lost(Watched& watched, const Failure& why) {

@@ -21,9 +21,10 @@
 
 namespace camway {
 
-/// The watched paths of a client: asks for them, renews their leases, tells the daemon what has
-/// come, and asks again for what has not. A state machine without a network of its own. For the
-/// engine's thread.
+/// The watched paths of a client. Requests them, renews their leases, acknowledges received states
+/// and asks again for missing ones. A state machine without a network of its own.
+///
+/// Not thread-safe: only the engine's thread may use it.
 class WatchList {
  public:
   struct Hooks {
@@ -33,63 +34,65 @@ class WatchList {
 
   WatchList(Context& context, Hooks hooks) : context_(context), hooks_(std::move(hooks)) {}
 
-  /// Precondition: no `fault_in_form(request)`, which has an id and a lease.
+  /// Adds a path. Requires a request without `fault_in_form`, with an id and a lease.
   void add(const PlanRequest& request, WatchHandler handler);
-  /// Also of the daemon's list: it is told until it says that it heard, or the lease is over.
+  /// Removes a path. The daemon is told repeatedly until it confirms or the lease is over.
   void remove(std::int64_t request_id);
-  /// Whether the daemon is still to be told so.
+  /// Returns whether the daemon has still to confirm the end of a watch.
   bool is_ending(std::int64_t request_id) const;
 
-  /// A page of an answer that no call waits for.
+  /// Takes a page of an answer. Pages that a call waits for are ignored.
   void take_answer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
-  /// A page of an answer on offer.
+  /// Takes a page of a better answer on offer.
   void take_offer(std::int64_t request_id, std::span<const std::uint8_t> bytes);
-  /// The better path that was told last is to be the one that is watched.
+  /// Accepts the better path that was offered last. Has no effect without an offer.
   void take_better(std::int64_t request_id);
+  /// Takes an encoded `watch_report_t`.
   void take_report(std::span<const std::uint8_t> bytes, Clock::time_point now);
   void take_heartbeat(double uptime_s, Clock::time_point now);
-  /// Anything came from the daemon.
+  /// Notes a sign of life of the daemon.
   void note_life(Clock::time_point now);
 
-  /// No handler is called any more.
+  /// Ends all calls of handlers.
   void close() { is_closed_ = true; }
 
-  /// Does what is due.
+  /// Does everything that is due at `now`.
   void step(Clock::time_point now);
+  /// Returns when `step` is due next.
   Clock::time_point wake() const;
 
  private:
-  /// A better answer that the daemon has.
+  /// A better answer on offer.
   struct Offer {
-    std::int64_t revision;
-    Clock::time_point ask_at;  ///< for its pages, or that it be the answer; again
-    double again_s;            ///< how long after the last time
-    bool is_told = false;
-    bool is_taken = false;
+    std::int64_t revision;     ///< `path_state_t::offer_revision`
+    Clock::time_point ask_at;  ///< next time to ask for its pages, or to accept it
+    double again_s;            ///< wait until the time after that
+    bool is_told = false;      ///< whether the handler has received it
+    bool is_taken = false;     ///< whether the user has accepted it
   };
   struct Watched {
     PlanRequest request;
     WatchHandler handler;
     PlanCollector collector;
-    PlanCollector offered;            ///< what came of an offer
-    bool is_asked = false;            ///< a call is on its way
-    Clock::time_point ask_at{};       ///< again; the end of time if there is no need
-    double ask_again_s = 0.0;         ///< how long after the last time
-    std::int64_t held_revision = -1;  ///< of the answer that is here; below 0: none
-    std::int64_t serial = 0;          ///< of the daemon's newest state that is here
+    PlanCollector offered;            ///< pages of the offer
+    bool is_asked = false;            ///< whether a call for the path is pending
+    Clock::time_point ask_at{};       ///< next time to request the path; max: not needed
+    double ask_again_s = 0.0;         ///< wait until the time after that
+    std::int64_t held_revision = -1;  ///< scene revision of the answer that is held; below 0: none
+    std::int64_t serial = 0;          ///< serial of the newest state that was received
     bool is_broken = false;
-    bool is_lost = false;             ///< as was told last
-    std::int64_t scene_revision = 0;  ///< of what was told before that
-    std::optional<Failure> refusal = {};  ///< why the daemon does not watch it; none if it may
-    std::vector<WatchEvent> untold = {};  ///< the answer since then, told once it is watched
+    bool is_lost = false;                 ///< whether the last event was kLost
+    std::int64_t scene_revision = 0;      ///< scene revision of the last event before kLost
+    std::optional<Failure> refusal = {};  ///< reason why the daemon refuses to watch it, if it does
+    std::vector<WatchEvent> untold = {};  ///< answer that came after a refusal; told once watched
     std::optional<Offer> offer = {};
   };
-  /// A message that ends the watching of some paths, until it is answered.
+  /// A message that ends the watches of some paths. It is repeated until it is answered.
   struct Ending {
     std::vector<std::int64_t> paths;
-    Clock::time_point send_at;
-    Clock::time_point give_up_at;  ///< when the lease is over anyway
-    double again_s;                ///< how long after the last time it is sent
+    Clock::time_point send_at;     ///< next time to send it
+    Clock::time_point give_up_at;  ///< time at which the lease is over anyway
+    double again_s;                ///< wait until the time after that
   };
 
   void ask(Watched& watched);
@@ -108,25 +111,25 @@ class WatchList {
   void look_for_life(Clock::time_point now);
   void lose_all(const Failure& why);
   void tell(Watched& watched, WatchEvent event);
-  /// Unless that was told last: that it is still so is no news.
+  /// Calls the handler with kLost, unless that was the last event.
   void tell_lost(Watched& watched, const Failure& why);
   void tell_watched_again();
 
   Context& context_;
   const Hooks hooks_;
   std::map<std::int64_t, Watched> watched_;
-  std::set<std::int64_t> to_acknowledge_;
-  std::set<std::int64_t> unwanted_;         ///< paths that the daemon is to be told not to watch
-  std::map<std::int64_t, Ending> endings_;  ///< by the id of the message
+  std::set<std::int64_t> to_acknowledge_;   ///< paths with a state to acknowledge
+  std::set<std::int64_t> unwanted_;         ///< paths whose watch is to be ended
+  std::map<std::int64_t, Ending> endings_;  ///< messages that end watches, by their id
   Clock::time_point renew_at_ = Clock::time_point::max();
-  double renew_again_s_ = 0.0;         ///< how long to wait for the answer
-  std::set<std::int64_t> unanswered_;  ///< ids of the renewals that were sent last
-  Clock::time_point renewed_at_{};     ///< when all of them were answered
-  Clock::time_point stepped_at_{};     ///< last
-  Clock::time_point heard_at_{};       ///< a sign of life; later where we did not listen meanwhile
-  Clock::time_point ping_at_{};        ///< not before: that the daemon may give one
-  bool was_heard_ = false;             ///< ever, since there was something to watch
-  bool is_silent_ = false;             ///< as was told
+  double renew_again_s_ = 0.0;         ///< wait for the answer to a renewal
+  std::set<std::int64_t> unanswered_;  ///< ids of the last renewals that are not answered yet
+  Clock::time_point renewed_at_{};     ///< time at which the last renewals were all answered
+  Clock::time_point stepped_at_{};     ///< time of the last step
+  Clock::time_point heard_at_{};       ///< last sign of life, moved on by times without listening
+  Clock::time_point ping_at_{};        ///< earliest time to ask the daemon for a sign of life
+  bool was_heard_ = false;  ///< whether a daemon was heard since the first path was added
+  bool is_silent_ = false;  ///< whether the handlers were told of the daemon's silence
   bool is_closed_ = false;
 };
 

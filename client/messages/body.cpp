@@ -40,7 +40,7 @@ void add_points(const std::vector<Body::Point>& points, body_t& wire) {
 
 std::optional<std::string> fault_in_form(const Body& body) {
   if (body.shape == Body::Shape::kConvex) {
-    // An empty piece has a size on the wire all the same.
+    // An empty piece takes room in the message, too.
     if (auto fault = fault_in_count("body.pieces_m", body.pieces_m.size(), wire::kMaxBodyPoints)) {
       return fault;
     }

@@ -10,11 +10,11 @@
 
 namespace camway {
 
-/// Why `body` has no form on the wire: too many points or triangles. Values are for the daemon to
-/// judge.
+/// Returns the fault of a body that cannot be sent (too many points or triangles), or nothing. The
+/// daemon checks the values.
 std::optional<std::string> fault_in_form(const Body& body);
 
-/// Precondition: no `fault_in_form`.
+/// Returns the body as it is sent. Requires a body without `fault_in_form`.
 body_t to_wire(const Body& body);
 
 }  // namespace camway

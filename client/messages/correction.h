@@ -11,11 +11,12 @@
 
 namespace camway {
 
-/// Reads what the head of `page` says of correction: measures, scales, and whether there is a proof
-/// that no path exists.
+/// Copies the members of `page` about correction that are not lists: measures, bounds, scales, the
+/// deadline flag, and the head of a proof that no path exists.
 void read_correction_head(const plan_response_t& page, PlanResponse& response);
 
-/// Appends the page's lists of it. Why that cannot be, for the first element that makes no sense.
+/// Appends the lists of `page` about correction. Returns the fault of the first element that is not
+/// valid, or nothing.
 std::optional<std::string> append_correction_lists(const plan_response_t& page,
                                                    PlanResponse& response);
 

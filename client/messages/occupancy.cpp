@@ -37,7 +37,7 @@ Numbers numbers_of(const OccupancySpherePath& path) {
           path.to_m[1],   path.to_m[2],   path.radius_m};
 }
 
-/// Fills requests one after another; begins the next when one is full.
+/// Distributes queries over requests. Begins the next request when one is full.
 class Splitter {
  public:
   Splitter(const OccupancyBatch& batch, const std::string& client_id) {
@@ -87,7 +87,8 @@ void append(const std::vector<std::int8_t>& wire, std::vector<bool>& list) {
   for (const std::int8_t value : wire) list.push_back(value != 0);
 }
 
-/// On the wire, -1 stands for "nothing within range". False if a number is no distance.
+/// Appends distances; -1 on the wire means none within range. Returns false for a non-finite
+/// number.
 bool append(const std::vector<double>& wire, std::vector<std::optional<double>>& list) {
   for (const double value : wire) {
     if (!std::isfinite(value)) return false;

@@ -16,16 +16,16 @@
 
 namespace camway {
 
-/// Why `batch` has no form on the wire. Nothing if it has one.
+/// Returns the fault of a batch that cannot be sent, or nothing.
 std::optional<std::string> fault_in_form(const OccupancyBatch& batch);
 
-/// The requests of a batch, in its order, none above `wire::kMaxMessageBytes`; request ids are for
-/// the caller to set. At least one, also for an empty batch: it tells whether there is a map.
-/// Precondition: no `fault_in_form`.
+/// Returns the requests of a batch, in its order, each of at most `wire::kMaxMessageBytes`. The
+/// caller sets the request ids. An empty batch makes one request, whose answer says whether there
+/// is a map. Requires a batch without `fault_in_form`.
 std::vector<occupancy_request_t> to_requests(const OccupancyBatch& batch,
                                              const std::string& client_id);
 
-/// Waits for the answer to one request.
+/// Collects the answer to one request. Not thread-safe.
 class OccupancyCollector {
  public:
   OccupancyCollector(std::string client_id, std::int64_t request_id);
@@ -44,8 +44,8 @@ class OccupancyCollector {
   std::string fault_;
 };
 
-/// Appends the answers of `response` to `answer`. Returns what is wrong with the response as an
-/// answer to `request`; nothing if all is well.
+/// Appends the answers of `response` to `answer`. Returns the fault of a response that does not
+/// answer `request`, or nothing.
 std::optional<std::string> append(const occupancy_request_t& request,
                                   const occupancy_response_t& response, OccupancyAnswer& answer);
 

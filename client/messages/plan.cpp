@@ -71,7 +71,7 @@ bool has_times(const PlanRequest& request) {
   return !request.keyframes.empty() && request.keyframes.front().time_s.has_value();
 }
 
-/// The request without keyframes and body.
+/// Returns the request without keyframes and body.
 plan_request_t head_of(const PlanRequest& request, const std::string& client_id,
                        std::int64_t request_id) {
   plan_request_t wire{};
@@ -112,11 +112,11 @@ bool finite(const segment_t& segment) {
                      is_finite);
 }
 
-/// Why segment `next` cannot follow `previous` in a path.
+/// Returns why segment `next` cannot follow `previous` in a path, or nothing.
 std::optional<std::string> fault_in_segment(const segment_t* previous, const segment_t& next) {
   if (!finite(next)) return "holds numbers that are not finite";
   if (!(next.t0_s < next.t1_s)) return "does not end after it begins";
-  // Daemons send the very same number twice, so that there is neither gap nor overlap.
+  // The daemon sends the same number twice, so that there is neither gap nor overlap.
   if (previous != nullptr && previous->t1_s != next.t0_s) {
     return "does not begin where the one before ends";
   }
@@ -125,7 +125,7 @@ std::optional<std::string> fault_in_segment(const segment_t* previous, const seg
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 
-/// Whether two pages belong to one answer: all that is repeated on them is the same.
+/// Returns whether two pages belong to one answer: whether their repeated members are equal.
 bool same_answer(const plan_response_t& a, const plan_response_t& b) {
   return a.num_pages == b.num_pages && a.utime == b.utime && a.status == b.status &&
          a.message == b.message && a.keyframe == b.keyframe && a.scene == b.scene &&
@@ -154,7 +154,7 @@ void append_lists(const plan_response_t& page, std::vector<Segment>& segments,
   }
 }
 
-/// The answer without its lists.
+/// Returns the answer without its lists.
 PlanResponse head_of(const plan_response_t& page) {
   PlanResponse response;
   response.status = static_cast<Status>(page.status);

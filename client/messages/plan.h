@@ -17,43 +17,45 @@
 
 namespace camway {
 
-/// Why `request` has no form on the wire: the field at fault and its limit. Nothing if it has one.
-/// Values (a zero quaternion, say) are for the daemon to judge.
+/// Returns the fault of a request that cannot be sent (the field and its limit), or nothing. The
+/// daemon checks the values, such as a zero quaternion.
 std::optional<std::string> fault_in_form(const PlanRequest& request);
 
-/// The messages of a request, none above `wire::kMaxMessageBytes`.
-/// Precondition: no `fault_in_form`.
+/// Returns the pages of a request, each of at most `wire::kMaxMessageBytes`. Requires a request
+/// without `fault_in_form`.
 std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
                             std::int64_t request_id);
 
-/// What the message says. Stages that are unknown here count as waiting.
+/// Returns the progress in a message. An unknown stage becomes kWaiting.
 PlanProgress from_wire(const plan_progress_t& wire);
 
-/// Puts the pages of the answer to one request together, in whatever order and however often they
-/// come. Pages of another answer to the same request (the daemon was restarted) replace it.
+/// Collects the pages of the answer to one request, which may come in any order and repeatedly.
+/// Pages of a new answer to the same request, after a restart of the daemon, replace the old ones.
+/// Not thread-safe.
 class PlanCollector {
  public:
   PlanCollector(std::string client_id, std::int64_t request_id);
 
   enum class Taken { kNew, kKnown, kForeign, kBad };
-  /// Takes a message: a new page, one that is here already, one for somebody else, or none at all.
+  /// Takes a message and returns what it was: a new page, a known page, a message for another
+  /// request or client, or a message that is no valid page.
   Taken take(std::span<const std::uint8_t> bytes);
 
   bool complete() const;
-  /// How many pages there are, and how many of them came. 0 until the first comes.
+  /// Return the number of pages of the answer and of those that came; 0 before the first one.
   std::size_t pages_expected() const;
   std::size_t pages_here() const { return pages_.size(); }
-  /// The numbers of those that did not come. Precondition: at least one came.
+  /// Returns the numbers of the missing pages. Requires at least one page.
   std::vector<std::int32_t> missing() const;
-  /// What was wrong with the last message that was kBad.
+  /// Returns the fault of the last message that was kBad.
   const std::string& fault() const { return fault_; }
 
-  /// The status on the pages so far. Precondition: at least one page.
+  /// Returns the status of the answer. Requires at least one page.
   Status status() const;
   /// Forgets all pages.
   void clear() { pages_.clear(); }
 
-  /// The whole answer; `kBadAnswer` if its path is none. Precondition: complete.
+  /// Returns the answer; one with `kBadAnswer` if its content is not valid. Requires `complete()`.
   PlanResponse response() const;
 
  private:

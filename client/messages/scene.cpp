@@ -29,7 +29,7 @@ void name_upload(const Bytes& bytes, scene_request_t& request) {
   request.upload_checksum = wire::crc64(bytes.data(), bytes.size());
 }
 
-/// Doubles as they lie in the memory of a little-endian machine.
+/// Returns the coordinates as little-endian doubles.
 Bytes little_endian(const std::vector<std::array<double, 3>>& points) {
   Bytes bytes;
   bytes.reserve(points.size() * 3 * sizeof(double));
@@ -45,7 +45,7 @@ Bytes little_endian(const std::vector<std::array<double, 3>>& points) {
   return bytes;
 }
 
-/// Writes each kind of shape.
+/// Writes a shape into a request; returns the bytes to upload.
 struct ShapeWriter {
   scene_request_t& request;
 

@@ -21,20 +21,21 @@ SceneInfo from_wire(const scene_info_t& wire);
 SceneObject from_wire(const scene_object_t& wire);
 SceneRevision from_wire(const scene_change_t& wire);
 
-/// Writes what describes `shape` into `request`, but for what has to be uploaded: that is returned.
+/// Writes the description of `shape` into `request`. Returns the bytes to upload; empty if none.
 std::vector<std::uint8_t> put_shape(const SceneShape& shape, scene_request_t& request);
 
-/// Likewise for a mesh.
+/// Writes the description of `mesh` into `request`. Returns the bytes to upload; empty if none.
 std::vector<std::uint8_t> put_mesh(const SceneMesh& mesh, scene_request_t& request);
 
-/// Names the upload of points that is returned.
+/// Returns the upload of points, and writes its size and checksum into `request`.
 std::vector<std::uint8_t> put_points(const std::vector<std::array<double, 3>>& points,
                                      scene_request_t& request);
 
 /// Writes a pose into `request`.
 void put_pose(const Pose& pose, scene_request_t& request);
 
-/// A page of an upload; the one without bytes for a negative `page`.
+/// Returns a page of an upload. A negative `page` makes the page without bytes, which asks for the
+/// state of the upload.
 upload_page_t page_of(const std::vector<std::uint8_t>& bytes, std::int64_t checksum,
                       std::int32_t page);
 

@@ -9,7 +9,7 @@
 
 namespace camway {
 
-/// The heartbeat in these bytes; nothing if they hold none.
+/// Returns the heartbeat in these bytes, or nothing if they are no valid one.
 std::optional<DaemonStatus> read_status(std::span<const std::uint8_t> bytes);
 
 }  // namespace camway

@@ -14,7 +14,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 constexpr Pose kNoPose{{kNaN, kNaN, kNaN}, {kNaN, kNaN, kNaN, kNaN}};
 
-/// The Bézier curve of `points` at `u`, by repeated linear interpolation (de Casteljau).
+/// Returns the Bézier curve of `points` at `u`, by repeated linear interpolation (de Casteljau).
 template <std::size_t Count, std::size_t Dimension>
 std::array<double, Dimension> de_casteljau(std::array<std::array<double, Dimension>, Count> points,
                                            double u) {
@@ -28,9 +28,9 @@ std::array<double, Dimension> de_casteljau(std::array<std::array<double, Dimensi
   return points[0];
 }
 
-/// `v` divided by its length; NaN if that is zero or not finite.
+/// Returns `v` divided by its length; NaN if the length is zero or not finite.
 std::array<double, 4> unit(const std::array<double, 4>& v) {
-  // hypot takes care of overflow and underflow, so any scale of control points will do.
+  // hypot avoids overflow and underflow, so control points may have any scale.
   const double length = std::hypot(std::hypot(v[0], v[1]), std::hypot(v[2], v[3]));
   if (!(length > 0.0) || !std::isfinite(length)) return kNoPose.orientation_wxyz;
   return {v[0] / length, v[1] / length, v[2] / length, v[3] / length};

@@ -62,13 +62,14 @@ std::string note_of_effort(const std::vector<Correction>& corrections) {
   return text.empty() ? text : "; tried without success: " + text;
 }
 
-std::string note_of_shut_in(const std::vector<ShutIn>& shut_in) {
+std::string note_of_shut_in(const std::vector<ShutIn>& shut_in, bool is_bounded) {
   if (shut_in.empty()) return {};
   const geometry::Vec3 sizes_m = shut_in.front().region_W.sizes();
   std::string note = fmt::format(
       "; keyframe {} seems shut in: no way out of a region of {:.2g} x {:.2g} x {:.2g} m about it "
-      "was found",
-      shut_in.front().keyframe, sizes_m.x(), sizes_m.y(), sizes_m.z());
+      "was found{}",
+      shut_in.front().keyframe, sizes_m.x(), sizes_m.y(), sizes_m.z(),
+      is_bounded ? " within the bounds" : "");
   std::string others;
   for (std::size_t i = 1; i < shut_in.size() && i < kMostNamed; ++i)
     add(others, std::to_string(shut_in[i].keyframe));

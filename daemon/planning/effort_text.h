@@ -25,8 +25,8 @@ std::string effort_text(const correction::Effort& effort);
 std::string note_of_effort(const std::vector<correction::Correction>& corrections);
 
 /// "; keyframe 2 seems shut in: ...", with the size of the region that was searched; empty if no
-/// keyframe is.
-std::string note_of_shut_in(const std::vector<correction::ShutIn>& shut_in);
+/// keyframe is. `is_bounded`: whether bounds are a part of what shuts it in.
+std::string note_of_shut_in(const std::vector<correction::ShutIn>& shut_in, bool is_bounded);
 
 /// "; note: ..." about options that the request's method ignores; empty if there are none.
 std::string note_of_method(const PlanRequest& request);

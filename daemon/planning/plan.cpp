@@ -426,9 +426,9 @@ class Planner {
     result_.message = fmt::format("{}the path still collides {} ({})",
                                   timed_out_ ? "the deadline came first; " : "",
                                   counted(remaining, "time"), what_was_done()) +
-                      note_of_shut_in(result_.shut_in) + note_of_keyframe_limit() +
-                      note_of_effort(result_.corrections) + note_of_haste() + note_of_times() +
-                      note();
+                      note_of_shut_in(result_.shut_in, obstacles_.bounds.any()) +
+                      note_of_keyframe_limit() + note_of_effort(result_.corrections) +
+                      note_of_haste() + note_of_times() + note();
   }
 
   // Names what the deadline left undone.

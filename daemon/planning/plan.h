@@ -17,8 +17,8 @@ namespace camway::planning {
 ///
 /// With `ok`, `certificate.certified` is set: the search for collisions ran on the final segments
 /// exactly as they are returned, and everything that it does not list is free, at every instant and
-/// with the rounding of the computation bounded (`collision/probe.h` has the proof, ARCHITECTURE.md
-/// its assumptions).
+/// with the rounding of the computation bounded (`collision/probe.h` has the proof,
+/// docs/guarantees.md its assumptions).
 PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
                 const base::Deadline& deadline);
 

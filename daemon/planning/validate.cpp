@@ -135,12 +135,12 @@ std::optional<InvalidRequest> check_orientation(const correction::OrientationPol
   }
   if (!(policy.cone_rad > 0.0 && policy.cone_rad <= std::numbers::pi)) {
     return invalid("options.orientation.cone",
-                   fmt::format("is {} degrees; it must be above 0 and at most 180 degrees",
+                   fmt::format("is {:.6g} degrees; it must be above 0 and at most 180 degrees",
                                policy.cone_rad * kDegrees));
   }
   if (!(policy.max_turn_rad >= 0.0 && policy.max_turn_rad <= std::numbers::pi)) {
     return invalid("options.orientation.max_turn",
-                   fmt::format("is {} degrees; it must lie between 0 and 180 degrees",
+                   fmt::format("is {:.6g} degrees; it must lie between 0 and 180 degrees",
                                policy.max_turn_rad * kDegrees));
   }
   return std::nullopt;

@@ -60,7 +60,11 @@ std::string apply(const Setting& setting, const toml::node& node,
                   const std::filesystem::path& folder) {
   if (setting.is_text()) {
     const auto* const text = node.as_string();
-    if (text == nullptr) return "must be a text in quotes";
+    if (text == nullptr) {
+      return node.is_array() && setting.path == Setting::Path::kFolders
+                 ? "must be one text in quotes; several folders have ':' between them"
+                 : "must be a text in quotes";
+    }
     return setting.set(setting.below(folder, text->get()));
   }
   if (setting.is_switch()) {

@@ -5,21 +5,21 @@
 #include <string>
 #include <string_view>
 
-/// What sender and receiver of the wire types share beside the types themselves.
+/// Rules of the wire that sender and receiver share beside the message types.
 namespace camway::wire {
 
-/// LCM_MAX_CHANNEL_NAME_LENGTH: a longer name cannot be published on.
+/// Longest channel name that LCM can publish on: its LCM_MAX_CHANNEL_NAME_LENGTH.
 inline constexpr std::size_t kMaxChannelLength = 63;
-/// Longest client id. With the longest prefix and the longest channel name between them,
-/// `<prefix>_OCCUPANCY_RESPONSE_<client_id>`, this just fits `kMaxChannelLength`.
+/// Longest client id. `<prefix>_OCCUPANCY_RESPONSE_<client_id>`, the longest channel name, then has
+/// exactly `kMaxChannelLength` characters if the prefix has `kMaxPrefixLength`.
 inline constexpr std::size_t kMaxClientIdLength = 32;
 inline constexpr std::size_t kMaxPrefixLength = 11;
 static_assert(kMaxPrefixLength + std::string_view("_OCCUPANCY_RESPONSE_").size() +
                   kMaxClientIdLength ==
               kMaxChannelLength);
 
-/// Whether `text` is of [A-Za-z0-9_-]{1,max_length}. None of these characters means anything in the
-/// regular expressions that LCM takes for channel names.
+/// Returns whether `text` matches [A-Za-z0-9_-]{1,max_length}. None of these characters is special
+/// in the regular expressions that LCM takes as channel names.
 constexpr bool is_plain_name(std::string_view text, std::size_t max_length) {
   if (text.empty() || text.size() > max_length) return false;
   for (const char c : text) {
@@ -35,8 +35,8 @@ constexpr bool is_client_id(std::string_view text) {
 }
 constexpr bool is_prefix(std::string_view text) { return is_plain_name(text, kMaxPrefixLength); }
 
-/// `text` of a peer without control characters, which could forge lines of a log or change what a
-/// terminal shows.
+/// Returns `text` with each control character replaced by `?`. Control characters of a peer could
+/// forge lines of a log or change a terminal's state.
 inline std::string printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
@@ -44,7 +44,7 @@ inline std::string printable(std::string text) {
   return text;
 }
 
-/// Names of all channels. Preconditions: `is_prefix(prefix)`, `is_client_id(client_id)`.
+/// The names of all channels. Requires `is_prefix(prefix)` and `is_client_id(client_id)`.
 struct Channels {
   std::string prefix = "CAMWAY";
 

@@ -12,14 +12,14 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::string_view kFingerprint = "fingerprint";
 
-/// Reads big-endian numbers and skips; never past the end.
+/// Reads big-endian numbers and skips bytes, never past the end.
 class Reader {
  public:
   explicit Reader(Bytes bytes) : rest_(bytes) {}
 
   [[nodiscard]] std::size_t left() const { return rest_.size(); }
 
-  /// The next `count` bytes, or nothing if there are fewer.
+  /// Returns the next `count` bytes, or nothing if there are fewer.
   std::optional<Bytes> take(std::size_t count) {
     if (count > rest_.size()) return std::nullopt;
     const Bytes taken = rest_.first(count);

@@ -13,7 +13,7 @@
 
 namespace camway::wire {
 
-/// What is wrong with the bytes of a message.
+/// A fault in the bytes of a message.
 struct Fault {
   std::string field;   ///< e.g. "scenes[3].name"; empty where the message as a whole is at fault
   std::string reason;  ///< e.g. "length -5 is below 1"
@@ -22,37 +22,39 @@ struct Fault {
   [[nodiscard]] std::string text(std::string_view type) const;
 };
 
-/// Whether a message was refused for its fingerprint: it is of another type, or of this one in
-/// another version of Camway.
+/// Returns whether a fault is a wrong fingerprint: the message has another type, or the same type
+/// of another version of Camway.
 [[nodiscard]] bool is_other_version(const Fault& fault);
 
-/// Checks everything that the decoder of lcm-gen takes on trust: fingerprint, length of every
-/// string (at least the final NUL, which must be there, and no other), count of every list against
-/// the bytes that are left, and the exact size of the whole. The decoder throws or takes gigabytes
-/// on a message of 76 bytes that fails this. Values are not judged. Allocates nothing unless it
-/// finds a fault. Safe from any thread.
+/// Returns the first fault of a message, or nothing if lcm-gen's decoder can decode it safely. The
+/// decoder itself checks none of this: the fingerprint; the length of every string, with one NUL,
+/// at its end; the count of every list against the remaining bytes; and the exact size of the
+/// message. Without the check, a message of 76 bytes can make the decoder throw or allocate
+/// gigabytes.
+///
+/// Values are not checked. Allocates memory only for a fault. Thread-safe.
 [[nodiscard]] std::optional<Fault> check(const Layout& layout, std::span<const std::uint8_t> bytes);
 
-/// Who sent a request.
+/// The sender of a request, and its id.
 struct Sender {
   std::string client_id;
   std::int64_t request_id = 0;
 };
 
-/// Reads the sender of a request of type `layout` as far as the bytes allow, for the answer to a
-/// message that fails `check`. Nothing unless fingerprint and client id are right.
-/// Precondition: the type begins with client_id and request_id.
+/// Returns the sender of a request of type `layout`, for the answer to a message that fails
+/// `check`. Returns nothing if the fingerprint or the client id is wrong. Requires a type that
+/// begins with client_id and request_id.
 [[nodiscard]] std::optional<Sender> peek_sender(const Layout& layout,
                                                 std::span<const std::uint8_t> bytes);
 
-/// A message, or what is wrong with its bytes.
+/// A message, or the fault of its bytes.
 template <class Message>
 struct Decoded {
   std::optional<Message> message;
   Fault fault;  ///< meaningful when `message` is empty
 };
 
-/// Checks, then decodes. Takes no more than a few times the size of `bytes` in memory.
+/// Checks and decodes a message. Its memory is at most a few times the size of `bytes`.
 template <class Message>
 [[nodiscard]] Decoded<Message> decode(std::span<const std::uint8_t> bytes) {
   if (std::optional<Fault> fault = check(layout_of<Message>(), bytes)) {
@@ -66,7 +68,7 @@ template <class Message>
   return result;
 }
 
-/// The bytes of `message`. Precondition: its counts agree with its lists.
+/// Returns the bytes of `message`. Requires counts that equal the lengths of their lists.
 template <class Message>
 [[nodiscard]] std::vector<std::uint8_t> encode(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));

@@ -9,10 +9,10 @@ namespace camway::wire {
 
 namespace detail {
 
-/// Of ECMA-182, reflected.
+/// The polynomial of ECMA-182, with reflected bits.
 inline constexpr std::uint64_t kCrc64Polynomial = 0xC96C5795D7870F42;
 
-/// Remainders of all bytes.
+/// The remainder of each byte.
 inline constexpr std::array<std::uint64_t, 256> kCrc64Table = [] {
   std::array<std::uint64_t, 256> table{};
   for (std::uint64_t byte = 0; byte < table.size(); ++byte) {
@@ -27,8 +27,9 @@ inline constexpr std::array<std::uint64_t, 256> kCrc64Table = [] {
 
 }  // namespace detail
 
-/// CRC-64/XZ, as in the .xz file format: guards against what networks do to bytes, not against
-/// people. `before` is the checksum of the bytes before these, so that long data can come in parts.
+/// Returns the CRC-64/XZ of some bytes, as the .xz file format has it. It detects transmission
+/// errors, not deliberate changes. `before` is the checksum of the preceding bytes, so that long
+/// data can be processed in parts.
 inline std::int64_t crc64(const std::uint8_t* bytes, std::size_t size, std::int64_t before = 0) {
   std::uint64_t crc = ~static_cast<std::uint64_t>(before);
   for (std::size_t i = 0; i < size; ++i) {
@@ -37,13 +38,13 @@ inline std::int64_t crc64(const std::uint8_t* bytes, std::size_t size, std::int6
   return static_cast<std::int64_t>(~crc);
 }
 
-/// Joins checksums: that of some bytes and `size` more, of which there are but the checksums. A
-/// checksum is linear in the bits before it (over the field of two elements), so what further bytes
-/// do to it is a matrix, found by squaring; as zlib does for CRC-32.
+/// Combines the checksums of two consecutive byte sequences, the second of `size` bytes, without
+/// the bytes. A CRC is linear over GF(2), so appending `size` zero bytes multiplies it by a matrix,
+/// which repeated squaring finds. [Source: zlib's crc32_combine, here for 64 bits]
 class Crc64Joint {
  public:
   explicit Crc64Joint(std::size_t size) {
-    Matrix step{};  // of one zero bit
+    Matrix step{};  // appends one zero bit
     step[0] = detail::kCrc64Polynomial;
     for (std::size_t bit = 1; bit < step.size(); ++bit) step[bit] = std::uint64_t{1} << (bit - 1);
     for (std::size_t bit = 0; bit < by_.size(); ++bit) by_[bit] = std::uint64_t{1} << bit;
@@ -53,13 +54,13 @@ class Crc64Joint {
     }
   }
 
-  /// `second` is the checksum of the `size` bytes.
+  /// Returns the checksum of both sequences from that of the first and that of the second.
   [[nodiscard]] std::int64_t operator()(std::int64_t first, std::int64_t second) const {
     return static_cast<std::int64_t>(times(by_, static_cast<std::uint64_t>(first))) ^ second;
   }
 
  private:
-  /// What becomes of each bit.
+  /// A matrix over GF(2); element i is the image of bit i.
   using Matrix = std::array<std::uint64_t, 64>;
 
   static std::uint64_t times(const Matrix& matrix, std::uint64_t vector) {

@@ -5,8 +5,8 @@
 
 namespace camway::wire {
 
-// A message of the largest size fits an envelope: beside it stand the fingerprint, key id, sender,
-// counter, time, tag and the count of the payload.
+// An envelope adds fingerprint, key id, sender, counter, time, tag and the count of the payload. A
+// message of the largest size fits.
 constexpr std::size_t kEnvelopeHeadBytes =
     8 + sizeof(std::int32_t) + 3 * sizeof(std::int64_t) + sizeof(envelope_t::tag) + 4;
 static_assert(kMaxMessageBytes + kEnvelopeHeadBytes <= kMaxEnvelopeBytes);

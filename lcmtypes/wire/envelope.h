@@ -10,11 +10,12 @@
 
 namespace camway::wire {
 
-/// Whether a message says that it is an envelope. Looks at nothing but its fingerprint.
+/// Returns whether a message has the fingerprint of an envelope. Checks nothing else.
 [[nodiscard]] bool is_envelope(std::span<const std::uint8_t> message);
 
-/// What somebody reads who has no key: the message within an envelope, whoever signed it; any other
-/// message as it is; nothing of an envelope that is broken.
+/// Returns the content of a message for a reader without keys: the payload of an envelope, without
+/// a check of its tag, or the message itself if it is no envelope. Returns nothing for an envelope
+/// that cannot be read.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> payload_unchecked(
     std::span<const std::uint8_t> message);
 

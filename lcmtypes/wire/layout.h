@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <camway/max_bytes.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
-
-#include <camway/max_bytes.h>
 
 namespace camway {
 class cancel_t;
@@ -31,13 +31,14 @@ class watch_t;
 
 namespace camway::wire {
 
-/// Nothing of ours that LCM carries is longer, fingerprint included: UDP loses large messages,
-/// since one lost datagram loses all of them. So the count of every list is limited as well.
+/// Largest size that Camway sends over LCM, fingerprint included. Larger messages get lost more
+/// often over UDP, because one lost datagram loses the whole message. The size also limits the
+/// count of every list.
 inline constexpr std::size_t kMaxEnvelopeBytes = 60'000;
-/// A message, so that it fits an envelope whether it gets one or not.
+/// Largest size of a message without an envelope. Every message fits an envelope, signed or not.
 inline constexpr std::size_t kMaxMessageBytes = 59'900;
 
-/// Limits of strings, in bytes without the final NUL: those of the .lcm files.
+/// Limits of strings from the .lcm files, in bytes without the final NUL.
 inline constexpr std::size_t kMaxSceneNameBytes = max_bytes::plan_request_scene;
 inline constexpr std::size_t kMaxMethodBytes = max_bytes::plan_request_method;
 inline constexpr std::size_t kMaxObjectNameBytes = max_bytes::scene_object_name;
@@ -52,37 +53,37 @@ inline constexpr std::size_t kMaxFormatBytes = max_bytes::scene_request_upload_f
 inline constexpr std::size_t kMaxKindBytes = max_bytes::scene_object_kind;
 inline constexpr std::size_t kMaxOperationBytes = max_bytes::scene_change_operation;
 
-inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< of an object that is put into a scene
-/// Every page of an upload has so many bytes but the last.
+inline constexpr std::size_t kMaxPutNameBytes = 64;  ///< name of an object that is put into a scene
+/// Size of every page of an upload except the last.
 inline constexpr std::size_t kUploadPageBytes = 48'000;
+/// Largest number of missing pages that an `upload_status_t` lists.
 inline constexpr std::size_t kMaxMissingPages = 4096;
-/// Likewise of an exported map.
+/// Size of every page of an exported map except the last.
 inline constexpr std::size_t kMapPageBytes = 48'000;
 
-/// Limits of a body, so that it fits page 0 of a request.
+/// Limits of a body. A body within them fits page 0 of a request.
 inline constexpr std::size_t kMaxBodyPoints = 512;
 inline constexpr std::size_t kMaxBodyTriangles = 1024;
 
-/// Limits of what arrives in pages.
+/// Largest numbers of pages of a request and of an answer.
 inline constexpr std::int32_t kMaxRequestPages = 128;
 inline constexpr std::int32_t kMaxResponsePages = 1024;
 
-/// One thing that stands in a message, in the order of the .lcm file. LCM encodes without padding,
-/// big-endian.
+/// A field of a message, in the order of the .lcm file. LCM encodes big-endian without padding.
 struct Field {
   enum class Kind {
-    kFixed,   ///< numbers and arrays of constant size: `bytes` in all
-    kString,  ///< int32 length with the final NUL, then so many bytes
-    kList,    ///< int32 count, then so many elements: of `bytes` each, or as `element` says
+    kFixed,   ///< numbers and arrays of constant size, `bytes` together
+    kString,  ///< an int32 length, final NUL included, then that many bytes
+    kList,    ///< an int32 count, then that many elements, of `bytes` each or laid out as `element`
   };
   Kind kind;
   std::string_view name;
-  std::size_t bytes = 0;             ///< kFixed, kList
-  std::size_t max_length = 0;        ///< kString: without the final NUL
-  std::span<const Field> element{};  ///< kList of elements that are not all of one size
+  std::size_t bytes = 0;             ///< kFixed: total size; kList: size of an element
+  std::size_t max_length = 0;        ///< kString: largest length without the final NUL
+  std::span<const Field> element{};  ///< kList: fields of an element whose size is not constant
 };
 
-/// How a type is laid out on the wire behind its fingerprint.
+/// The layout of a message type on the wire, after the fingerprint.
 struct Layout {
   std::string_view type;
   std::int64_t fingerprint;
@@ -90,8 +91,8 @@ struct Layout {
   std::size_t max_bytes = kMaxMessageBytes;
 };
 
-/// Returns the layout of a message type. Defined for the types that have a channel, in a source that
-/// `generate_layout.py` writes from the .lcm files. Thread-safe.
+/// Returns the layout of a message type. Defined for the types that have a channel, in a source
+/// that `generate_layout.py` writes from the .lcm files. Thread-safe.
 template <class Message>
 Layout layout_of();
 template <>

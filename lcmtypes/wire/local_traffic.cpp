@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kProvider = "udpm://";
-constexpr int kDefaultPort = 7667;  ///< LCM's
+constexpr int kDefaultPort = 7667;  ///< default of LCM
 constexpr const char* kDescriptors = "/proc/self/fd";
 
-/// What follows `name=` among the options of a URL; empty if it is not there.
+/// Returns the value of the option `name` of a URL; empty if it is not there.
 std::string option(std::string_view options, std::string_view name) {
   while (!options.empty()) {
     const std::string_view one = options.substr(0, options.find('&'));
@@ -58,11 +58,11 @@ bool is_bound_to(int socket, int port) {
 
 struct Socket {
   int descriptor = -1;
-  std::uint64_t cookie = 0;  ///< of this socket alone, for as long as the machine runs
+  std::uint64_t cookie = 0;  ///< unique among all sockets since the machine started
 };
 
-/// Every descriptor that stands for a socket bound to `port` for as long as this looks, and maybe
-/// some that are opened, closed or used again meanwhile. Only reads.
+/// Returns every descriptor of a socket that is bound to `port` throughout the scan, and perhaps
+/// some that other threads open, close or reuse meanwhile. Only reads.
 std::vector<Socket> sockets_bound_to(int port, std::error_code& failed) {
   std::vector<Socket> sockets;
   for (const fs::directory_entry& entry : fs::directory_iterator(kDescriptors, failed)) {
@@ -76,8 +76,8 @@ std::vector<Socket> sockets_bound_to(int port, std::error_code& failed) {
   return sockets;
 }
 
-/// Lets pass what the kernel looped back on its way out, and what came by the loopback device. No
-/// other host can make its packets look like that.
+/// Attaches a filter that passes packets that the kernel looped back while sending, and packets of
+/// the loopback device. Packets of other hosts cannot have these marks.
 bool attach_filter(int socket) {
   constexpr auto kPacketType = static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_PKTTYPE);
   constexpr auto kDeviceType = static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_HATYPE);
@@ -100,7 +100,7 @@ std::optional<int> port_of_local_network(std::string_view url) {
   url.remove_prefix(kProvider.size());
   const std::string_view host = url.substr(0, url.find('?'));
   const std::string_view options = url.substr(std::min(url.size(), host.size() + 1));
-  // As LCM reads it: what is no number is 0, and what is too large is cut.
+  // The same as in LCM: a text that is no number is 0, and a large number is truncated to 8 bits.
   const long ttl = std::strtol(option(options, "ttl").c_str(), nullptr, 0);
   if (static_cast<std::uint8_t>(ttl) != 0) return std::nullopt;
   const std::size_t colon = host.find(':');
@@ -110,7 +110,7 @@ std::optional<int> port_of_local_network(std::string_view url) {
 
 LocalTraffic::LocalTraffic(std::string_view url) : port_(port_of_local_network(as_lcm_has(url))) {
   if (!port_) return;
-  std::error_code unseen;  // then `guard` finds too many, or says so itself
+  std::error_code unseen;  // after a failure `guard` finds too many, or fails as well
   for (const Socket& socket : sockets_bound_to(*port_, unseen)) others_.insert(socket.cookie);
 }
 
@@ -118,7 +118,7 @@ LocalTraffic::Guarded LocalTraffic::guard() const {
   if (!port_) return {};
   std::error_code failed;
   std::vector<Socket> found = sockets_bound_to(*port_, failed);
-  // A look that was cut short may have missed LCM's.
+  // An incomplete scan may have missed LCM's socket.
   if (failed) return {std::string(kDescriptors) + ": " + failed.message()};
   std::erase_if(found, [this](const Socket& socket) { return others_.contains(socket.cookie); });
   const std::string port = "UDP port " + std::to_string(*port_);
@@ -131,10 +131,10 @@ LocalTraffic::Guarded LocalTraffic::guard() const {
 }
 
 OpenedLcm open_lcm(const std::string& url) {
-  // Descriptors are the process's, so what keeps our own LCMs from opening theirs at the same time
-  // is, too.
+  // Descriptors belong to the process, so one lock for the process keeps Camway's LCMs from opening
+  // theirs at the same time.
   static std::mutex one_at_a_time;
-  // What else opens such sockets is rare: LCMs of the program that uses ours.
+  // Other LCMs of the program may open such sockets, which is rare.
   constexpr int kMostTries = 5;
   std::unique_lock lock(one_at_a_time, std::defer_lock);
   if (port_of_local_network(as_lcm_has(url))) lock.lock();
@@ -143,8 +143,7 @@ OpenedLcm open_lcm(const std::string& url) {
     opened = {};
     const LocalTraffic local(url);
     opened.lcm = std::make_unique<lcm::LCM>(url);
-    // getFileno makes the receiving half set itself up and test itself, which is when LCM finds
-    // out.
+    // getFileno makes LCM set up and test its receiver, which is when it detects failures.
     if (!opened.lcm->good() || opened.lcm->getFileno() < 0) return {};
     const LocalTraffic::Guarded guarded = local.guard();
     opened.unguarded = guarded.fault;

@@ -14,57 +14,59 @@ class LCM;
 
 namespace camway::wire {
 
-/// The UDP port of an LCM URL that says that messages stay on this host: provider `udpm` with a
-/// ttl of 0, which is LCM's default. Nothing of any other URL.
+/// Returns the UDP port of an LCM URL whose messages stay on this host: provider `udpm` with ttl 0,
+/// which is LCM's default. Returns nothing for any other URL.
 std::optional<int> port_of_local_network(std::string_view url);
 
-/// An LCM that can send and receive, or nothing.
+/// An LCM instance that can send and receive, or none.
 struct OpenedLcm {
   std::unique_ptr<lcm::LCM> lcm;  ///< null if LCM cannot use the network
-  /// Why other hosts are heard though the URL's ttl is 0; empty if they are not, or may be.
+  /// Reason why other hosts are heard though the URL's ttl is 0. Empty if they are not heard, or if
+  /// the ttl is not 0.
   std::string unguarded;
 };
 
-/// Opens LCM at `url`; an empty one is the environment's LCM_DEFAULT_URL, else LCM's own. With a
-/// ttl of 0 it hears only this host: a ttl of 0 keeps what is sent from leaving, but LCM joins the
-/// multicast group on the interface that has the route, and would hear what other hosts say there.
-/// So its socket gets a filter. From any thread.
+/// Opens LCM at `url`. An empty URL stands for LCM_DEFAULT_URL of the environment, or else LCM's
+/// own default. With ttl 0, LCM's socket gets a filter that passes messages of this host only: a
+/// ttl of 0 keeps sent messages on this host, but LCM joins the multicast group on the interface of
+/// the route and would receive messages of other hosts there. Thread-safe.
 OpenedLcm open_lcm(const std::string& url);
 
-/// Finds the socket that LCM hears with, which LCM tells nobody, and gives it the filter.
+/// Finds LCM's receiving socket, which LCM's interface does not expose, and attaches a filter to
+/// it.
 ///
-/// Other threads of the program open and close descriptors meanwhile, and a filter must never reach
-/// a socket of theirs. The order of steps sees to that:
+/// Other threads may open and close descriptors at the same time, and the filter must never reach
+/// one of their sockets. The order of steps ensures that:
 ///
-/// 1. Before LCM is made, the cookies of the sockets that are bound to the port are noted. The
-///    kernel gives each socket another cookie and none twice. LCM's is not among them.
-/// 2. After LCM has made its socket and before it closes it, all descriptors are looked at. LCM's
-/// is
-///    open all the time, so the look finds it: bound to the port, with a cookie that was not noted.
-/// 3. If the look finds exactly one such descriptor, then that one is LCM's, and nobody else closes
-///    it, so that it is still LCM's when the filter is set. If it finds several, nothing is
-///    changed.
+/// 1. Before LCM is made, the cookies of all sockets bound to the port are recorded. The kernel
+///    gives each socket a unique cookie, so the cookie of LCM's socket is not among them.
+/// 2. All descriptors are scanned after LCM has made its socket and before it closes it. That
+///    socket is open throughout the scan, so the scan finds it: bound to the port, with a cookie
+///    that was not recorded.
+/// 3. If the scan finds exactly one such descriptor, it is LCM's. Only LCM closes it, so it is
+/// still
+///    LCM's when the filter is attached. If the scan finds several, it changes nothing.
 ///
-/// Reading a descriptor that another thread closes or uses again at that time changes nothing, and
-/// what is read of it can only add to the descriptors that are found. [Source: socket(7),
-/// SO_COOKIE and SO_ATTACH_FILTER; proc(5), /proc/self/fd]
+/// The scan only reads. A descriptor that another thread closes or reuses meanwhile can only add to
+/// the descriptors that it finds. [Source: socket(7), SO_COOKIE and SO_ATTACH_FILTER; proc(5),
+/// /proc/self/fd]
 class LocalTraffic {
  public:
-  /// Step 1, for the URL as LCM is given it.
+  /// Runs step 1. `url` is the URL that LCM will be opened with.
   explicit LocalTraffic(std::string_view url);
 
   struct Guarded {
-    std::string fault;       ///< why other hosts are heard; empty on success
-    bool try_again = false;  ///< another LCM may do: somebody else opened such a socket meanwhile
+    std::string fault;       ///< reason why other hosts are heard; empty on success
+    bool try_again = false;  ///< another thread opened such a socket; a new LCM may succeed
   };
-  /// Steps 2 and 3. From then on LCM's socket hears this host only; what waits in it is heard. Does
-  /// nothing where the URL lets other hosts speak. Precondition: an LCM was made after this was, it
-  /// has set up its receiving half, and nobody destroys it meanwhile.
+  /// Runs steps 2 and 3. Afterwards LCM's socket receives messages of this host only; messages that
+  /// already wait in it are still delivered. Does nothing if the URL's ttl is not 0. Requires an
+  /// LCM that was made after this object, has set up its receiver, and is not destroyed meanwhile.
   [[nodiscard]] Guarded guard() const;
 
  private:
   std::optional<int> port_;
-  std::set<std::uint64_t> others_;  ///< cookies of what was bound to it before
+  std::set<std::uint64_t> others_;  ///< cookies of the sockets that were bound to the port before
 };
 
 }  // namespace camway::wire

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Building the scene's index, and what it takes in memory, against Embree and FCL.
+// Time and memory of building the scene's index, compared with Embree and FCL.
 #include <fmt/format.h>
 
 #include <cstdio>

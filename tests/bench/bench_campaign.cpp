@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The crossing campaign at full length, and what FCL makes of the same cases.
+// The crossing campaign at full length, and FCL's results on the same cases.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Options {
   std::string json_file;
 };
 
-// What a peer missed of the colliding cases of one family.
+// The colliding cases of one family that a peer missed.
 struct PeerTally {
   std::string family{};
   std::uint64_t cases = 0;
@@ -41,7 +41,7 @@ struct PeerTally {
   std::uint64_t missed_advancement = 0;
 };
 
-// FCL's sampled check, with no more than 1 cm between samples, over the whole path.
+// FCL's sampled check over the whole path, with at most 1 cm between samples.
 bool fcl_sees(const FclPeer& fcl, const CrossingCase& c) {
   const std::vector<MotionSample> samples = motion_samples(c.path, c.camera, 0.01);
   return std::any_of(samples.begin(), samples.end(), [&](const MotionSample& sample) {
@@ -49,8 +49,8 @@ bool fcl_sees(const FclPeer& fcl, const CrossingCase& c) {
   });
 }
 
-// FCL's continuous check of the two samples about the known instant, 1 cm apart or a tenth of the
-// body if that is less: it is handed the place where the collision is.
+// FCL's continuous check between the two samples around the known instant, which are 1 cm apart, or
+// a tenth of the body if that is less. It is given the place of the collision.
 bool fcl_sees_between(const FclPeer& fcl, const CrossingCase& c, FclPeer::Continuous solver) {
   const double radius_m = motion::body_radius_m(motion::near_corners_C(c.camera));
   const std::vector<MotionSample> samples =

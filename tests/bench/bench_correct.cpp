@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Correction: our methods side by side, and against OMPL with FCL, request by request.
+// Correction: Camway's methods compared with each other and with OMPL and FCL, on each request.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,15 +26,15 @@ using planning::Status;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Of the check of everybody's paths. It calls colliding what it cannot show free at a tenth of
-// this: paths that are wrong, and those that come that near to the scene.
+// Tolerance for the check of all contenders' paths. A path that cannot be shown free at a tenth of
+// this counts as colliding: wrong paths, and paths that come that near to the scene.
 constexpr double kCheckTolerance_m = 1e-6;
 
-// A path whose velocity changes by less than this share over all of its length is straight, but for
-// roundings: how much more another one bends says nothing.
+// Relative change of velocity below which a path counts as straight up to rounding. The ratio of
+// another path's bending to it has no meaning.
 constexpr double kStraight = 1e-6;
 
-// Who plans. The first is who the others are held against.
+// The contenders. The others are compared with the first.
 enum Contender { kLadder, kKeyframeInsertion, kRrtConnect, kBitStar };
 constexpr std::size_t kContenders = 4;
 constexpr std::array<const char*, kContenders> kContenderNames{"ladder", "keyframe_insertion",
@@ -56,7 +56,7 @@ struct Options {
   }
 };
 
-// What one contender made of a request, once.
+// The result of one contender on a request, in one round.
 struct Outcome {
   const BenchRequest* request = nullptr;
   std::size_t contender = kLadder;
@@ -66,12 +66,12 @@ struct Outcome {
   bool refuted = false;  // and our check says otherwise
   bool shown = false;    // by a pose, too, that collides by exact predicates
   double length_m = kUnknown;
-  // Of the path as interpolated; ours alone.
+  // Measures relative to the path as interpolated; for Camway only.
   double deviation_m = kUnknown;
   double bending_ratio = kUnknown;
   double acceleration_ratio = kUnknown;
   double inserted = kUnknown;
-  // Held against the others of the same request and round.
+  // Ratios to the other contenders on the same request and round.
   double time_ratio = kUnknown;    // how many times longer than the ladder it took
   double length_ratio = kUnknown;  // to the shortest that is not refuted
 
@@ -102,7 +102,7 @@ double length_of(std::span<const motion::Pose> poses) {
   return length_m;
 }
 
-// One scene with everybody's structures.
+// A scene with the structures of all contenders.
 class Arena {
  public:
   Arena(const BenchScene& scene, const Options& options)
@@ -113,7 +113,7 @@ class Arena {
     fcl_.build();
   }
 
-  // Everybody once, in turn.
+  // Runs every contender once, in turn.
   std::vector<Outcome> run(const BenchRequest& request) {
     fcl_.set_camera(request.camera);
     std::vector<Outcome> round;
@@ -151,7 +151,7 @@ class Arena {
     const OmplPeer ompl(fcl_, mesh_, request.camera);
     const auto planner = outcome.contender == kRrtConnect ? OmplPeer::Planner::kRrtConnect
                                                           : OmplPeer::Planner::kBitStar;
-    // Once: what it is lucky with must not be picked.
+    // Runs only once: the best of several runs would favour a randomised planner.
     const double begin_s = thread_seconds();
     const auto poses = ompl.plan(request.plan.keyframes, planner, options_.deadline_s);
     outcome.time_s = thread_seconds() - begin_s;
@@ -162,7 +162,7 @@ class Arena {
     examine(straight_path(*poses), request.camera, outcome);
   }
 
-  // The same questions for everybody.
+  // Checks every contender's path in the same way.
   void examine(const motion::Path& path, const motion::Camera& camera, Outcome& outcome) const {
     collision::DetectOptions options = default_options();
     options.tolerance_m = kCheckTolerance_m;
@@ -192,7 +192,7 @@ class Arena {
   FclPeer fcl_;
 };
 
-// One contender over a group of requests.
+// A contender's results on a group of requests.
 struct Summary {
   std::string scene{}, group{};
   std::size_t contender = kLadder;
@@ -205,7 +205,7 @@ struct Summary {
   double inserted = kUnknown;
 };
 
-// The values that are numbers: what was not found has no length.
+// Returns the values that are numbers; a path that was not found has no length.
 std::vector<double> numbers(const std::vector<const Outcome*>& outcomes, double Outcome::*field) {
   std::vector<double> values;
   for (const Outcome* outcome : outcomes) {
@@ -248,7 +248,7 @@ Summary summarise(const std::vector<const Outcome*>& outcomes) {
   return s;
 }
 
-// Scene and group of requests, in the order of the summary.
+// A scene and a group of requests, in the order of the summary.
 using Group = std::pair<std::string, std::string>;
 using Groups = std::map<Group, std::array<std::vector<const Outcome*>, kContenders>>;
 
@@ -330,7 +330,7 @@ std::vector<Column<Summary>> summary_columns() {
   };
 }
 
-// Whether an `ok` of ours was refuted, which must not be.
+// Returns whether an `ok` of Camway was refuted, which must not happen.
 bool wrong(const Outcome& outcome) {
   if (!is_ours(outcome.contender) || !outcome.refuted) return false;
   fmt::print(stderr, "bench_correct: {} by {} is refuted\n", outcome.request->name,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which spatial decomposition is best? (The question of Ptacek & Johnstone 2006, section 5.)
+// Comparison of spatial decompositions. (The question of Ptacek & Johnstone 2006, section 5.)
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -27,7 +27,7 @@ constexpr std::array<std::pair<const char*, Decomposition>, 3> kDecompositions{
      {"k-d tree", Decomposition::kKdTree},
      {"bounding volumes", Decomposition::kBvh}}};
 
-/// The distance that most looks of a detection ask for: they are settled within it.
+/// The distance within which most probes of a detection are decided.
 constexpr double kWithin_m = 0.25;
 
 struct Options {
@@ -50,14 +50,14 @@ struct Measured {
   double certify_s = 0.0;
 };
 
-// Camera paths all over the scene, whether free or not.
+// Random camera paths through the scene, free or colliding.
 std::vector<BenchRequest> random_paths(const scene::Mesh& mesh, std::uint64_t seed) {
   constexpr int kPaths = 40;
   const geometry::Box box = mesh.bounds();
   std::vector<BenchRequest> requests;
   for (int i = 0; i < kPaths; ++i) {
     testing::CaseRandom random(seed, static_cast<std::uint64_t>(i));
-    // Of the size of a room, at most a few metres a step.
+    // The size of a room, with steps of at most a few metres.
     const double step_m = std::min(2.0, 0.2 * box.diagonal().norm());
     geometry::Vec3 position;
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -99,13 +99,13 @@ std::vector<Body> poses_on(const std::vector<BenchRequest>& requests) {
   return bodies;
 }
 
-// What the queries of one decomposition answered, so that all can be held against each other.
+// The answers of one decomposition's queries, for comparison with the others.
 struct Answers {
   double nearest_sum_m = 0.0;
   std::size_t within = 0;
   std::size_t intersecting = 0;
-  /// Paths with collisions. Not the intervals: whether a short gap in one is worth a look is up to
-  /// the triangle that the index happens to meet first.
+  /// Number of paths with collisions. The intervals are not compared: whether a short free part in
+  /// one is resolved depends on the triangle that the index meets first.
   std::size_t colliding_paths = 0;
 };
 
@@ -206,7 +206,7 @@ class Comparison {
  public:
   explicit Comparison(int rounds) : rounds_(rounds) {}
 
-  // False if two decompositions gave different answers.
+  // Returns false if two decompositions gave different answers.
   bool add(const NamedScene& scene) {
     const std::vector<BenchRequest> requests = random_paths(*scene.mesh, 3);
     const std::vector<Body> bodies = poses_on(requests);

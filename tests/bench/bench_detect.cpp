@@ -26,7 +26,7 @@ constexpr double kFineStep_m = 0.001;
 
 constexpr double kNotRun = std::numeric_limits<double>::quiet_NaN();
 
-// Who is timed, in the order of the columns.
+// The contenders, in the order of the columns.
 enum Contender { kDetect, kCheck, kFclCoarse, kFclFine, kEmbreeRays, kEmbreePacket };
 constexpr std::size_t kContenders = 6;
 constexpr std::array<const char*, kContenders> kContenderNames{
@@ -37,10 +37,11 @@ struct Outcome {
   std::array<double, kContenders> median_s{};
   std::vector<collision::CollisionInterval> intervals;
   double clearance_m = 0.0;
-  /// Of each peer: intervals it saw, and how many of ours it saw nothing in.
+  /// For each peer: the intervals that it found, and the number of certified intervals that it
+  /// missed.
   std::array<std::size_t, kContenders> seen{};
   std::array<std::size_t, kContenders> missed{};
-  /// Certified intervals in which a pose was shown to collide, by exact predicates.
+  /// Certified intervals that contain a pose which exact predicates show to collide.
   std::size_t shown = 0;
   std::size_t samples_1cm = 0;
 
@@ -65,7 +66,7 @@ struct Options {
   }
 };
 
-// One scene with everybody's structures.
+// A scene with the structures of all contenders.
 class Arena {
  public:
   explicit Arena(const BenchScene& scene)
@@ -150,7 +151,7 @@ struct Summary {
   std::string group;
   std::size_t requests = 0;
   std::array<double, kContenders> p50_s{};
-  /// Medians of the ratios of single requests: how many times faster detection is.
+  /// Medians over requests of the ratios of time: how many times faster detection is.
   double fcl_1cm = 0.0;
   double fcl_1mm = 0.0;
   double embree = 0.0;  ///< to the faster of the two
@@ -206,7 +207,7 @@ json missed_text(const Counts& counts, double fine_s) {
                      counts.missed[kEmbreeRays], counts.shown);
 }
 
-// Of each contender from `first` on: what `array` has of it, under its name.
+// Returns the values of `array` for each contender from `first` on, under its name.
 template <class Item, class Array>
 void add_columns(std::vector<Column<Item>>& columns, const std::string& pointer,
                  const Array Item::*array, std::size_t first = kDetect) {

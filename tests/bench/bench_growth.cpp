@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How building and certifying grow with the scene and with the path.
+// Growth of the times of building and certifying with the sizes of scene and path.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,10 +28,10 @@ struct Options {
   std::string json_file;
 };
 
-// Where nothing was built.
+// Time of a structure that was not built.
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// One size of one series.
+// One size in one series.
 struct Point {
   std::string series;
   std::size_t size = 0;  // triangles or keyframes
@@ -99,7 +99,7 @@ Point measure_scene(const std::string& series, const std::shared_ptr<const scene
   return point;
 }
 
-// To and fro through the keyframes of a request, until there are `count`.
+// Returns a path back and forth through the keyframes of a request, with `count` keyframes.
 BenchRequest lengthened(const BenchRequest& request, std::size_t count) {
   const std::span<const motion::Segment> segments = request.path.segments();
   std::vector<motion::Pose> way;
@@ -117,7 +117,7 @@ BenchRequest lengthened(const BenchRequest& request, std::size_t count) {
   return {request.name, request.difficulty, request.camera, motion::interpolate(keyframes), count};
 }
 
-// Each size ten times the one before, up to `largest`.
+// Returns sizes that grow by a factor of ten, up to `largest`.
 std::vector<std::size_t> decades(std::size_t first, std::size_t largest) {
   std::vector<std::size_t> sizes;
   for (std::size_t size = first; size <= largest; size *= 10) sizes.push_back(size);
@@ -156,7 +156,8 @@ std::vector<Point> keyframe_points(const BenchScene& base, const Options& option
   return points;
 }
 
-// How much longer detection takes on the largest scene of the series than on that of 10⁵ or so.
+// Returns the ratio of the times of detection on the largest scene and on one of about 10⁵
+// triangles.
 double growth(const std::vector<Point>& points, const std::string& series) {
   const Point* small = nullptr;
   const Point* large = nullptr;
@@ -185,7 +186,7 @@ std::vector<Column<Point>> point_columns() {
 }
 
 int run(const Options& options) {
-  // The scene with the most triangles that has free requests.
+  // The scene with the most triangles among those with free requests.
   std::vector<BenchScene> scenes = load_requests(options.source);
   std::sort(scenes.begin(), scenes.end(), [](const BenchScene& a, const BenchScene& b) {
     return a.mesh->triangles.size() > b.mesh->triangles.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a change of one object costs in a scene of a million triangles, occupancy mirror included.
+// Cost of a change of one object in a scene of a million triangles, occupancy mirror included.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Options {
   std::string json_file;
 };
 
-/// Moves of one object of a scene.
+/// A series of moves of one object.
 struct Moves {
   std::string scene;
   std::size_t objects = 0;
@@ -36,7 +36,7 @@ struct Moves {
   double p99_s = 0.0;
 };
 
-/// A store that refuses measures nothing.
+/// Throws if the store refuses a change, which would leave nothing to measure.
 void expect_taken(const scene::StoreResult& result) {
   if (!result.error.empty()) throw std::runtime_error(result.error);
 }
@@ -73,7 +73,7 @@ Moves measure(scene::SceneStore& store, const std::string& title, const std::str
           median(taken_s), quantile(taken_s, 0.99)};
 }
 
-/// One large mesh, and a ball that moves about in it.
+/// Measures a ball that moves about in one large mesh.
 void building(const Options& options, const scene::Mesh& mesh, std::vector<Moves>& all) {
   scene::SnapshotOptions snapshot;
   snapshot.occupancy_resolution_m = options.occupancy_m;
@@ -88,7 +88,7 @@ void building(const Options& options, const scene::Mesh& mesh, std::vector<Moves
   }
 }
 
-/// As many triangles in a thousand objects, one of which moves.
+/// Measures one of a thousand objects that moves, with as many triangles in all.
 void warehouse(const Options& options, std::vector<Moves>& all) {
   constexpr int kObjects = 1000;
   scene::SnapshotOptions snapshot;
@@ -106,7 +106,8 @@ void warehouse(const Options& options, std::vector<Moves>& all) {
 
 int run(const Options& options) {
   std::vector<Moves> all;
-  // Finer rather than larger: the mirror of so many buildings is more than a map may hold.
+  // The mesh gets finer instead of larger, because the mirror of so many buildings exceeds the
+  // limit of a map.
   building(options, *refined(*load_mesh(options.scene, 1.0), options.least_triangles), all);
   warehouse(options, all);
   using M = Moves;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a scan into a large occupancy map costs, to the new revision in force.
+// Cost of a scan into a large occupancy map, until the new revision is published.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using scene::VoxelMap;
 using scene::VoxelSet;
 
 constexpr double kVoxelM = 0.05;
-/// Of a room, walls included; the voxels with the first number of each are walls or floor.
+/// Voxels of a room, walls included. Those with the first index along each axis are walls or floor.
 constexpr Voxel kRoom{160, 160, 60};
 
 struct Options {
@@ -35,14 +35,14 @@ struct Options {
   std::string json_file;
 };
 
-/// Scans of one kind.
+/// A series of scans of one kind.
 struct Scans {
   std::string kind;
   std::string mirror;
   std::size_t voxels = 0;
   std::size_t triangles = 0;
   std::size_t parts = 0;
-  double changed_parts = 0.0;  ///< of a scan, on average
+  double changed_parts = 0.0;  ///< bricks that a scan changes, on average
   double map_s = 0.0;
   double median_s = 0.0;
   double p99_s = 0.0;
@@ -59,7 +59,7 @@ bool is_wall(const Voxel& voxel, int rooms) {
   return is_outside || is_inner || voxel[2] == 0 || voxel[2] == kRoom[2];
 }
 
-/// A storey of rooms, of which all is known, or all but one room.
+/// Returns a storey of rooms whose voxels are all known, or all except for one room.
 std::shared_ptr<const VoxelMap> storey(const Options& options, bool is_all_known) {
   VoxelSet occupied;
   VoxelSet free;
@@ -79,15 +79,15 @@ std::shared_ptr<const VoxelMap> storey(const Options& options, bool is_all_known
       .map;
 }
 
-/// What a sensor in the first room sees of its walls, a centimetre off in each direction; around
-/// the end of one ray in fifty there is a thing that moves about.
+/// Returns what a sensor in the first room sees of its walls, with an error of a centimetre in each
+/// direction. At the end of one ray in fifty there is a moving object.
 std::vector<Vec3> sight(const Options& options, const Vec3& origin, testing::CaseRandom& random) {
   std::vector<Vec3> points;
   while (points.size() < static_cast<std::size_t>(options.points)) {
     const Vec3 direction = random.direction();
     double way_m = options.reach_m;
     for (Eigen::Index k = 0; k < 3; ++k) {
-      // The middle of the first voxel of the wall.
+      // The centre of the first voxel of the wall.
       const double wall_m =
           (direction[k] > 0.0 ? kRoom[static_cast<std::size_t>(k)] + 0.5 : 0.5) * kVoxelM;
       way_m = std::min(way_m, (wall_m - origin[k]) / direction[k]);
@@ -118,7 +118,7 @@ std::size_t changed_parts(const scene::Snapshot& before, const scene::Snapshot& 
       [&](const auto& part) { return !std::ranges::binary_search(old, part); }));
 }
 
-/// What all of it costs that a scan shares: sets of voxels, faces, trees, mirror.
+/// Returns the time to make from scratch what a scan shares: sets of voxels, faces, trees, mirror.
 double made_anew_s(const VoxelMap& map, const scene::ObjectOptions& options) {
   return timed_s([&] {
     VoxelSet occupied;

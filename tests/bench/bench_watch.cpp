@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What it costs to watch many paths while an object moves through their scene.
+// Cost of watching many paths while an object moves through their scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,13 +42,13 @@ struct Options {
   std::string json_file;
 };
 
-/// One kind of change, again and again.
+/// A series of changes of one kind.
 struct Watching {
   std::string change;
   std::size_t paths = 0;
   double rate_hz = 0.0;
   double broken = 0.0;      ///< paths that collide after a change, on average
-  double core_share = 0.0;  ///< of the checker's thread
+  double core_share = 0.0;  ///< processor use of the checker's thread, in cores
   double median_s = 0.0;    ///< from the change to the last verdict about it
   double p99_s = 0.0;
 };
@@ -64,7 +64,7 @@ scene::Placement at(const Vec3& position) {
   return scene::Placement::make(position, Quat::Identity(), fault);
 }
 
-/// Paths that are free of the scene: three keyframes, each some metres from the one before.
+/// Returns paths free of the scene, with three keyframes some metres apart.
 std::vector<std::shared_ptr<const WatchedPath>> free_paths(const scene::Snapshot& scene,
                                                            const Options& options) {
   std::mt19937_64 random(2006);
@@ -94,7 +94,7 @@ std::vector<std::shared_ptr<const WatchedPath>> free_paths(const scene::Snapshot
   return paths;
 }
 
-/// Waits for verdicts.
+/// Waits for verdicts on paths.
 class Told {
  public:
   WatchChecker::Tell take() {
@@ -127,7 +127,7 @@ class Told {
   std::uint64_t revision_ = 0;
 };
 
-/// Moves the object at the given rate and times each until all paths are judged.
+/// Moves the object at the given rate and times each change until all paths are judged.
 Watching move_about(const Options& options, scene::SceneStore& store, Told& told,
                     const std::string& title) {
   using Clock = std::chrono::steady_clock;
@@ -143,7 +143,7 @@ Watching move_about(const Options& options, scene::SceneStore& store, Told& told
   const Stopwatch wall;
   Clock::time_point next = Clock::now();
   for (int round = 0; round < options.rounds; ++round) {
-    // Back and forth along the longer axis, at walking pace.
+    // The object moves back and forth along the longer axis, at walking pace.
     const double phase = std::abs(std::fmod(0.15 * round / bounds.sizes().x(), 2.0) - 1.0);
     const Vec3 to(bounds.min().x() + phase * bounds.sizes().x(), bounds.center().y(),
                   bounds.min().z() + 0.37 * bounds.sizes().z());

@@ -9,29 +9,29 @@
 
 namespace camway::bench {
 
-/// How a value is put into a table.
-std::string plain(const nlohmann::json& value);  ///< strings and counts as they are
+/// Formats of values in a table.
+std::string plain(const nlohmann::json& value);  ///< strings and counts, unchanged
 std::string as_duration(const nlohmann::json& seconds);
 std::string as_ratio(const nlohmann::json& ratio);
 std::string as_number(const nlohmann::json& value);
 std::string as_tenths(const nlohmann::json& value);
 
-/// One number of an `Item`, for the table and for JSON.
+/// A column: one value of each `Item`, for the table and for JSON.
 template <class Item>
 struct Column {
-  std::string pointer;  ///< where in the item's JSON object: "/seconds/camway"; empty: not there
-  std::string title;    ///< of the table's column; empty: not there
+  std::string pointer;  ///< path in the item's JSON object: "/seconds/camway"; empty: left out
+  std::string title;    ///< title of the table's column; empty: left out
   std::function<nlohmann::json(const Item&)> value;
   std::string (*text)(const nlohmann::json&) = plain;
 };
 
-/// The value of a column that is a member.
+/// Returns the value function of a column that shows a member.
 template <class Item, class Value>
 std::function<nlohmann::json(const Item&)> field(Value Item::*member) {
   return [member](const Item& item) -> nlohmann::json { return item.*member; };
 }
 
-/// A row for each item.
+/// Prints a row for each item.
 template <class Item>
 void print_table(const std::vector<Column<Item>>& columns, const std::vector<Item>& items) {
   std::vector<std::string> head;
@@ -49,7 +49,7 @@ void print_table(const std::vector<Column<Item>>& columns, const std::vector<Ite
   table.print();
 }
 
-/// An object for each item.
+/// Returns an object for each item.
 template <class Item>
 nlohmann::json to_json(const std::vector<Column<Item>>& columns, const std::vector<Item>& items) {
   nlohmann::json list = nlohmann::json::array();

@@ -8,14 +8,14 @@
 
 #include "tests/bench/request_set.h"
 
-/// What the benchmarks' command lines have in common.
+/// Options and output that all benchmarks share.
 namespace camway::bench {
 
 void add_request_options(CLI::App& app, RequestSource& source);
 void add_rounds_option(CLI::App& app, int& rounds);
 void add_json_option(CLI::App& app, std::string& file);
 
-/// What every document begins with: the name and the machine.
+/// Returns the begin of every document: the name of the benchmark and the machine.
 nlohmann::json document_of(const std::string& benchmark);
 
 /// Writes the document, if a file was named. Returns the exit code.

@@ -9,12 +9,12 @@
 
 namespace camway::bench {
 
-/// Embree: rays along the edges and diagonals of the near quadrilateral. The fastest check that
-/// anyone could do with it, and not a proof of anything: it sees neither between samples nor what
-/// passes through the quadrilateral's inside, and it computes in single precision.
+/// A check by Embree: rays along the edges and diagonals of the near quadrilateral. It is the
+/// fastest possible check with Embree, and no proof: it misses collisions between samples and
+/// objects inside the quadrilateral, and computes in single precision.
 class EmbreePeer {
  public:
-  /// Hands the triangles over; `build` then builds. `threads` 0: the library's default.
+  /// Copies the triangles; `build` builds the index. `threads` 0: the library's default.
   EmbreePeer(const scene::Mesh& mesh, unsigned threads);
   ~EmbreePeer();
   EmbreePeer(const EmbreePeer&) = delete;
@@ -22,14 +22,14 @@ class EmbreePeer {
 
   /// Commits the scene, in robust mode. Call once.
   void build();
-  /// As the library reports it to a memory monitor, now and at most.
+  /// Return the present and the largest memory that the library has reported to a memory monitor.
   [[nodiscard]] std::size_t memory_bytes() const;
   [[nodiscard]] std::size_t peak_memory_bytes() const;
 
   void set_camera(const motion::Camera& camera);
-  /// One ray after the other, until one is stopped.
+  /// Traces the rays in turn until one hits.
   [[nodiscard]] bool collides_by_rays(const motion::Pose& pose) const;
-  /// All rays at once.
+  /// Traces all rays as one packet.
   [[nodiscard]] bool collides_by_packet(const motion::Pose& pose) const;
 
  private:

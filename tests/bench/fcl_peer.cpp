@@ -42,8 +42,8 @@ void FclPeer::build() {
   models_->scene.computeLocalAABB();
 }
 
-// The library only prints what it takes (`memUsage`): the nodes, and its copies of vertices,
-// triangles and their order.
+// The library only prints its memory (`memUsage`), so this adds up the nodes and the copies of
+// vertices, triangles and their order.
 std::size_t FclPeer::memory_bytes() const {
   const Model& scene = models_->scene;
   return static_cast<std::size_t>(scene.getNumBVs()) * sizeof(fcl::BVNode<fcl::OBBRSSd>) +
@@ -70,7 +70,7 @@ bool FclPeer::collides(const motion::Pose& pose) const {
 
 bool FclPeer::collides_between(const motion::Pose& from, const motion::Pose& to,
                                Continuous solver) const {
-  // The library's defaults, but for solver and a motion that turns: 10 iterations, 1e-4.
+  // The library's defaults (10 iterations, 1e-4), except for the solver and a motion with rotation.
   fcl::ContinuousCollisionRequestd request;
   request.ccd_solver_type =
       solver == Continuous::kNaive ? fcl::CCDC_NAIVE : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;

@@ -9,11 +9,11 @@
 
 namespace camway::bench {
 
-/// Flexible Collision Library: a hierarchy of oriented boxes over the scene, the near quadrilateral
-/// as a mesh of two triangles.
+/// A check by the Flexible Collision Library: a hierarchy of oriented boxes over the scene, and the
+/// near quadrilateral as a mesh of two triangles.
 class FclPeer {
  public:
-  /// Copies the triangles; `build` then builds.
+  /// Copies the triangles; `build` builds the hierarchy.
   explicit FclPeer(const scene::Mesh& mesh);
   ~FclPeer();
   FclPeer(const FclPeer&) = delete;
@@ -24,10 +24,10 @@ class FclPeer {
   [[nodiscard]] std::size_t memory_bytes() const;
 
   void set_camera(const motion::Camera& camera);
-  /// Whether the filled quadrilateral touches the scene there; stops at the first contact.
+  /// Returns whether the filled quadrilateral touches the scene. Stops at the first contact.
   [[nodiscard]] bool collides(const motion::Pose& pose) const;
 
-  /// Continuous collision between two poses, by the library's own solvers.
+  /// The library's own solvers for continuous collision between two poses.
   enum class Continuous { kNaive, kConservativeAdvancement };
   [[nodiscard]] bool collides_between(const motion::Pose& from, const motion::Pose& to,
                                       Continuous solver) const;

@@ -14,7 +14,7 @@ namespace camway::bench {
 
 namespace {
 
-// Characters, not bytes: "µs" and "×" are wider in UTF-8 than on the screen.
+// Returns the width in characters, not bytes: "µs" and "×" have more bytes in UTF-8.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// How every benchmark times, summarises and reports.
+/// Timing, statistics and reports of all benchmarks.
 namespace camway::bench {
 
 class Stopwatch {
@@ -22,7 +22,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Seconds of one call, by the wall: for what uses several threads.
+/// Returns the wall-clock time of one call, for work on several threads. [Units: seconds]
 template <class Work>
 double timed_s(const Work& work) {
   const Stopwatch watch;
@@ -30,16 +30,17 @@ double timed_s(const Work& work) {
   return watch.seconds();
 }
 
-/// Processor time of the calling thread, seconds. On a busy machine a run of milliseconds is put
-/// aside for others again and again, one of microseconds is not: wall-clock time would flatter
-/// whoever is fast.
+/// Returns the processor time of the calling thread. On a busy machine the scheduler interrupts a
+/// run of milliseconds often and one of microseconds rarely, so wall-clock time would favour the
+/// faster contender. [Units: seconds]
 double thread_seconds();
 
-/// What takes less than this is run once untimed before, every time, so that nobody pays for the
-/// caches that the contender before has filled; what takes longer warms itself.
+/// Work shorter than this runs once untimed first, so that its time does not depend on the caches
+/// that the contender before has filled. Longer work warms the caches itself.
 inline constexpr double kWarmsItself_s = 5e-3;
 
-/// Thread time of one call: the least of three in a row, after one untimed.
+/// Returns the thread time of one call: the least of three in a row, after an untimed one. Work of
+/// `kWarmsItself_s` or longer runs once only. [Units: seconds]
 template <class Work>
 double warm_s(const Work& work) {
   const auto once_s = [&] {
@@ -54,11 +55,12 @@ double warm_s(const Work& work) {
   return best_s;
 }
 
-/// The value with `share` of the others below it; 0 for none. [Limit: 0 <= share <= 1]
+/// Returns the value below which the fraction `share` of the values lies; 0 for no values.
+/// [Limit: 0 <= share <= 1]
 double quantile(std::vector<double> values, double share);
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-/// A table for the screen; Markdown, so that it can be pasted as it is.
+/// A table in Markdown for the screen.
 class Table {
  public:
   explicit Table(std::vector<std::string> head) : head_(std::move(head)) {}
@@ -71,16 +73,17 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Three significant digits and a unit: "18.2 µs", "2.51 ms", "1.2 s"; "-" for a value below zero.
+/// Returns a duration with three significant digits and a unit: "18.2 µs", "2.51 ms", "1.2 s"; "-"
+/// for a value below zero.
 std::string duration_text(double seconds);
-/// "31.4×"; "-" for what is not finite.
+/// Returns a ratio, such as "31.4×"; "-" for a value that is not finite.
 std::string ratio_text(double ratio);
 
-/// Writes `document` to `file`; nothing if `file` is empty. Returns an error text, empty on
+/// Writes `document` to `file`; does nothing if `file` is empty. Returns an error text, empty on
 /// success.
 std::string write_json(const std::string& file, const nlohmann::json& document);
 
-/// What a result depends on beside the code: processor, threads, compiler, build type.
+/// Returns the conditions of a result: processor, threads, compiler, build type.
 nlohmann::json machine();
 
 }  // namespace camway::bench

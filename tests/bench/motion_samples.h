@@ -15,24 +15,24 @@ struct MotionSample {
   double time_s = 0.0;
 };
 
-/// Samples such that no corner of the near quadrilateral is further than `step_m` from where it was
-/// at the sample before, and about as few as that allows. Whoever checks collisions at samples
-/// needs them; working them out is not counted against him.
+/// Returns samples between which no corner of the near quadrilateral moves by more than `step_m`,
+/// and nearly as few as possible. Contenders that check samples need them; the time to compute them
+/// is not counted.
 std::vector<MotionSample> motion_samples(const motion::Path& path, const motion::Camera& camera,
                                          double step_m);
 
-/// What a sampled check sees.
+/// The collision intervals that a check of samples finds.
 struct SampledIntervals {
   std::vector<double> begin_s;
   std::vector<double> end_s;
   std::size_t samples = 0;
   std::size_t colliding = 0;
 
-  /// Whether any colliding sample lies in [begin, end].
+  /// Returns whether an interval of colliding samples meets [from_s, to_s].
   [[nodiscard]] bool sees(double from_s, double to_s) const;
 };
 
-/// Checks every sample, as all intervals are wanted, and joins those in a row.
+/// Checks every sample, and joins consecutive colliding ones to intervals.
 template <class Collides>
 SampledIntervals check_samples(const motion::Path& path, const std::vector<MotionSample>& samples,
                                const Collides& collides) {

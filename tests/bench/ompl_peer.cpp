@@ -22,10 +22,11 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using State = ob::SE3StateSpace::StateType;
 
-// Ways round the outermost walls of a scene may need to leave its bounds.
+// Margin around the scene's bounds, because a way around the outermost walls may leave them.
 constexpr double kMargin_m = 1.0;
 
-// So many samples on a motion that no corner moves further than the step between two of them.
+// A state space whose motions are sampled so that no corner moves by more than the step between two
+// samples.
 class CameraSpace : public ob::SE3StateSpace {
  public:
   explicit CameraSpace(double radius_m) : radius_m_(radius_m) {}
@@ -35,7 +36,7 @@ class CameraSpace : public ob::SE3StateSpace {
     const auto* to = b->as<State>();
     const double moved_m =
         std::hypot(to->getX() - from->getX(), to->getY() - from->getY(), to->getZ() - from->getZ());
-    // The library's distance of rotations is half the angle.
+    // The library's distance of rotations is half of the angle.
     const double turned_rad =
         2.0 * as<ob::SO3StateSpace>(1)->distance(&from->rotation(), &to->rotation());
     const double steps = (moved_m + radius_m_ * turned_rad) / OmplPeer::kStep_m;
@@ -79,12 +80,12 @@ ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& information, OmplPeer
   return std::make_shared<og::BITstar>(information);
 }
 
-// Of processor time, as everything is measured in it.
+// Returns a condition on processor time, in which everything is measured.
 ob::PlannerTerminationCondition until(double end_s) {
   return ob::PlannerTerminationCondition([end_s] { return thread_seconds() > end_s; });
 }
 
-// Appends the poses after `from` up to `to`; false if no way was found.
+// Appends the poses after `from` up to `to`. Returns false if no way was found.
 bool connect(og::SimpleSetup& setup, OmplPeer::Planner planner, const motion::Pose& from,
              const motion::Pose& to, double end_s, std::vector<motion::Pose>& poses) {
   ob::ScopedState<ob::SE3StateSpace> start(setup.getStateSpace());
@@ -97,7 +98,7 @@ bool connect(og::SimpleSetup& setup, OmplPeer::Planner planner, const motion::Po
   }
   setup.clear();
   setup.setStartAndGoalStates(start, goal);
-  // The first solution counts, or BIT* would use all the time there is.
+  // Stop at the first solution; BIT* would use all the time otherwise.
   const auto objective =
       std::make_shared<ob::PathLengthOptimizationObjective>(setup.getSpaceInformation());
   objective->setCostThreshold(objective->infiniteCost());
@@ -117,7 +118,7 @@ geometry::Box with_margin_for(const geometry::Box& bounds,
   return box;
 }
 
-// Once, before the library makes its first generator.
+// Sets the random seed once, before the library makes its first generator.
 void fix_seed() {
   static const bool once = [] {
     ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
@@ -150,8 +151,8 @@ std::optional<std::vector<motion::Pose>> OmplPeer::plan(std::span<const motion::
 }
 
 motion::Path straight_path(std::span<const motion::Pose> poses) {
-  // Within a part, the angle of the chord's point differs from the arc's by less than a
-  // hundredth of the angle's cube.
+  // Within a segment, the angle of the chord's point differs from that of the arc by less than a
+  // hundredth of the cube of the segment's angle.
   constexpr double kPart_rad = 0.05;
   std::vector<motion::Segment> segments;
   geometry::Quat turned = poses.front().orientation.normalized();

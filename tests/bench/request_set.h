@@ -14,14 +14,14 @@
 
 namespace camway::bench {
 
-/// A request as the benchmarks need it, and the motion through its keyframes.
+/// A request of a benchmark, and the path through its keyframes.
 struct BenchRequest {
-  std::string name;        ///< of the file, without folder and ending
-  std::string difficulty;  ///< the word in the name that says it: free, graze, wall, ...
+  std::string name;        ///< name of the file, without folder and extension
+  std::string difficulty;  ///< word in the name: free, graze, wall, ...
   motion::Camera camera;
   motion::Path path;
   std::size_t keyframes = 0;
-  planning::PlanRequest plan = {};  ///< as read, but with times and quaternions of length 1
+  planning::PlanRequest plan = {};  ///< request with derived times and unit quaternions
 };
 
 /// A scene and the requests in it.
@@ -31,25 +31,25 @@ struct BenchScene {
   std::vector<BenchRequest> requests;
 };
 
-/// Where requests come from.
+/// The source of the requests.
 struct RequestSource {
   std::string requests;   ///< a folder or a file
-  std::string scene;      ///< a file; empty: the one that each request names
-  double scale = 1.0;     ///< of the scene's coordinates
-  std::string only = {};  ///< requests with this in their name; empty: all
-  /// So many of each difficulty and scene, the first ones.
+  std::string scene;      ///< a file; empty: the scene that each request names
+  double scale = 1.0;     ///< factor to the scene's coordinates
+  std::string only = {};  ///< text that the names of the requests must contain; empty: all
+  /// Largest number of requests of each difficulty and scene.
   std::size_t each = std::numeric_limits<std::size_t>::max();
 };
 
-/// Reads all requests of a folder, in order of name, and the scenes they are in. Index files
-/// (`*.index.json`) are passed over. Ends the program with a message if something cannot be read:
-/// a benchmark of half of a set is of no use.
+/// Reads all requests of a folder, in order of name, and their scenes. Skips index files
+/// (`*.index.json`). Ends the program with a message if a file cannot be read, because a benchmark
+/// of a part of the set has no meaning.
 std::vector<BenchScene> load_requests(const RequestSource& source);
 
-/// The scene alone; ends the program if it cannot be read.
+/// Reads a scene. Ends the program if it cannot be read.
 std::shared_ptr<const scene::Mesh> load_mesh(const std::string& file, double scale);
 
-/// The folder of the project's own scenes.
+/// Returns the folder of the project's own scenes.
 std::string own_scenes();
 
 }  // namespace camway::bench

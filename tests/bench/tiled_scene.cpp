@@ -29,7 +29,8 @@ void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-// Square rings about the middle: cell 0 is the middle, then 8 around it, then 16, ...
+// Returns cells in square rings about the centre: cell 0 is the centre, then 8 around it, then 16,
+// ...
 std::vector<std::array<int, 2>> spiral(std::size_t count) {
   std::vector<std::array<int, 2>> cells;
   for (int ring = 0; cells.size() < count; ++ring) {
@@ -51,7 +52,8 @@ std::shared_ptr<const Mesh> finished(Mesh mesh) {
 }  // namespace
 
 std::shared_ptr<const Mesh> tiled(const Mesh& mesh, std::size_t least) {
-  // A wall's width between tiles, so that the outer walls of neighbours do not coincide.
+  // A gap of a wall's width between tiles, so that the outer walls of adjacent tiles do not
+  // coincide.
   constexpr double kGap_m = 0.1;
   const Vec3 size_m = mesh.bounds().sizes() + Vec3::Constant(kGap_m);
   std::array<Eigen::Index, 3> axes{0, 1, 2};

@@ -7,6 +7,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefi
 
 foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
              share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/README.md
+             share/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
              include/camway/client.h)
   if(NOT EXISTS ${prefix}/${file})
@@ -15,7 +16,7 @@ foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd
 endforeach()
 
 file(READ ${prefix}/lib/systemd/system/camwayd.service unit)
-foreach(line "ExecStart=${prefix}/bin/camwayd --config /etc/camway/camwayd.toml\n"
+foreach(line "ExecStart=\"${prefix}/bin/camwayd\" --config /etc/camway/camwayd.toml\n"
              "${prefix}/share/camway/camwayd.toml")
   string(FIND "${unit}" "${line}" place)
   if(place EQUAL -1)
@@ -38,7 +39,28 @@ set(ENV{DESTDIR} ${WORK_DIR}/staged)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix /opt/camway
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(STRINGS ${WORK_DIR}/staged/opt/camway/lib/systemd/system/camwayd.service start
-     REGEX "^ExecStart=/opt/camway/bin/camwayd ")
+     REGEX "^ExecStart=\"/opt/camway/bin/camwayd\" ")
 if(NOT start)
   message(SEND_ERROR "with DESTDIR the unit does not start /opt/camway/bin/camwayd")
+endif()
+unset(ENV{DESTDIR})
+
+# A prefix that is relative, and has a blank in it, which systemd would take for the end of the command.
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix "a folder"
+                WORKING_DIRECTORY ${WORK_DIR} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(READ "${WORK_DIR}/a folder/lib/systemd/system/camwayd.service" unit)
+string(FIND "${unit}" "ExecStart=\"${WORK_DIR}/a folder/bin/camwayd\" " place)
+if(place EQUAL -1)
+  message(SEND_ERROR "with a relative prefix the unit does not start the daemon there:\n${unit}")
+endif()
+execute_process(COMMAND "${WORK_DIR}/a folder/bin/camwayd" --check-config
+                        --config "${WORK_DIR}/a folder/share/camway/camwayd.toml"
+                WORKING_DIRECTORY / COMMAND_ERROR_IS_FATAL ANY)
+find_program(systemd_analyze systemd-analyze)
+if(systemd_analyze)
+  execute_process(COMMAND ${systemd_analyze} verify "${WORK_DIR}/a folder/lib/systemd/system/camwayd.service"
+                  ERROR_VARIABLE said OUTPUT_VARIABLE said)
+  if(said MATCHES "not executable|absolute path")
+    message(SEND_ERROR "systemd does not take the unit: ${said}")
+  endif()
 endif()

@@ -6,7 +6,7 @@
 
 namespace camway::testing_support {
 
-/// A client that repeats itself quickly, so that tests do.
+/// Returns options for a client that repeats its requests quickly, to keep tests short.
 inline ClientOptions quick() {
   ClientOptions options;
   options.try_timeout_s = 0.1;

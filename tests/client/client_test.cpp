@@ -12,6 +12,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -137,7 +138,7 @@ TEST_F(ClientTest, AsksAgainForLostPagesAndKeepsThoseThatCame) {
   FakeDaemon daemon;
   daemon.on_plan = [&](const plan_request_t& request) {
     std::vector<Bytes> pages = encode_all(answer_pages(request, 40, 10));
-    // First the even pages, then the odd ones: complete only for a client that keeps what it has.
+    // The even pages come first, then the odd ones: only a client that keeps pages gets them all.
     ++calls;
     return calls == 1 ? std::vector<Bytes>{pages[0], pages[2]}
                       : std::vector<Bytes>{pages[3], pages[1]};
@@ -193,7 +194,7 @@ TEST_F(ClientTest, PagesALargeRequest) {
   };
   daemon.start();
   ClientOptions options = quick();
-  // So many pages take their time on a busy machine.
+  // On a busy machine this many pages take some time.
   options.try_timeout_s = 2.0;
   options.max_try_timeout_s = 4.0;
   Client client(options);
@@ -205,7 +206,7 @@ TEST_F(ClientTest, PagesALargeRequest) {
 }
 
 TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
-  // 188 pages; a tenth of them gets lost each time, others than the time before.
+  // 188 pages; a different tenth of them is lost each time.
   std::mt19937 random(kSeed);
   FakeDaemon daemon;
   daemon.on_plan = [&](const plan_request_t& request) {
@@ -276,8 +277,8 @@ TEST_F(ClientTest, SurvivesAHostilePeer) {
   daemon.on_plan = [](const plan_request_t& request) {
     const Bytes good = encode_all(answer_pages(request, 3, 3))[0];
     Bytes huge = good;
-    // The count of segments, which stands right before the first: 2^31 - 1. Behind them stand the
-    // counts of the seven other lists, which are empty.
+    // The count of segments, which is directly before the first one: 2^31 - 1. Behind the segments
+    // are the counts of the seven other lists, which are empty.
     const std::size_t count_at = good.size() - 3 * 42 * 8 - 7 * 4 - 4;
     huge[count_at] = 0x7f;
     huge[count_at + 1] = huge[count_at + 2] = huge[count_at + 3] = 0xff;
@@ -597,6 +598,30 @@ TEST(ClientOptionsTest, WrongOnesAreNamed) {
   EXPECT_THAT(error_of([](auto& o) { o.backoff = 0.5; }), HasSubstr("backoff"));
   EXPECT_THAT(error_of([](auto& o) { o.retries = -1; }), HasSubstr("retries"));
   EXPECT_THAT(error_of([](auto& o) { o.jitter = 1.0; }), HasSubstr("jitter"));
+}
+
+// As those that run later, on the client's own thread.
+TEST(ClientOptionsTest, HandlersOfWhatCannotBeSentMayThrow) {
+  ClientOptions options;
+  options.prefix = "A B";
+  Client client(options);
+  int answers = 0;
+  PlanHandlers handlers;
+  handlers.on_answer = [&](const PlanResponse&) {
+    ++answers;
+    throw std::runtime_error("of the user");
+  };
+  EXPECT_EQ(client.plan_async({}, handlers).answer.get().status, Status::kInvalid);
+  EXPECT_EQ(answers, 1);
+  WatchEvent last;
+  const std::int64_t id = client.watch({}, [&](const WatchEvent& event) {
+    last = event;
+    throw std::runtime_error("of the user");
+  });
+  EXPECT_EQ(id, 0);
+  EXPECT_EQ(last.kind, WatchEvent::Kind::kEnded);
+  EXPECT_EQ(last.status, Status::kInvalid);
+  EXPECT_THAT(last.error, HasSubstr("prefix"));
 }
 
 TEST(ClientOptionsTest, AnUnusableNetworkIsAnError) {

@@ -27,9 +27,8 @@ namespace camway::testing_support {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Something that answers on a daemon's channels as a test's script says. It runs on a thread of
-/// its own and calls the scripts there until it is destroyed: declare it after all that the scripts
-/// use.
+/// A stand-in for a daemon that answers by the scripts of a test. It calls the scripts on a thread
+/// of its own until it is destroyed, so declare it after everything that the scripts use.
 class FakeDaemon {
  public:
   using PlanScript = std::function<std::vector<Bytes>(const plan_request_t&)>;
@@ -40,20 +39,20 @@ class FakeDaemon {
 
   PlanScript on_plan;
   CancelScript on_cancel;    ///< answers on the channel for plan responses
-  MissingScript on_missing;  ///< likewise
+  MissingScript on_missing;  ///< answers on the channel for plan responses
   OccupancyScript on_occupancy;
   CancelScript on_cancel_occupancy;
   SceneScript on_scene;
   CancelScript on_cancel_scene;
-  /// 0: silent.
+  /// Period of heartbeats; 0: none.
   std::chrono::milliseconds heartbeat_every{0};
   double uptime_s = 1000.0;
-  /// Sent in place of a heartbeat if not empty.
+  /// Bytes to send in place of a heartbeat, if not empty.
   Bytes raw_heartbeat;
 
   ~FakeDaemon() { stop(); }
 
-  /// Begins to listen; on return the subscriptions are in place.
+  /// Subscribes and starts the thread.
   void start() {
     lcm_.subscribeFunction(channels_.plan_request(), &FakeDaemon::take_plan, this);
     lcm_.subscribeFunction(channels_.cancel(), &FakeDaemon::take_cancel, this);
@@ -71,10 +70,10 @@ class FakeDaemon {
     if (thread_.joinable()) thread_.join();
   }
 
-  /// From a script, or when the daemon does not run.
+  /// Publishes a message. Call it from a script, or while the daemon does not run.
   void publish(const std::string& channel, const Bytes& bytes) {
     lcm_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
-    // As a daemon does: back to back, large messages overrun the receiver's socket buffer.
+    // A pause like the daemon's: large messages back to back overrun the receiver's socket buffer.
     if (bytes.size() > kLarge) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
@@ -172,8 +171,8 @@ class FakeDaemon {
   std::vector<plan_request_t> plan_requests_;
 };
 
-/// An answer to `request` whose path has `segments` segments of a second each, cut into pages of
-/// `per_page` segments.
+/// Returns the pages of an answer to `request`, whose path has `segments` segments of one second,
+/// `per_page` on each page.
 std::vector<plan_response_t> answer_pages(const plan_request_t& request, int segments,
                                           int per_page);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Motions and obstacles so simple that the ends of their collision intervals are known in closed
-// form: a plane, a slot, a pole, and a quadrilateral that turns on the spot.
+// Motions and obstacles for which the ends of the collision intervals are known in closed form: a
+// plane, a slot, a pole, and a quadrilateral that rotates about the eye.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,9 +28,10 @@ using testing::certified_intervals;
 constexpr double kPi = std::numbers::pi;
 constexpr double kWide_m = 40.0;
 
-// How far from the obstacle the body may be at the end of an interval: the last undecided stretch
-// has a deviation of at most the tolerance and a middle at most that far from the obstacle, so its
-// ends are at most twice that far. Rounding: the detector's own, a thousand units at 40 m.
+// Returns the largest distance between body and obstacle at the end of an interval. The last
+// undecided stretch has a deviation of at most the tolerance, and its middle is at most that far
+// from the obstacle, so its ends are at most twice that far. The second term is the rounding of the
+// detector: a thousand units at 40 m.
 double end_distance_m(double tolerance_m) { return 2.0 * tolerance_m + 1000.0 * 0x1p-53 * kWide_m; }
 
 void add_rectangle(Mesh& mesh, const Vec3& corner, const Vec3& a, const Vec3& b) {
@@ -38,7 +39,7 @@ void add_rectangle(Mesh& mesh, const Vec3& corner, const Vec3& a, const Vec3& b)
   testing::add_triangle(mesh, corner, corner + a + b, corner + b);
 }
 
-// The plane z = `z_m`, y = `y_m` or x = `x_m`, as far as anything here goes.
+// Add the plane z = `z_m`, y = `y_m` or x = `x_m`, larger than any path here.
 void add_z_plane(Mesh& mesh, double z_m) {
   add_rectangle(mesh, {-kWide_m, -kWide_m, z_m}, {2 * kWide_m, 0, 0}, {0, 2 * kWide_m, 0});
 }
@@ -54,7 +55,7 @@ Segment standing(const Vec3& position_W, const Quat& orientation) {
   return segment;
 }
 
-// Starts and stops smoothly: the share of the way at u is 3u² - 2u³.
+// Returns a motion with smooth start and stop: the fraction of the way at u is 3u² - 2u³.
 Path eased(const Vec3& from, const Vec3& to, const Quat& orientation) {
   Segment segment = standing(from, orientation);
   segment.position = {from, from, to, to};
@@ -63,8 +64,8 @@ Path eased(const Vec3& from, const Vec3& to, const Quat& orientation) {
 
 double ease_time_s(double share) { return 0.5 - std::sin(std::asin(1.0 - 2.0 * share) / 3.0); }
 
-// Turns by `angle_rad` about `axis_C` at the origin: the quaternion goes along the chord from one
-// to the other, so its angle a after u has sin(a) / sin(end - a) = u / (1 - u).
+// Returns a rotation by `angle_rad` about `axis_C` at the origin. The quaternion moves along the
+// chord, so its angle a at u satisfies sin(a) / sin(end - a) = u / (1 - u).
 Path chord_turn(const Vec3& axis_C, double angle_rad) {
   const Vec4 from = geometry::wxyz(Quat::Identity());
   const Vec4 to = geometry::wxyz(Quat(Eigen::AngleAxisd(angle_rad, axis_C)));
@@ -80,18 +81,18 @@ double turn_time_s(double turned_rad, double angle_rad) {
   return done / (done + std::sin(0.5 * (angle_rad - turned_rad)));
 }
 
-// The turn after a time: the inverse of `turn_time_s`.
+// Returns the angle at a time: the inverse of `turn_time_s`.
 double turned_rad(double time_s, double angle_rad) {
   const double half = 0.5 * angle_rad;
   return 2.0 * std::atan2(time_s * std::sin(half), 1.0 - time_s + time_s * std::cos(half));
 }
 
-// One interval is expected, from `begin_s` to `end_s`. `distance_m`: how far the body is from the
-// obstacle at a time outside of it.
+// Expects one interval, from `begin_s` to `end_s`. `distance_m` returns the distance of the body
+// from the obstacle at a time outside of the interval.
 void expect_one_interval(const std::vector<CollisionInterval>& found, double begin_s, double end_s,
                          const std::function<double(double)>& distance_m, double tolerance_m) {
   ASSERT_EQ(found.size(), 1u);
-  // The closed form is rounded as well: by fewer than 64 units in times of up to a second.
+  // The closed form is rounded as well, by fewer than 64 units for times of up to a second.
   constexpr double kTimeRounding_s = 64.0 * 0x1p-53;
   EXPECT_LE(found[0].t_begin_s, begin_s + kTimeRounding_s);
   EXPECT_GE(found[0].t_end_s, end_s - kTimeRounding_s);
@@ -141,15 +142,16 @@ TEST_P(Analytic, PlaneMetByATiltedQuadrilateralThatAccelerates) {
   }
 }
 
-// A camera that rolls in a slot between floor and ceiling fits while it is nearly level: the height
-// that it takes is half_width·|sin φ| + half_height·|cos φ| above and below.
+// A camera that rolls in a slot between floor and ceiling is free while it is nearly level: it
+// needs half_width·|sin φ| + half_height·|cos φ| above and below.
 TEST_P(Analytic, SlotInWhichTheCameraRolls) {
   const double diagonal_m = std::hypot(half_width_m_, half_height_m_);
   const double level_rad = std::atan2(half_height_m_, half_width_m_);
   const double angle_rad = 0.5 * kPi;
   const Path path = chord_turn(Vec3::UnitZ(), angle_rad);
   for (const double share : {0.1, 0.5, 0.9, 0.999}) {
-    // Between the height of the level camera and that of its diagonal, which is passed on the way.
+    // A height between that of the level camera and that of its diagonal, which is upright in
+    // between.
     const double half_slot_m = half_height_m_ + share * (diagonal_m - half_height_m_);
     Mesh mesh;
     add_y_plane(mesh, half_slot_m);
@@ -180,8 +182,8 @@ TEST_P(Analytic, SlotThatIsWideEnoughIsFreeAndOneThatIsNotIsNot) {
   EXPECT_EQ(detect(narrow, path).size(), 1u);
 }
 
-// An upright triangular pole, thinner than the distance between two samples of anyone, met by a
-// quadrilateral that is turned about the upright and flies straight.
+// A quadrilateral that is rotated about the vertical flies straight at a vertical triangular pole,
+// which is thinner than the distance between two samples of any sampled check.
 TEST_P(Analytic, PoleOfKnownPlace) {
   std::mt19937_64 random = testing::seeded(32);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
@@ -217,15 +219,15 @@ TEST_P(Analytic, PoleOfKnownPlace) {
   }
 }
 
-// Looking round by 175° about the upright, a side of the quadrilateral swings through a circle of
-// its own radius; a wall step_scale is met while the angle between side and wall is small enough.
+// During a rotation by 175° about the vertical, a side of the quadrilateral moves on a circle of
+// its own radius. It touches a wall ahead while the angle between side and wall is small enough.
 TEST_P(Analytic, SpinningQuadrilateralReachesAWall) {
   const double angle_rad = 175.0 * kPi / 180.0;
   const double radius_m = std::hypot(half_width_m_, camera_.near_m);
   const double side_rad = std::atan2(half_width_m_, camera_.near_m);
   const Path path = chord_turn(Vec3::UnitY(), angle_rad);
-  // A turn about +Y leads from -Z to -X. The right side is step_scale of it by `side_rad`, towards
-  // +X, and so meets a wall at -X last; the left side is the first to come.
+  // A rotation about +Y leads from -Z to -X. The right side is ahead of -Z by `side_rad`, towards
+  // +X, and so meets a wall at -X last; the left side meets it first.
   const double wall_rad = 0.5 * kPi;
   for (const double share : {0.3, 0.9, 0.9999}) {
     const double wall_m = camera_.near_m + share * (radius_m - camera_.near_m);

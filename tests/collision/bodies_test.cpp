@@ -25,7 +25,7 @@ using scene::SceneIndex;
 
 constexpr double kSpeed_m_per_s = 4.0;
 
-// From z = 2 to z = -2 in a second.
+// Returns a path from z = 2 to z = -2 in one second.
 Path descent(const Quat& orientation) {
   return motion::interpolate(
       std::vector<Keyframe>{{0.0, {{0, 0, 2}, orientation}}, {1.0, {{0, 0, -2}, orientation}}});
@@ -53,7 +53,7 @@ std::vector<CollisionInterval> detect(const SceneIndex& index, const Path& path,
       .value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
 }
 
-// Meets the plate while its lowest point is below, and its highest above z = 0.
+// Expects a collision while the lowest point of the body is below z = 0 and the highest above.
 void expect_crossing(const std::vector<CollisionInterval>& found, double lowest_m,
                      double highest_m) {
   ASSERT_EQ(found.size(), 1u);
@@ -95,7 +95,7 @@ TEST(Bodies, CrossAPlateFromTheirLowestToTheirHighestPoint) {
   }
 }
 
-// A grain that is swallowed whole touches no face of the box for most of the way.
+// A small obstacle that is completely inside a body touches none of its faces for most of the path.
 TEST(Bodies, AreSolidThroughAndThrough) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.001, -0.001, -0.001}, {0.001, 0.001, 0.001});
@@ -104,7 +104,7 @@ TEST(Bodies, AreSolidThroughAndThrough) {
   expect_crossing(detect(index, path, make(motion::BoxShape{Vec3::Zero(), {0.5, 0.5, 0.8}})),
                   -0.401, 0.401);
   expect_crossing(detect(index, path, make(motion::SphereShape{Vec3::Zero(), 0.4})), -0.401, 0.401);
-  // From the beginning to the end inside.
+  // The obstacle is inside from the beginning to the end.
   const Path rest = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{0, 0, 0.1}, Quat::Identity()}}, {1.0, {{0, 0, -0.1}, Quat::Identity()}}});
   for (const motion::BodyShape& shape :
@@ -114,7 +114,7 @@ TEST(Bodies, AreSolidThroughAndThrough) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].t_begin_s, 0.0);
     EXPECT_EQ(found[0].t_end_s, 1.0);
-    // The deepest place is next to the middle of the path, a quarter of a metre from the sides.
+    // The deepest pose is near the middle of the path, a quarter of a metre from the sides.
     ASSERT_TRUE(found[0].witness);
     EXPECT_NEAR(found[0].witness->depth_m, 0.3, 0.11);
     EXPECT_LT(found[0].witness->point_W.norm(), 0.01);
@@ -160,7 +160,7 @@ TEST(Bodies, WitnessNamesTriangleFeatureAndDepth) {
   EXPECT_EQ(witness.triangle, 1u);
   EXPECT_GE(witness.time_s, found[0].t_begin_s);
   EXPECT_LE(witness.time_s, found[0].t_end_s);
-  // The plane x = 0.05 cuts what of the quadrilateral is to the right of it.
+  // The part of the quadrilateral to the right of the plane x = 0.05 is beyond it.
   const double right_m = motion::near_corners_C(testing::small_camera())[0].x();
   EXPECT_NEAR(witness.depth_m, right_m - 0.05, 1e-9);
   EXPECT_NEAR(witness.point_W.x(), 0.05, 1e-12);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bodies that leave their bounds, against dense sampling and against how far a body is proved, in
-// extended precision and by other code, to reach along an axis.
+// Bodies that leave their bounds, compared with dense sampling, and with the furthest reach along
+// an axis that other code proves in extended precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,8 +47,8 @@ bool holds(const std::vector<CollisionInterval>& intervals, double time_s) {
   });
 }
 
-// The furthest reach is known to a picometre: a limit beyond it by what the search resolves is kept
-// to, and one just short of it is not, at the time at which it is reached.
+// The furthest reach is known to a picometre. A limit beyond it by the resolution of the search is
+// kept; a limit just short of it is broken, at the time of the reach.
 TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
   constexpr std::uint64_t kSeed = 16;
   constexpr testing::Real kSlack_m = 1e-12L;
@@ -75,7 +75,7 @@ TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
       const double beyond_m = sign * (static_cast<double>(reach->value_m) + margin_m);
       EXPECT_TRUE(detect(nothing, with_limit(side, beyond_m), path, body, options).empty())
           << "run " << run << ", " << Bounds::kSideNames[side];
-      // Short of it by what doubles resolve there, and the oracle's own slack.
+      // Short of it by the resolution of doubles there, and by the oracle's own slack.
       const double resolved_m =
           1e-11 + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(beyond_m);
       const double short_m = sign * (static_cast<double>(reach->reached_m) - resolved_m);
@@ -87,8 +87,8 @@ TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
   EXPECT_GT(decided, 200);
 }
 
-// The oracle of dense sampling, for bodies of all kinds: every sample outside lies in an interval,
-// and at the ends of intervals the body is next to its bounds.
+// The oracle is dense sampling, for bodies of all kinds: every sample outside of the bounds lies in
+// an interval, and at the ends of intervals the body is near its bounds.
 TEST(BoundsOfAPath, HoldEverySampleThatIsInNoInterval) {
   std::mt19937_64 random = testing::seeded(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
@@ -139,7 +139,7 @@ TEST(BoundsOfAPath, HoldEverySampleThatIsInNoInterval) {
   EXPECT_GT(inside_samples, 5000);
 }
 
-// What is nearest counts, scene or bounds; and the clearance is the scene's.
+// Intervals count the nearer of scene and bounds; the clearance counts the scene only.
 TEST(BoundsOfAPath, AddToWhatTheSceneAsks) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.1}, {0.5, 0.5, 0.1});
@@ -156,7 +156,7 @@ TEST(BoundsOfAPath, AddToWhatTheSceneAsks) {
     EXPECT_NEAR(both[i].t_end_s, alone[i].t_end_s, 2.0 * DetectOptions{}.tolerance_m);
   }
   EXPECT_EQ(Obstacles::side_of(both[2].witness->triangle), 2u);
-  // The plane of the quadrilateral is 0.1 m before the eye.
+  // The plane of the quadrilateral is 0.1 m in front of the eye.
   EXPECT_NEAR(both[2].t_begin_s, 3.0 + 2.0 - 0.1, 3e-3);
   EXPECT_EQ(both[2].t_end_s, 6.0);
   EXPECT_EQ(both[2].witness->point_W.z(), -2.0);
@@ -179,7 +179,7 @@ TEST(BoundsOfAPath, CountWithoutAScene) {
   EXPECT_LE(found[0].t_begin_s, 0.499);
   EXPECT_GE(found[0].t_begin_s, 0.499 - 1e-4);
   EXPECT_EQ(found[0].t_end_s, 1.0);
-  // The corner that is foremost along x is half of the quadrilateral's width, 0.1 m, from the eye.
+  // The foremost corner along x is half of the quadrilateral's width, 0.1 m, from the eye.
   const Witness& witness = *found[0].witness;
   EXPECT_NEAR(witness.depth_m, 100.0 * witness.time_s + 0.1 - 50.0, 1e-9);
 }

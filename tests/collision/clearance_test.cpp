@@ -47,7 +47,7 @@ TEST(PathClearance, OfAPassBesideAWallIsKnown) {
   }
 }
 
-// The oracle: dense samples, each with its distance by brute force over all triangles.
+// The oracle is dense sampling, with the distance by brute force over all triangles.
 TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
   std::mt19937_64 random = testing::seeded(77);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
@@ -74,7 +74,7 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
     EXPECT_EQ(found.lower_bound_m > 0.0, free) << "run " << run;
     if (!free) continue;
     ++positive;
-    // Samples are at most a few millimetres of motion apart.
+    // Between two samples the body moves by at most a few millimetres.
     EXPECT_GE(found.lower_bound_m, 0.85 * (sampled_m - 0.01)) << "run " << run;
   }
   EXPECT_GT(positive, 3);

@@ -21,7 +21,7 @@ using base::Deadline;
 constexpr std::size_t kMostFaultsNamed = 20;
 constexpr std::uint64_t kCasesPerTurn = 256;
 
-// The same ratio as the defaults of detection have.
+// Returns options with the same ratio as the defaults of detection.
 collision::DetectOptions options_for(const CrossingCase& c) {
   collision::DetectOptions options;
   options.gap_m = c.tolerance_m * (options.gap_m / options.tolerance_m);
@@ -45,7 +45,8 @@ bool covers(const Intervals& intervals, double time_s) {
   });
 }
 
-// A free case: the certified clearance, and a required one on either side of the known.
+// Checks a free case: the certified clearance, and detection with required clearances on both sides
+// of the known one.
 void ask_clearance(const CrossingCase& c, const collision::Obstacles& obstacles,
                    CrossingTally& tally) {
   const double clearance_m = certified_clearance_m(obstacles, c.path, c.camera);

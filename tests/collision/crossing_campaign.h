@@ -11,34 +11,35 @@
 
 namespace camway::testing {
 
-/// The one place where the campaign, the analytic family and the benchmarks call detection.
+/// Returns the collision intervals of a path. The campaign, the analytic family and the benchmarks
+/// call detection here only.
 std::vector<collision::CollisionInterval> certified_intervals(
     const collision::Obstacles& obstacles, const motion::Path& path, const motion::Camera& camera,
     const collision::DetectOptions& options);
 
-/// Likewise for the clearance of a whole path.
+/// Returns the certified clearance of a whole path.
 double certified_clearance_m(const collision::Obstacles& obstacles, const motion::Path& path,
                              const motion::Camera& camera);
 
-/// What came of the cases of one family.
+/// The results of the cases of one family.
 struct CrossingTally {
   std::uint64_t cases = 0;
   std::uint64_t redrawn = 0;
-  /// A known instant of collision that is in no interval: an instant that was certified free. Of
-  /// free cases: one at which the camera is nearer than a required clearance.
+  /// Known instants of collision outside of all intervals, which were certified free by mistake.
+  /// For free cases: known instants at which the camera is nearer than a required clearance.
   std::uint64_t misses = 0;
-  /// A path reported as colliding that stays away by more than the tolerance.
+  /// Paths reported as colliding whose clearance exceeds the tolerance.
   std::uint64_t false_alarms = 0;
-  /// A clearance above the known upper bound of the truth: a false certificate.
+  /// Clearances above the known upper bound of the true one: false certificates.
   std::uint64_t clearance_above_truth = 0;
-  /// A clearance less than `kLeastClearanceShare` of the known lower bound.
+  /// Clearances below `kLeastClearanceShare` of the known lower bound.
   std::uint64_t clearance_too_low = 0;
 
   [[nodiscard]] bool faultless() const;
   CrossingTally& operator+=(const CrossingTally& other);
 };
 
-/// A clearance that is promised to within 20 % of the truth.
+/// Least fraction of the true clearance that the certified one must have.
 inline constexpr double kLeastClearanceShare = 0.8;
 
 struct CampaignResult {
@@ -48,14 +49,14 @@ struct CampaignResult {
   [[nodiscard]] CrossingTally total() const;
 };
 
-/// Bounding a clearance takes a number of looks that grows with the path's length in clearances;
-/// where it is less than this share of the path, only detection is asked.
+/// Least ratio of clearance to path size for which the clearance is computed. The number of probes
+/// grows with the inverse of the ratio; below this, only detection runs.
 inline constexpr double kLeastClearanceAsked = 1e-3;
 
 /// Runs one case.
 CrossingTally run_crossing_case(const CrossingCase& c);
 
-/// Runs cases `first` to `first + count - 1`. Depends only on the arguments but `threads`.
+/// Runs cases `first` to `first + count - 1`. The result does not depend on `threads`.
 CampaignResult run_crossing_campaign(std::uint64_t seed, std::uint64_t first, std::uint64_t count,
                                      unsigned threads);
 

@@ -15,7 +15,7 @@ std::string name_of(std::size_t family) {
   return std::string(to_string(static_cast<CrossingFamily>(family)));
 }
 
-// The same campaign, a hundred times as long, is tests/bench/bench_campaign.
+// tests/bench/bench_campaign runs the same campaign with a hundred times as many cases.
 TEST(CrossingCampaign, NoCrossingIsMissedAndNoClearanceOverstated) {
   std::printf("[   SEED   ] %llu\n", static_cast<unsigned long long>(kSeed));
   const CampaignResult result = run_crossing_campaign(kSeed, 0, kCases, 2);
@@ -26,7 +26,7 @@ TEST(CrossingCampaign, NoCrossingIsMissedAndNoClearanceOverstated) {
     EXPECT_EQ(tally.false_alarms, 0u) << name_of(f);
     EXPECT_EQ(tally.clearance_above_truth, 0u) << name_of(f);
     EXPECT_EQ(tally.clearance_too_low, 0u) << name_of(f);
-    // What is drawn again cannot be tested; it must stay the exception.
+    // Cases that are drawn again are not tested, so they must be the exception.
     EXPECT_LT(tally.redrawn, tally.cases) << name_of(f);
   }
   for (const std::uint64_t index : result.faults) {

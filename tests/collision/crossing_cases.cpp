@@ -13,17 +13,17 @@ namespace {
 
 using geometry::Vec3;
 
-// What the rounding of poses and distances in doubles can come to, with a factor of a thousand to
-// spare: tolerances and clearances of the campaign are larger.
+// Returns a bound on the rounding of poses and distances in doubles, with a margin of a factor of a
+// thousand. Tolerances and clearances of the campaign are larger.
 double rounding_floor_m(double largest_coordinate_m) { return 1e-9 + 1e-12 * largest_coordinate_m; }
 
 constexpr double kMostPathSize_m = 100.0;
 
-// A flat obstacle that covers all of the camera's way along its plane.
+// Size of a flat obstacle, in the size of the camera's path: it covers the whole path.
 constexpr double kWide = 3.0;
 
-// One attempt at a case. Each `make_*` returns false if the truth could not be certified; then
-// everything is drawn again.
+// One attempt at a case. Each `make_*` returns false if the truth could not be certified; then the
+// whole case is drawn again.
 class CaseMaker {
  public:
   CaseMaker(CaseRandom& random, CrossingFamily family) : random_(random) {
@@ -97,7 +97,7 @@ class CaseMaker {
     return finish_colliding();
   }
 
-  // An instant that half of the time is where a detector that halves segments would split.
+  // Picks an instant; half of the time one at which a detector that halves segments would split.
   void choose_instant() {
     segment_ = std::size_t(random_.integer(0, int(case_.path.segments().size()) - 1));
     if (random_.chance(0.5)) {
@@ -111,7 +111,8 @@ class CaseMaker {
 
   void look() { pose_ = precise_pose(case_.path.segments()[segment_], u_, radius_m_); }
 
-  // A point of the filled quadrilateral, in the camera frame; sometimes very close to its outline.
+  // Returns a point of the filled quadrilateral in the camera frame, sometimes very close to its
+  // outline.
   RealVec3 choose_point() {
     const double margin = random_.log_uniform(1e-5, 0.5);
     const auto coordinate = [&](double half_m) {
@@ -124,7 +125,7 @@ class CaseMaker {
 
   [[nodiscard]] RealVec3 quad_normal() const { return pose_.orientation * RealVec3(0, 0, 1); }
 
-  // Where the body goes at the instant, roughly; any direction if it turns only.
+  // Returns the approximate direction of motion at the instant; any direction for a pure rotation.
   RealVec3 heading() {
     const motion::Segment& segment = case_.path.segments()[segment_];
     const RealVec3 step = precise_pose(segment, std::min(1.0, u_ + 1e-4), radius_m_).position -
@@ -154,8 +155,8 @@ class CaseMaker {
               a_m * e, b_m * f);
   }
 
-  // Tilted by so little that quadrilateral and plate meet for an instant, and by enough that
-  // rounding the plate's vertices does not part them.
+  // The tilt is so small that quadrilateral and plate meet for an instant, but large enough that
+  // rounding the plate's vertices does not separate them.
   void add_parallel_plate(const RealVec3& point_W) {
     const double least =
         std::max(1e-9, 1e3 * 0x1p-53 * place_W_.norm() / std::min(half_width_m_, half_height_m_));
@@ -193,8 +194,9 @@ class CaseMaker {
              center + size_m * side);
   }
 
-  // Straight at a plate that faces the camera. Nothing is closer to the bound of the motion: half
-  // of a piece before the plate and half of it behind are as far away as the camera moves.
+  // Moves straight at a plate that faces the camera. This is the tightest case for the motion
+  // bound: half a stretch in front of the plate and half a stretch behind it, the distance equals
+  // the motion of the camera.
   bool make_on_piece() {
     const motion::Pose from{place_W_, random_.rotation()};
     const Vec3 step_scale = from.orientation * Vec3(0.0, 0.0, random_.chance(0.5) ? -1.0 : 1.0);
@@ -204,8 +206,8 @@ class CaseMaker {
     return finish_colliding();
   }
 
-  // The same for turning: no corner moves more, and none less, than the bound of a turn says, and
-  // nothing of the quadrilateral is nearer to the wedge than the corner.
+  // The tightest case for rotation: each corner moves exactly by the bound of a rotation, and no
+  // point of the quadrilateral is nearer to the wedge than the corner.
   bool make_swing() {
     const std::size_t corner = std::size_t(random_.integer(0, 3));
     const Vec3& corner_C = corners_C_[corner];
@@ -234,7 +236,7 @@ class CaseMaker {
     return false;
   }
 
-  // Company for the obstacle, so that the index has something to divide.
+  // Adds other triangles, so that the index has something to divide.
   void add_dust(const RealVec3& center, double spread_m) {
     for (int i = 0; i < 40; ++i) {
       const RealVec3 at = center + (spread_m * random_.vector()).cast<Real>();
@@ -249,7 +251,8 @@ class CaseMaker {
 
   // --- Obstacles that the camera's furthest reach passes by a known amount ---
 
-  // Finds the reach along a random direction; false if it cannot be proved to `depth_m_`/1000.
+  // Finds the reach along a random direction. Returns false if it cannot be proved to
+  // `depth_m_`/1000.
   bool choose_reach(PathKind kind) {
     case_.path = random_path(random_, kind, place_W_, size_m_);
     const double least_m = std::max({1e-6, 10.0 * floor_m_, 1e-7 * size_m_});
@@ -283,7 +286,8 @@ class CaseMaker {
     add_plate(case_.obstacle, center, half_m * e, half_m * f);
   }
 
-  // A triangle with its tip at `tip` that widens along `normal`, in the plane of `side` as well.
+  // Adds a triangle with its tip at `tip` that widens along `normal`, in the plane of `normal` and
+  // `side`.
   void add_wedge(const RealVec3& tip, const RealVec3& side, Real slope) {
     const Real length_m = radius_m_ * random_.log_uniform(0.1, 10.0);
     add_face(case_.obstacle, tip, tip + length_m * (normal_ + slope * side),
@@ -300,7 +304,7 @@ class CaseMaker {
     return finish_colliding();
   }
 
-  // Cuts the corner off, just behind its point: across the line to the middle.
+  // Cuts the corner off just behind its tip, across the line to the centre.
   void add_wedge_behind_corner() {
     const RealVec3 inwards = pose_.to_world(RealVec3(0, 0, -Real(case_.camera.near_m))) - corner_W_;
     const RealVec3 side = normal_.cross(inwards).normalized();
@@ -327,8 +331,8 @@ class CaseMaker {
   }
 
   bool make_slot() {
-    // Straight between the plates half of the time: the camera keeps the clearance all the way, and
-    // proving that takes a look for every clearance of travel.
+    // Half of the time the path is straight between the plates: the camera has this clearance all
+    // the way, and the proof takes a probe for every clearance of travel.
     const bool straight = random_.chance(0.5);
     if (!choose_reach(straight ? PathKind::kStraight : curved_path())) return false;
     if (straight) {
@@ -381,7 +385,7 @@ class CaseMaker {
   }
 
   bool finish_free(Real above_m, Real below_m) {
-    // A dot product of coordinates this large, and the point of the path that it is taken from.
+    // The rounding of a dot product of coordinates of this size, and of the path's point in it.
     const Real error_m =
         pose_.error_m + 64 * kRealRoundoff * Real(place_W_.norm() + 20.0 * (size_m_ + radius_m_));
     case_.collides = false;

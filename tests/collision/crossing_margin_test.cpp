@@ -32,7 +32,8 @@ class RandomTriangles {
   std::uniform_real_distribution<double> even_{-1.0, 1.0};
 };
 
-// The claim itself: whatever way each corner is moved by no more than the margin, they touch.
+// The claim of the header: if each corner moves in any direction by no more than the margin, they
+// still touch.
 TEST(CrossingMargin, SurvivesAnyMotionOfThatSize) {
   RandomTriangles random(31);
   int margins = 0;
@@ -51,7 +52,7 @@ TEST(CrossingMargin, SurvivesAnyMotionOfThatSize) {
       Triangle moved = a;
       const Vec3 together = random.direction();
       for (Vec3& vertex : moved) {
-        // At the far end of what is allowed; rounding of the sum must not lead past it.
+        // Moves by the largest allowed distance; rounding of the sum must not exceed it.
         const double allowed_m = margin_m * (1.0 - 1e-9) - 1e-9 * (run % 2 == 0 ? 0.0 : 1.0);
         if (allowed_m <= 0.0) continue;
         vertex += allowed_m * (way % 2 == 0 ? together : random.direction());
@@ -63,7 +64,7 @@ TEST(CrossingMargin, SurvivesAnyMotionOfThatSize) {
   EXPECT_GT(margins, 1'000);
 }
 
-// A rigid body turns: what matters is how far its points move.
+// A rotation of a rigid body counts by the motion of its points.
 TEST(CrossingMargin, SurvivesTurns) {
   RandomTriangles random(32);
   int margins = 0;

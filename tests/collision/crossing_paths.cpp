@@ -20,7 +20,7 @@ using motion::Segment;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-// A path is nothing but its numbers: the same curves, a second each.
+// Returns the same curves with segments of one second.
 Path a_second_each(const Path& path) {
   std::vector<Segment> segments(path.segments().begin(), path.segments().end());
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -47,7 +47,7 @@ Path smooth_path(CaseRandom& random, const Vec3& place_W, double size_m) {
   return a_second_each(motion::interpolate(keyframes));
 }
 
-// Joined, but with a kink: nothing in the proof asks for more than continuity.
+// Returns joined segments with kinks: the proof requires continuity only.
 Path free_path(CaseRandom& random, const Vec3& place_W, double size_m) {
   std::vector<Segment> segments(2);
   Vec3 position = place_W;

@@ -7,28 +7,28 @@
 
 namespace camway::testing {
 
-/// A camera from a near distance of 1 mm to 1 m, 20° to 120° wide.
+/// Returns a camera with a near distance of 1 mm to 1 m and fields of view of 20° to 120°.
 motion::Camera random_camera(CaseRandom& random);
 
-/// Where a path begins: at the origin, somewhere within a kilometre, or 10⁶ m away.
+/// Returns the begin of a path: the origin, a place within a kilometre, or a place 10⁶ m away.
 geometry::Vec3 random_place(CaseRandom& random);
 
 enum class PathKind {
-  kStraight,  ///< uniform, without turning
-  kSpin,      ///< turns on the spot, at up to 170°
+  kStraight,  ///< uniform motion without rotation
+  kSpin,      ///< rotation about the eye, up to 170°
   kSmooth,    ///< the interpolating path through three or four keyframes
-  kFree,      ///< two segments of random control points, that turn by up to a right angle
+  kFree,      ///< two segments of random control points, which rotate by up to a right angle
 };
 
-/// Segment `i` lasts from second `i` to second `i + 1`, so that times and parameters convert
-/// without rounding.
+/// Returns a path whose segment `i` lasts from second `i` to second `i + 1`, so that times and
+/// parameters convert without rounding.
 motion::Path random_path(CaseRandom& random, PathKind kind, const geometry::Vec3& place_W,
                          double size_m);
 
-/// A uniform straight motion from pose to pose in one second, without turning.
+/// Returns a uniform straight motion without rotation, of one second.
 motion::Path uniform_path(const motion::Pose& from, const geometry::Vec3& to_W);
 
-/// A turn on the spot about an axis of the camera, in one second.
+/// Returns a rotation about an axis through the eye, of one second.
 motion::Path turning_path(const motion::Pose& from, const geometry::Vec3& axis_C, double angle_rad);
 
 }  // namespace camway::testing

@@ -9,9 +9,9 @@
 
 namespace camway::testing {
 
-/// A generator that costs nothing to seed, so that each case of a campaign has its own and cases
-/// can be made in any order and by any thread (Steele, Lea & Flood 2014, "Fast splittable
-/// pseudorandom number generators"). The same numbers with every standard library.
+/// A random generator that is cheap to seed, so that each case of a campaign has its own, and cases
+/// can be made in any order and by any thread. Its numbers are the same with every standard
+/// library. Source: Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators".
 class CaseRandom {
  public:
   CaseRandom(std::uint64_t seed, std::uint64_t index) : state_(seed * kGamma + index) {
@@ -22,7 +22,7 @@ class CaseRandom {
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(next() >> 11U) * 0x1.0p-53);
   }
-  /// Spread evenly over the orders of magnitude. [Limit: 0 < low <= high]
+  /// Returns a number with an evenly distributed logarithm. [Limit: 0 < low <= high]
   double log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }

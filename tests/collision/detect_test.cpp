@@ -41,8 +41,8 @@ Mesh plate_at_z0() {
   return mesh;
 }
 
-// A quadrilateral that flies straight through a plane touches it exactly while its foremost and its
-// rearmost corner are on different sides.
+// A quadrilateral that flies straight through a plane touches it exactly while its foremost and
+// rearmost corners are on different sides.
 TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
@@ -59,7 +59,7 @@ TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
     const std::vector<CollisionInterval> found = detect(index, path, corners_C);
     ASSERT_EQ(found.size(), 1u) << "run " << run;
     // z(t) = 2 - 4t: the foremost corner arrives at t = (2 + lowest) / 4. The speed is 4 m/s, and a
-    // bracket may be two tolerances wide: one of the resolution, one of the stretch it lies in.
+    // bracket may be two tolerances wide: one for the resolution, one for the last stretch.
     const double bracket_s = 2.0 * DetectOptions{}.tolerance_m / 4.0;
     EXPECT_NEAR(found[0].t_begin_s, (2.0 + lowest_m) / 4.0, bracket_s);
     EXPECT_NEAR(found[0].t_end_s, (2.0 + highest_m) / 4.0, bracket_s);
@@ -68,7 +68,7 @@ TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
   }
 }
 
-// Met at one instant only: no sampling finds it.
+// The plate is met for one instant only, so no sampling finds it.
 TEST(DetectCollisions, PlateParallelToTheQuadrilateralIsFound) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
@@ -153,7 +153,7 @@ TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
   }
 }
 
-// The oracle: dense sampling may overlook a collision but never invents one.
+// The oracle is dense sampling, which may miss a collision but never invents one.
 TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
   std::mt19937_64 random = testing::seeded(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
@@ -182,7 +182,7 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
       EXPECT_TRUE(inside(time_s)) << "run " << run << ", t = " << time_s;
     }
     for (const CollisionInterval& interval : found) {
-      // At an end the body is no further from the scene than it moves within the undecided stretch.
+      // At an end the distance from the scene is at most the motion within the undecided stretch.
       for (const double end_s : {interval.t_begin_s, interval.t_end_s}) {
         EXPECT_TRUE(clearance_m(index, corners_C, path.pose(end_s), 3.0 * options.tolerance_m))
             << "run " << run << ", end at " << end_s;
@@ -203,7 +203,7 @@ TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
                    .decided);
 }
 
-// Wherever it strikes, what is told up to then is what a search to the end tells.
+// Up to the instant that the deadline permits, the result equals that of a complete search.
 TEST(SearchCollisions, KnowsAllUpToWhereTheDeadlineStruck) {
   Mesh mesh;
   for (int i = 0; i < 4; ++i) testing::add_cuboid(mesh, {-1, -1, i - 0.1}, {1, 1, i + 0.1});
@@ -234,7 +234,7 @@ TEST(SearchCollisions, KnowsAllUpToWhereTheDeadlineStruck) {
   EXPECT_GT(most, 1u) << "it never struck in between";
 }
 
-// Of a path that nobody can evaluate nothing is free, and the search for it ends.
+// No part of a path that cannot be evaluated is free, and the search terminates.
 TEST(DetectCollisions, NumbersWithoutMeaningCollideAllOver) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const motion::Body body(testing::small_camera());
@@ -256,7 +256,8 @@ TEST(DetectCollisions, NumbersWithoutMeaningCollideAllOver) {
   }
 }
 
-// Orientations of zero length: nothing is known of the turn, all along the way through a plate.
+// With orientations of zero length nothing is known of the rotation, on the whole way through a
+// plate.
 TEST(DetectCollisions, OrientationsThatVanishCollideWhereverTheyCould) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const motion::Body body(testing::small_camera());
@@ -272,7 +273,7 @@ TEST(DetectCollisions, OrientationsThatVanishCollideWhereverTheyCould) {
   ASSERT_EQ(found->size(), 1u);
   EXPECT_LE((*found)[0].t_begin_s, (2.0 - body.radius_m()) / 4.0);
   EXPECT_GE((*found)[0].t_end_s, (2.0 + body.radius_m()) / 4.0);
-  // No orientation reaches the plate from three radii away.
+  // From three radii away no orientation reaches the plate.
   EXPECT_GE((*found)[0].t_begin_s, (2.0 - 3.1 * body.radius_m()) / 4.0);
 }
 

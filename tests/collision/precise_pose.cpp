@@ -70,7 +70,7 @@ void add(Polynomial& sum, Real factor, const Polynomial& other) {
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * other[i];
 }
 
-// How far one corner reaches along a direction on one segment, as `excess / weight`.
+// The reach of one corner along a direction on one segment, as `excess / weight`.
 struct CornerReach {
   Polynomial numerator;  // normal·((P - origin)·W + N), degree 15
   Polynomial weight;     // W, elevated to degree 15
@@ -131,14 +131,15 @@ void split(const Polynomial& whole, Polynomial& left, Polynomial& right) {
   }
 }
 
-// Work that a bound may cost: a reach that is the same over a stretch needs endless splitting.
+// Limits of the work for a bound: a reach that is constant over a time range needs endless
+// splitting.
 constexpr int kMostSplits = 400;
 constexpr int kDeepest = 40;
 
 enum class Verdict { kBelow, kAbove, kUnknown };
 
-// Whether `excess` is negative on all of [u0, u1]; if it is positive in the middle of a part,
-// where.
+// Returns whether `excess` is negative on all of [u0, u1]. If it is positive in the middle of a
+// part, sets `where`.
 Verdict stays_below(const Polynomial& excess, Real error, double u0, double u1, int depth,
                     int& splits, double& where) {
   if (*std::max_element(excess.begin(), excess.end()) < -error) return Verdict::kBelow;
@@ -156,12 +157,12 @@ Verdict stays_below(const Polynomial& excess, Real error, double u0, double u1, 
   return stays_below(right, error, middle, u1, depth + 1, splits, where);
 }
 
-// All that is asked about one path and one direction.
+// The search for the reach of one path along one direction.
 class ReachSearch {
  public:
   ReachSearch(const motion::Path& path, const motion::Corners& corners_C, const RealVec3& normal)
       : path_(path), corners_C_(corners_C), normal_(normal) {
-    // Differences to a point of the path, so that a path far away loses nothing.
+    // Coordinates relative to a point of the path, so that a path far away loses no precision.
     origin_ = path.segments().front().position[0].cast<Real>();
     radius_m_ = motion::body_radius_m(corners_C);
   }
@@ -208,7 +209,7 @@ class ReachSearch {
     if (value_m > best_.reached_m) best_ = {0, value_m, segment, rounded, corner};
   }
 
-  // Uphill on the segment and corner at hand, with steps that shrink.
+  // Climbs to a local maximum on the present segment and corner, with decreasing steps.
   void climb() {
     for (double step = 0.05; step > kGrid; step *= 0.6) {
       const double u = best_.u;
@@ -217,7 +218,8 @@ class ReachSearch {
     }
   }
 
-  // If the level is passed somewhere, the best is moved there.
+  // Proves that the level is never exceeded. If it is exceeded somewhere, moves the best point
+  // there.
   Verdict prove(Real level_m) {
     for (std::size_t s = 0; s < path_.segments().size(); ++s) {
       for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -228,7 +230,7 @@ class ReachSearch {
         for (const RealVec3& point : positions(path_.segments()[s])) {
           size_m = std::max(size_m, (point - origin_).norm() + radius_m_);
         }
-        // Some hundred roundings, of products that are no larger than this.
+        // Some hundred roundings of products that are at most this large.
         const Real error = 1024 * kRealRoundoff * size_m * largest_weight;
         int splits = 0;
         double where = 0.0;
@@ -249,12 +251,13 @@ class ReachSearch {
   Reach best_{};
 };
 
-// Signed volume of (a, b, c, d), six times.
+// Returns six times the signed volume of (a, b, c, d).
 Real volume(const RealVec3& a, const RealVec3& b, const RealVec3& c, const RealVec3& d) {
   return (b - a).cross(c - a).dot(d - a);
 }
 
-// Whether the segment passes through the inside of the triangle, every volume beyond `error`.
+// Returns whether the segment passes through the inside of the triangle, with every volume beyond
+// `error`.
 bool pierces(const RealVec3& from, const RealVec3& to, const std::array<RealVec3, 3>& t,
              Real error) {
   const Real below = volume(t[0], t[1], t[2], from);
@@ -302,8 +305,9 @@ bool certainly_touches(const PrecisePose& pose, const motion::Corners& corners_C
   }
   size_m = std::max({size_m, (triangle[1] - triangle[0]).norm(), (triangle[2] - triangle[0]).norm(),
                      (quad[2] - quad[0]).norm()});
-  // A volume is a sum of products of three differences; each of its four points is off by the
-  // pose's error, and turning a point at the triangle's distance adds what the reach did not cover.
+  // A volume is a sum of products of three differences. Each of its four points has the pose's
+  // error, plus that of rotating a point at the triangle's distance, which the reach does not
+  // cover.
   const Real point_error_m = pose.error_m + 256 * kRealRoundoff * size_m;
   const Real error = 16 * point_error_m * size_m * size_m;
   const std::array<std::array<RealVec3, 3>, 2> halves{

@@ -10,7 +10,7 @@
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/support/scenes.h"
 
-/// Scenes with an inside: occupancy maps.
+/// Scenes with solids: occupancy maps.
 namespace camway::collision {
 namespace {
 
@@ -50,7 +50,7 @@ std::vector<CollisionInterval> detect(const scene::Snapshot& snapshot, const Pat
       .value();
 }
 
-/// The block is [0, 4]^3 m, and the body far smaller than any of its voxels.
+/// The block is [0, 4]^3 m, and the body is far smaller than a voxel.
 TEST(Solids, ABodyThatNeverLeavesTheInsideCollidesAllTheTime) {
   const auto snapshot = scene_of(block(8));
   std::string error;
@@ -86,8 +86,8 @@ TEST(Solids, AWayInCollidesFromTheFaceOnAndOutAgainToIt) {
   EXPECT_NEAR(out[0].t_end_s, 2.01 / 4.0, 1e-3);
 }
 
-/// Wherever a path is called free, no point of the body is in an occupied voxel, by the numbers of
-/// the voxels alone.
+/// At every instant that is called free, no point of the body is in an occupied voxel, by the
+/// coordinates of the voxels alone.
 TEST(Solids, NothingThatIsFreeIsInAnOccupiedVoxel) {
   constexpr std::uint64_t kSeed = 7301;
   std::cout << "seed " << kSeed << '\n';

@@ -9,8 +9,8 @@
 namespace camway::collision {
 namespace {
 
-/// What is seen of a plane `gap_m` step_scale of the beginning of a stretch, when every point moves
-/// towards it by `slope` of its motion.
+/// Returns the probe of a plane `gap_m` ahead of the beginning of a stretch, when every point moves
+/// towards it by `slope` times its motion.
 ProbeResult look_at_plane(double gap_m, double slope, double reach_m) {
   const double closing_m = 2.0 * slope * reach_m;
   ProbeResult seen;
@@ -21,7 +21,7 @@ ProbeResult look_at_plane(double gap_m, double slope, double reach_m) {
   return seen;
 }
 
-/// Walks towards the plane until it is resolved to `finest_m`; returns how many looks that took.
+/// Moves towards the plane until it is resolved to `finest_m`. Returns the number of probes.
 int looks_until(double gap_m, double slope, double finest_m) {
   double reach_m = 1.0;
   for (int looks = 1; looks < 10'000; ++looks) {
@@ -39,7 +39,7 @@ int looks_until(double gap_m, double slope, double finest_m) {
 }
 
 TEST(Pace, ClosesInOnAPlaneByOrdersOfMagnitude) {
-  // Halving would take 2·log2(10 / 1e-6) = 46 looks and more, whatever the slope.
+  // Halving would take at least 2·log2(10 / 1e-6) = 46 probes for any slope.
   for (const double slope : {1.0, 0.3, 0.01}) {
     EXPECT_LE(looks_until(10.0 * slope, slope, 1e-6), 14) << slope;
   }

@@ -22,7 +22,7 @@ struct Values {
   std::vector<std::string> files;
 };
 
-/// What a program with two commands says of `words`; empty if it takes them.
+/// Returns the error of a program with two commands for `words`; empty if it accepts them.
 std::string said_of(const std::vector<std::string>& words) {
   static constexpr std::array<std::pair<std::string_view, Colour>, 2> kColours{
       {{"red", Colour::kRed}, {"green", Colour::kGreen}}};
@@ -53,7 +53,7 @@ TEST(CommandLine, UnknownWordsAreNamedWithTheNearestRightOneAndTheHelp) {
       {{"walk"}, "'walk' is no command of tool (see tool --help)"},
       {{"scene", "uplaod"},
        "'uplaod' is no command of tool scene; did you mean upload? (see tool scene --help)"},
-      // Though --file is missing, too: it is mostly what was meant.
+      // Although --file is missing, too: the unknown word is mostly the mistake.
       {{"paint", "--fiel", "a"},
        "'--fiel' is no flag of tool paint; did you mean --file? (see tool paint --help)"},
       {{"paint", "--file", "a", "--lenght=2"},

@@ -11,7 +11,7 @@
 #include "daemon/geometry/triangle_distance.h"
 #include "tests/support/scenes.h"
 
-/// What tests of searches share: a small scene, and oracles that ask every triangle of it.
+/// A small scene for tests of searches, with oracles that test every triangle.
 namespace camway::correction::testing_search {
 
 using camway::geometry::Quat;
@@ -27,12 +27,12 @@ struct SearchScene {
 
   [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect); }
 
-  /// Of a point to the scene; infinity where there is none.
+  /// Returns the distance of a point from the scene; infinity for an empty scene.
   [[nodiscard]] double distance_m(const Vec3& point_W) const {
     return least_m({point_W, point_W, point_W});
   }
 
-  /// Of the body, for bodies without an inside.
+  /// Returns the distance of the body from the scene. Requires a body without an inside.
   [[nodiscard]] double distance_m(const motion::Pose& pose) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Triangle& part_C : body.triangles_C()) {
@@ -61,7 +61,7 @@ inline motion::Body sphere(double radius_m) {
   return *motion::Body::make(motion::SphereShape{Vec3::Zero(), radius_m}, error);
 }
 
-/// A wall in the plane z = 0, 10 cm thick, open where x is between the two.
+/// Returns a wall in the plane z = 0, 10 cm thick, open for x from `from_m` to `to_m`.
 inline scene::Mesh wall_with_gap(double from_m, double to_m) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-30, -30, -0.05}, {from_m, 30, 0.05});
@@ -69,7 +69,7 @@ inline scene::Mesh wall_with_gap(double from_m, double to_m) {
   return mesh;
 }
 
-/// `count` cuboids of up to `size_m` within 1 m of the origin.
+/// Returns `count` cuboids of up to `size_m` in a cube of side 2 m about the origin.
 inline scene::Mesh scattered_cuboids(std::mt19937_64& random, int count, double size_m) {
   std::uniform_real_distribution<double> share(0.2, 1.0);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
@@ -84,8 +84,8 @@ inline scene::Mesh scattered_cuboids(std::mt19937_64& random, int count, double 
   return mesh;
 }
 
-/// Whether each motion of `guide` keeps `margin_m` beside what is required, at poses so many that
-/// what lies between two of them moves by less than `step_m`.
+/// Returns the least distance between body and scene over the motions of `guide`, at samples
+/// between which the body moves by less than `step_m`.
 inline double least_distance_m(const SearchScene& scene, const FreeSpace& space, const Guide& guide,
                                double step_m) {
   double least = std::numeric_limits<double>::infinity();
@@ -99,7 +99,8 @@ inline double least_distance_m(const SearchScene& scene, const FreeSpace& space,
   return least;
 }
 
-/// Whether the search for collisions proves every motion of `guide` free.
+/// Returns whether the search for collisions proves every motion of `guide` free, with `margin_m`
+/// in addition to the required clearance.
 inline bool is_proved_free(const SearchScene& scene, const Guide& guide, double margin_m) {
   collision::DetectOptions detect = scene.detect;
   detect.clearance_m += margin_m;

@@ -9,8 +9,10 @@ import unittest
 
 from blocks import blocks_of
 from check_documents import Documents
+from check_links import faults_of
 
 _SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(_SOURCE / "docs"))
 _PROGRAMS = None
 _REQUEST = """{"scene": "../office.obj", "camera": {"fov_x_deg": 80, "fov_y_deg": 60, "near": 0.15},
  "keyframes": [{"position": [12.5, 1.6, 12.8], "orientation": [1, 0, 0, 0]},
@@ -86,6 +88,38 @@ class PlantedTest(unittest.TestCase):
         self.assert_passes("    $ camwayd --scene maze=scenes/maze.obj\n\n"
                            "    $ camway scene describe maze\n")
         self.assert_fails("    $ camwayd --scene maze=nothing.obj\n", "nothing.obj")
+
+    def test_links_have_to_lead_somewhere(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder)
+            (source / "a.md").write_text("# A path, in `ten` lines\n\n[b](b.md) [c](b.md#c) [here](#a-path-in-ten-lines)\n")
+            (source / "b.md").write_text("# B\n")
+            self.assertEqual(list(faults_of(source, "a.md")), ["a.md: b.md#c: there is no such heading"])
+            (source / "b.md").unlink()
+            self.assertEqual(len(list(faults_of(source, "a.md"))), 2)
+
+    def test_tables_of_members_follow_the_lcm_files(self):
+        import wire_tables
+        with tempfile.TemporaryDirectory() as folder:
+            wire_tables.TYPES = pathlib.Path(folder)
+            (wire_tables.TYPES / "camway_a_t.lcm").write_text("""package camway;
+
+// What it is.
+struct a_t
+{
+    const int8_t ON = 1, OFF = 0;  // a switch
+    string client_id;  // [max 32] who asks
+    // Sizes:
+    int32_t num_points;
+    double points_m[num_points][3];  // on the line that follows:
+                                     // more | of it
+}
+""")
+            table = wire_tables.members_of("a_t")
+        self.assertIn("| `client_id` | `string` | who asks; at most 32 bytes |\n", table)
+        self.assertIn("| | | *Sizes:* |\n| `num_points` | `int32_t` |  |\n", table)
+        self.assertIn(r"| `points_m` | `double[num_points][3]` | on the line that follows: more \| of it |", table)
+        self.assertIn("| `ON`, `OFF` | 1, 0 | a switch |\n", table)
 
     def test_indented_paragraphs_are_no_blocks(self):
         text = "- a list\n    goes on\n\n    $ code\n\n    of one block\n\ntext\n    goes on\n"

@@ -11,7 +11,7 @@ namespace {
 constexpr char kChannel[] = "CAMWAY_PLAN_REQUEST";
 constexpr char kSaid[] = "what was said";
 
-/// With keys that never change, at a time that never does.
+/// Returns an authentication with fixed keys and a fixed time.
 wire::MessageAuth auth() {
   static const auto read = wire::MessageKeys::from_text(
       "1 " + std::string(64, '1') + "\n2 " + std::string(64, '2') + "\n", "keys");

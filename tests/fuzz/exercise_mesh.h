@@ -7,9 +7,9 @@
 
 namespace camway::testing {
 
-/// Reads `bytes` as a file whose name ends in `extension`, and aborts where a promise of
-/// `mesh_reader.h` is broken: what comes back is a refusal with a reason, or a record that holds
-/// together and is in proportion to the file. Returns whether it was read.
+/// Reads `bytes` as a file with this extension. Returns whether it was accepted. Aborts the process
+/// if a promise of `mesh_reader.h` is broken: the result must be a refusal with a reason, or a
+/// consistent record whose size is in proportion to the file.
 bool exercise_mesh(std::string_view extension, std::string_view bytes);
 
 struct MeshFile {
@@ -17,11 +17,11 @@ struct MeshFile {
   std::string bytes;
 };
 
-/// Files that once were, or could be, the end of a reader: cut short, with counts of billions or
-/// below zero, indices out of range, numbers that no double holds, NULs, lines without an end.
+/// Returns files that crashed a reader once, or could: truncated, with counts of billions or below
+/// zero, indices out of range, numbers beyond doubles, NULs, or lines without an end.
 std::vector<MeshFile> malformed_mesh_files();
 
-/// Sound files of all formats and encodings, small.
+/// Returns small valid files of all formats and encodings.
 std::vector<MeshFile> sound_mesh_files();
 
 }  // namespace camway::testing

@@ -67,9 +67,10 @@ void exercise(const plan_request_t& message) {
   if (converted.request) static_cast<void>(planning::validate(*converted.request));
 }
 
-/// On a scene of one box. No files are read, for there are neither roots nor uploads.
+/// Runs a scene request on a scene of one box. It reads no files, because there are neither roots
+/// nor uploads.
 void exercise(const scene_request_t& message) {
-  // Round shapes of a fine chord error would take long, and nothing else.
+  // Round shapes with a fine chord error would only take long.
   if (message.kind == scene_request_t::SPHERE || message.kind == scene_request_t::CYLINDER) return;
   scene::SceneStore scenes;
   scene::SnapshotOptions options;
@@ -92,7 +93,7 @@ void exercise(const upload_page_t& message) {
   promise(uploads.bytes() <= limits.bytes, "uploads keep within their limits");
 }
 
-/// As `camway replay` reads it from a log, and as a client does.
+/// Processes an answer like `camway replay` and like a client.
 void exercise(const plan_response_t& message, std::span<const std::uint8_t> bytes) {
   const service::ConvertedResult converted = service::from_wire(message);
   promise(converted.result.has_value() == converted.error.empty(), "a result or a reason");
@@ -101,7 +102,7 @@ void exercise(const plan_response_t& message, std::span<const std::uint8_t> byte
   if (collector.complete()) static_cast<void>(collector.response());
 }
 
-/// As an answer to a question of nothing.
+/// Processes an answer to an empty batch.
 void exercise(const occupancy_response_t& message, std::span<const std::uint8_t> bytes) {
   OccupancyCollector collector(message.client_id, message.request_id);
   collector.take(bytes);

@@ -6,11 +6,10 @@
 
 namespace camway::testing {
 
-/// Does to `bytes` what the daemon does to a message on any of its channels, and what replay and
-/// clients do to its answers: check, decode, join pages, convert, judge. Ends the process (abort)
-/// where a promise is broken: what the check lets pass decodes, and encodes to the same bytes
-/// again. What it refuses is refused with a reason. Returns for how many of these types the bytes
-/// are right.
+/// Processes `bytes` like the daemon with a message on each of its channels, and like replay and
+/// clients with its answers: check, decode, join pages, convert, validate. Returns the number of
+/// message types that the bytes are valid for. Aborts the process if a promise is broken: a message
+/// that passes the check decodes, and encodes to the same bytes; a refusal has a reason.
 int exercise_message(std::span<const std::uint8_t> bytes);
 
 }  // namespace camway::testing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A libFuzzer program for one target: CAMWAY_FUZZ_TARGET names the object. With the environment's
-// CAMWAY_WRITE_SEEDS it writes what to begin with into that folder, and ends.
+// A libFuzzer program for one target, which CAMWAY_FUZZ_TARGET names. With the environment variable
+// CAMWAY_WRITE_SEEDS it writes the corpus to that folder and ends.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

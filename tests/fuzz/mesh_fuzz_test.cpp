@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that are right, and such as once were not, and pieces of them. Mutants: targets_test.cpp.
+// Valid files, formerly fatal files, and parts of both. Mutants are in targets_test.cpp.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/exercise_mesh.h"
@@ -24,7 +24,7 @@ TEST(MeshFuzz, MalformedFilesBreakNoPromise) {
 TEST(MeshFuzz, NoFileIsReadBeyondItsEnd) {
   for (const MeshFile& file : sound_mesh_files()) {
     for (std::size_t size = 0; size < file.bytes.size(); ++size) {
-      // A copy of its own, so that a sanitizer sees one byte too many.
+      // A separate copy, so that a sanitizer notices a read of one byte too many.
       exercise_mesh(file.extension, std::string(file.bytes, 0, size));
     }
   }

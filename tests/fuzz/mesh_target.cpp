@@ -8,7 +8,7 @@
 namespace camway::testing {
 namespace {
 
-/// The first byte says which format the others are of.
+/// The first byte selects the format of the others.
 constexpr std::array<std::string_view, 4> kMeshExtensions = {".obj", ".off", ".ply", ".stl"};
 
 bool exercise_mesh_file(std::span<const std::uint8_t> bytes) {

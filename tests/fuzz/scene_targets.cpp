@@ -78,8 +78,8 @@ std::vector<FuzzBytes> import_record_seeds() {
   return {bytes_of(mesh), bytes_of(map), bytes_of(refusal), {}};
 }
 
-/// The first byte says whether it is a binary map. By the import process, as OctoMap's own reader
-/// may end with it.
+/// The first byte selects a binary map. Uses the import process, because OctoMap's own reader may
+/// end it.
 bool exercise_map_file(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return false;
   static const TemporaryFolder folder;

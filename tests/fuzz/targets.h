@@ -11,26 +11,27 @@ namespace camway::testing {
 
 using FuzzBytes = std::vector<std::uint8_t>;
 
-/// Something of ours that reads bytes that a stranger may have written.
+/// A reader of untrusted bytes.
 struct FuzzTarget {
   std::string_view name;
-  /// Reads the bytes, and ends the process (abort) where a promise is broken. Returns whether they
-  /// were taken for right.
+  /// Reads the bytes and returns whether they were accepted. Aborts the process if a promise is
+  /// broken.
   bool (*exercise)(std::span<const std::uint8_t> bytes);
-  /// What to begin with: right ones of every kind, and such as once were the end of a reader.
+  /// Returns the corpus to begin with: valid inputs of every kind, and inputs that crashed a
+  /// reader.
   std::vector<FuzzBytes> (*seeds)();
-  int mutants;  ///< for the short run of the tests: a second or two
+  int mutants;  ///< number of mutants in the short run of the tests, one or two seconds
 };
 
-/// All of them.
+/// Returns all targets.
 std::span<const FuzzTarget> fuzz_targets();
-/// The one of that name, or null.
+/// Returns the target of this name, or null.
 const FuzzTarget* fuzz_target(std::string_view name);
 
-/// Says what and aborts unless `kept`.
+/// Prints `what` and aborts the process unless `kept`.
 void promise(bool kept, const char* what);
 
-/// A file in memory that goes when this does, for readers of files.
+/// A file in memory for readers of files. The destructor removes it.
 class MemoryFile {
  public:
   explicit MemoryFile(std::span<const std::uint8_t> bytes);
@@ -49,7 +50,7 @@ inline std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// In the order of their files.
+// The targets, in the order of their source files.
 extern const FuzzTarget kWireTarget;
 extern const FuzzTarget kEnvelopeTarget;
 extern const FuzzTarget kMeshTarget;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The fuzzers' entry points on mutants of a fixed seed, so that every build runs them.
+// Runs the fuzzers' entry points on mutants of a fixed seed in every build.
 #include "tests/fuzz/targets.h"
 
 #include <gtest/gtest.h>

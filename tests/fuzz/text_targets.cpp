@@ -55,7 +55,7 @@ std::vector<FuzzBytes> request_json_seeds() {
           fuzz_bytes("{\"a\": 1e999, \"a\": 1}")};
 }
 
-/// A request with a straight path and what planning makes of it in an empty scene.
+/// Returns the plan of a request with a straight path in an empty scene.
 planning::PlanResult planned(const planning::PlanRequest& request) {
   static const auto empty = scene::assemble("room", 1, {}, {});
   return planning::plan(*empty, request);

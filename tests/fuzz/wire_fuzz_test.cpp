@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The fuzzer's entry point on mutants of a fixed seed, so that every build runs it.
+// Runs the fuzzer's entry point on mutants of a fixed seed in every build.
 #include <gtest/gtest.h>
 
 #include "lcmtypes/wire/check.h"

@@ -32,7 +32,7 @@ TEST(Bounds, TellHowFarInsideAPointIs) {
     const Vec3 middle(2, 1.5, 1);
     const double depth_m = box.depth_m(side, middle);
     EXPECT_EQ(depth_m, middle[static_cast<int>(side % 3)]) << Bounds::kSideNames[side];
-    // Against the way inside until the side is met.
+    // Against the inward direction until the point is on the side.
     EXPECT_EQ(box.depth_m(side, middle - depth_m * Bounds::inward(side)), 0.0);
     EXPECT_EQ(box.limit_m(side), side < 3 ? 0.0 : box.max_W[static_cast<int>(side - 3)]);
   }

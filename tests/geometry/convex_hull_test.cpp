@@ -59,14 +59,15 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
     for (const Vec3& point : set.points) size = std::max(size, point.lpNorm<1>());
     for (const HalfSpace& face : hull.faces) {
       for (const Vec3& point : set.points) ASSERT_TRUE(holds(face, point));
-      // And touch some: 5 units for the scalar product, 5 that are added, one for the sum here.
+      // Some points are on the face: 5 units for the scalar product, 5 that are added, one for the
+      // sum here.
       double highest = -std::numeric_limits<double>::infinity();
       for (const Vec3& point : set.points) highest = std::max(highest, face.normal.dot(point));
       EXPECT_LE(face.offset_m - highest,
                 11.0 * 0.5 * test::kEpsilon * size + std::numeric_limits<double>::min());
     }
-    // Inside are all means of points, up to the rounding of the mean: one unit a coordinate and
-    // summand, and what evaluating the face takes.
+    // Means of points are inside, up to the rounding of the mean (one unit for each coordinate and
+    // summand) and of the evaluation of the face.
     for (int i = 0; i < 50; ++i) {
       Vec3 mean = Vec3::Zero();
       double sum = 0.0;
@@ -106,7 +107,8 @@ TEST(ConvexHull, OfAFlatSetCoversItOnce) {
         touching += geometry::triangles_touch(triangle(set, t), {point, point, point}) ? 1 : 0;
       ASSERT_GE(touching, 1);
     }
-    // All are corners of the polygon, and their triangles turn the same way: convex, no overlap.
+    // All points are corners of the polygon, and their triangles have the same orientation: it is
+    // convex and without overlap.
     std::vector<std::uint32_t> corners{hull.triangles[0][0], hull.triangles[0][1]};
     for (const auto& t : hull.triangles) corners.push_back(t[2]);
     const auto normal = [&](std::size_t i) {
@@ -142,7 +144,7 @@ TEST(ConvexHull, OfEqualPointsIsAPoint) {
 
 TEST(ConvexHull, OfAPyramidOnAManyCorneredBase) {
   std::vector<Vec3> points{Vec3(0, 0, 1)};
-  // Points of a parabola in a tilted plane: all of them corners, exactly coplanar.
+  // Points of a parabola in a tilted plane: all are corners, and exactly coplanar.
   for (int i = 1; i < static_cast<int>(kManyPoints); ++i)
     points.emplace_back(i, i * i, 3.0 * i + 7.0 * i * i);
   const ConvexHull hull = convex_hull(points);

@@ -31,7 +31,7 @@ Rational point_segment(const V& p, const V& a, const V& b) {
   return length2(sub(p, add(a, s, e)));
 }
 
-/// Squared distance of the lines if the feet lie within both segments.
+/// Returns the squared distance of the lines if the feet are within both segments.
 std::optional<Rational> inner_segment_segment(const V& p, const V& e, const V& q, const V& f) {
   const V w = sub(q, p);
   const Rational ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), ew = dot(e, w), fw = dot(f, w);
@@ -43,7 +43,7 @@ std::optional<Rational> inner_segment_segment(const V& p, const V& e, const V& q
   return length2(sub(add(q, t, f), add(p, s, e)));
 }
 
-/// Squared distance to the plane if the foot lies within the triangle.
+/// Returns the squared distance from the plane if the foot is within the triangle.
 std::optional<Rational> inner_point_face(const V& p, const std::array<V, 3>& t) {
   const V n = cross(sub(t[1], t[0]), sub(t[2], t[0]));
   const Rational n2 = length2(n);
@@ -91,8 +91,7 @@ Rational squared_distance(const Triangle& ta, const Triangle& tb) {
 }
 
 bool touches_box(const Triangle& triangle, const Box& box) {
-  // Clip the triangle by the six half spaces (Sutherland & Hodgman); what is left is the common
-  // part.
+  // Clips the triangle by the six half-spaces (Sutherland & Hodgman); the rest is the intersection.
   std::vector<V> polygon = {vec(triangle[0]), vec(triangle[1]), vec(triangle[2])};
   for (int side = 0; side < 6 && !polygon.empty(); ++side) {
     const auto k = static_cast<std::size_t>(side / 2);

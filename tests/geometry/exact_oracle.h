@@ -5,19 +5,19 @@
 
 #include "daemon/geometry/types.h"
 
-/// Slow and obviously right: the definitions, in rational arithmetic. Shares nothing with the
-/// kernels.
+/// Slow and simple oracles: the definitions in rational arithmetic. Share no code with the kernels.
 namespace camway::geometry::oracle {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// Squared distance of the closed triangles, degenerate ones included; 0 exactly if they touch.
+/// Returns the squared distance of closed triangles, which may be degenerate; 0 exactly if they
+/// touch.
 Rational squared_distance(const Triangle& a, const Triangle& b);
 
-/// Whether the closed triangle and the closed box have a point in common.
+/// Returns whether the closed triangle and the closed box share a point.
 bool touches_box(const Triangle& triangle, const Box& box);
 
-/// The same as a double; relative error below 2^-51.
+/// Returns the distance as a double, with a relative error below 2^-51.
 double distance_m(const Triangle& a, const Triangle& b);
 
 }  // namespace camway::geometry::oracle

@@ -47,7 +47,7 @@ TEST(ExactOrientation, KnownSigns) {
   EXPECT_EQ(orientation(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(5, 5, 0)), 0);
 }
 
-// Points on a line or plane, moved by a few units in the last place, far from the origin and near,
+// Points on a line or plane, moved by a few units in the last place, near and far from the origin,
 // at every size that a kernel accepts.
 TEST(ExactOrientation, NearlyDegenerateAgainstWideArithmetic) {
   std::mt19937_64 random = testing::seeded(5);
@@ -81,7 +81,7 @@ TEST(ExactOrientation, NearlyDegenerateAgainstWideArithmetic) {
   for (const int count : seen) EXPECT_GT(count, 500);
 }
 
-// Where products underflow or are as large as they can get.
+// Products underflow or are as large as possible.
 TEST(ExactOrientation, TinyAndHugeCoordinates) {
   const double tiny = 0x1p-1074;
   const double huge = kLargestCoordinate_m / 2;

@@ -64,7 +64,7 @@ TEST(ExactPoints, TellLinesAndTurnsAsRationalNumbersDo) {
 
 TEST(ExactPoints, NormalsAreTrueHoweverThinTheTriangle) {
   Random random(103);
-  // 2^-51 for each coordinate, and what the length is off.
+  // 2^-51 for each coordinate, plus the error of the length.
   constexpr double kBound = 8.0 * geometry::kUnitRoundoff;
   for (int i = 0; i < 500; ++i) {
     const Vec3 a = random.vector(1.0);
@@ -75,7 +75,7 @@ TEST(ExactPoints, NormalsAreTrueHoweverThinTheTriangle) {
     if (points.collinear(0, 1, 2)) continue;
     const Vec3 normal = points.unit_normal(0, 1, 2);
     EXPECT_NEAR(normal.norm(), 1.0, kBound);
-    // The exact normal, brought to a size that doubles hold.
+    // The exact normal, scaled to the range of doubles.
     const test::RationalVec from = exact(given[0]);
     const test::RationalVec n = cross(exact(given[1]) - from, exact(given[2]) - from);
     const Rational largest = std::max({abs(n[0]), abs(n[1]), abs(n[2])});

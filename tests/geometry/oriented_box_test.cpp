@@ -21,7 +21,7 @@ double scale_of(std::span<const Triangle> body, const Triangle& other) {
 void expect_bound(const std::vector<Triangle>& body, const Triangle& other) {
   double least_m = triangle_distance(body[0], other);
   for (const Triangle& part : body) least_m = std::min(least_m, triangle_distance(part, other));
-  // The bound's own error, and that of the distance it is held against.
+  // The bound's own error, and that of the distance it is compared with.
   const double limit_m = least_m + 2.0 * triangle_distance_error_m(scale_of(body, other));
   ASSERT_LE(OrientedBox(body).squared_distance_bound_m2(other),
             limit_m * limit_m * (1.0 + OrientedBox::kRelativeError))
@@ -61,11 +61,11 @@ TEST(OrientedBox, IsExactForAQuadrilateralAndWhatFacesIt) {
     const std::vector<Triangle> quad = {{p, p + e, p + e + f}, {p, p + e + f, p + f}};
     const Vec3 normal = e.cross(f).normalized();
     const double distance_m = random.log_uniform(1e-3, 10.0);
-    // Parallel to it, above its middle.
+    // Parallel to the face, above its centre.
     const Vec3 q = p + 0.5 * (e + f) + distance_m * normal;
     const Triangle other = {q, q + 0.1 * e, q + 0.1 * f};
     const double bound_m = std::sqrt(OrientedBox(quad).squared_distance_bound_m2(other));
-    // The corners of the quadrilateral are rounded as well.
+    // The corners of the quadrilateral are rounded, too.
     const double error_m = 2.0 * triangle_distance_error_m(scale_of(quad, other) + 10.0);
     EXPECT_NEAR(bound_m, distance_m, error_m);
   }

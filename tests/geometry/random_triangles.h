@@ -12,7 +12,8 @@
 
 namespace camway::geometry {
 
-/// Triangles that are hard on purpose. The seed is printed, so that a failure can be repeated.
+/// Random triangles that are hard for the kernels. Prints the seed, so that a failure can be
+/// repeated.
 class RandomTriangles {
  public:
   explicit RandomTriangles(std::uint64_t seed) : engine_(seed) {
@@ -37,10 +38,11 @@ class RandomTriangles {
             static_cast<double>(integer(0, size))};
   }
 
-  /// Small integer coordinates: coplanar, touching, collinear and equal vertices are common.
+  /// Returns a triangle with small integer coordinates, so that coplanar, touching, collinear and
+  /// equal vertices are common.
   Triangle grid_triangle(int size) { return {on_grid(size), on_grid(size), on_grid(size)}; }
 
-  /// Of any size and of any thinness, down to a segment or a point.
+  /// Returns a triangle of any size and thinness, down to a segment or a point.
   Triangle thin_triangle() {
     const double size = log_uniform(1e-6, 10.0);
     Triangle t = {in_cube(size), in_cube(size), in_cube(size)};
@@ -72,13 +74,14 @@ class RandomTriangles {
     return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
   }
 
-  /// Two thin triangles that nearly touch, or cross a little; edges nearly parallel now and then.
+  /// Returns two thin triangles that nearly touch or cross a little, sometimes with nearly parallel
+  /// edges.
   std::pair<Triangle, Triangle> close_pair() {
     const Triangle a = thin_triangle();
     Triangle b = thin_triangle();
     const double reach = (a[1] - a[0]).norm() + (a[2] - a[0]).norm();
     if (integer(0, 3) == 0) {
-      // Almost the same direction as an edge of a.
+      // Almost parallel to an edge of a.
       b[1] = b[0] + uniform(-2.0, 2.0) * (a[1] - a[0]) + in_cube(reach * log_uniform(1e-17, 1e-3));
     }
     const Vec3 shift = point_on(a) - point_on(b) + in_cube(reach * log_uniform(1e-17, 1.0));
@@ -100,7 +103,7 @@ inline std::string to_text(const Triangle& t) {
   return text;
 }
 
-/// The six orders of three vertices.
+/// Returns the triangle with its vertices in all six orders.
 inline std::array<Triangle, 6> vertex_orders(const Triangle& t) {
   return {Triangle{t[0], t[1], t[2]}, Triangle{t[0], t[2], t[1]}, Triangle{t[1], t[0], t[2]},
           Triangle{t[1], t[2], t[0]}, Triangle{t[2], t[0], t[1]}, Triangle{t[2], t[1], t[0]}};

@@ -44,7 +44,7 @@ TEST(HitFraction, NamesAPointOfTheTriangleAndNoneBefore) {
     // On this grid no height is below a thirtieth of an edge.
     ASSERT_LE(oracle::distance_m({hit, hit, hit}, t), 32.0 * error_m) << to_text(t);
     if (*fraction > 0.0) {
-      // The part before the hit, up to a thousandth, is clear of the triangle.
+      // The segment is clear of the triangle up to a thousandth before the hit.
       const Vec3 before = point_at(segment, *fraction * (1.0 - 1e-3));
       ASSERT_GT(oracle::squared_distance({segment.from, before, before}, t), 0) << to_text(t);
     }
@@ -54,8 +54,8 @@ TEST(HitFraction, NamesAPointOfTheTriangleAndNoneBefore) {
 TEST(HitFraction, NothingSlipsThroughASharedEdgeOrVertex) {
   RandomTriangles random(403);
   for (int i = 0; i < 3000; ++i) {
-    // A fan of four triangles about a vertex, far from the origin, with a segment aimed at the
-    // vertex or at a shared edge as well as doubles allow.
+    // A fan of four triangles about a vertex, far from the origin, and a segment aimed at the
+    // vertex or a shared edge as closely as doubles allow.
     const Vec3 center = random.in_cube(1e6);
     std::array<Vec3, 4> rim = {center + Vec3(1.0, 0.1, 0.0), center + Vec3(0.1, 1.0, 0.0),
                                center + Vec3(-1.0, 0.2, 0.0), center + Vec3(0.2, -1.0, 0.0)};

@@ -26,7 +26,7 @@ TEST(TriangleTouchesBox, IsExactOnAGrid) {
     const Box box = random_box(random, true);
     const bool expected = oracle::touches_box(t, box);
     touching += expected ? 1 : 0;
-    // Small integers are computed without rounding and their gaps pass the margin.
+    // Small integers are computed without rounding, and their distances exceed the margin.
     ASSERT_EQ(triangle_touches_box(t, box), expected)
         << to_text(t) << box.min().transpose() << " " << box.max().transpose();
   }
@@ -40,7 +40,7 @@ TEST(TriangleTouchesBox, NeverDeniesATouch) {
   for (int i = 0; i < 6000; ++i) {
     const Box box = random_box(random, false);
     Triangle t = random.thin_triangle();
-    // Bring a point of it to a corner, an edge or a side of the box, give or take a little.
+    // Moves a point of the triangle near a corner, an edge or a side of the box.
     Vec3 target = box.min();
     for (int k = 0; k < 3; ++k) {
       const int where = random.integer(0, 2);
@@ -62,7 +62,7 @@ TEST(TriangleTouchesBox, NeverDeniesATouch) {
 TEST(TriangleTouchesBox, CountsOnlyGapsBelowTheBound) {
   RandomTriangles random(203);
   for (int i = 0; i < 3000; ++i) {
-    // A triangle that looks at a corner of the box: only its normal separates.
+    // A triangle that faces a corner of the box: only its normal separates the two.
     const Vec3 half(random.uniform(0.5, 2.0), random.uniform(0.5, 2.0), random.uniform(0.5, 2.0));
     const Box box(-half, half);
     const Vec3 normal =
@@ -70,8 +70,8 @@ TEST(TriangleTouchesBox, CountsOnlyGapsBelowTheBound) {
             .normalized();
     const Vec3 e = normal.unitOrthogonal();
     const Vec3 f = normal.cross(e);
-    // In terms of a unit normal the bound is a distance. The rounding of the triangle's own
-    // vertices and of its computed normal is of the same size.
+    // For a unit normal the bound is a distance. The rounding of the triangle's own vertices and of
+    // its computed normal has the same size.
     const double gap = 8.0 * triangle_box_gap_error(normal, 16.0);
     const Vec3 foot = half + gap * normal;
     ASSERT_FALSE(triangle_touches_box(

@@ -14,7 +14,7 @@
 namespace camway::geometry {
 namespace {
 
-/// Checks one pair against the oracle; returns the error in units of the stated bound.
+/// Checks one pair against the oracle. Returns the error as a multiple of the stated bound.
 double error_of(const Triangle& a, const Triangle& b) {
   const double computed = triangle_distance(a, b);
   const double exact = oracle::distance_m(a, b);
@@ -111,7 +111,7 @@ TEST(TriangleDistance, IsTheSameUpToALimitAndNoLessBeyondIt) {
   for (int run = 0; run < 100'000; ++run) {
     const auto [a, b] = random.close_pair();
     const double distance_m = triangle_distance(a, b);
-    // Now and then exactly at the limit.
+    // Sometimes exactly at the limit.
     const double limit_m = run % 5 == 0 ? distance_m : random.uniform(0.0, 2.0) * distance_m;
     const double limited_m = triangle_distance(a, b, limit_m);
     if (std::isinf(limited_m)) {
@@ -132,12 +132,12 @@ TEST(TriangleGap, ItsDirectionIsThatOfTheWidestSlab) {
     const TriangleGap gap = triangle_gap(a, b, std::numeric_limits<double>::infinity());
     const double error_m = triangle_distance_error_m(a, b);
     ASSERT_EQ(gap.distance_m, triangle_distance(a, b));
-    // Where they are close the direction is less certain than the distance, by a square root.
+    // For close triangles the direction is less certain than the distance, by a square root.
     if (gap.distance_m > 1e12 * error_m) {
       ++far;
       ASSERT_NEAR(slab_width_m(a, b, gap.direction), gap.distance_m, 1e-3 * gap.distance_m);
     }
-    // No direction makes more of it.
+    // No direction gives a larger distance.
     const Vec3 any = random.in_cube(random.log_uniform(1e-6, 1e3));
     ASSERT_LE(slab_width_m(a, b, any), gap.distance_m + error_m) << to_text(a) << to_text(b);
     ASSERT_LE(slab_width_m(a, b, gap.direction), gap.distance_m + error_m);

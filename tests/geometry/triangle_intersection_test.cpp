@@ -21,7 +21,7 @@ TEST(TrianglesTouch, AgreesWithTheExactDistanceOnAGrid) {
     ASSERT_EQ(triangles_touch(a, b), expected) << to_text(a) << "| " << to_text(b);
     ASSERT_EQ(triangles_touch_exactly(a, b), expected) << to_text(a) << "| " << to_text(b);
   }
-  // Both answers are really met.
+  // Both answers occur.
   EXPECT_GT(touching, 800);
   EXPECT_LT(touching, 3200);
 }
@@ -70,7 +70,7 @@ TEST(TrianglesTouch, DoesNotDependOnTheOrderOfArgumentsAndVertices) {
 TEST(TrianglesTouch, IsExactFarFromTheOrigin) {
   RandomTriangles random(105);
   for (int i = 0; i < 2000; ++i) {
-    // Whole numbers of 2^-20 are exact at 2^20, so the moved pair is the same pair.
+    // Multiples of 2^-20 are exact at 2^20, so the moved pair is the same pair.
     const Vec3 far(0x1p20, -0x1p20, 0x1p19);
     Triangle a = random.grid_triangle(3);
     Triangle b = random.grid_triangle(3);

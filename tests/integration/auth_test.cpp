@@ -26,7 +26,7 @@ using testing::HasSubstr;
 const std::string kOld = "1 " + std::string(64, '1') + "\n";
 const std::string kNew = "2 " + std::string(64, '2') + "\n";
 
-/// A daemon that listens to those who have its keys.
+/// A daemon that accepts only messages signed with its keys.
 class AuthTest : public IntegrationTest {
  protected:
   /// Writes a key file, which is good to use.
@@ -60,7 +60,7 @@ class AuthTest : public IntegrationTest {
     request.deadline_s = 0.5;
     return Client(options).plan(request).status;
   }
-  /// What is signed or not is dropped at once; the status says so with the next heartbeat.
+  /// Waits until the daemon's status counts at least this many dropped messages.
   static bool eventually_counted(std::int64_t DaemonStatus::*counter, std::int64_t least) {
     return eventually([&] { return Client().status().*counter >= least; });
   }
@@ -112,7 +112,7 @@ TEST_F(AuthTest, ListensToThoseWithItsKeysOnly) {
 
 TEST_F(AuthTest, WhatWasHeardIsNotTakenAgain) {
   start_daemon_with_keys(kOld);
-  // Somebody on the network records a request and says it again.
+  // An attacker on the network records a request and replays it.
   lcm::LCM lcm(patient().url.empty() ? "udpm://239.255.76.67:7667?ttl=0" : patient().url);
   std::vector<std::uint8_t> recorded;
   lcm.subscribeFunction(
@@ -204,7 +204,7 @@ TEST_F(AuthTest, ARecordingIsReplayedByItsSignaturesWhateverItsAge) {
   EXPECT_EQ(camway({"replay", log, "--scene", scene, "--key-file", file("other")}, said), 2);
   EXPECT_THAT(said, HasSubstr("are not signed with a key of"));
 
-  // Sent again they are signed anew, else the daemon would drop them.
+  // Repeated requests are signed anew; otherwise the daemon would drop them.
   EXPECT_EQ(camway({"replay", log, "--publish", "--speed", "0", "--wait-s", "1"}, said), 3) << said;
   EXPECT_EQ(camway({"replay", log, "--publish", "--speed", "0", "--key-file", file("mine")}, said),
             0)

@@ -15,8 +15,8 @@ Pose at(double x_m, double y_m, double z_m) {
   return pose;
 }
 
-/// What scenes and their maps are asked for, of a client whose messages are lost, doubled and
-/// delayed. `load_test.cpp` and `watch_test.cpp` have planning and watching.
+/// Scene and map requests of a client whose messages are lost, duplicated and delayed.
+/// `load_test.cpp` and `watch_test.cpp` test planning and watching.
 class BadNetworkTest : public IntegrationTest, public testing::WithParamInterface<double> {};
 
 TEST_P(BadNetworkTest, ScenesAreUploadedChangedAndExportedAsOnAGoodOne) {

@@ -44,7 +44,7 @@ class ClockTest : public IntegrationTest {
 #endif
   }
 
-  /// From now on the daemon's clock is so far ahead of ours.
+  /// Sets how far the daemon's clock is ahead of the local one.
   void set_clock(long ahead_s) const {
     std::ofstream(file("offset.next")) << ahead_s;
     std::filesystem::rename(file("offset.next"), file("offset"));
@@ -143,7 +143,7 @@ class SignedClockTest : public ClockTest {
     start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
   }
 
-  /// Whether the daemon answers a signed request within this time.
+  /// Returns whether the daemon answers a signed request within this time.
   bool is_answered(double deadline_s) const {
     ClientOptions options = patient();
     options.deadline_s = deadline_s;
@@ -160,7 +160,7 @@ class SignedClockTest : public ClockTest {
 
 TEST_F(SignedClockTest, AJumpOfOneClockKeepsMessagesOutAndNoReplayIn) {
   start_daemon_with_key();
-  // Somebody on the network records a request.
+  // An attacker on the network records a request.
   lcm::LCM lcm;
   std::vector<std::uint8_t> recorded;
   const std::string channel = wire::Channels{}.plan_request();

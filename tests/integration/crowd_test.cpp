@@ -23,11 +23,11 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Clients that take no care of the others.
+/// Clients that overload the daemon.
 class CrowdTest : public IntegrationTest {};
 
-/// The bound is not of time but of turns: who asks now and then waits for what is being planned,
-/// and for no queue of anybody else's.
+/// The bound is not a time but a number of turns: a client with occasional requests waits for the
+/// one that is being planned, but for no other client's queue.
 TEST_F(CrowdTest, WhoFloodsKeepsNobodyWaiting) {
   start_daemon({"--workers", "1"});
   Client flood(patient());
@@ -52,7 +52,7 @@ TEST_F(CrowdTest, WhoFloodsKeepsNobodyWaiting) {
     ASSERT_TRUE(answer.ok()) << answer.error;
     planned_before.push_back(flooded - before);
   }
-  // Of one or two the request itself may be lost, with the flood's.
+  // One or two requests may be lost together with the flood's.
   std::ranges::sort(planned_before);
   EXPECT_LE(planned_before[planned_before.size() / 2], 2);
   EXPECT_LT(flooded, kFlood) << "or there was no flood";
@@ -60,8 +60,8 @@ TEST_F(CrowdTest, WhoFloodsKeepsNobodyWaiting) {
   EXPECT_TRUE(eventually([&] { return flooded > so_far; })) << "nor does the flood get nothing";
 }
 
-/// A host that invents a client for each request. Time is shared by clients, so he would have as
-/// much of it as he invents; but newcomers together count as a few.
+/// A host that invents a client for each request. Clients share the time, so it would have as much
+/// as it invents, but all newcomers together count as a few.
 TEST_F(CrowdTest, WhoInventsClientsKeepsNobodyWaiting) {
   start_daemon({"--workers", "1"});
   ClientOptions options = patient();
@@ -91,7 +91,7 @@ TEST_F(CrowdTest, WhoInventsClientsKeepsNobodyWaiting) {
   EXPECT_GT(client.status().answered_requests, answered_before + 10) << "or there was no flood";
 }
 
-/// A process that is stopped reads nothing, acknowledges nothing, and its sockets are full.
+/// A process that is stopped reads nothing and acknowledges nothing, and its sockets are full.
 TEST_F(CrowdTest, WhoNeverReadsHoldsUpNobodyAndTakesNoMemory) {
   start_daemon();
   Process watch({CAMWAY_BINARY, "watch", "office", "--request", request_file("office-free-door"),
@@ -102,7 +102,8 @@ TEST_F(CrowdTest, WhoNeverReadsHoldsUpNobodyAndTakesNoMemory) {
   })) << watch.output();
   watch.signal(SIGSTOP);
 
-  // A crate that jumps to and fro on his path: the way round the one place leads through the other.
+  // A crate that jumps back and forth on its path: the way around the one place leads through the
+  // other.
   Client client(patient());
   std::array<Pose, 2> places;
   places[0].position_m = {9.75, 1.5, 9.5};
@@ -127,7 +128,7 @@ TEST_F(CrowdTest, WhoNeverReadsHoldsUpNobodyAndTakesNoMemory) {
       << "or there was nothing to tell";
   EXPECT_TRUE(client.plan(request_of("office-free-turn", "office")).ok());
 
-  // When he reads again he is told what holds now: nothing of all that, for the scene is gone.
+  // When it reads again it is told the present state only: the scene is gone.
   ASSERT_TRUE(client.unload_scene("office").ok());
   watch.signal(SIGCONT);
   EXPECT_TRUE(eventually([&] {
@@ -135,7 +136,7 @@ TEST_F(CrowdTest, WhoNeverReadsHoldsUpNobodyAndTakesNoMemory) {
   })) << watch.output();
 }
 
-/// Most pages of an answer find no room in a buffer that holds one.
+/// Most pages of an answer find no room in a buffer for one page.
 TEST_F(CrowdTest, ATinyReceiveBufferIsEnough) {
   start_daemon();
   ClientOptions options = patient();

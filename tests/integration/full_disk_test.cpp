@@ -20,9 +20,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A small disk at $0, which only the command after it sees.
+/// Mounts a small disk at $0 that only the next command sees.
 constexpr char kMount[] = "mount -t tmpfs -o size=512k none \"$0\" && ";
-/// A file that leaves no room for another.
+/// Writes a file that fills the disk.
 constexpr char kFill[] = "{ dd if=/dev/zero of=\"$0/filler\" bs=1k 2>/dev/null || true; } && ";
 
 class FullDiskTest : public IntegrationTest {
@@ -36,12 +36,12 @@ class FullDiskTest : public IntegrationTest {
   }
 
   std::string disk() const { return file("disk"); }
-  /// The same folder as that process sees it.
+  /// Returns the same folder as that process sees it.
   std::string disk_of(const Process& process) const {
     return "/proc/" + std::to_string(process.pid()) + "/root" + disk();
   }
 
-  /// A shell that does `script`, which ends with what runs `command`.
+  /// Returns a shell command for `script`, which must run `command` ("$@") at its end.
   std::vector<std::string> on_disk(const std::string& script,
                                    const std::vector<std::string>& command) const {
     std::vector<std::string> all{"/usr/bin/unshare", "-m", "sh", "-c", script, disk()};
@@ -49,7 +49,7 @@ class FullDiskTest : public IntegrationTest {
     return all;
   }
 
-  /// What `camway` says, and then what lies on the disk, when it runs with a full one.
+  /// Returns the output of `camway` on a full disk, followed by the files on the disk.
   std::string said_on_full_disk(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), CAMWAY_BINARY);
     const std::string script =
@@ -60,7 +60,7 @@ class FullDiskTest : public IntegrationTest {
   }
 };
 
-/// Uploads are written there for the importer, maps are exported there, and so is the log.
+/// The disk holds uploads for the importer, exported maps, and the log.
 TEST_F(FullDiskTest, TheDaemonSaysSoAndServesOn) {
   std::ofstream(file("camwayd.toml")) << "[scenes]\nwrite_maps = true\n";
   run_daemons_by(on_disk(
@@ -110,8 +110,8 @@ TEST_F(FullDiskTest, TheCommandsSaySoAndLeaveNothingBehind) {
   EXPECT_THAT(said_on_full_disk({"scene", "export", "office", "--to", map}), is_clear(map));
 }
 
-/// LCM's logger ends when it finds no room. What is whole in its file is replayed, and what is not
-/// is told.
+/// LCM's logger ends when the disk is full. The complete part of its file is replayed, and the rest
+/// is reported.
 TEST_F(FullDiskTest, ARecordingThatWasCutShortIsReplayedAsFarAsItGoes) {
   start_daemon();
   const std::string recording = disk() + "/session.lcmlog";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loaded before a program (LD_PRELOAD), adds as many seconds to its wall clock as the file named by
-// CAMWAY_CLOCK_OFFSET says at the time; the steady clock stays as it is.
+// A library to preload into a program (LD_PRELOAD). It adds the number of seconds in the file
+// CAMWAY_CLOCK_OFFSET to the wall clock. The steady clock is unchanged.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>

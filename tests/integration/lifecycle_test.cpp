@@ -21,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Counts the messages that pass by on a channel.
+/// Counts the messages on a channel.
 class Counter {
  public:
   explicit Counter(const std::string& channel) {
@@ -51,7 +51,7 @@ class LifecycleTest : public IntegrationTest {
 
 TEST_F(LifecycleTest, ClientCarriesOnWhenTheDaemonIsKilledAndStartedAgain) {
   start_daemon();
-  // The daemon stands still, so the request is certainly not answered when the daemon dies.
+  // The daemon is stopped, so the request is not answered before the daemon is killed.
   daemon().signal(SIGSTOP);
   Counter counter(wire::Channels{}.plan_request());
   const auto client = start_client("waiting", "office", {"office-free-door"});
@@ -109,7 +109,7 @@ TEST_F(LifecycleTest, AnUploadGoesOnWhenTheDaemonIsKilledInItsMiddle) {
   EXPECT_EQ(answer.scene.num_triangles, 1);
 }
 
-/// The daemon has the upload whole, and forgets it when it dies.
+/// The daemon has the complete upload and loses it when it is killed.
 TEST_F(LifecycleTest, AnUploadBeginsAnewWhenTheDaemonIsKilledWhileItReadsIt) {
   start_daemon();
   Counter requests(wire::Channels{}.scene_request());
@@ -152,7 +152,7 @@ TEST_F(LifecycleTest, SigtermEndsABusyDaemonCleanlyAndAnswersWhatItPlans) {
   daemon().signal(SIGTERM);
   EXPECT_EQ(daemon().wait(), 0) << daemon().output();
 
-  // Who was not answered is answered by the next daemon: nobody has to ask twice by hand.
+  // The next daemon answers the requests that were not answered, without action of the user.
   start_daemon();
   for (auto& client : clients) EXPECT_EQ(client->wait(), 0) << client->output();
 }

@@ -16,10 +16,11 @@ namespace {
 
 using testing::HasSubstr;
 
-/// `camway load` against a daemon, and what it measures.
+/// `camway load` against a daemon.
 class LoadTest : public IntegrationTest {
  protected:
-  /// Runs it on scene `office` with a few requests; `more` are further arguments. Its exit code.
+  /// Runs `camway load` on the scene `office` with a few requests and the arguments `more`. Returns
+  /// its exit code.
   int load(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{CAMWAY_BINARY, "load",
                                        "--json",      file("load.json"),

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A bad network between clients and a daemon:
+// A relay that makes a bad network between clients and a daemon:
 //
 //   lossy_relay CLIENTS_PORT DAEMON_PORT LOSS DUPLICATES REORDERED SEED
 //
-// joins LCM's multicast group at the two ports and passes each datagram on from one to the other,
-// whatever is in it, with these shares of them lost, sent twice, or held back for a while, so that
-// later ones overtake it. A message of Camway's is one datagram. Prints `relaying` when it does.
-// Ends when it is killed.
+// joins LCM's multicast group at the two ports and passes each datagram from one to the other. It
+// loses, duplicates or delays these fractions of them; later datagrams overtake a delayed one. A
+// message of Camway's is one datagram. Prints `relaying` when it is ready. Runs until it is killed.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -29,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr char kGroup[] = "239.255.76.67";
-/// The kernel gives as much of it as its limit allows.
+/// Size of the receive buffer to ask for; the kernel limits it.
 constexpr int kReceiveBytes = 4 << 20;
 constexpr std::size_t kMaxDatagramBytes = 65'536;
 
@@ -46,7 +45,7 @@ bool set(int socket, int level, int option, const Value& value) {
   return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
-/// A socket that hears what is said to the group at a port; negative if there is none.
+/// Returns a socket that receives the group's messages at a port; negative on failure.
 int listen_at(int port) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   const sockaddr_in group = address(::inet_addr(kGroup), port);
@@ -58,7 +57,7 @@ int listen_at(int port) {
   return good ? socket : -1;
 }
 
-/// A socket to speak with, which is heard on this host only; `port` is where it speaks from.
+/// Returns a socket for sending on this host only, and its own `port`; negative on failure.
 int open_mouth(in_port_t& port) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in own = address(INADDR_ANY, 0);
@@ -76,7 +75,7 @@ struct Shares {
   double reordered;
 };
 
-/// One direction.
+/// One direction of the relay.
 class Relay {
  public:
   Relay(int mouth, int to_port, const Shares& shares, std::uint64_t seed)
@@ -114,7 +113,7 @@ class Relay {
   std::multimap<Clock::time_point, Bytes> held_;
 };
 
-/// Passes on what waits at `ear`, unless it was said by ourselves, from port `own_port`.
+/// Relays a datagram that waits at `ear`, unless the relay sent it itself, from port `own_port`.
 void take(int ear, in_port_t own_port, Relay& relay) {
   Bytes datagram(kMaxDatagramBytes);
   sockaddr_in from{};

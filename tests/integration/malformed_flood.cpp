@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Sends malformed messages to a running daemon, on all its channels, and measures how it bears
-// them:
+// Sends malformed messages to a running daemon on all its channels and measures the effect:
 //
 //   malformed_flood DAEMON_PID MESSAGES [SEED [KEY_FILE]]
 //
-// Mutants of right messages, right ones of another type, pieces, noise, lengths of billions; each
-// is looked at before it is sent, so that none is right. For a daemon with keys, some are well
-// signed; the others, right ones among them, are unsigned, signed for another channel or with
-// another key, or altered. After every few a small question is asked:
-// the time until its answer is how long the daemon stood still for others. Prints the numbers. Exit
-// code 0 if every question was answered within 50 ms and, after the first tenth, the daemon's
-// memory grew by no more than 1 %; 3 if not; 2 if it cannot be said.
+// The messages are mutants of valid ones, valid ones of another type, parts, noise, and lengths of
+// billions; each is checked before it is sent, so that none is valid. For a daemon with keys, some
+// are correctly signed; the others, including valid ones, are unsigned, altered, or signed for
+// another channel or with another key. After every few messages a small request is sent; the time
+// until its answer shows how long the daemon was blocked. Prints the numbers. Exit code 0 if every
+// request was answered within 50 ms and the daemon's memory grew by at most 1 % after the first
+// tenth; 3 if not; 2 if that cannot be determined.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -45,12 +44,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kLongestStall_ms = 50.0;
 constexpr double kMostGrowth = 0.01;
-/// What a receiver's socket buffer of the usual size holds.
+/// Bytes that a receiver's socket buffer of the usual size holds.
 constexpr std::size_t kBatchBytes = 60'000;
 constexpr std::size_t kBatchMessages = 64;
 constexpr char kClient[] = "malformed-flood";
 
-/// A channel that the daemon listens to.
+/// A channel to which the daemon subscribes.
 struct Target {
   std::string channel;
   std::vector<Bytes> right;  ///< messages of its type
@@ -95,7 +94,7 @@ Bytes noise(std::size_t size, Random& random) {
   return bytes;
 }
 
-/// Something that may be wrong in one of many ways.
+/// Returns a message that may be invalid in one of many ways.
 Bytes attempt(const std::vector<Target>& all, const Target& target, Random& random) {
   constexpr std::size_t kMostNoise = 2000;
   Bytes bytes = target.right[below(random, target.right.size())];
@@ -108,7 +107,7 @@ Bytes attempt(const std::vector<Target>& all, const Target& target, Random& rand
       bytes.resize(below(random, bytes.size()));
       return bytes;
     case 3: {
-      // A right beginning, then noise.
+      // A valid beginning, then noise.
       const Bytes rest = noise(below(random, kMostNoise), random);
       bytes.resize(below(random, bytes.size()));
       bytes.insert(bytes.end(), rest.begin(), rest.end());
@@ -128,7 +127,7 @@ Bytes attempt(const std::vector<Target>& all, const Target& target, Random& rand
   }
 }
 
-/// Signs what a daemon with keys is to believe, and what it is not.
+/// Makes valid and invalid signatures.
 class Signatures {
  public:
   explicit Signatures(std::shared_ptr<const wire::MessageKeys> keys)
@@ -137,7 +136,7 @@ class Signatures {
   Bytes right(const std::string& channel, const Bytes& bytes) {
     return right_.seal(channel, bytes);
   }
-  /// In one of many ways.
+  /// Signs a message wrongly in one of many ways.
   Bytes wrong(const std::string& channel, const Bytes& bytes, Random& random) {
     switch (below(random, 4)) {
       case 0:
@@ -163,10 +162,10 @@ class Signatures {
   wire::MessageAuth wrong_;
 };
 
-/// What is heard of the daemon.
+/// The daemon's answers and statuses.
 class Daemon {
  public:
-  /// `signatures` is null for a daemon without keys, else outlives this.
+  /// `signatures` is null for a daemon without keys; otherwise it must outlive this object.
   Daemon(int pid, Signatures* signatures)
       : memory_("/proc/" + std::to_string(pid) + "/statm"), signatures_(signatures) {
     lcm_.subscribeFunction(channels_.occupancy_response(kClient), &Daemon::take_answer, this);
@@ -178,7 +177,7 @@ class Daemon {
     lcm_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
   }
 
-  /// How long the answer to a question took; nothing if it does not come.
+  /// Returns the time until the answer to a request; nothing if none comes.
   std::optional<double> ping_ms() {
     occupancy_request_t question{};
     question.client_id = kClient;
@@ -196,8 +195,8 @@ class Daemon {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   }
 
-  /// Messages that it could not read or did not believe, as the next status has it; -1 if there is
-  /// none.
+  /// Returns the number of messages that the daemon could not read or did not trust, from the next
+  /// status; -1 if there is none.
   std::int64_t dropped() {
     dropped_ = -1;
     const Clock::time_point begin = Clock::now();
@@ -215,7 +214,7 @@ class Daemon {
   }
 
  private:
-  /// The message within, whoever signed it.
+  /// Returns the payload of an envelope, whoever signed it.
   template <class Message>
   static std::optional<Message> read(const lcm::ReceiveBuffer* buffer) {
     const std::optional<Bytes> bytes = wire::payload_unchecked(
@@ -249,7 +248,7 @@ struct Outcome {
   double warm_mb = 0.0;  ///< the daemon's memory after the first tenth
 };
 
-/// Something that the daemon has to drop.
+/// Returns a message that the daemon has to drop.
 Bytes message_for(const Target& target, const std::vector<Target>& all, Signatures* signatures,
                   Random& random) {
   Bytes bytes = attempt(all, target, random);

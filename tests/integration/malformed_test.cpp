@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 
 class MalformedTest : public IntegrationTest {};
 
-/// The program judges stalls and memory too, which a machine that is busy with other tests does not
-/// allow.
+/// Only the answers are tested. The program also judges blocking and memory, which a machine that
+/// is busy with other tests does not allow.
 TEST_F(MalformedTest, ADaemonAnswersInTheMidstOfMalformedMessages) {
   start_daemon();
   Process flood({MALFORMED_FLOOD_BINARY, std::to_string(daemon().pid()), "20000"},
@@ -29,8 +29,8 @@ TEST_F(MalformedTest, ADaemonAnswersInTheMidstOfMalformedMessages) {
   EXPECT_THAT(daemon().output(), HasSubstr("lines left out kind=malformed"));
 }
 
-/// Of 20,000 messages, right ones among them, it believes none; who has its key is served
-/// meanwhile.
+/// The daemon trusts none of 20,000 messages, including valid ones, and meanwhile serves a client
+/// that has its key.
 TEST_F(MalformedTest, ADaemonWithKeysAnswersItsClientsInTheMidstOfForgeries) {
   std::ofstream(file("keys")) << "1 " << std::string(64, '1') << '\n';
   ASSERT_EQ(chmod(file("keys").c_str(), 0600), 0);

@@ -14,8 +14,8 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double kResolution_m = 0.125;
-/// Voxels that a triangle touches are occupied, so what is occupied reaches at most one voxel's
-/// diagonal beyond the triangle.
+/// Voxels that a triangle touches are occupied, so an occupied point is at most one voxel's
+/// diagonal from a triangle.
 const double kReach_m = kResolution_m * std::sqrt(3.0);
 
 class OccupancyTest : public IntegrationTest {
@@ -23,7 +23,7 @@ class OccupancyTest : public IntegrationTest {
   void SetUp() override {
     IntegrationTest::SetUp();
     if (HasFatalFailure()) return;
-    // The surface of the cube [0, 4]^3, in the middle of nothing.
+    // The surface of the cube [0, 4]^3 in empty space.
     {
       std::ofstream scene(file("cube.obj"));
       scene << "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 4\nv 4 0 4\nv 4 4 4\nv 0 4 4\n"

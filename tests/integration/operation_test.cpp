@@ -28,10 +28,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Of the page for Prometheus; each test has a network of its own.
+/// Port of the page for Prometheus. Each test has its own network.
 constexpr int kMetricsPort = 9464;
 
-/// A daemon that is run as a service: by a configuration file and under a service manager.
+/// A daemon that runs as a service: with a configuration file and under a service manager.
 class OperationTest : public IntegrationTest {
  protected:
   void SetUp() override {
@@ -165,7 +165,7 @@ TEST_F(OperationTest, IsScrapedUnderLoad) {
   EXPECT_TRUE(eventually([&] { return scrape().value(kPlanned) == kRequests; }));
   EXPECT_EQ(scrape().value("camway_planning_seconds_count"), kRequests);
 
-  // Another daemon cannot have the port.
+  // Another daemon cannot use the port.
   Process second({CAMWAYD_BINARY, "--config", file("camwayd.toml"), "--prefix", "OTHER"},
                  file("second.log"));
   EXPECT_EQ(second.wait(), 1);
@@ -198,7 +198,7 @@ TEST_F(OperationTest, IsNotCalledAliveWhileItStandsStill) {
   start_daemon_with_scenes({}, {"--config", file("camwayd.toml")});
   EXPECT_NE(socket_->next_of("WATCHDOG=1"), "");
   daemon().signal(SIGSTOP);
-  // What was sent before it stood.
+  // Messages from before the daemon was stopped.
   while (!socket_->next(std::chrono::milliseconds(500)).empty()) {
   }
   EXPECT_EQ(socket_->next(std::chrono::milliseconds(500)), "");
@@ -208,7 +208,7 @@ TEST_F(OperationTest, IsNotCalledAliveWhileItStandsStill) {
 
 class CommandTest : public IntegrationTest {
  protected:
-  /// Runs `camway` to its end; its outputs go to `output`.
+  /// Runs `camway` to its end and sets `output` to its outputs.
   int camway(std::vector<std::string> arguments, std::string& output) {
     arguments.insert(arguments.begin(), CAMWAY_BINARY);
     Process process(arguments, file("camway.log"));
@@ -235,7 +235,7 @@ TEST_F(CommandTest, StatusSaysHowTheDaemonIs) {
   stop_daemon();
   EXPECT_EQ(camway({"status", "--timeout-s", "0.1"}, said), 4) << said;
   EXPECT_THAT(said, HasSubstr("no daemon was heard"));
-  // One code for all, which tells a daemon that is not there from a scene that is not.
+  // All commands have the same exit code for a missing daemon, and another one for a missing scene.
   EXPECT_EQ(camway({"scene", "list"}, said), 4) << said;
   EXPECT_EQ(camway({"occupancy", "--daemon", "office", "--point", "1,1,1"}, said), 4) << said;
   EXPECT_EQ(

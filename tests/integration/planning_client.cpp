@@ -3,8 +3,8 @@
 //
 //   planning_client CLIENT_ID SCENE REQUEST.json...
 //
-// plans each request and prints `answer FILE STATUS HASH-OF-THE-PATH`, and the error if there is
-// one. Exit code 0 if the daemon answered all of them, whatever it said; 1 if not.
+// plans each request and prints `answer FILE STATUS HASH-OF-THE-PATH`, followed by the error if
+// there is one. Exit code 0 if the daemon answered all requests with any status; 1 if not.
 #include <camway/client.h>
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace {
 
-/// FNV-1a over the bits of all numbers.
+/// Returns the FNV-1a hash of the bits of all numbers.
 std::uint64_t hash_of(const camway::Path& path) {
   static_assert(sizeof(camway::Segment) == 42 * sizeof(double), "no padding to hash");
   std::uint64_t hash = 14695981039346656037u;

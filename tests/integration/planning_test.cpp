@@ -41,7 +41,7 @@ TEST_F(PlanningTest, AnswersSeveralClientsOnSeveralScenesAtOnce) {
       EXPECT_TRUE(line.status != "ok" || !is_of("-impossible-"));
     }
   }
-  // The same request gets the same path to the last bit, whoever asks.
+  // Every client gets the same path, with the same bits, for the same request.
   const std::vector<ClientLine> a = lines_of(*clients[0]);
   const std::vector<ClientLine> b = lines_of(*clients[1]);
   ASSERT_EQ(a.size(), office.size());
@@ -121,7 +121,7 @@ TEST_F(PlanningTest, PathPassesThroughEveryGivenKeyframe) {
 
 TEST_F(PlanningTest, LongRequestsAndAnswersTravelInPages) {
   start_daemon();
-  // To and fro along the free stretch between the keyframes of a request that is a line.
+  // Back and forth along the free part between the keyframes of a request that is a line.
   PlanRequest request = request_of("office-free-straight", "office");
   ASSERT_EQ(request.keyframes.size(), 2u);
   const std::vector<Keyframe> ends = request.keyframes;
@@ -163,7 +163,7 @@ TEST_F(PlanningTest, RequestsAreCalledOffInTheQueueAndInPlanning) {
     if (response.status == Status::kCancelled) ++cancelled;
     EXPECT_TRUE(response.status == Status::kCancelled || !response.path.empty()) << response.error;
   }
-  // Some may have been done before the daemon heard of it.
+  // Some requests may be finished before the daemon receives the cancel.
   EXPECT_GE(cancelled, 10);
   EXPECT_TRUE(client.plan(request_of("office-free-door", "office")).ok());
 }

@@ -33,7 +33,7 @@ Process::Process(const std::vector<std::string>& arguments, std::string output)
   if (file < 0) throw std::runtime_error("cannot write " + output_);
   pid_ = ::fork();
   if (pid_ == 0) {
-    // Only what is safe between fork and exec, for the test may have threads.
+    // Only async-signal-safe calls between fork and exec, because the test may have threads.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);

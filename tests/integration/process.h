@@ -11,18 +11,17 @@
 
 namespace camway::integration {
 
-/// How long anything here may take before it counts as failed. Nothing waits that long when all is
-/// well: every wait is for a condition.
+/// Time after which a wait counts as failed. Every wait ends as soon as its condition holds.
 inline constexpr std::chrono::seconds kPatience{60};
 
-/// Asks `condition` again and again until it holds (true) or patience is over (false).
+/// Evaluates `condition` repeatedly. Returns true once it holds, false after `kPatience`.
 bool eventually(const std::function<bool()>& condition);
 
-/// A program that runs beside the test; both its outputs go to a file. Killed with the test,
-/// however that ends.
+/// A program that runs beside the test and writes both outputs to a file. It is killed when the
+/// test ends in any way.
 class Process {
  public:
-  /// Starts `arguments[0]`. `output` is where its stdout and stderr go, together.
+  /// Starts `arguments[0]`, with stdout and stderr to the file `output`.
   Process(const std::vector<std::string>& arguments, std::string output);
   ~Process();
   Process(const Process&) = delete;
@@ -30,13 +29,13 @@ class Process {
 
   [[nodiscard]] pid_t pid() const { return pid_; }
   void signal(int number) const;
-  /// Waits for its end. The exit code, or 128 + the signal that killed it; nothing if it does not
-  /// end.
+  /// Waits for the end of the program. Returns its exit code, or 128 plus the number of the signal
+  /// that killed it; nothing if it does not end.
   std::optional<int> wait();
   bool running();
-  /// Somebody has seen that it ended.
+  /// Returns whether an earlier call has seen its end.
   [[nodiscard]] bool known_to_have_ended() const { return exit_code_.has_value(); }
-  /// What it has printed so far.
+  /// Returns its output so far.
   std::string output() const;
 
  private:
@@ -45,7 +44,7 @@ class Process {
   std::string output_;
 };
 
-/// All of a file; empty if there is none.
+/// Returns the content of a file; empty if there is none.
 std::string read_file(const std::string& path);
 
 }  // namespace camway::integration

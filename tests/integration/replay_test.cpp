@@ -22,14 +22,14 @@ std::size_t count(const std::string& text, const std::string& word) {
   return found;
 }
 
-/// A session that lcm-logger, the tool everybody has, recorded.
+/// A session that lcm-logger recorded.
 class ReplayTest : public IntegrationTest {
  protected:
   void record_session() {
     start_daemon();
     Process logger({LCM_LOGGER_BINARY, "--quiet", "--force", "--flush-interval=50", log_},
                    file("logger.log"));
-    // It listens when the first heartbeat is in the file.
+    // The logger is ready when the first heartbeat is in the file.
     ASSERT_TRUE(eventually([&] { return count(read_file(log_), "CAMWAY_STATUS") > 0; }))
         << logger.output();
     const auto a = start_client("recorded-a", "office",
@@ -66,7 +66,7 @@ TEST_F(ReplayTest, ARecordedSessionReplaysClean) {
   EXPECT_THAT(replay.output(), HasSubstr("recorded-a"));
   EXPECT_THAT(replay.output(), HasSubstr("recorded-b"));
 
-  // Against another scene it must notice.
+  // With another scene the replay must report a difference.
   Process wrong({CAMWAY_BINARY, "replay", log_, "--scene", "office=" + scene_file("gallery"),
                  "--scene", "maze=" + scene_file("maze")},
                 file("wrong.log"));

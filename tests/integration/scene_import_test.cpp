@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// How many processes that read files the process has.
+/// Returns the number of import processes of a daemon.
 int importers_of(pid_t process) {
   int count = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
@@ -76,10 +76,11 @@ TEST_F(SceneImportTest, OthersMoveMeanwhileAndAStopDoesNotWait) {
 
   daemon().signal(SIGTERM);
   EXPECT_EQ(daemon().wait(), 0) << daemon().output();
-  EXPECT_THAT(daemon().output(), HasSubstr("reason=\"the daemon is stopping; nothing was changed\""));
+  EXPECT_THAT(daemon().output(),
+              HasSubstr("reason=\"the daemon is stopping; nothing was changed\""));
   EXPECT_THAT(daemon().output(), Not(HasSubstr("stopped while planning"))) << "the drain limit";
 
-  // Who was refused asks the next daemon by himself.
+  // The client of a refused request asks the next daemon on its own.
   fs::remove(slow_file());
   fs::copy_file(scene_file("office"), slow_file());
   start();

@@ -32,7 +32,7 @@ class Expected {
  public:
   Expected() : office_(scene::load_snapshot("office", scene_file("office")).snapshot) {}
 
-  /// Puts the crate there, or moves it; `revision` is what the daemon made of it.
+  /// Puts the crate there, or moves it; `revision` is the daemon's number of the result.
   void put_crate(const std::array<double, 3>& position_m, std::int64_t revision) {
     std::string fault;
     const geometry::Vec3 position(position_m.data());
@@ -48,7 +48,7 @@ class Expected {
     ASSERT_TRUE(next.snapshot) << next.error;
     revisions_[revision] = next.snapshot;
   }
-  /// All is as in the file.
+  /// Adds a revision with the scene as in the file.
   void load(std::int64_t revision) { revisions_[revision] = office_; }
 
   const scene::Snapshot* at(std::int64_t revision) const {
@@ -57,7 +57,7 @@ class Expected {
   }
 
  private:
-  std::shared_ptr<const scene::Snapshot> office_;  ///< as in the file
+  std::shared_ptr<const scene::Snapshot> office_;  ///< the scene as in the file
   std::map<std::int64_t, std::shared_ptr<const scene::Snapshot>> revisions_;
 };
 
@@ -72,7 +72,7 @@ TEST_F(SceneRaceTest, AHundredAnswersHoldForTheRevisionsThatTheyNameWhileTheScen
   SceneMesh office;
   office.file = "office.obj";
   const auto change = [&](int i) {
-    // In the way from the door, along the corridor, past the column, and of none.
+    // In the way from the door, in the corridor, beside the column, and in no way.
     const std::array<std::array<double, 3>, 4> places{
         {{9.75, 1.5, 7.3}, {14.0, 1.6, 10.0}, {16.0, 1.6, 16.5}, {0.0, 50.0, 0.0}}};
     Pose pose;

@@ -27,7 +27,7 @@ Pose at(double x, double y, double z) {
   return pose;
 }
 
-/// Straight along x at y = 2, z = 10.
+/// Returns a request straight along x at y = 2, z = 10.
 PlanRequest flight(const std::string& scene) {
   PlanRequest request;
   request.scene = scene;
@@ -102,7 +102,7 @@ TEST_F(SceneTest, AFileThatIsWatchedIsReadAgain) {
   EXPECT_EQ(client.describe_scene("cube").scene.revision, before.scene.revision + 1);
 }
 
-/// A scene's occupancy map goes out as a file and comes back as a scene.
+/// A scene's occupancy map is exported as a file and loaded as a scene.
 TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   Client client(patient());
   SceneMesh mesh;
@@ -133,7 +133,7 @@ TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   EXPECT_EQ(copy.objects[0].kind, "occupancy map");
   EXPECT_EQ(client.export_map("again").bytes, map.bytes) << "the very same voxels";
 
-  // A camera much smaller than a voxel: in the wall, through the wall, and past it.
+  // A camera much smaller than a voxel: inside the wall, through the wall, and past it.
   const auto plan = [&](double from_z, double to_z) {
     PlanRequest request = flight("again");
     request.camera = {1.0, 1.0, 0.001};
@@ -152,7 +152,7 @@ TEST_F(SceneTest, ExportsAMapThatIsASceneAgain) {
   EXPECT_TRUE(past.certified);
 }
 
-/// What a sensor sees is in the way of the very next plan, until it sees through.
+/// Points of a scan block the very next plan, until a later scan sees through them.
 TEST_F(SceneTest, PlansAroundWhatASensorSees) {
   Client client(patient());
   ASSERT_TRUE(client.load_scene("world", {}).ok());
@@ -283,7 +283,7 @@ TEST_F(SceneTest, TheCommandListsAndRestoresRevisions) {
   EXPECT_THAT(camway({"load", "folder", "--upload", file("root")}, 2), HasSubstr("cannot read"));
 }
 
-/// Whether a signal of that number waits until the process looks for it.
+/// Returns whether the process blocks this signal.
 bool holds_back(const Process& process, int number) {
   std::istringstream status(read_file("/proc/" + std::to_string(process.pid()) + "/status"));
   for (std::string line; std::getline(status, line);) {

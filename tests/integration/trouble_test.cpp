@@ -26,7 +26,7 @@ namespace {
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Somebody on the network who sends bytes and sees what comes back.
+/// A program on the network that sends arbitrary bytes and receives the answers.
 class Stranger {
  public:
   Stranger() {
@@ -40,7 +40,7 @@ class Stranger {
   void send_plan(const Bytes& bytes) { send(channels_.plan_request(), bytes); }
   void send_occupancy(const Bytes& bytes) { send(channels_.occupancy_request(), bytes); }
 
-  /// Takes what is here.
+  /// Handles the messages that have come.
   void listen() {
     while (lcm_.handleTimeout(1) > 0) {
     }
@@ -77,7 +77,7 @@ plan_request_t good_request() {
   return request;
 }
 
-/// Where the count of keyframes stands: right at the end of a request without any.
+/// The count of keyframes is the end of a request without keyframes.
 Bytes with_keyframe_count(std::int32_t count) {
   Bytes bytes = wire::encode(good_request());
   for (std::size_t i = 0; i < 4; ++i) {
@@ -100,7 +100,7 @@ class TroubleTest : public IntegrationTest {
 TEST_F(TroubleTest, MalformedMessagesAreAnsweredAndCounted) {
   start_daemon();
   Stranger stranger;
-  // With a readable sender: an answer on his channel.
+  // If the sender can be read, the answer comes on its channel.
   for (const std::int32_t count : {-1, 1, 200'000'000, std::numeric_limits<std::int32_t>::max()}) {
     const std::size_t before = stranger.answers.size();
     stranger.send_plan(with_keyframe_count(count));
@@ -112,7 +112,7 @@ TEST_F(TroubleTest, MalformedMessagesAreAnsweredAndCounted) {
     EXPECT_EQ(stranger.answers.back().request_id, 5);
     EXPECT_THAT(stranger.answers.back().message, HasSubstr("keyframes"));
   }
-  // Without: an error to all.
+  // If not, an error goes to all.
   stranger.send_plan(Bytes(76, 0xff));
   ASSERT_TRUE(eventually([&] {
     stranger.listen();
@@ -189,7 +189,7 @@ TEST_F(TroubleTest, BadKeyframesAreNamed) {
 }
 
 TEST_F(TroubleTest, AKeyframeInsideAWallIsNamed) {
-  // A camera whose near quadrilateral stands across a wall: the plane x = 0.
+  // A camera whose near quadrilateral intersects a wall, the plane x = 0.
   {
     std::ofstream scene(file("wall.obj"));
     scene << "v 0 -5 -5\nv 0 5 -5\nv 0 5 5\nv 0 -5 5\nf 1 2 3 4\n";

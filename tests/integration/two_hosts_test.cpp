@@ -33,7 +33,7 @@ constexpr char kJoin[] = R"(
   over_there ip route add 224.0.0.0/4 dev east
 )";
 
-/// The kernel drops a share of what comes in on either host, after it put fragments together.
+/// Makes the kernel drop a fraction of the received messages on both hosts, after reassembly.
 constexpr char kLose[] = R"(
   lose() { "$@" iptables -A INPUT -p udp -m statistic --mode random --probability 0.1 -j DROP; }
   lose env
@@ -55,14 +55,14 @@ class TwoHostsTest : public IntegrationTest {
     if (!run(kJoin)) GTEST_SKIP() << "two namespaces cannot be joined here: " << said_;
   }
 
-  /// A program on the other host, with its arguments.
+  /// Returns the command line of a program on the other host.
   std::unique_ptr<Process> start_over_there(std::vector<std::string> command) {
     command.insert(command.begin(),
                    {"/usr/bin/nsenter", "--net=/proc/" + other_pid() + "/ns/net", "--"});
     return std::make_unique<Process>(command, file("over_there.log"));
   }
 
-  /// Runs these lines of a shell, $0 being the process that holds the other host, to the end.
+  /// Runs these lines of a shell to the end; $0 is the process that holds the other host.
   bool run(const std::string& lines) {
     const std::string path = "export PATH=\"$PATH:/usr/local/sbin:/usr/sbin:/sbin\"\n";
     Process shell({"/bin/sh", "-e", "-c", path + lines, other_pid()}, file("shell.log"));
@@ -120,7 +120,7 @@ TEST_F(TwoHostsTest, ADaemonOnTheOtherHostServesThisOne) {
   EXPECT_EQ(daemon->wait(), 0) << daemon->output();
 }
 
-/// Not what the relay of the other tests does, but what a network does.
+/// Losses in the kernel, unlike those of the relay in other tests.
 TEST_F(TwoHostsTest, NothingIsLostOrWrongWhenTheKernelDropsATenth) {
   if (!run(kLose)) GTEST_SKIP() << "the kernel drops no packets here: " << said_;
   start_daemon({"--url", kBothHosts});
@@ -137,14 +137,14 @@ TEST_F(TwoHostsTest, ADaemonForThisHostOnlyIsNotHeardOnTheOther) {
   const auto unheard = start_over_there(ask);
   EXPECT_EQ(unheard->wait(), 4) << unheard->output();
 
-  // The same question is answered where the daemon says that it may be.
+  // The same request is answered if the daemon permits other hosts.
   start_daemon({"--url", kBothHosts});
   const auto heard = start_over_there(ask);
   EXPECT_EQ(heard->wait(), 0) << heard->output();
 }
 
 TEST_F(TwoHostsTest, ADaemonForThisHostOnlyDoesNotHearTheOther) {
-  // Without waiting for an answer, which could not come back.
+  // Sends without waiting for an answer, which could not come back.
   const auto let_forget = [&](const std::string& scene) {
     start_over_there(
         {"/usr/bin/timeout", "1", CAMWAY_BINARY, "scene", "unload", scene, "--url", kBothHosts})
@@ -174,7 +174,7 @@ TEST_F(TwoHostsTest, AClientForThisHostOnlyDoesNotHearTheOther) {
   EXPECT_EQ(status_at(kThisHostOnly, 2.5), Status::kNoDaemon);
   EXPECT_EQ(status_at(kBothHosts, 10.0), Status::kOk) << "or what it says above would mean nothing";
 
-  // A program that listens to others as well keeps hearing them.
+  // A program that also listens to other hosts keeps hearing them.
   ClientOptions other;
   other.url = kBothHosts;
   Client before(other);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Becomes a program that may make the system calls that a systemd unit lets its service make, and
-// no others:
+// Becomes a program that may make only the system calls that a systemd unit permits:
 //
 //   unit_filter UNIT_FILE PROGRAM [ARGUMENT...]
 //
-// What a group of calls (`@system-service`) holds, the systemd of this machine is asked; one that
-// it does not know holds nothing, as for systemd itself. Exit code 2 if it cannot be told.
+// The systemd of this machine lists the calls of a group (`@system-service`); an unknown group is
+// empty, as for systemd itself. Exit code 2 on failure.
 #include <seccomp.h>
 #include <unistd.h>
 
@@ -30,7 +29,7 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-/// Adds what `name` stands for: itself, or what is in that group and in the groups in it.
+/// Adds the call `name`, or all calls of the group `name` and of the groups in it.
 void add(const std::string& name, Names& groups, Names& calls) {
   if (name.front() != '@') {
     calls.insert(name);
@@ -39,7 +38,7 @@ void add(const std::string& name, Names& groups, Names& calls) {
   if (!groups.insert(name).second) return;
   std::istringstream lines(output_of("systemd-analyze syscall-filter " + name + " 2>&1"));
   std::string line;
-  // The first line that is printed is the group's own name.
+  // The first printed line is the group's own name.
   for (std::getline(lines, line); std::getline(lines, line);) {
     std::istringstream words(line);
     std::string word;
@@ -64,7 +63,7 @@ bool load_filter(const Names& calls) {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
   for (const std::string& call : calls) {
     const int number = seccomp_syscall_resolve_name(call.c_str());
-    // Calls of other processors have pseudo numbers, which libseccomp leaves out.
+    // Calls of other processors have pseudo numbers, which libseccomp skips.
     if (number != __NR_SCMP_ERROR) seccomp_rule_add(filter, SCMP_ACT_ALLOW, number, 0);
   }
   const bool loaded = seccomp_load(filter) == 0;

@@ -19,10 +19,10 @@ namespace {
 using testing::HasSubstr;
 using Kind = WatchEvent::Kind;
 
-/// A crate in the way of the path that `walk` asks for.
+/// Returns a crate to block the path of `walk`.
 SceneShape crate() { return SceneBox{{0.5, 0.5, 0.5}}; }
 
-/// From (0, 0, 0) to (4, 0, 0) in the empty scene "yard", in four seconds.
+/// Returns a request from (0, 0, 0) to (4, 0, 0) in the empty scene "yard", in four seconds.
 PlanRequest walk() {
   PlanRequest request;
   request.scene = "yard";
@@ -39,7 +39,7 @@ Pose at(double x_m, double y_m) {
   return pose;
 }
 
-/// Takes the events of a client.
+/// Collects the events of a client.
 class Events {
  public:
   WatchHandler handler() {
@@ -49,8 +49,8 @@ class Events {
     };
   }
 
-  /// Waits for the next event of that kind at that revision, or any if it is 0; the others are
-  /// dropped.
+  /// Waits for the next event of this kind at this revision, or at any if it is 0. Drops the
+  /// others.
   bool wait_for(Kind kind, std::int64_t revision, WatchEvent* found = nullptr) {
     return eventually([&] {
       const std::lock_guard lock(mutex_);
@@ -72,7 +72,7 @@ class Events {
 
 class WatchTest : public IntegrationTest {
  protected:
-  /// Makes the yard, puts a crate into the way of a watched path, and takes it away again.
+  /// Makes the yard, puts a crate in the way of a watched path, and removes it.
   void play(Client& watcher, Client& painter, bool hears_all) {
     Events events;
     ASSERT_TRUE(painter.load_scene("yard", {}).ok());
@@ -83,7 +83,7 @@ class WatchTest : public IntegrationTest {
     EXPECT_TRUE(eventually([&] { return painter.status().watched_paths == 0; }));
   }
 
-  /// Where messages are lost, the news that a path is broken may be overtaken by its correction.
+  /// On a bad network a correction may overtake the news that the path is broken.
   void break_and_mend(Client& painter, Events& events, bool hears_all) {
     const SceneAnswer put = painter.put_object("yard", "crate", crate(), at(2.0, 0.0));
     ASSERT_TRUE(put.ok()) << put.error;
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Shares, WatchOnABadNetworkTest, testing::ValuesIn(kBadS
                          name_of_share);
 
 TEST_F(WatchTest, ADaemonThatIsStartedAnewWatchesOn) {
-  // A floor, far below.
+  // A floor far below.
   std::ofstream(file("yard.obj")) << "v -9 -9 -5\nv 9 -9 -5\nv 0 9 -5\nf 1 2 3\n";
   const std::vector<std::string> scene{"yard=" + file("yard.obj")};
   start_daemon_with_scenes(scene);
@@ -147,7 +147,7 @@ TEST_F(WatchTest, ADaemonThatIsStartedAnewWatchesOn) {
 
 TEST_F(WatchTest, TheSilenceOfADaemonIsToldLongBeforeTheLease) {
   start_daemon();
-  // What another one says is no sign of life.
+  // Messages of another daemon are no sign of life.
   Process other({CAMWAYD_BINARY, "--prefix", "OTHER", "--scene", "maze=" + scene_file("maze")},
                 file("other.log"));
   Client painter(patient());
@@ -213,7 +213,7 @@ TEST_F(WatchTest, OffersTheFirstPathBitForBitOnceItsObstacleIsGone) {
                 first.answer->path.pose(time_s).position_m);
     }
   }
-  // It is the one that is watched now.
+  // The better path is watched now.
   const SceneAnswer back = painter.put_object("yard", "crate", crate(), at(2.0, 0.0));
   EXPECT_TRUE(events.wait_for(Kind::kBroken, back.scene.revision));
 }
@@ -240,7 +240,7 @@ TEST_F(WatchTest, TheCommandPrintsWhatHappens) {
   const Pose middle = plan.path.pose(0.5 * (plan.path.begin() + plan.path.end()));
   Pose place;
   place.position_m = middle.position_m;
-  // In the middle of the near quadrilateral.
+  // In the centre of the near quadrilateral.
   const auto forward = [&](int axis) {
     const auto& q = middle.orientation_wxyz;
     const std::array<double, 3> back{2 * (q[1] * q[3] + q[0] * q[2]),
@@ -269,7 +269,7 @@ TEST_F(WatchTest, TheCommandEndsItsWatch) {
     Process watch(counted, file("watch.log"));
     EXPECT_EQ(watch.wait(), 0) << watch.output();
   }
-  // The first heartbeat may have been on its way, and of a time before.
+  // The first heartbeat may be from before the end of the watch.
   client.status();
   EXPECT_EQ(client.status().watched_paths, 0) << "long before its lease is over";
 

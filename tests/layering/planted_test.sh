@@ -15,8 +15,8 @@ failures=0
 verdict() {
   local tree=$folder/tree
   rm -rf "$tree"
-  mkdir -p "$tree/$(dirname "$1")"
-  cp "$map" "$tree/ARCHITECTURE.md"
+  mkdir -p "$tree/$(dirname "$1")" "$tree/docs/design"
+  cp "$map" "$tree/docs/design/rooms.md"
   printf '// A comment that says #include "tools/x.h" is none.\n\n#include %s\n' "$2" >"$tree/$1"
   local code=0
   words=$("$check" "$tree" 2>&1) || code=$?

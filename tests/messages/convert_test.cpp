@@ -28,7 +28,7 @@ plan_request_t minimal_request() {
   return wire;
 }
 
-// Bytes compare every bit of every number, NaN and -0 included, without a comparison of ours.
+// Compares bytes: every bit of every number counts, NaN and -0 included.
 TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
   Random random(kSeed);
   for (const std::size_t keyframes : {0U, 1U, 2U, 50U}) {
@@ -107,7 +107,7 @@ TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
   EXPECT_EQ(from_wire(wire).error, "orientation.policy: -1 is unknown");
 }
 
-// A program that knows nothing of the options leaves them zero.
+// A program that does not know an option leaves it zero.
 TEST(WireConvert, AZeroMessageAsksForEveryDefault) {
   const ConvertedRequest read = from_wire(minimal_request());
   ASSERT_TRUE(read.request) << read.error;
@@ -182,7 +182,7 @@ TEST(WireConvert, WhatWouldNotCountIsRefusedByName) {
   }
 }
 
-// Every member that `planning::validate` can name is one that lcm-gen's users see.
+// Every member that `planning::validate` can name has the name that users of lcm-gen see.
 TEST(WireConvert, MessagesNameMembersAsTheWireDoes) {
   const std::pair<const char*, const char*> kNames[] = {
       {"camera.fov_x", "camera.fov_x_rad"},
@@ -487,7 +487,7 @@ TEST(WireConvert, DeadlinesAreCutToTheMaximum) {
   EXPECT_EQ(deadline_of(7.5), 7.5);
   EXPECT_EQ(deadline_of(8.5), 8.0);
   EXPECT_EQ(deadline_of(std::numeric_limits<double>::infinity()), 8.0);
-  // These are for planning::validate to refuse.
+  // planning::validate refuses these.
   EXPECT_EQ(deadline_of(-1.0), -1.0);
   EXPECT_TRUE(std::isnan(deadline_of(std::numeric_limits<double>::quiet_NaN())));
 }

@@ -31,7 +31,7 @@ void mutate(std::vector<std::uint8_t>& bytes, Random& random) {
         bytes[at] = static_cast<std::uint8_t>(random());
         break;
       case 2: {
-        // Half of these early in the message, where the strings and counts stand.
+        // Half of these are early in the message, which has the strings and counts.
         const std::size_t where =
             below(random, 2) == 0 ? below(random, std::min(bytes.size(), std::size_t{200})) : at;
         const auto value = static_cast<std::uint32_t>(kDangerous[below(random, kDangerous.size())]);

@@ -8,8 +8,8 @@
 
 namespace camway::testing {
 
-/// Changes `bytes` in one to four places: bits, bytes, 32-bit numbers of the dangerous kind, cuts,
-/// insertions, repetitions.
+/// Changes `bytes` in one to four places: a bit, a byte, an extreme 32-bit number, a cut, an
+/// insertion or a repetition.
 void mutate(std::vector<std::uint8_t>& bytes, Random& random);
 
 }  // namespace camway::testing

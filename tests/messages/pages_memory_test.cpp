@@ -9,7 +9,7 @@
 namespace camway::service {
 namespace {
 
-// An answer that is too long for all its pages is refused before anything is made of it.
+// An answer that exceeds the largest number of pages is refused before any page is made.
 TEST(WirePages, CountingThemAllocatesNothing) {
   testing::Random random(testing::kSeed);
   const plan_response_t answer = to_wire(testing::sample_result(2000, random), AnswerHeader{});

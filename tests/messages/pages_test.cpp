@@ -31,7 +31,7 @@ Message decoded(const Bytes& bytes) {
   return result.message.value_or(Message{});
 }
 
-/// Adds pages in the given order; all but the last must leave the message incomplete.
+/// Adds pages in the given order. Only the last may complete the message.
 template <class Message>
 std::optional<Message> joined(const std::vector<Bytes>& pages) {
   PageAssembly<Message> assembly;
@@ -53,7 +53,7 @@ TEST(WirePages, EveryPageFitsAndTogetherTheyAreTheWhole) {
     std::vector<Bytes> pages = encode_pages(whole);
     ASSERT_EQ(count_pages(whole), pages.size());
     for (const Bytes& page : pages) ASSERT_LE(page.size(), wire::kMaxMessageBytes);
-    // Elements of 336 bytes: a page that is not the last wastes less than one of them.
+    // Elements have 336 bytes: a page except the last wastes less than one of them.
     for (std::size_t i = 0; i + 1 < pages.size(); ++i) {
       EXPECT_GT(pages[i].size() + 336, wire::kMaxMessageBytes);
     }
@@ -200,7 +200,7 @@ TEST(PageAssembly, GivesUpTheOneThatWaitedLongest) {
   for (std::int64_t id = 0; id < 4; ++id) {
     messages.push_back(encode_pages(request_of(2500, id, random)));
     ASSERT_EQ(messages.back().size(), 3U);
-    // A second page for message 0 makes message 1 the one that waits longest.
+    // A second page for message 0 makes message 1 the one that has waited longest.
     if (id == 3) {
       EXPECT_FALSE(assembly.add(decoded<plan_request_t>(messages[0][1])).whole);
     }

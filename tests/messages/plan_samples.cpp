@@ -42,7 +42,7 @@ collision::Witness witness(double time_s, Random& random) {
 correction::OrientationPolicy orientation(Random& random) {
   correction::OrientationPolicy policy;
   policy.rule = static_cast<correction::OrientationRule>(below(random, 4));
-  // Only what counts with the policy is sent.
+  // Only the members that the policy uses are sent.
   const geometry::Vec3 any = point(random);
   if (policy.rule == correction::OrientationRule::kLevel) policy.up_W = planning::direction_of(any);
   if (policy.rule == correction::OrientationRule::kTarget) {

@@ -13,23 +13,23 @@
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/messages/random_messages.h"
 
-/// Requests, results and scenes for tests of the wire: of the right form, without meaning.
+/// Requests, results and scenes for tests of the wire: valid in form, but without meaning.
 namespace camway::testing {
 
-/// Finite numbers, `keyframes` of them, times increasing.
+/// Returns a request with finite numbers, `keyframes` keyframes and increasing times.
 planning::PlanRequest sample_request(std::size_t keyframes, Random& random);
 
-/// One of each kind of body, the camera's own quadrilateral (nothing) included.
+/// Returns one body of each kind; an unset one stands for the camera's near quadrilateral.
 std::vector<std::optional<motion::BodyShape>> sample_bodies(Random& random);
 
-/// The largest body that a request may hold: `kMaxBodyPoints` points in as many pieces.
+/// Returns the largest body that a request may hold: `kMaxBodyPoints` pieces of one point.
 motion::BodyShape largest_body(Random& random);
 
-/// A result of the form that planning returns, with a path of `segments` segments, twice as many
-/// keyframes, half of them inserted, and a report of everything that corrections may say.
+/// Returns a result with the form of a plan: a path of `segments` segments, twice as many
+/// keyframes, half of them inserted, and all fields that corrections may set.
 planning::PlanResult sample_result(std::size_t segments, Random& random);
 
-/// An empty scene.
+/// Returns an empty scene.
 std::shared_ptr<const scene::Snapshot> empty_scene(std::string name);
 
 }  // namespace camway::testing

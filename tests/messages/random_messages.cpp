@@ -33,7 +33,7 @@ std::string client_id(Random& random) {
   return id;
 }
 
-/// Mostly short lists, now and then a long one.
+/// Returns the length of a list, mostly a short one and sometimes a long one.
 std::size_t length(Random& random, std::size_t longest) {
   const std::size_t most = below(random, 8) == 0 ? longest : std::min<std::size_t>(longest, 4);
   return below(random, most + 1);
@@ -178,7 +178,7 @@ body_t body(Random& random) {
   fill(body.size_m, random);
   body.radius_m = number(random);
   body.num_points = fill_rows(body.points_m, 3, random);
-  // Half of them such that the pieces are those of the points.
+  // In half of them, the pieces have as many points as there are.
   const bool fits = below(random, 2) == 0;
   body.num_pieces = fill_list(body.piece_sizes, fits ? 1 : length(random, 20),
                               [&] { return fits ? body.num_points : small(random); });
@@ -327,7 +327,7 @@ plan_response_t random_message<plan_response_t>(Random& random) {
   message.page = small(random);
   message.num_pages = small(random);
   message.status = small(random);
-  // Half of them get past the first look, to where the lists are read.
+  // Half of them pass the first check and reach the lists.
   if (below(random, 2) == 0) {
     message.page = 0;
     message.num_pages = 1;

@@ -23,16 +23,17 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
-/// Messages that are right on the wire but otherwise arbitrary: every string length and list length
-/// within the limits is possible, numbers are any bits, NaN among them.
+/// Random messages that are valid on the wire: strings and lists have any length within the limits,
+/// numbers have any bits, NaN included.
 namespace camway::testing {
 
 using Random = std::mt19937_64;
 
-/// The seed of all tests here; a failing test prints it with the number of its trial.
+/// The random seed of all tests in this folder. A failing test prints it with the number of its
+/// trial.
 inline constexpr std::uint64_t kSeed = 20060619;
 
-/// An integer of [0, below).
+/// Returns an integer in [0, below).
 std::size_t below(Random& random, std::size_t below);
 
 template <class Message>

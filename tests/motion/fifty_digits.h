@@ -8,7 +8,7 @@
 
 #include "daemon/motion/path/segment.h"
 
-/// The oracle of rounding: the formulas of a segment, with 50 digits on its very numbers.
+/// The oracle of rounding: the formulas of a segment, evaluated with 50 digits.
 namespace camway::motion::test {
 
 using Real = boost::multiprecision::cpp_bin_float_50;
@@ -27,7 +27,7 @@ std::vector<Real> exact_value_at(const std::array<Vector, N>& points, double u) 
   return c[0];
 }
 
-/// Rotation by a quaternion of any length: (q v q*) / |q|².
+/// Returns `v` rotated by a quaternion of any length: (q v q*) / |q|².
 inline std::vector<Real> exact_rotated(const std::vector<Real>& q, const geometry::Vec3& v) {
   const Real w = q[0], x = q[1], y = q[2], z = q[3];
   const Real a = v.x(), b = v.y(), c = v.z();
@@ -41,7 +41,7 @@ inline std::vector<Real> exact_rotated(const std::vector<Real>& q, const geometr
           squared};
 }
 
-/// How far `computed_W` is from where the segment's numbers put the body's point at `u`.
+/// Returns the distance of `computed_W` from the body's point at `u` by the segment's numbers.
 inline double distance_from_exact_m(const Segment& segment, double u, const geometry::Vec3& point_C,
                                     const geometry::Vec3& computed_W) {
   const std::vector<Real> eye = exact_value_at(segment.position, u);

@@ -22,11 +22,11 @@ using geometry::Vec4;
 
 inline constexpr double kEpsilon = 2.220446049250313e-16;
 
-/// Random data from a fixed seed, which is printed by the test that uses it.
+/// Random data from a fixed seed, which a test prints.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {
-    // Not while parameters are made: listing tests must print their names only.
+    // Do not print while test parameters are made: a list of tests must hold names only.
     if (testing::UnitTest::GetInstance()->current_test_info() == nullptr) return;
     std::printf("[   SEED   ] %llu\n", static_cast<unsigned long long>(seed));
   }
@@ -34,12 +34,13 @@ class Random {
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
   }
-  /// Box-Muller's transform: std::normal_distribution differs between libraries.
+  /// Returns a normal number by the Box-Muller transform: std::normal_distribution differs between
+  /// libraries.
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform(0.0, 1.0)));
     return radius * std::cos(uniform(0.0, 6.283185307179586));
   }
-  /// Between `low` and `high`, spread evenly over the orders of magnitude.
+  /// Returns a number between `low` and `high` whose logarithm is uniformly distributed.
   double log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }
@@ -73,8 +74,8 @@ inline std::vector<Pose> random_poses(Random& random, int count, double scale_m 
   return poses;
 }
 
-/// A segment that need not come from a spline, with every orientation control point within about
-/// `spread` of one direction.
+/// Returns an arbitrary segment whose orientation control points are within about `spread` of one
+/// direction.
 inline Segment random_segment(Random& random, double spread) {
   Segment segment;
   segment.t0_s = random.uniform(-10.0, 10.0);
@@ -86,8 +87,8 @@ inline Segment random_segment(Random& random, double spread) {
   return segment;
 }
 
-/// Angle of the rotation between two unit quaternions (w, x, y, z) of any sign; accurate when
-/// small.
+/// Returns the angle between two rotations, given as unit quaternions (w, x, y, z) of any sign.
+/// Accurate for small angles.
 inline double rotation_angle_rad(const Vec4& a, const Vec4& b) {
   const Vec4 turn = quaternion::multiply(quaternion::conjugate(a), b);
   return 2.0 * std::atan2(turn.tail<3>().norm(), std::abs(turn[0]));
@@ -96,7 +97,7 @@ inline double rotation_angle_rad(const Quat& a, const Quat& b) {
   return rotation_angle_rad(geometry::wxyz(a), geometry::wxyz(b));
 }
 
-/// Largest coordinate of the keyframes' positions, for bounds on rounding.
+/// Returns the largest coordinate of the keyframes' positions, for bounds on rounding.
 inline double size_m(std::span<const Keyframe> keyframes) {
   double size_m = 0.0;
   for (const Keyframe& keyframe : keyframes)

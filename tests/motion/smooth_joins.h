@@ -13,10 +13,11 @@ double longest(const Points& points) {
   return length;
 }
 
-// Derivatives of a segment are differences of its control points times 3 and 6 (position) or 6 and
-// 30 (orientation) over powers of its duration. Storing the control points rounds them by half an
-// epsilon of their size; the sums and products that make them round a few times more, and
-// normalising brings in the ratio of lengths. `roundings`: how many times as many there were.
+// Expects a C² join. The derivatives of a segment are differences of its control points, times 3
+// and 6 (position) or 6 and 30 (orientation), divided by powers of its duration. Storing a control
+// point rounds it by half an epsilon of its size; the sums and products that make it round a few
+// times more, and normalisation multiplies by the ratio of lengths. `roundings` scales the allowed
+// error.
 inline void expect_smooth_join(const Segment& before, const Segment& after,
                                double roundings = 1.0) {
   EXPECT_EQ(before.t1_s, after.t0_s);

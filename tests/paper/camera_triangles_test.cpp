@@ -50,7 +50,7 @@ TEST_F(CameraTrianglesTest, HitsWhatTheWholeTreeHits) {
 TEST_F(CameraTrianglesTest, NeverSplitsALeaf) {
   const IndexStatistics before = tree_.statistics();
   CameraTriangles camera(tree_);
-  // Far more than the threshold in the same place.
+  // Many more triangles than the threshold in the same place.
   const Triangle t = tree_.triangle(0);
   for (std::uint32_t id = 0; id < 1000; ++id) camera.insert(id, t);
   EXPECT_EQ(tree_.statistics(), before);

@@ -57,8 +57,8 @@ TEST(CornerCurve, WeightsAreTheSquaredLengthOfTheQuaternion) {
   }
 }
 
-/// The 1995 short-cut: the position elevated as a polynomial to degree 12, added to the points of
-/// the rational rotation as if weights did not matter.
+/// Evaluates the short-cut of 1995: the position is elevated as a polynomial to degree 12 and added
+/// to the control points of the rational rotation, as if weights did not matter.
 Vec3 short_cut_at(const Segment& segment, const Vec3& corner_C, double u) {
   const RationalCurve rotation = [&] {
     Segment turning = segment;

@@ -23,7 +23,7 @@ using scene::SceneIndex;
 
 Corners corners_C() { return motion::near_corners_C(testing::small_camera()); }
 
-// Three keyframes that bulge towards x = 0.3 near z = 0.
+// Returns three keyframes whose path bulges towards x = 0.3 near z = 0.
 std::vector<Keyframe> bulging_tour() {
   return {{0.0, {{0, 0, 2}, Quat::Identity()}},
           {2.0, {{0.25, 0, 0.4}, Quat::Identity()}},
@@ -54,7 +54,7 @@ TEST(KeyframeInsertion, AGrazedColumnIsCorrected) {
   EXPECT_TRUE(collisions(index, result.path).empty());
   EXPECT_EQ(result.gave_up, 0);
   EXPECT_GT(result.keyframes.size(), given.size());
-  // The given keyframes are all there, untouched, and in order with the inserted ones.
+  // All given keyframes are there, unchanged, and in order with the inserted ones.
   std::vector<Keyframe> kept;
   for (const Keyframe& keyframe : result.keyframes) {
     if (keyframe.origin == KeyframeOrigin::kGiven) kept.push_back(keyframe);

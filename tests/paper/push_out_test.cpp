@@ -18,7 +18,7 @@ using scene::SceneIndex;
 
 constexpr double kMargin_m = 1e-3;
 
-// Corners at (±0.1, ±0.0577, -0.1).
+// Returns corners at (±0.1, ±0.0577, -0.1).
 Corners corners_C() { return motion::near_corners_C(testing::small_camera()); }
 
 SceneIndex wall_right_of(double x) {
@@ -35,18 +35,18 @@ TEST(PushOutRule, AWallAcrossTheRightSideMakesTheRightCornersBad) {
   EXPECT_LT(rule.direction_W.x(), 0.0);
   EXPECT_NEAR(rule.direction_W.y(), 0.0, 1e-15);
   EXPECT_NEAR(rule.direction_W.z(), 0.0, 1e-15);
-  // From each right corner along the horizontal edge to the wall; the vertical edge hits nothing.
+  // From each right corner along the horizontal edge to the wall; the vertical edges hit nothing.
   EXPECT_NEAR(rule.depth_m[0], 0.06, 1e-12);
   EXPECT_NEAR(rule.depth_m[3], 0.06, 1e-12);
   EXPECT_EQ(rule.depth_m[1], 0.0);
   EXPECT_NEAR(rule.largest_depth_m(), 0.06, 1e-12);
 }
 
-// Figure 4 of the paper: the depth of a bad corner is the larger of the distances on its two edges,
-// and the depth of the collision the largest of the corners'.
+// Figure 4 of the paper: the depth of a bad corner is the larger distance on its two edges, and the
+// depth of the collision is the largest depth of a corner.
 TEST(PushOutRule, DepthIsTheLargerOfTheTwoEdges) {
   Mesh mesh;
-  // A vertical plane that cuts off the corner (+x,+y) at 0.08 on the upper, 0.02 on the right edge.
+  // A vertical plane cuts off the corner (+x,+y) at 0.08 on the upper and 0.02 on the right edge.
   const double y_top = corners_C()[0].y();
   const Vec3 on_top(0.1 - 0.08, y_top, -0.1);
   const Vec3 on_right(0.1, y_top - 0.02, -0.1);

@@ -31,8 +31,8 @@ TEST(SweepDetection, BracketsACuboidInTheWay) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-1, -1, -0.25}, {1, 1, 0.25});
   const SceneIndex index = SceneIndex::build(mesh);
-  // The scene is a surface: within the cuboid the quadrilateral is free again. So the first
-  // interval is the entry, at z = 0.25.
+  // The scene is a surface: inside the cuboid the quadrilateral is free again. So the first
+  // interval is the entry at z = 0.25.
   const FirstCollision found = sweep(index, straight(2, -2));
   ASSERT_TRUE(found.decided && found.interval);
   const double entry_s = (2.0 - 0.1 - 0.25) / 4.0;
@@ -47,7 +47,7 @@ TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   int compared = 0;
   for (int run = 0; run < 40; ++run) {
-    // Bars longer than the quadrilateral cannot be enclosed by the tube.
+    // Bars longer than the quadrilateral cannot be inside the tube.
     Mesh mesh;
     const double x = 0.12 * place(random);
     testing::add_cuboid(mesh, {x - 0.01, -2, -0.01}, {x + 0.01, 2, 0.01});
@@ -82,8 +82,9 @@ TEST(SweepDetection, FindsAThinPlateCrossedBetweenTwoParameters) {
   EXPECT_GE(found.interval->t_end_s, instant_s);
 }
 
-// The gap of the paper that `first_collision` closes: if this begins to find the cube, the comment
-// on `first_sweep_collision` and the second look in `keyframe_insertion` have lost their reason.
+// The case that the paper's method misses and `first_collision` finds. If this test begins to find
+// the cube, the comment on `first_sweep_collision` and the second search in `keyframe_insertion`
+// lose their reason.
 TEST(SweepDetection, DoesNotSeeWhatTheTubeEncloses) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});

@@ -19,8 +19,8 @@ Path random_path(Random& random, int keyframes) {
   return interpolate(test::with_times(test::random_poses(random, keyframes)));
 }
 
-/// Distance of `p` from a triangle, by Ericson's (2005, section 5.1.5) regions written as the
-/// nearest of the face, where it projects inside, and the three edges.
+/// Returns the distance of `p` from a triangle by Ericson's regions (2005, section 5.1.5): the
+/// nearest of the face, if `p` projects inside, and the three edges.
 double distance_m(const Vec3& p, const geometry::Triangle& t) {
   double distance = 1e300;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -38,8 +38,8 @@ double distance_m(const Vec3& p, const geometry::Triangle& t) {
   return std::min(distance, std::abs(normal.dot(p - t[0])) / normal.norm());
 }
 
-/// Largest distance of the true ruled surfaces, densely sampled, from the two triangles of each
-/// strip.
+/// Returns the largest distance of the true ruled surfaces, densely sampled, from the two triangles
+/// of each strip.
 double sampled_error_m(const Path& path, const std::vector<SweptTriangle>& triangles) {
   double largest_m = 0.0;
   for (std::size_t i = 0; i + 1 < triangles.size(); i += 2) {
@@ -120,7 +120,8 @@ TEST(SweptSurface, VerticesLieOnTheirCornerCurves) {
   }
 }
 
-// No cracks: every edge inside the tube belongs to two triangles, with vertices equal bit for bit.
+// There are no cracks: every edge inside the tube belongs to two triangles, whose vertices have the
+// same bits.
 TEST(SweptSurface, IsClosedBetweenItsFirstAndLastQuadrilateral) {
   Random random(115);
   const Path path = random_path(random, 6);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Plans that have to stay within bounds, of the request or of the scene.
+// Plans that must stay within bounds, of the request or of the scene.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,8 +37,8 @@ PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) 
   return plan(snapshot, request, base::Deadline::never());
 }
 
-/// A strip of floor, and a wall across it that ends at z = 2: the way under the floor is shorter
-/// than the one round the end of the wall.
+/// Returns a strip of floor and a wall across it that ends at z = 2. The way under the floor is
+/// shorter than the one around the end of the wall.
 scene::Mesh house() {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-0.6, -0.2, -4}, {0.6, 0.0, 4});
@@ -57,7 +57,7 @@ PlanRequest across_the_wall() {
   return request;
 }
 
-/// The least depth of a corner in `bounds` over samples of the path.
+/// Returns the least depth of a corner within `bounds`, over samples of the path.
 double least_depth_m(const PlanResult& result, const motion::Camera& camera, const Bounds& bounds) {
   double least_m = std::numeric_limits<double>::infinity();
   const motion::Path& path = result.path;
@@ -88,7 +88,7 @@ TEST(PlanWithinBounds, GoesRoundTheWallInsteadOfUnderTheFloor) {
   EXPECT_THAT(within.message, HasSubstr("within bounds"));
 }
 
-// One axis is enough, and the scene's bounds count as the request's do.
+// One limit is enough, and the scene's bounds have the same effect as the request's.
 TEST(PlanWithinBounds, OfTheSceneOrOfTheRequestAreTheSame) {
   Bounds floor;
   floor.min_W.y() = -0.05;
@@ -118,17 +118,17 @@ TEST(PlanWithinBounds, SaysWhereTheOnlyWayLeadsBeyondThem) {
   EXPECT_FALSE(result.certificate.certified);
   EXPECT_THAT(result.message, HasSubstr("a way was found only beyond the bounds, by up to"));
   EXPECT_THAT(result.message, HasSubstr("at min.y")) << "under the floor";
-  // What is proved without bounds is told though the deadline came within them.
+  // A way beyond the bounds is reported even if the deadline came during the search within them.
   EXPECT_TRUE(may_have_way_beyond(request, result));
   PlanResult late = result;
   late.status = Status::kTimeout;
   EXPECT_TRUE(may_have_way_beyond(request, late));
-  // Where nothing was corrected nobody looked for a way within.
+  // Without corrections there was no search for a way within the bounds.
   request.options.max_inserted_keyframes = 0;
   EXPECT_THAT(planned(*snapshot_of(house()), request).message, Not(HasSubstr("beyond the bounds")));
 }
 
-// A room without a door: bounds change nothing of the proof.
+// A room without a door: bounds do not change the proof.
 TEST(PlanWithinBounds, LeavesProofsOfInfeasibilityAsTheyAre) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.5, -1, -1}, {2.5, 1.5, 1});
@@ -169,7 +169,7 @@ TEST(PlanWithinBounds, KeyframesBeyondThemAreNamedWithTheNearestPoseInside) {
   EXPECT_THAT(refused.message, HasSubstr("keyframes[1]: the near quadrilateral leaves the bounds"));
   ASSERT_EQ(refused.keyframe_faults.size(), 1u);
   const KeyframeFault& fault = refused.keyframe_faults.front();
-  // It looks along x: the quadrilateral is 0.1 m before the eye, all of it.
+  // The camera looks along x: the whole quadrilateral is 0.1 m in front of the eye.
   EXPECT_NEAR(fault.depth_m, 0.6, 1e-12);
   ASSERT_TRUE(fault.free_pose);
   EXPECT_NEAR(fault.free_pose->position.x(), 0.9, 0.02);
@@ -194,7 +194,7 @@ TEST(PlanWithinBounds, RefusesThoseThatLeaveNoRoom) {
   EXPECT_THAT(result.message, HasSubstr("no room within the bounds of the scene"));
 }
 
-// Bounds that nothing comes near change nothing: the same numbers.
+// Bounds that nothing comes near change no number.
 TEST(PlanWithinBounds, ThatAreFarAwayLeaveFreePathsAsTheyAre) {
   PlanRequest request = across_the_wall();
   const auto nothing = snapshot_of({});
@@ -206,7 +206,7 @@ TEST(PlanWithinBounds, ThatAreFarAwayLeaveFreePathsAsTheyAre) {
   EXPECT_EQ(with.certificate.clearance_lower_bound_m, without.certificate.clearance_lower_bound_m);
 }
 
-// The property: whatever comes out as ok is inside at every sample, and is proved so again.
+// Every ok path is inside its bounds at every sample, and is proved so again.
 TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
   std::mt19937_64 random = testing::seeded(19);
   std::uniform_real_distribution<double> place(-0.75, 0.75);

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A lower bound that is shown must be one still.
+// A lower bound must remain one when it is rounded.
 TEST(EffortText, LowerBoundsAreRoundedDown) {
   EXPECT_EQ(rounded_down(0.0042799), "0.00427");
   EXPECT_EQ(rounded_down(0.31299999), "0.312");

@@ -29,14 +29,14 @@ std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<
   return faults_of(mesh, positions, base::Deadline::never());
 }
 
-// The floor's top is at y = 0, and it is thick enough for the sphere to be inside.
+// Returns a floor whose top is at y = 0, thick enough to contain the sphere.
 scene::Mesh floor() {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-50, -0.4, -50}, {50, 0, 50});
   return mesh;
 }
 
-// One closed sheet, a metre around the origin.
+// Returns a closed surface, a metre around the origin.
 scene::Mesh room() {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-1, -1, -1}, {1, 1, 1});
@@ -52,7 +52,7 @@ TEST(KeyframeFaults, NameWhatCollides) {
   EXPECT_TRUE(faults_of(floor(), {{0, 1, 0}, {0, 2, 0}}).empty());
 }
 
-// Down into the floor would be nearer.
+// The nearest free pose would be inside the floor.
 TEST(KeyframeFaults, AreFreeWhereTheirNeighboursAre) {
   for (const std::vector<Vec3>& positions : {std::vector<Vec3>{{0, 1, 0}, {1, -0.06, 0}, {2, 1, 0}},
                                              {{1, -0.06, 0}, {2, 1, 0}},
@@ -68,7 +68,7 @@ TEST(KeyframeFaults, AreFreeWhereTheirNeighboursAre) {
   }
 }
 
-// Everything is inside of the room, which is closed, and so is what is repaired.
+// The closed room contains everything, and also the repaired keyframe.
 TEST(KeyframeFaults, StayInARoomThatIsItselfClosed) {
   const auto faults = faults_of(room(), {{0, 0, 0}, {1.05, 0.3, 0}, {0.5, 0, 0}, {0, -1.02, 0}});
   ASSERT_EQ(faults.size(), 2U);
@@ -99,7 +99,7 @@ TEST(KeyframeFaults, GoWhereMostAreIfAllCollide) {
   }
 }
 
-// A floor that is no solid, from below: through it, if that is not much further.
+// A keyframe below a floor that is no solid moves through it, if that is not much further.
 TEST(KeyframeFaults, AreFreeInViewOfTheirNeighboursIfThatIsNotFar) {
   scene::Mesh mesh;
   testing::add_triangle(mesh, {-50, 0, -50}, {50, 0, -50}, {0, 0, 90});
@@ -111,8 +111,8 @@ TEST(KeyframeFaults, AreFreeInViewOfTheirNeighboursIfThatIsNotFar) {
   }
 }
 
-// It collides with a plate in the middle of a solid, the others are outside: what is free next to
-// it is no place for it.
+// The keyframe collides with a plate inside a solid, and the others are outside: the free space
+// beside the plate is on the wrong side.
 TEST(KeyframeFaults, HaveNoFreePoseOnTheWrongSide) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {-9, -9, -9}, {9, 9, 9});

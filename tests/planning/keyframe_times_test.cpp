@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times as robots have them: far from 0, and nearly but not quite in step.
+// Times as robots send them: far from 0, and nearly but not exactly equidistant.
 #include "daemon/planning/keyframe_times.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,8 @@ std::shared_ptr<const scene::Snapshot> columns() {
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
 }
 
-/// Between columns, mostly through some; turned about the vertical. Without times.
+/// Returns a tour between columns, mostly through some, with rotations about the vertical and
+/// without times.
 PlanRequest tour(std::mt19937_64& random) {
   const auto draw = [&](std::uint64_t count) { return static_cast<double>(random() % count); };
   PlanRequest request;
@@ -67,7 +68,7 @@ double keyframe_miss(const PlanRequest& request, const PlanResult& result) {
   return worst;
 }
 
-/// The given times, bit for bit, as those of given keyframes and as ends of segments.
+/// Expects the given times, with the same bits, in the given keyframes and at ends of segments.
 void expect_given_times(const PlanRequest& request, const PlanResult& result) {
   std::vector<double> given_s;
   for (const Keyframe& keyframe : result.keyframes) {
@@ -85,7 +86,7 @@ void expect_given_times(const PlanRequest& request, const PlanResult& result) {
   EXPECT_EQ(result.path.end_s(), asked_s.back());
 }
 
-/// Each time of the answer lies within the path.
+/// Expects each time of the answer within the path.
 void expect_times_within(const PlanResult& result) {
   const auto within = [&](double time_s) {
     return result.path.begin_s() <= time_s && time_s <= result.path.end_s();
@@ -108,7 +109,8 @@ void expect_times_within(const PlanResult& result) {
     EXPECT_TRUE(within(stretch.t_begin_s) && within(stretch.t_end_s));
 }
 
-/// What rounding of control points makes of accelerations at the most, as a share of the largest.
+/// Returns the largest error of accelerations from the rounding of control points, relative to the
+/// largest acceleration.
 double acceleration_noise(const PlanResult& result) {
   double noise = 0.0;
   for (const motion::Segment& segment : result.path.segments()) {
@@ -124,7 +126,7 @@ double acceleration_noise(const PlanResult& result) {
 struct Tally {
   int corrected = 0;
   double jump = 0.0;
-  double shortest_share = 1.0;  ///< of the gap
+  double shortest_share = 1.0;  ///< shortest segment divided by its interval
 };
 
 void look_at(const PlanRequest& request, const PlanResult& result, double gap_s, Tally& tally) {
@@ -159,7 +161,7 @@ TEST(KeyframeTimes, PathsAreSmoothWhereverTimeBegins) {
   }
 }
 
-// As other clocks and sums of floats make them.
+// Times as other clocks and sums of floats make them.
 TEST(KeyframeTimes, NearlyEqualGapsMakeNoShortSegments) {
   const auto scene = columns();
   for (const double jitter_s : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
@@ -179,14 +181,14 @@ TEST(KeyframeTimes, NearlyEqualGapsMakeNoShortSegments) {
       even_sum += even.measures->largest_acceleration_m_per_s2;
       sum += result.measures->largest_acceleration_m_per_s2;
     }
-    // A search may end elsewhere; all together they are as they were.
+    // A single search may have another result; the sums are about the same.
     EXPECT_LT(sum, 1.25 * even_sum) << jitter_s;
     EXPECT_GE(tally.corrected, 4);
     EXPECT_GT(tally.shortest_share, 1e-6);
   }
 }
 
-// The same request at another pace is the same curve: accelerations go with the square.
+// The same request at another pace has the same curve; accelerations scale with the square.
 TEST(KeyframeTimes, AnyScaleOfTimeWillDo) {
   const auto scene = columns();
   for (const double gap_s : {1e-3, 0.1, 100.0, 1e4}) {
@@ -208,7 +210,7 @@ TEST(KeyframeTimes, AnyScaleOfTimeWillDo) {
   }
 }
 
-/// The answer with limits that it breaks, slowed.
+/// Returns the answer with limits that the path breaks, slowed.
 PlanRequest limited(const scene::Snapshot& scene, PlanRequest request) {
   const PlanResult free = planned(scene, request);
   EXPECT_EQ(free.status, Status::kOk) << free.message;
@@ -239,7 +241,7 @@ TEST(KeyframeTimes, SlowedPathsAreSmoothToo) {
   }
 }
 
-// Where the path collides anyway, all of it is slowed alike.
+// A path that collides is slowed by one factor everywhere.
 TEST(KeyframeTimes, CollidingPathsThatAreSlowedAreSmooth) {
   const auto scene = columns();
   for (const double first_s : {0.0, 1e5, 1.76e9, 4e9}) {

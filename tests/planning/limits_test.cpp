@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limits of the motion end to end: a path that is slowed, is slow enough, and is still the path.
+// Motion limits end to end: a slowed path meets its limits and keeps its curve.
 #include "daemon/planning/limits.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ PlanResult planned(const scene::Snapshot& snapshot, const PlanRequest& request) 
   return plan(snapshot, request, base::Deadline::never());
 }
 
-// A column that the tour below grazes.
+// Returns a column that the tour below grazes.
 std::shared_ptr<const scene::Snapshot> column_scene() {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
@@ -45,7 +45,7 @@ PlanRequest bulging_tour() {
   return request;
 }
 
-/// The request with limits that the answer without them breaks, here and there.
+/// Adds limits that the answer without limits breaks at some places.
 PlanRequest limited(PlanRequest request, double share) {
   const PlanResult free = planned(*column_scene(), request);
   EXPECT_EQ(free.status, Status::kOk) << free.message;
@@ -69,7 +69,7 @@ TEST(Limits, AreNamedWithTheTimeWhereTheyAreBroken) {
   EXPECT_THAT(refused.message, HasSubstr("options.limits: the path is free, but too fast from"));
   EXPECT_THAT(refused.message, HasSubstr("turn rate"));
   EXPECT_THAT(refused.message, HasSubstr("28.6 degrees/s"));
-  // What is proved of it stays true.
+  // The proofs for the path remain true.
   EXPECT_TRUE(refused.certificate.certified);
   EXPECT_TRUE(refused.remaining_collisions.empty());
   EXPECT_EQ(refused.time_scale, 1.0);
@@ -98,13 +98,13 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
     ASSERT_FALSE(slower.slowed.empty());
     double lost_s = 0.0;
     for (const SlowedStretch& stretch : slower.slowed) {
-      // What came before it is later, but not longer.
+      // The part before it is shifted by the time lost so far, and keeps its duration.
       EXPECT_NEAR(stretch.t_begin_s - stretch.given_t_begin_s, lost_s, 1e-12);
       lost_s = stretch.t_end_s - stretch.given_t_end_s;
     }
     EXPECT_NEAR(slower.path.end_s() - 6.0, lost_s, 1e-12);
     motion::test::expect_smooth(slower.path, 8.0);
-    // Proved anew, by who knows nothing of how it was made.
+    // The path is proved again by code that does not know how it was made.
     std::string fault;
     const auto body = motion::Body::make(request.camera, fault);
     const PathCheck check = check_path(collision::Obstacles(*snapshot), slower.path, *body, {},
@@ -132,7 +132,7 @@ TEST(Limits, KeyframesAndIntervalsMoveToTheNewTimes) {
       EXPECT_EQ(is.pose.position, was.pose.position);
     }
   }
-  // The interval is where the path is as far as it was.
+  // Collision and correction are at the same places of the path as before.
   ASSERT_EQ(after.collisions.size(), 1U);
   ASSERT_EQ(after.corrections.size(), 1U);
   const auto position = [](const PlanResult& result, double time_s) {
@@ -147,7 +147,7 @@ TEST(Limits, KeyframesAndIntervalsMoveToTheNewTimes) {
   expect_same_place(after.corrections[0].t_end_s, before.corrections[0].t_end_s);
   ASSERT_TRUE(after.collisions[0].witness);
   expect_same_place(after.collisions[0].witness->time_s, before.collisions[0].witness->time_s);
-  // Measured against the interpolated path in the same place, not at the same share of the time.
+  // Compared with the interpolated path at the same place, not at the same fraction of the time.
   EXPECT_NEAR(after.measures->largest_deviation_m, before.measures->largest_deviation_m, 1e-3);
 }
 

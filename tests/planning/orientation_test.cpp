@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Orientation policies end to end: whatever the status, the path returned keeps to the rule.
+// Orientation policies end to end: the returned path keeps the policy, whatever the status.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ std::shared_ptr<const scene::Snapshot> snapshot_of(Mesh mesh) {
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
 }
 
-// A wall across z with a slit from end to end, 0.14 wide, at 30° from the x axis, and a closed room
-// about it: there is no way but through the slit.
+// Returns a closed room with a wall across z, whose slit from end to end is 0.14 wide, at 30° from
+// the x axis: the only way is through the slit.
 std::shared_ptr<const scene::Snapshot> slanted_slit() {
   Mesh mesh;
   for (const double side : {-kFar, kFar}) {
@@ -41,7 +41,7 @@ std::shared_ptr<const scene::Snapshot> slanted_slit() {
   return snapshot_of(std::move(mesh));
 }
 
-// Straight through it; the near quadrilateral is 0.4 wide and 0.1 high.
+// Returns a request straight through the slit; the near quadrilateral is 0.4 wide and 0.1 high.
 PlanRequest through_slit() {
   PlanRequest request;
   request.camera = {2.0 * std::atan(1.0), 2.0 * std::atan(0.25), 0.2};
@@ -56,7 +56,7 @@ motion::Path interpolated(const PlanRequest& request) {
   return motion::interpolate(request.keyframes);
 }
 
-/// By how much the path that was returned breaks the policy, whatever the status.
+/// Returns by how much the returned path breaks the policy, whatever the status.
 double breach_deg(const PlanRequest& request, const PlanResult& result) {
   return testing::worst_breach_deg(request.options.orientation, result.path, interpolated(request),
                                    result.path.begin_s(), result.path.end_s(), 2000);
@@ -114,7 +114,7 @@ class Requests {
     return std::uniform_real_distribution<double>(low, high)(generator_);
   }
 
-  /// Bars and blocks in a corridor along z.
+  /// Returns bars and blocks in a corridor along z.
   std::shared_ptr<const scene::Snapshot> scene() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) {

@@ -43,7 +43,7 @@ std::vector<Segment> tour() {
 motion::Corners corners_C() { return motion::near_corners_C(testing::small_camera()); }
 double radius_m() { return motion::body_radius_m(corners_C()); }
 
-/// The camera looks along -Z all the time and goes from z0 to z1.
+/// Returns a segment of a camera that looks along -Z and moves from z0 to z1.
 Segment straight(double t0_s, double t1_s, double z0_m, double z1_m) {
   Segment segment;
   segment.t0_s = t0_s;
@@ -91,7 +91,7 @@ TEST(FindFault, NamesSegmentAndField) {
 }
 
 TEST(FindFault, AcceptsWhatIsOnlyUnusual) {
-  // Length and sign of four-vectors mean nothing, and one inside may even vanish.
+  // Length and sign of four-vectors have no meaning, and one inside may even be zero.
   for (const double factor : {1e-99, -1.0, 1e99}) {
     Segment segment = straight(0, 1e-9, 1e9, -1e9);
     for (Vec4& q : segment.orientation) q *= factor;
@@ -100,7 +100,7 @@ TEST(FindFault, AcceptsWhatIsOnlyUnusual) {
   }
 }
 
-// What passes can be evaluated: the reason for the limits.
+// A path without faults can be evaluated, which is the reason for the limits.
 TEST(FindFault, LetsPassOnlyWhatGivesFinitePosesAtTheEnds) {
   std::mt19937_64 random = testing::seeded(7);
   std::uniform_real_distribution<double> exponent(-160.0, 160.0);
@@ -136,7 +136,7 @@ TEST(PoseDistance, BoundsTheWayOfEveryCornerAndIsTightForATurn) {
     const motion::Corners at_b = motion::corners_W(corners_C(), b);
     const double bound_m = pose_distance_m(a, b, radius_m());
     for (std::size_t k = 0; k < 4; ++k) {
-      // The bound is computed in a dozen roundings of numbers below 4.
+      // The bound takes a dozen roundings of numbers below 4.
       EXPECT_LE((at_a[k] - at_b[k]).norm(), bound_m + 1e-14);
     }
   }
@@ -159,7 +159,7 @@ TEST(FindJump, SeesALeapOfTheOrientationToo) {
   std::vector<Segment> segments = tour();
   segments[1].orientation[0] += Vec4(0, 1e-6, 0, 0);
   EXPECT_TRUE(find_jump(Path(segments), radius_m()));
-  // The sign and the length of a four-vector mean nothing.
+  // Sign and length of a four-vector have no meaning.
   segments = tour();
   for (Vec4& q : segments[1].orientation) q *= -3.0;
   EXPECT_FALSE(find_jump(Path(segments), radius_m()));
@@ -168,7 +168,7 @@ TEST(FindJump, SeesALeapOfTheOrientationToo) {
 TEST(FindJump, AcceptsNumbersOfTenDigitsWhateverTheirSize) {
   const auto ten_digits = [](double x) { return std::stod(fmt::format("{:.9e}", x)); };
   for (const double scale : {1e-3, 1.0, 1e6}) {
-    // The two ends are rounded apart: the second segment is moved there and back.
+    // The two ends are rounded separately: the second segment is moved there and back.
     Segment before = straight(0, 1, 2.0 * scale / 3.0, scale / 7.0);
     Segment after = straight(1, 2, scale / 7.0 * (1.0 + 4e-11), scale / 11.0);
     for (Vec3& p : before.position) p = p.unaryExpr(ten_digits);
@@ -199,7 +199,7 @@ TEST(Bridges, LeadFromOnePoseToTheOther) {
 }
 
 TEST(Bridges, ShowAWallOfNoThicknessInTheGap) {
-  // Both segments stand still, and the wall is between the two.
+  // Both segments stand still, and the wall is between them.
   const Path path({straight(0, 1, 1e-10, 1e-10), straight(1, 2, 0, 0)});
   const double z_m = 0.5e-10 - 0.1;  // the quadrilateral is 0.1 m before the eye
   scene::Mesh wall;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Answers that the deadline cut short, at any place: what they say is true.
+// Answers that a deadline cut short at any place are true.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using collision::CollisionInterval;
 using geometry::Quat;
 using ::testing::HasSubstr;
 
-// A row of posts in the way of a straight flight, to be passed one by one.
+// Returns a row of posts in the way of a straight flight, to be passed one by one.
 std::shared_ptr<const scene::Snapshot> posts(int count = 4) {
   scene::Mesh mesh;
   for (int i = 0; i < count; ++i)
@@ -35,7 +35,7 @@ PlanRequest flight(int posts = 4) {
   return request;
 }
 
-/// What is wrong with an answer, whenever it was cut short; empty if nothing is.
+/// Returns the fault of an answer, whenever it was cut short; empty if there is none.
 std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request,
                      const PlanResult& result) {
   if (result.path.empty()) {
@@ -86,8 +86,8 @@ bool are_same(const PlanResult& a, const PlanResult& b) {
          a.certificate.clearance_lower_bound_m == b.certificate.clearance_lower_bound_m;
 }
 
-/// Plans with deadlines that strike at every so many looks, until one does not any more. An answer
-/// that does not say that its deadline came is the one that there is without a deadline.
+/// Plans with deadlines after a growing number of checks of the deadline, until planning completes.
+/// An answer without deadline_reached must equal that without a deadline.
 template <class Visit>
 void for_each_cut(const scene::Snapshot& snapshot, const PlanRequest& request, const Visit& visit) {
   const PlanResult whole = plan(snapshot, request, Deadline::never());
@@ -117,7 +117,7 @@ TEST(PlanDeadline, WhatIsSaidIsTrueWhereverItStrikes) {
   EXPECT_TRUE(left.contains(2)) << "what was corrected by then was kept";
 }
 
-// There are more stretches to check than looks at the clock that are kept for that at the least.
+// There are more stretches to check than checks of the deadline that are kept for that at least.
 TEST(PlanDeadline, WhatWasNotCheckedIsPutBack) {
   constexpr int kPosts = 40;
   const auto snapshot = posts(kPosts);
@@ -129,14 +129,15 @@ TEST(PlanDeadline, WhatWasNotCheckedIsPutBack) {
     const auto corrected = std::ranges::count_if(result.corrections, [](const auto& correction) {
       return correction.rung != correction::Rung::kNone;
     });
-    // Put back, a collision is none that was corrected.
+    // A collision whose correction was undone does not count as corrected.
     EXPECT_EQ(std::ssize(result.remaining_collisions), kPosts - corrected) << looks;
     kept.insert(corrected);
   }
   EXPECT_GT(kept.size(), 2u);
 }
 
-// So many keyframes that looking at them, interpolation and measuring take longer than that.
+// There are so many keyframes that checking them, interpolation and measuring take longer than the
+// deadline.
 TEST(PlanDeadline, IsKeptHoweverManyKeyframesThereAre) {
   constexpr int kKeyframes = 10'000;
   const auto snapshot = posts(100);
@@ -165,7 +166,7 @@ TEST(PlanDeadline, OfTheSeedsMethodToo) {
 }
 
 TEST(PlanDeadline, AFreePathThatWasNotSlowedInTimeSaysSo) {
-  // So many keyframes that the time which slowing has in any case is not enough.
+  // There are so many keyframes that the least time for slowing is not enough.
   PlanRequest request = flight();
   for (int i = 5; i <= 300; ++i)
     request.keyframes.push_back({2.0 * i, {{2.0 * i, 0, 0}, Quat::Identity()}});
@@ -186,7 +187,7 @@ TEST(PlanDeadline, AFreePathThatWasNotSlowedInTimeSaysSo) {
   EXPECT_GT(unslowed, 0);
 }
 
-/// A shorter way, or fewer keyframes, is left undone where time is short.
+/// With little time, a shorter way or fewer keyframes are not searched.
 TEST(PlanDeadline, APathThatIsNotImprovedToTheEndSaysSo) {
   int unimproved = 0;
   for_each_cut(*posts(), flight(), [&](const PlanResult& result) {

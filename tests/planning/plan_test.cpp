@@ -24,12 +24,12 @@ std::shared_ptr<const Snapshot> snapshot_of(Mesh mesh) {
   return scene::make_snapshot("test", std::move(mesh)).snapshot;
 }
 
-// What is planned does not depend on how fast the machine is, or how busy: no deadline.
+// Plans without a deadline, so that the result does not depend on the machine's speed or load.
 PlanResult planned(const Snapshot& snapshot, const PlanRequest& request) {
   return plan(snapshot, request, base::Deadline::never());
 }
 
-// A column that the bulging tour below grazes.
+// Returns a column that the bulging tour below grazes.
 std::shared_ptr<const Snapshot> column_scene() {
   Mesh mesh;
   testing::add_cuboid(mesh, {0.31, -3, -0.2}, {0.5, 3, 0.0});
@@ -47,7 +47,7 @@ PlanRequest bulging_tour() {
   return request;
 }
 
-// Every number of the answer but the timing.
+// Returns every number of the answer except for timing.
 std::vector<double> numbers_of(const PlanResult& result) {
   std::vector<double> numbers;
   for (const motion::Segment& segment : result.path.segments()) {
@@ -178,9 +178,9 @@ TEST(Plan, AKeyframeInAClosedBoxIsProvedInfeasible) {
 
 enum class Way { kNone, kOneBarGone, kFaceOpen };
 
-// Bars 2 cm thick around a box of 1.2 m about the first keyframe, 5 cells of 0.24 m each way. On
-// the face towards the next keyframe, one bar is gone, which leaves holes of 0.22 m by 0.46 m, or
-// all but those on its edges.
+// Returns bars 2 cm thick around a box of 1.2 m about the first keyframe, 5 cells of 0.24 m in each
+// direction. On the face towards the next keyframe one bar is missing, which leaves holes of 0.22 m
+// by 0.46 m, or all bars except those on its edges.
 Mesh caged_keyframe(Way way) {
   Mesh mesh;
   const Vec3 center(0, 0, 2);
@@ -223,7 +223,7 @@ TEST(Plan, ACageWithHolesTooNarrowIsProvedInfeasible) {
   EXPECT_NEAR(cage.widest_hole_m, 0.22 * std::sqrt(2.0), 1e-9);
   EXPECT_TRUE(cage.box.contains(Vec3(0, 0, 1.9)));
   EXPECT_FALSE(result.certificate.certified);
-  // Its holes are 31 cm wide, so a camera of 30 cm may get through, for all that is proved.
+  // Its holes are 31 cm wide, so a camera of 30 cm may get through as far as the proof knows.
   request.options.max_shrink = 0.25;
   const auto soon = base::Deadline::after_s(1.0);  // whether it does is not asked here
   EXPECT_NE(plan(*snapshot, request, soon).status, Status::kInfeasible);
@@ -237,8 +237,8 @@ TEST(Plan, ACageWithAWayOutIsLeft) {
   EXPECT_EQ(result.status, Status::kOk) << result.message;
 }
 
-// Sideways, so that a camera of 0.34 m passes a hole of 0.22 m by 0.46 m, if it keeps off the bar
-// above; and no hole of a whole cage.
+// Sideways, a camera of 0.34 m passes a hole of 0.22 m by 0.46 m if it avoids the bar above; it
+// passes no hole of a complete cage.
 TEST(Plan, AMissingBarIsAWayOutOfACage) {
   PlanRequest request = tour_with_sides(0.34);
   request.keyframes.clear();
@@ -286,7 +286,8 @@ TEST(Plan, RepairsKeyframesIfAsked) {
   }
 }
 
-// Half of the second keyframe is in a floor, and the floor is nearer than what is above it.
+// Half of the second keyframe is in a floor, and the inside of the floor is nearer than the space
+// above.
 TEST(Plan, RepairsNoKeyframeIntoASolid) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-20, -1, -20}, {20, 0.02, 20});
@@ -300,7 +301,7 @@ TEST(Plan, RepairsNoKeyframeIntoASolid) {
   EXPECT_GT(result.path.pose(2.0).position.y(), 0.02);
 }
 
-// The second of three keyframes is inside of so much that nothing free is near it.
+// The second of three keyframes is so deep inside that no free pose is near.
 TEST(Plan, SaysWhichKeyframeCouldNotBeRepaired) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-20, -1, -20}, {20, 0.02, 20});
@@ -327,7 +328,7 @@ TEST(Plan, SaysWhichKeyframeCouldNotBeRepaired) {
               ::testing::HasSubstr("could not be repaired: no free pose was found near it"));
 }
 
-// What moves the camera by less than the tolerance inserts no keyframe, and counts all the same.
+// A correction that moves the camera by less than the tolerance inserts no keyframe, but counts.
 TEST(Plan, KeepsCorrectionsOfLessThanTheTolerance) {
   PlanRequest request = bulging_tour();
   request.options.interval_tolerance_m = 1.0;
@@ -374,7 +375,7 @@ TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
   for (const correction::Correction& correction : none.corrections) {
     EXPECT_EQ(correction.tried, correction::Effort{});
   }
-  // Through a door: one keyframe is not enough.
+  // A path through a door needs more than one keyframe.
   Mesh mesh;
   testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
   testing::add_cuboid(mesh, {3.5, -8, -0.05}, {9, 8, 0.05});
@@ -387,7 +388,7 @@ TEST(Plan, SaysHowManyKeyframesWouldBeNeeded) {
               ::testing::ContainsRegex("options.max_inserted_keyframes allows 1, .* need [1-9]"));
 }
 
-// The gap is narrower than the near quadrilateral however that turns, and the walls have no end.
+// The gap is narrower than the near quadrilateral at any orientation, and the walls are endless.
 TEST(Plan, SaysHowHardItTried) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-80, -80, -0.05}, {-0.05, 80, 0.05});
@@ -416,7 +417,7 @@ TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {
               ::testing::HasSubstr("does not look at options.objective, options.orientation"));
 }
 
-// The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide, and may not turn.
+// The gap is 0.12 wide and endless in y; the quadrilateral is 0.2 wide and may not turn.
 TEST(Plan, MakesTheCameraSmallerIfNothingElseHelpsAndItMay) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-80, -80, -0.05}, {-0.06, 80, 0.05});
@@ -452,8 +453,8 @@ TEST(Plan, MakesNothingSmallerWhereNothingIsToBeCorrected) {
                                   "nothing was corrected, as options.max_inserted_keyframes asks"));
 }
 
-// Two skins of a wall, and its rims, which stand 2 mm off them: there is a way for what is flat
-// enough, so nothing is proved; but none that a search sees, and it is over soon.
+// Two skins of a wall, with rims at a distance of 2 mm: a very flat body has a way out, so there is
+// no proof. But no search finds a way, and it ends soon.
 TEST(Plan, NamesAKeyframeBetweenTheSkinsOfAWall) {
   const Quat turn_W(Eigen::AngleAxisd(0.3, Vec3(0.2, 1.0, 0.1).normalized()));
   Mesh mesh;
@@ -484,7 +485,7 @@ TEST(Plan, NamesAKeyframeBetweenTheSkinsOfAWall) {
   EXPECT_LT(points, 500'000);
 }
 
-// Repairs and new times are no corrections: who asks for them gets them.
+// Repairs and new times do not count as corrections, so requests for them are met.
 TEST(Plan, RepairsAndSlowsThoughNothingIsToBeCorrected) {
   PlanRequest request = bulging_tour();
   request.keyframes[1].pose.position = {0.4, 0, 0.05};  // the quadrilateral is inside the column

@@ -21,14 +21,15 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 Quat about(const Vec3& axis, double angle_rad) { return Quat(Eigen::AngleAxisd(angle_rad, axis)); }
 
-/// An upright camera in a scene with y or z up: heading about that axis, then pitch, then roll.
+/// Returns the orientation of an upright camera in a scene with y or z up: heading about that axis,
+/// then pitch, then roll.
 Quat camera(const Vec3& up_W, double heading_rad, double pitch_rad, double roll_rad) {
   const Quat level = up_W.z() > 0.5 ? about(Vec3::UnitX(), std::numbers::pi / 2) : Quat::Identity();
   return about(up_W, heading_rad) * level * about(Vec3::UnitX(), pitch_rad) *
          about(Vec3::UnitZ(), roll_rad);
 }
 
-/// The quaternion as somebody wrote it x, y, z, w, read as w, x, y, z.
+/// Returns a quaternion that was written x, y, z, w and read as w, x, y, z.
 Quat misread(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 std::vector<motion::Keyframe> keyframes(const std::vector<Quat>& orientations) {
@@ -55,7 +56,8 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
   }
 }
 
-// There only half of the headings can be told: of the others the cameras look upright as read, too.
+// Only half of the headings can be recognised: for the others the cameras look upright as read,
+// too.
 TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> heading_deg(-150, -30);
@@ -73,7 +75,7 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
   }
 }
 
-// Upright cameras that look anywhere, and those that are rolled on purpose.
+// Upright cameras in any direction, and cameras that are rolled on purpose.
 TEST(QuaternionOrder, IsNotDoubtedWhereOneCameraIsUprightOrNoneIsInTheOtherOrder) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> heading(-std::numbers::pi, std::numbers::pi);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Planning and watching where a map is scanned again and again.
+// Planning and watching while a map is scanned repeatedly.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -88,7 +88,7 @@ TEST(ScannedMap, IsPlannedInLikeOneThatIsMadeAnew) {
   EXPECT_GT(corrected, 3);
 }
 
-/// What a watched path is asked about after a scan never says free where the whole scene does not.
+/// The check of a watched path after a scan never says free if the whole scene does not.
 TEST(ScannedMap, WatchedPathsSeeWhatAScanChanged) {
   std::mt19937_64 random = testing::seeded(7362);
   const Scene empty = scene::assemble("room", 1, {}, {});
@@ -99,7 +99,7 @@ TEST(ScannedMap, WatchedPathsSeeWhatAScanChanged) {
     for (int trial = 0; trial < 40; ++trial) {
       const Vec3 origin(0.1, 0.1, 0.1);
       Map map = VoxelMap::build(kVoxelM, {}, {}, unknown).map;
-      // One of a few voxels, far from most paths.
+      // A change of a few voxels, far from most paths.
       map = scene::scanned(*map, {origin, std::vector<Vec3>{Vec3(0.2, 0.6, 0.2)}}).map;
       const Scene before = with(empty, map);
       const PlanRequest request = random_path_request(2, random);

@@ -18,7 +18,8 @@ using geometry::Quat;
 
 constexpr int kPosts = 5;
 
-// A straight flight of ten seconds past posts, one each two seconds, and keyframes at full seconds.
+// A straight flight of ten seconds past posts, one every two seconds, with keyframes at full
+// seconds.
 class SearchChanges : public ::testing::Test {
  protected:
   SearchChanges() {
@@ -32,7 +33,7 @@ class SearchChanges : public ::testing::Test {
                                                 Deadline::never());
   }
 
-  // The part from second `first` on for a second is flown aside.
+  // Moves the part of one second from `first` on aside.
   void move_aside(int first) {
     motion::CubicPath part = changed_.around(1.0 * first, first + 1.0);
     for (motion::CubicPiece& piece : part.pieces) {
@@ -84,7 +85,7 @@ TEST_F(SearchChanges, WhatIsChangedIsSearched) {
   EXPECT_NEAR(back.collisions[1].t_begin_s, 2.4, 0.1);
 }
 
-// What is said to be known is not asked again, what was changed is no longer known.
+// Known parts are not searched again, and changed parts are no longer known.
 TEST_F(SearchChanges, KnowsNoMoreThanItWasTold) {
   move_aside(2);
   collisions_ = {{1.2, 1.4}, {2.1, 2.9}, {7.9, 8.3}};
@@ -110,7 +111,8 @@ TEST_F(SearchChanges, GoesOnWhereASearchWasGivenUp) {
   }
 }
 
-// Cut short anywhere, the collisions are those of the path that is put back from there on.
+// If the search is cut short anywhere, the collisions are those of the path that is put back from
+// there on.
 TEST_F(SearchChanges, WhereTheDeadlineStrikesThePathIsToBePutBack) {
   move_aside(2);
   move_aside(6);

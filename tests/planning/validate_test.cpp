@@ -189,7 +189,7 @@ TEST(Validate, TheEndsOfRangesPass) {
   EXPECT_FALSE(validate(request)) << "a camera of its own can shrink too";
 }
 
-// Every direction that comes out passes `validate`, and coming out again it is the same.
+// Every resulting direction passes `validate`, and normalising it again does not change it.
 TEST(Validate, DirectionsOfAnyLengthBecomeUnitVectors) {
   constexpr unsigned kSeed = 7;
   RecordProperty("seed", kSeed);

@@ -85,8 +85,8 @@ TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
   EXPECT_GT(proved, 20);
 }
 
-/// The box that a change has to stay out of is as large as it needs to be: what touches the body at
-/// its furthest is not dismissed.
+/// The box around a path that dismisses changes is large enough: it does not dismiss an object that
+/// touches the body at its furthest point.
 TEST(WatchedPath, DismissesNothingThatIsTooNear) {
   std::mt19937_64 random = testing::seeded(7352);
   for (const double clearance_m : {0.0, 0.3}) {
@@ -97,7 +97,7 @@ TEST(WatchedPath, DismissesNothingThatIsTooNear) {
       const PlanResult planned = plan(*before, request);
       const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
       ASSERT_TRUE(watched) << planned.message;
-      // A speck at a corner of the near quadrilateral, or as far from it as may not be.
+      // A small box at a corner of the near quadrilateral, or just within the required clearance.
       const double share = std::uniform_real_distribution<double>(0.0, 1.0)(random);
       const motion::Pose pose = planned.path.pose(
           planned.path.begin_s() + share * (planned.path.end_s() - planned.path.begin_s()));
@@ -131,7 +131,7 @@ TEST(WatchedPath, TakingAwayNeverBreaks) {
       watched->stays_free(scene::difference(*before, *store.find("room")), Deadline::after_s(0.0)));
 }
 
-/// Far from all faces, but in the middle of what came.
+/// Far from all faces, but in the middle of the added solid.
 TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const auto empty = scene::assemble("room", 1, {}, {});
   std::mt19937_64 random = testing::seeded(7356);
@@ -182,7 +182,8 @@ TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
   planned.near_scale = 0.5;
   const std::optional<WatchedPath> watched = WatchedPath::of(request, planned);
   ASSERT_TRUE(watched);
-  // A bar that the near quadrilateral cuts at its full distance, and passes behind at half of it.
+  // A bar that the near quadrilateral cuts at its full near distance, and passes behind at half of
+  // it.
   const auto placed =
       scene::place_object("bar", box_source({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});

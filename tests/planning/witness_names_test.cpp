@@ -45,7 +45,7 @@ TEST(DescribeWitness, LeavesNamesEmptyWhereThereIsNoWitness) {
   EXPECT_EQ(result.remaining_names, (std::vector<WitnessNames>{{"table", "inside"}}));
 }
 
-// Apart from the test and not assigned: GCC 12 warns of the variant in the empty optional, which
+// A separate function without assignment: GCC 12 warns of the variant in the empty optional, which
 // neither assignment nor destruction reads.
 [[gnu::noinline]] PlanRequest request_with_box() {
   PlanRequest request;

@@ -42,7 +42,7 @@ TEST(BoundsText, FaultsQuoteWhatIsWrong) {
   }
 }
 
-// As text and on the wire: the same numbers, whichever of them are limits.
+// As text and on the wire, bounds keep the same numbers for any set of limits.
 TEST(BoundsText, AndTheWireKeepEveryNumber) {
   constexpr unsigned kSeed = 7;
   std::mt19937_64 random(kSeed);

@@ -40,7 +40,7 @@ class ConfiguredScenesTest : public ::testing::Test {
     return snapshot ? snapshot->revision : 0;
   }
 
-  /// How often the log says this.
+  /// Returns how often the log has this text.
   int count_of(const std::string& text) const {
     const std::string log = log_.text();
     int count = 0;
@@ -100,7 +100,7 @@ TEST_F(ConfiguredScenesTest, ChangesNothingIfOneSceneIsBad) {
   EXPECT_EQ(store_.find("hall"), nullptr);
   EXPECT_THAT(log_.text(), HasSubstr("error scene cannot be read scene=attic "));
   EXPECT_THAT(log_.text(), HasSubstr("missing.obj"));
-  // It knows what it holds: the next good configuration takes over from there.
+  // The next valid configuration continues from the scenes that are held.
   EXPECT_TRUE(scenes_.update({scene_of("hall", hall_)}));
   EXPECT_EQ(store_.find("room"), nullptr);
 }
@@ -131,7 +131,7 @@ TEST_F(ConfiguredScenesTest, ReadsAWatchedFileAgainOnceItsWriterIsDone) {
   const auto before = store_.find("room");
   scenes_.look_at_files();
   EXPECT_EQ(store_.find("room"), before);
-  // As it grows, at every look.
+  // At every check while it grows.
   for (std::size_t length = 10; length < sizeof(kTwoTriangles) - 1; length += 20) {
     folder_.write("room.obj", std::string(kTwoTriangles).substr(0, length));
     scenes_.look_at_files();

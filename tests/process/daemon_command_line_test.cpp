@@ -90,7 +90,7 @@ TEST(DaemonOptions, BadFlagsEndWithCode2AndSayWhy) {
   }
 }
 
-/// A configuration file and a scene file beside it, gone with the test.
+/// A configuration file and a scene file beside it, which the destructor removes.
 class DaemonOptionsFile : public ::testing::Test {
  protected:
   std::string write(const std::string& name, const std::string& text) const {
@@ -152,7 +152,7 @@ TEST_F(DaemonOptionsFile, ChecksAConfigurationAndSaysWhatItComesTo) {
                            "\nqueue.requests = 7 (default 256)\n");
 }
 
-/// In one go, whatever kinds of faults there are.
+/// All faults are reported at once, whatever their kind.
 TEST_F(DaemonOptionsFile, ChecksScenesAsAStartWouldReadThem) {
   write("rubbish.obj", "f 1 2 3\n");
   const std::string file = write("c.toml", R"([planning]
@@ -197,8 +197,7 @@ roots = "/nonexistent"
           file + ":2: planning.max_deadline_s: is 5, but must be at least planning.deadline_s, "
                  "which is 10",
           file + ":4: scenes.roots: scene root '/nonexistent' is not a folder that can be read"));
-  EXPECT_TRUE(
-      parse({"--config", file.c_str(), "--deadline-s", "4", "--scene-roots", "/"}).options);
+  EXPECT_TRUE(parse({"--config", file.c_str(), "--deadline-s", "4", "--scene-roots", "/"}).options);
 }
 
 TEST_F(DaemonOptionsFile, SharesAreNoLargerThanTheWhole) {

@@ -92,7 +92,7 @@ TEST(HttpPage, ASilentConnectionIsClosed) {
   EXPECT_TRUE(slow.ends());
 }
 
-/// Those who are over the limit wait for others to go.
+/// Connections beyond the limit wait until others end.
 TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
   std::atomic<int> full = 0;
   HttpContent content = hello();
@@ -115,7 +115,7 @@ TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
   EXPECT_GE(full, 1) << "somebody is told";
 }
 
-/// Nothing else happens after one has gone that would make it look for those who wait.
+/// The only event that can make it serve a waiting connection is the end of another.
 TEST(HttpPage, TheOnlyPlaceIsGivenOn) {
   const OpenedHttpPage opened = open_page({}, {.connections = 1, .idle_s = 600});
   ASSERT_TRUE(opened.page) << opened.error;
@@ -128,7 +128,7 @@ TEST(HttpPage, TheOnlyPlaceIsGivenOn) {
   EXPECT_EQ(body_of(next.receive()), "hello\n");
 }
 
-/// Requests that are none, each wrong in another place.
+/// Returns invalid requests, each wrong at another place.
 std::vector<std::string> rubbish() {
   return {std::string("\0\1\2\r\n\r\n", 7), std::string(100'000, 'A'),
           "GET " + std::string(40'000, 'x'),
@@ -143,7 +143,7 @@ TEST(HttpPage, RubbishDoesNotEndIt) {
   EXPECT_EQ(body_of(http_request(port, "GET", "/page")), "hello\n");
 }
 
-/// On the library's own thread this ended the process, about one in fifty stops.
+/// On the library's own thread this ended the process in about one of fifty stops.
 TEST(HttpPage, RubbishWhileItStopsDoesNoHarm) {
   for (int i = 0; i < 300; ++i) {
     OpenedHttpPage opened = open_page();
@@ -162,7 +162,7 @@ TEST(HttpPage, RubbishWhileItStopsDoesNoHarm) {
   }
 }
 
-/// One that nobody talks to waits, and does not look again and again.
+/// Without connections the page waits and does not poll.
 TEST(HttpPage, CostsNothingWhenNobodyAsks) {
   const OpenedHttpPage opened = open_page({}, {.idle_s = 600});
   ASSERT_TRUE(opened.page) << opened.error;

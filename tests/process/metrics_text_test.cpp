@@ -103,7 +103,7 @@ TEST(MetricsText, EachCounterStandsUnderItsOwnName) {
   }
 }
 
-/// The checker sees what it is for.
+/// The checker detects the faults for which it was made.
 TEST(MetricsText, TheCheckerFindsFaults) {
   const auto faults = [](const std::string& text) { return PrometheusChecker(text).faults(); };
   const std::string head = "# HELP a_total b\n# TYPE a_total counter\n";

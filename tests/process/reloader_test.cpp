@@ -21,8 +21,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A reloader whose configuration the test makes, with a service manager that tells when it is
-/// done.
+/// A reloader with configurations of the test, and a service manager that reports when it is done.
 class ReloaderTest : public ::testing::Test {
  protected:
   ReloaderTest() {
@@ -39,14 +38,14 @@ class ReloaderTest : public ::testing::Test {
     return scene;
   }
 
-  /// What the status says of reloads.
+  /// Returns the fields of the status about reloads.
   [[nodiscard]] status_t status() const {
     status_t status{};
     record_.add_to(status);
     return status;
   }
 
-  /// Reloads what `read` gives, and returns all that was logged.
+  /// Reloads with the result of `read`. Returns all lines of the log.
   std::string reload(Reloader::Read read) {
     read_ = std::move(read);
     reloader_->request();

@@ -7,7 +7,7 @@
 
 namespace camway::scene {
 
-/// A mesh of these triangles, in this order, each with vertices of its own.
+/// Returns a mesh of these triangles, in this order, each with vertices of its own.
 inline Mesh mesh_of_triangles(const std::vector<geometry::Triangle>& triangles) {
   Mesh mesh;
   for (const geometry::Triangle& triangle : triangles) {

@@ -8,7 +8,7 @@
 namespace camway::testing {
 namespace {
 
-/// Only a test that fails waits this long.
+/// Longest wait; only a failing test waits this long.
 constexpr std::chrono::seconds kPatience{30};
 
 }  // namespace

@@ -16,8 +16,7 @@
 
 namespace camway::testing {
 
-/// A transport in memory. The test delivers messages and looks at what was published, from any
-/// thread.
+/// A transport in memory. A test delivers messages and reads the published ones. Thread-safe.
 class FakeTransport final : public service::Transport {
  public:
   struct Message {
@@ -30,28 +29,28 @@ class FakeTransport final : public service::Transport {
   bool poll(std::chrono::milliseconds timeout) override;
   void wake() noexcept override;
 
-  /// Queues a message for whoever subscribed to `channel`.
+  /// Queues a message for the subscriber of `channel`.
   void deliver(std::string channel, service::Bytes bytes);
 
-  /// From now on: subscribing fails, publishing fails, polling fails.
+  /// Make all later calls of subscribe, publish or poll fail.
   void fail_subscribe();
   void fail_publish();
   void break_down();
 
   [[nodiscard]] std::vector<Message> published() const;
   [[nodiscard]] std::vector<service::Bytes> published_on(const std::string& channel) const;
-  /// Number `index` of them; waits for it, and gives nothing if it does not come.
+  /// Waits for published message `index` on `channel` and returns it; nothing if it does not come.
   [[nodiscard]] std::optional<service::Bytes> message_on(const std::string& channel,
                                                          std::size_t index) const;
 
-  /// Waits until `enough(what was published so far)`; false if that takes longer than any test
-  /// should.
+  /// Waits until `enough` returns true for the messages published so far. Returns false if that
+  /// takes longer than a test should.
   [[nodiscard]] bool wait_until(
       const std::function<bool(const std::vector<Message>&)>& enough) const;
   [[nodiscard]] bool wait_for_messages_on(const std::string& channel, std::size_t count) const;
 
  private:
-  mutable std::mutex mutex_;  ///< guards all below but handlers_, which the poller owns
+  mutable std::mutex mutex_;  ///< guards all members below except handlers_, which the poller owns
   mutable std::condition_variable changed_;
   std::deque<Message> incoming_;
   std::vector<Message> published_;

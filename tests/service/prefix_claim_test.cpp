@@ -29,7 +29,7 @@ ServiceConfig with_window(std::chrono::milliseconds window) {
   return config;
 }
 
-/// Longer than any test: what ends earlier does so for another reason.
+/// A window longer than any test: a claim that ends earlier has another reason.
 ServiceConfig asking() { return with_window(100s); }
 
 claim_t claim(std::int8_t state, std::int64_t start_id, std::int64_t asked_by = 0,

@@ -16,7 +16,7 @@ planning::PlanResult FakePlanner::plan(const planning::PlanRequest& request,
   ++calls_;
   last_budget_s_ = deadline.remaining_s();
   changed_.notify_all();
-  // As planning does, this looks now and then whether it is still wanted.
+  // Like planning, this checks the deadline now and then.
   while (held_ && !deadline.stopped()) changed_.wait_for(lock, std::chrono::milliseconds(1));
   lock.unlock();
   return result_(request);

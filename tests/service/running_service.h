@@ -16,8 +16,8 @@
 
 namespace camway::testing {
 
-/// Stands in for planning: answers with what `result` makes of the request, and can be told to hold
-/// every call until released. From any thread.
+/// A stand-in for planning that answers with `result(request)` and can hold every call until
+/// `release`. Thread-safe.
 class FakePlanner {
  public:
   using Result = std::function<planning::PlanResult(const planning::PlanRequest&)>;
@@ -28,25 +28,25 @@ class FakePlanner {
 
   void hold();
   void release();
-  /// Waits until `count` calls have begun; false if that takes too long.
+  /// Waits until `count` calls have begun. Returns false if that takes too long.
   [[nodiscard]] bool wait_for_calls(int count) const;
   [[nodiscard]] int calls() const;
-  /// What was left of the last call's deadline when it began.
+  /// Returns the time that the last call's deadline left at its begin.
   [[nodiscard]] double last_budget_s() const;
 
  private:
   Result result_;
-  mutable std::mutex mutex_;  ///< guards all below
+  mutable std::mutex mutex_;  ///< guards all members below
   mutable std::condition_variable changed_;
   int calls_ = 0;
   double last_budget_s_ = 0.0;
   bool held_ = false;
 };
 
-/// An answer that depends on nothing but the request: a path of one segment for each keyframe.
+/// Returns an answer that depends on the request only: a path of one segment for each keyframe.
 planning::PlanResult echo_result(const planning::PlanRequest& request);
 
-/// The service's own settings but for these.
+/// Returns the default settings with these two changed.
 inline service::ServiceConfig with_workers(int workers, std::size_t queue_capacity) {
   service::ServiceConfig config;
   config.workers = workers;
@@ -54,7 +54,7 @@ inline service::ServiceConfig with_workers(int workers, std::size_t queue_capaci
   return config;
 }
 
-/// A service on a fake transport, run by a thread of its own, with scenes "room" and "hall".
+/// A service on a fake transport with the scenes "room" and "hall". Runs on a thread of its own.
 class RunningService {
  public:
   explicit RunningService(const service::ServiceConfig& config = {},
@@ -67,11 +67,11 @@ class RunningService {
   void send(const plan_request_t& request);
   void send_on(const std::string& channel, service::Bytes bytes);
 
-  /// The first complete answer to `request` after the first `skip_pages` messages on its channel.
+  /// Returns the first complete answer to `request` after `skip_pages` messages on its channel.
   std::optional<plan_response_t> answer_to(const plan_request_t& request,
                                            std::size_t skip_pages = 0);
 
-  /// Asks for the end of the run and returns how it ended.
+  /// Stops the service and returns the outcome of its run.
   service::RunOutcome stop();
   service::RunOutcome wait_for_end();
 
@@ -89,9 +89,9 @@ class RunningService {
   std::thread loop_;
 };
 
-/// A request of client "tester" on scene "room" with arbitrary finite keyframes.
+/// Returns a request of client "tester" on scene "room" with arbitrary finite keyframes.
 plan_request_t request_with(std::int64_t request_id, std::size_t keyframes = 3);
-/// The same of another client.
+/// Returns such a request of another client.
 plan_request_t request_of(const std::string& client, std::int64_t request_id);
 
 }  // namespace camway::testing

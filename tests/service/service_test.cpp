@@ -26,7 +26,7 @@ using testing::Random;
 using testing::request_with;
 using testing::RunningService;
 
-/// Heartbeats that a test can wait for without slowing down.
+/// Returns a configuration with frequent heartbeats, to keep tests short.
 ServiceConfig quick_heartbeats() {
   ServiceConfig config;
   config.heartbeat_period = std::chrono::milliseconds(20);
@@ -40,7 +40,7 @@ Message decoded(const Bytes& bytes) {
   return result.message.value_or(Message{});
 }
 
-/// The first status for which `enough` holds.
+/// Returns the first status for which `enough` is true.
 std::optional<status_t> status_with(const RunningService& daemon,
                                     const std::function<bool(const status_t&)>& enough) {
   std::optional<status_t> found;
@@ -84,7 +84,7 @@ TEST(Service, CountsAnswersByStatusLatenciesAndTraffic) {
   elsewhere.scene = "nowhere";
   daemon.send(elsewhere);
   const std::optional<status_t> status = status_with(daemon, [](const status_t& s) {
-    // An answer is counted before it is sent, and the status when it has been.
+    // An answer is counted before it is sent, and a status after it was sent.
     return s.answered_requests == 4 && s.sent_messages >= 5;
   });
   ASSERT_TRUE(status);
@@ -157,7 +157,7 @@ struct BrokenMessage {
   Bytes bytes;
 };
 
-/// Requests whose sender can still be read.
+/// Returns broken requests whose sender can still be read.
 std::vector<BrokenMessage> broken_but_addressed() {
   const Bytes good = wire::encode(request_with(77));
   Bytes truncated = good;
@@ -254,7 +254,7 @@ TEST(Service, LivesThroughAFloodOfMutants) {
   }
   plan_request_t last = request_with(1'000'000);
   last.client_id = "survivor";
-  // The flood may fill the queue of jobs: a client sends again then.
+  // The flood may fill the queue of jobs; then the client sends again.
   for (std::size_t tries = 0;; ++tries) {
     ASSERT_LT(tries, 1000U) << "seed " << kSeed;
     daemon.send(last);
@@ -309,7 +309,7 @@ TEST(Service, StopFinishesWhatIsBeingPlannedAndRefusesTheRest) {
   daemon.send(request_with(1));
   ASSERT_TRUE(daemon.planner.wait_for_calls(1));
   daemon.send(request_with(2));
-  // Answered at once and after the second in the queue, so the second has been queued by then.
+  // This request is answered at once. When its answer comes, the second one has been queued.
   plan_request_t marker = request_with(3);
   marker.scene = "cellar";
   daemon.send(marker);
@@ -330,8 +330,8 @@ TEST(Service, StopFinishesWhatIsBeingPlannedAndRefusesTheRest) {
   EXPECT_EQ(daemon.planner.calls(), 1);
 }
 
-// A worker counts as idle only some instants after it woke the loop with its answer: a stop that
-// looked in between and then waited for another wake would sit out its limit.
+// A worker counts as idle only shortly after it woke the loop with its answer. A stop that checked
+// in between and then waited for another wake would use up its time limit.
 TEST(Service, StopEndsAsSoonAsTheLastAnswerIsOut) {
   for (int round = 0; round < 200; ++round) {
     const auto begin = std::chrono::steady_clock::now();

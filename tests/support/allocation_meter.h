@@ -5,8 +5,8 @@
 
 namespace camway::testing {
 
-/// Counts what the calling thread asks of `operator new` during its life. The program that links
-/// allocation_meter.cpp replaces that operator.
+/// Counts the bytes that the calling thread allocates by `operator new` during the object's
+/// lifetime. allocation_meter.cpp replaces that operator in the program that links it.
 class AllocationMeter {
  public:
   AllocationMeter();

@@ -17,12 +17,12 @@
 #include "daemon/correction/infeasibility/cage_box.h"
 #include "daemon/scene/mesh/mesh.h"
 
-/// Whether a box and some triangles of a mesh prove that the centre of a flat body cannot get out.
-/// From those, and where the centre is, alone; shares nothing with the code that finds cages: all
-/// in fractions, in a frame that is turned exactly, piece by piece of faces cut at every vertex,
-/// each decided for itself; holes are wide as their corners are apart, not as their bounds are.
-/// What is told of solids parallel to the frame is exact, in union too; slanted ones fill only the
-/// pieces that they fill as a whole.
+/// Checks whether a box and some triangles of a mesh prove that the centre of a flat body cannot
+/// leave the box. Uses only these and the position of the centre, and shares no code with the
+/// search for cages: it computes in fractions, in an exactly rotated frame. It cuts each face at
+/// every vertex and decides each cell on its own; the width of a hole is the largest distance of
+/// its corners, not the size of its bounds. For solids parallel to the frame the result is exact,
+/// for their union, too. A slanted solid covers only the cells that it fills completely.
 namespace camway::testing {
 
 class CageChecker {
@@ -42,7 +42,7 @@ class CageChecker {
         const Point p = seen(mesh.vertices.at(mesh.triangles.at(t)[k]));
         corners[k] = points.emplace(p, points.size()).first->second;
       }
-      // A copy is no other obstacle.
+      // A copy of a triangle adds no obstacle.
       if (known.insert({corners[0], corners[1], corners[2]}).second) triangles_.push_back(corners);
     }
     points_.resize(points.size());
@@ -50,13 +50,13 @@ class CageChecker {
     find_solids();
   }
 
-  /// What the scene is made of, by who made it: closed surfaces, and triangles that do not overlap.
+  /// The parts of a scene, as its maker knows them: closed surfaces, and triangles without overlap.
   struct Parts {
     std::vector<std::vector<std::uint32_t>> solids;
     std::vector<std::uint32_t> flats;
   };
-  /// In the frame that `turn` turns into the world's, of any length, instead of the cage's, which
-  /// is rounded.
+  /// Uses the frame that `turn`, a quaternion of any length, rotates into the world. The frame of
+  /// `cage` is rounded.
   CageChecker(const scene::Mesh& mesh, const Parts& parts, const correction::CageBox& cage,
               const geometry::Quat& turn)
       : cage_(cage) {
@@ -83,7 +83,8 @@ class CageChecker {
     for (Solid& solid : solids_) measure(solid);
   }
 
-  /// Empty if the centre gets from neither of the two points to the other; else what is wrong.
+  /// Returns the fault of the proof that the centre cannot get from one point to the other; empty
+  /// if the proof holds.
   [[nodiscard]] std::string check(const geometry::Vec3& inside_W, const geometry::Vec3& outside_W) {
     const Point inside = seen(inside_W);
     const Point outside = seen(outside_W);
@@ -104,12 +105,12 @@ class CageChecker {
   using Edge = std::pair<std::size_t, std::size_t>;
   struct Solid {
     std::vector<std::size_t> triangles;
-    Point low, high;         ///< bounds
-    bool is_cuboid = false;  ///< parallel to the frame
+    Point low, high;         ///< bounding box
+    bool is_cuboid = false;  ///< whether it is a cuboid parallel to the frame
     bool holds_body = false;
   };
   using Flat = std::array<Number, 2>;
-  using Cells = std::vector<std::vector<char>>;  // by the two other axes, in cyclic order
+  using Cells = std::vector<std::vector<char>>;  // indexed by the two other axes, in cyclic order
   struct Face {
     Cells covered;
   };
@@ -124,7 +125,7 @@ class CageChecker {
 
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
-  /// The product of quaternions t v t^-1, exactly a rotation whatever the length of t.
+  /// Returns t v t^-1 for the quaternion t, which is exactly a rotation for any length of t.
   [[nodiscard]] Point seen(const geometry::Vec3& v) const {
     const auto& [w, x, y, z] = turn_;
     const Point p = {Number(v.x()), Number(v.y()), Number(v.z())};
@@ -148,7 +149,7 @@ class CageChecker {
     return true;
   }
 
-  /// Triangles joined over edges; those of parts that are closed, and the flat rest.
+  /// Joins triangles over shared edges. A closed part is a solid; the rest are flat triangles.
   void find_solids() {
     std::map<Edge, std::vector<std::size_t>> uses;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -192,7 +193,7 @@ class CageChecker {
         }
       }
     }
-    // Closed, and with no corner but those of its bounds: it is their surface.
+    // A closed surface whose only vertices are the corners of its bounding box is that box.
     solid.is_cuboid = solid.triangles.size() == 12 && corners.size() == 8 &&
                       std::all_of(corners.begin(), corners.end(), [&](std::size_t p) {
                         for (std::size_t k = 0; k < 3; ++k) {
@@ -206,7 +207,7 @@ class CageChecker {
   void cut(std::size_t axis) {
     std::set<Number> all = {low_[axis], high_[axis]};
     for (const Point& p : points_) all.insert(p[axis]);
-    // Those that differ by rounding lie between two lines.
+    // Coordinates that differ by rounding only are enclosed between two lines.
     const Number near(1e-12);
     std::set<Number> lines = {low_[axis], high_[axis]};
     for (auto from = all.begin(); from != all.end();) {
@@ -249,7 +250,8 @@ class CageChecker {
     return face;
   }
 
-  /// Where one surface does not pass through the inside of the cell, and the body is beyond it.
+  /// Returns whether a solid fills the cell: its surface does not pass through the inside of the
+  /// cell, and the body is on the other side of it.
   [[nodiscard]] bool is_in_solid(const std::vector<std::size_t>& solids, std::size_t axis,
                                  const Number& at, const std::array<Number, 4>& cell) const {
     Point middle;
@@ -263,7 +265,8 @@ class CageChecker {
         is_beside = is_beside || middle[k] < solid.low[k] || middle[k] > solid.high[k];
       }
       if (is_beside && !solid.holds_body) continue;
-      if (solid.is_cuboid && !solid.holds_body) return true;  // cells end at all its sides
+      if (solid.is_cuboid && !solid.holds_body)
+        return true;  // every side of the cuboid is a border of cells
       const bool passes =
           std::any_of(solid.triangles.begin(), solid.triangles.end(),
                       [&](std::size_t t) { return meets_inside(t, axis, at, cell); });
@@ -272,7 +275,7 @@ class CageChecker {
     return false;
   }
 
-  /// The polygon where a triangle meets the plane, cut to the half-planes of the cell.
+  /// Returns the polygon in which a triangle meets the plane of the face, clipped to the cell.
   [[nodiscard]] std::vector<Flat> piece(std::size_t t, std::size_t axis, const Number& at,
                                         const std::array<Number, 4>& cell) const {
     const std::size_t u = (axis + 1) % 3;
@@ -315,7 +318,7 @@ class CageChecker {
                                   const std::array<Number, 4>& cell) const {
     const std::vector<Flat> polygon = piece(t, axis, at, cell);
     if (polygon.empty()) return false;
-    // What is in the cell and not in one of its sides has a point inside.
+    // A polygon in the cell that is not in one of its sides has a point inside.
     for (std::size_t side = 0; side < 4; ++side) {
       if (std::all_of(polygon.begin(), polygon.end(),
                       [&](const Flat& p) { return p[side / 2] == cell[side]; })) {
@@ -325,10 +328,11 @@ class CageChecker {
     return true;
   }
 
-  /// By the area of connected triangles, for which no two of them may overlap.
+  /// Returns whether connected triangles cover the cell, by their area. Requires triangles without
+  /// overlap.
   [[nodiscard]] bool is_on_flats(const std::vector<std::size_t>& flats, std::size_t axis,
                                  const Number& at, const std::array<Number, 4>& cell) const {
-    std::map<std::size_t, Number> areas;  // by connected part
+    std::map<std::size_t, Number> areas;  // area of each connected part
     for (const std::size_t t : flats) {
       const std::vector<Flat> polygon = piece(t, axis, at, cell);
       Number twice = 0;
@@ -344,7 +348,8 @@ class CageChecker {
                        [&](const auto& part) { return part.second == whole; });
   }
 
-  /// By straight ways in slanted directions, until one meets no edge.
+  /// Returns the parity of the crossings of a ray from `p`. Tries slanted directions until the ray
+  /// meets no edge.
   [[nodiscard]] bool is_odd(const Solid& solid, const Point& p) const {
     for (int attempt = 1;; ++attempt) {
       const Point way = {Number(7 * attempt + 3), Number(11 - 5 * attempt),
@@ -378,7 +383,8 @@ class CageChecker {
            a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
 
-  /// The cell beyond the border of a face is the one of the next face around the edge of the box.
+  /// Returns the fault of a hole in face `name`: it is too wide, or reaches the border of the face
+  /// where the cell of the next face, around the edge of the box, is open, too.
   [[nodiscard]] std::string wrong_hole(const std::array<Face, 6>& faces, std::size_t name) const {
     const std::size_t axis = name / 2;
     const std::size_t u = (axis + 1) % 3;
@@ -442,7 +448,7 @@ class CageChecker {
   Point high_;
   std::vector<Point> points_;
   std::vector<std::array<std::size_t, 3>> triangles_;
-  std::vector<std::size_t> part_of_;  ///< by triangle
+  std::vector<std::size_t> part_of_;  ///< connected part of each triangle
   std::vector<Solid> solids_;
   std::array<std::vector<Number>, 3> lines_;
 };

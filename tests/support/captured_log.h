@@ -11,7 +11,7 @@
 
 namespace camway::testing {
 
-/// A log whose lines ("info reload: done") a test can read, whoever writes it meanwhile.
+/// A log whose lines ("info reload: done") a test can read while other threads write. Thread-safe.
 class CapturedLog {
  public:
   explicit CapturedLog(service::LogLevel level = service::LogLevel::kInfo)
@@ -19,7 +19,7 @@ class CapturedLog {
 
   [[nodiscard]] const std::shared_ptr<service::Log>& log() const { return log_; }
 
-  /// All lines without their times.
+  /// Returns all lines without their times.
   [[nodiscard]] std::string text() const {
     std::string text = buffer_.text();
     static constexpr std::string_view kName = "[camwayd] [";

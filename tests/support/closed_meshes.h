@@ -9,11 +9,11 @@
 #include "daemon/scene/mesh/mesh.h"
 #include "tests/support/scenes.h"
 
-/// Closed surfaces, and what breaks them.
+/// Closed surfaces, and surfaces that are not closed.
 namespace camway::testing {
 
-/// Adds a surface over a grid of parameters that is closed in both directions: `point(i, j)` for
-/// 0 <= i < rows and 0 <= j < columns. Row `rows` is row 0, turned round if `mirrored`.
+/// Adds a surface over a parameter grid that is closed in both directions: `point(i, j)` for
+/// 0 <= i < rows and 0 <= j < columns. Row `rows` is row 0, in reverse order if `mirrored`.
 inline void add_closed_grid(scene::Mesh& mesh, std::uint32_t rows, std::uint32_t columns,
                             bool mirrored,
                             const std::function<Vec3(std::uint32_t, std::uint32_t)>& point) {
@@ -34,7 +34,7 @@ inline void add_closed_grid(scene::Mesh& mesh, std::uint32_t rows, std::uint32_t
   }
 }
 
-/// About the y axis.
+/// Adds a torus about the y axis.
 inline void add_torus(scene::Mesh& mesh, const Vec3& center, double radius_m, double tube_m) {
   constexpr std::uint32_t kRows = 24;
   constexpr std::uint32_t kColumns = 12;
@@ -48,9 +48,9 @@ inline void add_torus(scene::Mesh& mesh, const Vec3& center, double radius_m, do
   });
 }
 
-/// A Klein bottle in the form of an eight turned by half a turn: it has no orientation and passes
-/// through itself along a circle of `radius_m` about the y axis; each half of the eight is
-/// `tube_m` wide.
+/// Adds a Klein bottle: a figure eight that rotates by half a turn along a circle of `radius_m`
+/// about the y axis. It is not orientable and intersects itself along that circle. Each half of the
+/// eight is `tube_m` wide.
 inline void add_klein_bottle(scene::Mesh& mesh, double radius_m, double tube_m) {
   constexpr std::uint32_t kRows = 40;
   constexpr std::uint32_t kColumns = 24;
@@ -66,7 +66,7 @@ inline void add_klein_bottle(scene::Mesh& mesh, double radius_m, double tube_m) 
   });
 }
 
-/// An octahedron whose vertices lie on the axes through `center`.
+/// Adds an octahedron whose vertices lie on the axes through `center`.
 inline void add_octahedron(scene::Mesh& mesh, const Vec3& center, double radius_m) {
   const std::uint32_t first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (int k = 0; k < 3; ++k) {
@@ -82,8 +82,8 @@ inline void add_octahedron(scene::Mesh& mesh, const Vec3& center, double radius_
   }
 }
 
-/// A sphere: an octahedron, each triangle cut into four `times` times. Vertices are repeated, as in
-/// an STL file.
+/// Adds a sphere: an octahedron whose triangles are cut into four, `times` times. Vertices are
+/// repeated, as in an STL file.
 inline void add_sphere(scene::Mesh& mesh, const Vec3& center, double radius_m, int times) {
   scene::Mesh octahedron;
   add_octahedron(octahedron, Vec3::Zero(), 1.0);
@@ -94,7 +94,7 @@ inline void add_sphere(scene::Mesh& mesh, const Vec3& center, double radius_m, i
       add_triangle(mesh, placed(t[0]), placed(t[1]), placed(t[2]));
       return;
     }
-    // A sum of two does not depend on their order, so neighbours agree to the last bit.
+    // Addition is commutative in floating point, so adjacent triangles have the same vertices.
     const Vec3 ab = Vec3(t[0] + t[1]).normalized();
     const Vec3 bc = Vec3(t[1] + t[2]).normalized();
     const Vec3 ca = Vec3(t[2] + t[0]).normalized();
@@ -106,7 +106,7 @@ inline void add_sphere(scene::Mesh& mesh, const Vec3& center, double radius_m, i
   for (std::size_t t = 0; t < octahedron.triangles.size(); ++t) add(octahedron.triangle(t), times);
 }
 
-/// The four faces of a tetrahedron.
+/// Adds the four faces of a tetrahedron.
 inline void add_tetrahedron(scene::Mesh& mesh, const std::array<Vec3, 4>& v) {
   add_triangle(mesh, v[0], v[1], v[2]);
   add_triangle(mesh, v[0], v[1], v[3]);
@@ -114,13 +114,12 @@ inline void add_tetrahedron(scene::Mesh& mesh, const std::array<Vec3, 4>& v) {
   add_triangle(mesh, v[1], v[2], v[3]);
 }
 
-/// Two rooms, 1 m a side, on either side of the wall x = 0, which they share: its edges have three
-/// triangles.
+/// Returns two rooms of side 1 m that share the wall x = 0, whose edges have three triangles.
 inline scene::Mesh two_rooms() {
   scene::Mesh mesh;
   add_cuboid(mesh, Vec3(-1, 0, 0), Vec3(0, 1, 1));
   add_cuboid(mesh, Vec3(0, 0, 0), Vec3(1, 1, 1));
-  // The second copy of the wall is the pair of triangles of the second room whose x is all 0.
+  // Remove the second copy of the wall: the triangles of the second room with x = 0 everywhere.
   std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& t) {
     return t[0] >= 8 && mesh.vertices[t[0]].x() == 0.0 && mesh.vertices[t[1]].x() == 0.0 &&
            mesh.vertices[t[2]].x() == 0.0;

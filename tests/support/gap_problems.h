@@ -12,10 +12,10 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
-/// What corrections of one gap are given, made in memory.
+/// Inputs of the correction of one interval between keyframes, made in memory.
 namespace camway::testing {
 
-/// Draws what tests need.
+/// A random generator for tests.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : generator_(seeded(seed)) {}
@@ -51,7 +51,7 @@ class Draw {
   std::mt19937_64 generator_;
 };
 
-/// The problem of one gap of a path that was interpolated, and is still as it was.
+/// Returns the problem of one interval between keyframes, on a path that is still as interpolated.
 inline correction::Problem problem_of_gap(const std::vector<motion::Keyframe>& keyframes,
                                           std::size_t gap) {
   const motion::CubicPath whole = motion::interpolate_cubic(keyframes);

@@ -15,7 +15,7 @@
 
 namespace camway::testing {
 
-/// A connection to a port of this machine; what it sends and gets is up to the test.
+/// A TCP connection to a port of this machine, for arbitrary bytes.
 class LocalConnection {
  public:
   explicit LocalConnection(int port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -35,12 +35,12 @@ class LocalConnection {
   bool send(const std::string& text) const {
     return ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
-  /// Whether something comes, or the end, before so long.
+  /// Returns whether bytes or the end of the connection come within `timeout_s`.
   [[nodiscard]] bool has_something(double timeout_s) const {
     pollfd input{fd_, POLLIN, 0};
     return poll(&input, 1, static_cast<int>(timeout_s * 1e3)) > 0;
   }
-  /// Whether the other side closes, whatever it says before.
+  /// Returns whether the other side closes the connection; ignores received bytes.
   [[nodiscard]] bool ends() const {
     std::array<char, 4096> part{};
     ssize_t got = 0;
@@ -48,7 +48,7 @@ class LocalConnection {
     while (got > 0);
     return got == 0 || errno == ECONNRESET;
   }
-  /// All that comes until the other side closes.
+  /// Returns all bytes until the other side closes.
   [[nodiscard]] std::string receive() const {
     std::string all;
     std::array<char, 4096> part{};
@@ -63,7 +63,7 @@ class LocalConnection {
   bool good_ = false;
 };
 
-/// The answer to an HTTP request, head and body; empty if nobody answers.
+/// Returns the answer to an HTTP request, head and body; empty if there is none.
 inline std::string http_request(int port, const std::string& method, const std::string& path) {
   const LocalConnection connection(port);
   const std::string request =
@@ -71,7 +71,7 @@ inline std::string http_request(int port, const std::string& method, const std::
   return connection.good() && connection.send(request) ? connection.receive() : std::string();
 }
 
-/// What stands behind the head of such an answer.
+/// Returns the body of an HTTP answer.
 inline std::string body_of(const std::string& answer) {
   const std::size_t end = answer.find("\r\n\r\n");
   return end == std::string::npos ? std::string() : answer.substr(end + 4);

@@ -16,10 +16,10 @@
 
 namespace camway::testing {
 
-/// Stands in for the service manager: the socket that sd_notify(3) writes to.
+/// A stand-in for the service manager: the socket that sd_notify(3) writes to.
 class NotifySocket {
  public:
-  /// `name`: a path that does not exist, or "@..." for an abstract name.
+  /// `name` is a path that does not exist, or "@..." for an abstract name.
   explicit NotifySocket(const std::string& name) : fd_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -35,7 +35,7 @@ class NotifySocket {
   NotifySocket(const NotifySocket&) = delete;
   NotifySocket& operator=(const NotifySocket&) = delete;
 
-  /// The next message, or an empty text if none comes in time.
+  /// Returns the next message; empty if none comes in time.
   std::string next(std::chrono::milliseconds patience = std::chrono::seconds(60)) {
     pollfd ready{fd_, POLLIN, 0};
     if (::poll(&ready, 1, static_cast<int>(patience.count())) != 1) return {};
@@ -44,7 +44,7 @@ class NotifySocket {
     return got < 0 ? std::string() : std::string(buffer.data(), static_cast<std::size_t>(got));
   }
 
-  /// The next message that begins with `state`; all others are left out.
+  /// Returns the next message that begins with `state`, and skips all others.
   std::string next_of(const std::string& state) {
     while (true) {
       std::string message = next();

@@ -7,13 +7,13 @@
 #include "daemon/correction/path/constraints.h"
 #include "daemon/motion/path/path.h"
 
-/// The rules for orientations, said once more in the words of the documentation and without the
-/// code that keeps them: angles in degrees, at samples.
+/// The orientation policies by the words of the documentation, in degrees and at samples. Shares no
+/// code with the implementation.
 namespace camway::testing {
 
 inline double degrees_of(double rad) { return rad * 180.0 / std::numbers::pi; }
 
-/// How many degrees an axis of the camera points out of the horizontal plane.
+/// Returns the elevation of an axis of the camera above the horizontal plane. [Units: degrees]
 inline double elevation_deg(const geometry::Quat& q, const geometry::Vec3& axis_C,
                             const geometry::Vec3& up_W) {
   return 90.0 - degrees_of(std::acos(std::clamp((q * axis_C).dot(up_W), -1.0, 1.0)));
@@ -28,8 +28,8 @@ inline double off_target_deg(const motion::Pose& pose, const geometry::Vec3& tar
   return degrees_of(std::acos(std::clamp(-target_C.z() / target_C.norm(), -1.0, 1.0)));
 }
 
-/// By how many degrees `now` breaks the policy, beyond what it may by the documentation: 0 or less
-/// where it does not.
+/// Returns by how much `now` breaks the policy beyond the documented tolerance; 0 or less if it
+/// does not. [Units: degrees]
 inline double breach_deg(const correction::OrientationPolicy& policy, const motion::Pose& now,
                          const motion::Pose& before) {
   using correction::OrientationRule;
@@ -54,10 +54,10 @@ inline double breach_deg(const correction::OrientationPolicy& policy, const moti
   return worst_deg;
 }
 
-/// Rounding of an arc cosine near 1, in degrees.
+/// Bound on the rounding of an arc cosine near 1. [Units: degrees]
 inline constexpr double kOracleRounding_deg = 1e-5;
 
-/// The largest breach at `samples` + 1 times of [begin_s, end_s].
+/// Returns the largest breach at `samples` + 1 times of [begin_s, end_s].
 inline double worst_breach_deg(const correction::OrientationPolicy& policy, const motion::Path& now,
                                const motion::Path& before, double begin_s, double end_s,
                                int samples = 4000) {
@@ -69,7 +69,7 @@ inline double worst_breach_deg(const correction::OrientationPolicy& policy, cons
   return worst_deg;
 }
 
-/// The furthest that the camera is turned from how it was.
+/// Returns the largest angle between the two orientations at the same time.
 inline double largest_turn_deg(const motion::Path& now, const motion::Path& before,
                                int samples = 4000) {
   double largest_deg = 0.0;

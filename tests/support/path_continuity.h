@@ -10,15 +10,16 @@
 
 #include "daemon/motion/path/segment.h"
 
-/// How smooth a path is for who receives it: by its control points and the differences of its times
-/// as sent, in long double, without the code under test.
+/// The continuity of a path for its receiver, computed in long double from the control points and
+/// the differences of times as sent. Shares no code with the implementation.
 namespace camway::testing {
 
-/// Jumps at the joins of a path, each as a multiple of what is allowed; up to 1 it is C².
+/// The largest jumps at the joins of a path, as multiples of the allowed ones. Up to 1 the path is
+/// C².
 struct Jumps {
   double value = 0.0;
-  double first = 0.0;   ///< derivative with respect to time
-  double second = 0.0;  ///< derivative with respect to time
+  double first = 0.0;   ///< jump of the first derivative with respect to time
+  double second = 0.0;  ///< jump of the second derivative with respect to time
 
   [[nodiscard]] double largest() const { return std::max({value, first, second}); }
 };
@@ -45,8 +46,8 @@ long double length(const Row<N>& a) {
   return std::sqrt(dot(a, a));
 }
 
-/// Value and two derivatives at an end of a Bézier curve, and how much rounding of its control
-/// points, a unit of rounding each, makes of each.
+/// Value and two derivatives at an end of a Bézier curve, and the error of each if every control
+/// point is rounded by one unit.
 template <std::size_t N>
 struct End {
   std::array<Row<N>, 3> derivatives;
@@ -74,7 +75,7 @@ End<N> end_of(const Points& points, long double duration_s, bool at_begin) {
           {unit, 2.0L * rate * unit, 4.0L * curving * unit}};
 }
 
-/// The same of the curve divided by its length.
+/// Returns value and derivatives of the curve divided by its length.
 inline End<4> normalised(const End<4>& end) {
   const auto& [n, n1, n2] = end.derivatives;
   const long double size = length(n);
@@ -89,9 +90,9 @@ inline End<4> normalised(const End<4>& end) {
   return result;
 }
 
-/// Jumps of a share of the larger side do no harm; parameters are rounded by such a share.
+/// Allowed jump relative to the larger side. The rounding of parameters causes jumps of this order.
 constexpr long double kShare = 1e-9L;
-/// Control points are made by some tens of roundings, not one.
+/// Number of roundings in a control point, which some tens of operations make.
 constexpr long double kRoundings = 64.0L;
 
 template <std::size_t N>
@@ -102,7 +103,7 @@ void raise(Jumps& jumps, const End<N>& before, const End<N>& after) {
     const long double size = std::max(length(before.derivatives[i]), length(after.derivatives[i]));
     const long double allowed =
         kShare * size + kRoundings * std::max(before.rounding[i], after.rounding[i]);
-    // NaN counts as a jump.
+    // The comparison is negated so that NaN counts as a jump.
     const double ratio = static_cast<double>(jump / allowed);
     if (jump > 0.0L && !(ratio <= *largest[i])) *largest[i] = ratio;
   }
@@ -127,7 +128,7 @@ inline Jumps jumps_of(std::span<const motion::Segment> segments) {
   return jumps;
 }
 
-/// Duration of the shortest segment.
+/// Returns the duration of the shortest segment.
 inline double shortest_s(std::span<const motion::Segment> segments) {
   double shortest_s = INFINITY;
   for (const motion::Segment& segment : segments)

@@ -13,8 +13,8 @@
 
 namespace camway::testing {
 
-/// Reads Prometheus' text format by its description (exposition_formats.md, version 0.0.4), apart
-/// from time stamps, which we do not write.
+/// A reader of Prometheus' text format (exposition_formats.md, version 0.0.4), without time stamps,
+/// which the daemon does not write.
 class PrometheusChecker {
  public:
   explicit PrometheusChecker(const std::string& text) {
@@ -27,9 +27,9 @@ class PrometheusChecker {
     }
   }
 
-  /// What is wrong; empty if nothing is.
+  /// Returns the faults of the text; empty if there are none.
   [[nodiscard]] const std::string& faults() const { return faults_; }
-  /// The sample of this name and these labels, as they are written: `a_total{kind="plan"}`.
+  /// Returns the value of a sample with name and labels as written: `a_total{kind="plan"}`.
   [[nodiscard]] std::optional<double> value(const std::string& sample) const {
     const auto found = samples_.find(sample);
     return found == samples_.end() ? std::nullopt : std::optional(found->second);
@@ -105,7 +105,7 @@ class PrometheusChecker {
   }
 
   std::string faults_;
-  std::string family_;  ///< whose TYPE came last
+  std::string family_;  ///< metric family of the last TYPE line
   std::map<std::string, std::string> types_;
   std::set<std::string> helps_;
   std::set<std::string> families_with_samples_;

@@ -14,17 +14,19 @@
 
 namespace camway::testing {
 
-/// Cages as people and careless tools make them: bars of any section, crossing, twice, in pieces,
-/// gone, thin or out of place; plates with slots; on floors, with a hole or not.
+/// A random cage like those of hand-made and faulty models. Its bars have any section, cross each
+/// other, and may be doubled, divided, missing, thin or displaced. Its bottom may be two plates
+/// with a slot, or a floor with or without a hole.
 struct RandomCage {
   scene::Mesh mesh;
   CageChecker::Parts parts;
-  /// All solids are parallel to the cage's frame, and all coordinates exact in it.
+  /// Whether all solids are parallel to the cage's frame, with exact coordinates in it.
   bool is_stepped = true;
-  /// Of the cage's frame, into the world's; of any length, so that it is exact.
+  /// Quaternion that rotates the cage's frame into the world, of any length, so that it is exact.
   geometry::Quat turn = geometry::Quat::Identity();
-  geometry::Box box;                              ///< through the middles of bars, in that frame
-  std::array<std::vector<double>, 6> at_u, at_v;  ///< of the bars of each face, increasing
+  geometry::Box box;  ///< box through the axes of the bars, in the cage's frame
+  std::array<std::vector<double>, 6> at_u,
+      at_v;  ///< coordinates of the bars of each face, increasing
   double thickness_m = 0.0;
 
   [[nodiscard]] geometry::Vec3 in_world(const geometry::Vec3& v) const {
@@ -47,7 +49,7 @@ class CageMaker {
     }
     cage_.box = geometry::Box(low, low + size);
     cage_.thickness_m = 2 * kSteps * number(2, 5);
-    // What is below: bars, plates or a floor.
+    // The bottom: bars (0, 1), plates (2) or a floor (3).
     below_ = number(0, 3);
     faults_ = chance(0.5) ? 0.0 : within(0.0, 0.06);
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +60,7 @@ class CageMaker {
   }
 
  private:
-  /// Multiples of this stay exact when they are turned by an angle with the cosine 3/5 or 4/5.
+  /// Unit of coordinates: its multiples stay exact when rotated by an angle with cosine 3/5 or 4/5.
   static constexpr double kSteps = 5.0 / 1024;
 
   double within(double low, double high) {
@@ -79,7 +81,7 @@ class CageMaker {
     cage_.parts.solids.push_back(std::move(triangles));
   }
 
-  /// A prism with `sides` sides about the line between two points.
+  /// Adds a prism with `sides` sides about the line between two points.
   void add_round(const Vec3& from, const Vec3& to, int sides) {
     const Vec3 along = (to - from).normalized();
     const Vec3 u = along.unitOrthogonal();
@@ -111,10 +113,10 @@ class CageMaker {
   }
 
   void add_bar(const Vec3& from, const Vec3& to, int across) {
-    if (chance(faults_)) return;  // gone
+    if (chance(faults_)) return;  // missing
     Vec3 a = from;
     Vec3 b = to;
-    if (chance(faults_)) {  // out of place
+    if (chance(faults_)) {  // displaced
       const double by = kSteps * number(-20, 20);
       a[across] += by;
       b[across] += by;
@@ -126,7 +128,7 @@ class CageMaker {
     }
     const double half = chance(faults_) ? kSteps : cage_.thickness_m / 2;  // thin
     const Vec3 out = Vec3::Constant(half);
-    if (chance(0.1)) {  // in two pieces that share a side, which is there twice
+    if (chance(0.1)) {  // divided into two solids with a common side, which occurs twice
       int along = 0;
       (b - a).maxCoeff(&along);
       Vec3 middle = b;
@@ -140,7 +142,7 @@ class CageMaker {
       return;
     }
     add_solid(a - out, b + out);
-    if (chance(0.1)) add_solid(a - out, b + out);  // twice
+    if (chance(0.1)) add_solid(a - out, b + out);  // doubled
   }
 
   void add_face(int axis, bool at_max) {
@@ -159,7 +161,7 @@ class CageMaker {
         from[across] = to[across] = box.min()[across] + box.sizes()[across] / count * i;
         (is_u ? cage_.at_u : cage_.at_v)[name].push_back(from[across]);
         const bool is_border = i == 0 || i == count;
-        // A floor or plates instead; bars end on a floor.
+        // Plates or a floor replace these bars. Upright bars end on a floor.
         if (is_below && below_ >= 2 && !is_border) continue;
         if (below_ == 3 && along == 2) from[2] += cage_.thickness_m / 2;
         if (is_below && below_ == 3) continue;
@@ -170,7 +172,7 @@ class CageMaker {
     if (is_below && below_ == 3) add_floor(at);
   }
 
-  /// Two, with a slot between them.
+  /// Adds two plates with a slot between them.
   void add_plates(double at) {
     const geometry::Box& box = cage_.box;
     const double middle = snapped(box.center().x());
@@ -185,7 +187,7 @@ class CageMaker {
     cage_.at_v[4] = {box.min().y(), box.max().y()};
   }
 
-  /// Of four rectangles around a hole, or without.
+  /// Adds a floor: four rectangles around a hole, or two without a hole.
   void add_floor(double at) {
     const geometry::Box& box = cage_.box;
     const Vec3 low = box.min() - Vec3::Constant(kSteps * 40);
@@ -212,7 +214,7 @@ class CageMaker {
                      box.max().y()};
   }
 
-  /// About one axis, by an angle for which all is exact, or any; or not at all.
+  /// Rotates the cage about one axis, by an angle with exact coordinates or by any angle; or not.
   void turn() {
     const int axis = number(0, 2);
     const int kind = number(0, 3);
@@ -228,7 +230,7 @@ class CageMaker {
     for (Vec3& vertex : cage_.mesh.vertices) {
       const double a = vertex[(axis + 1) % 3];
       const double b = vertex[(axis + 2) % 3];
-      // Products of small whole numbers and multiples of a power of 2, but for the last division.
+      // Products of small integers and multiples of a power of 2; only the division can round.
       vertex[(axis + 1) % 3] = ((w * w - s * s) * a - 2 * w * s * b) / (w * w + s * s);
       vertex[(axis + 2) % 3] = ((w * w - s * s) * b + 2 * w * s * a) / (w * w + s * s);
     }

@@ -17,7 +17,7 @@ namespace camway::testing {
 using geometry::Quat;
 using geometry::Vec3;
 
-/// A generator whose seed is in the test's output, so that a failure can be repeated.
+/// Returns a generator and prints its seed, so that a failure can be repeated.
 inline std::mt19937_64 seeded(std::uint64_t seed) {
   std::printf("[   SEED   ] %llu\n", static_cast<unsigned long long>(seed));
   return std::mt19937_64(seed);
@@ -54,7 +54,7 @@ inline void add_triangle(scene::Mesh& mesh, const Vec3& a, const Vec3& b, const 
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// Triangles of about `size_m` scattered over a cube of side 2 about the origin.
+/// Returns triangles of about `size_m` scattered over a cube of side 2 m about the origin.
 inline scene::Mesh scattered_triangles(std::mt19937_64& random, int count, double size_m) {
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   scene::Mesh mesh;
@@ -67,18 +67,19 @@ inline scene::Mesh scattered_triangles(std::mt19937_64& random, int count, doubl
   return mesh;
 }
 
-/// Uniform on the rotations.
+/// Returns a rotation from the uniform distribution.
 inline Quat random_rotation(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   return Quat(normal(random), normal(random), normal(random), normal(random)).normalized();
 }
 
-/// A camera of 90° × 60°, 10 cm near distance: a quadrilateral of 0.2 m × 0.115 m.
+/// Returns a camera of 90° × 60° with a near distance of 10 cm; its quadrilateral has 0.2 m × 0.115
+/// m.
 inline motion::Camera small_camera() {
   return {.fov_x_rad = std::numbers::pi / 2, .fov_y_rad = std::numbers::pi / 3, .near_m = 0.1};
 }
 
-/// Looks from `eye` along the direction `forward` with +Y up as far as possible.
+/// Returns the orientation that looks along `forward`, with +Y up as far as possible.
 inline Quat looking_along(const Vec3& forward) {
   const Vec3 back = -forward.normalized();
   const Vec3 right = Vec3::UnitY().cross(back).normalized();

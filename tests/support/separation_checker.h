@@ -16,10 +16,10 @@
 
 #include "daemon/scene/mesh/mesh.h"
 
-/// Whether a surface proves that two points are separated, from the mesh's triangles, the indices
-/// and the points alone. Shares nothing with the code that finds such surfaces: straight ways in
-/// directions of chance instead of rays along an axis, integers instead of filters, other
-/// predicates, and a way that meets an edge or a vertex is thrown away instead of perturbed.
+/// Checks whether a surface separates two points, from the mesh's triangles, the indices and the
+/// points alone. Shares no code with the search for such surfaces: rays have random directions
+/// instead of an axis, arithmetic is on integers instead of filters, the predicates differ, and a
+/// ray that meets an edge or a vertex is discarded instead of perturbed.
 namespace camway::testing {
 
 class SeparationChecker {
@@ -43,7 +43,7 @@ class SeparationChecker {
     count_edges();
   }
 
-  /// Empty if the surface is closed, `inside` is inside and `outside` outside; else what is wrong.
+  /// Returns the fault; empty if the surface is closed, `inside` is inside and `outside` outside.
   [[nodiscard]] std::string check(const geometry::Vec3& inside,
                                   const geometry::Vec3& outside) const {
     if (!wrong_.empty()) return wrong_;
@@ -54,8 +54,9 @@ class SeparationChecker {
     return *second ? "the point outside is not outside" : "";
   }
 
-  /// Whether a way from `p` to far away meets the surface an odd number of times; nothing if every
-  /// way that was tried meets an edge, as all do where `p` is on one, or if `p` is on a triangle.
+  /// Returns whether a ray from `p` crosses the surface an odd number of times. Returns nothing if
+  /// `p` is on a triangle, or if every ray that was tried meets an edge, as all do if `p` is on
+  /// one.
   [[nodiscard]] std::optional<bool> odd_from(const geometry::Vec3& p) const {
     std::mt19937_64 random(7);
     for (int attempt = 0; attempt < 20; ++attempt) {
@@ -71,7 +72,7 @@ class SeparationChecker {
   }
 
  private:
-  /// In units of 2^-140, of which every coordinate that is to be checked must be a multiple.
+  /// Returns `x` in units of 2^-140. Throws std::range_error unless `x` is a multiple of that.
   static Integer exact(double x) {
     constexpr int kUnitExponent = -140;
     constexpr int kDigits = 53;
@@ -110,8 +111,8 @@ class SeparationChecker {
     }
   }
 
-  /// Of the half-line from `p` along `direction`, by the signed volumes of its Plücker coordinates
-  /// with the edges.
+  /// Returns whether the ray from `p` along `direction` crosses the surface an odd number of times,
+  /// by the signs of the Plücker products of the ray with the edges.
   [[nodiscard]] bool crossings_are_odd(const Point& p, const Point& direction,
                                        bool& degenerate) const {
     bool odd = false;

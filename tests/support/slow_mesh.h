@@ -8,9 +8,9 @@
 
 namespace camway::testing {
 
-/// Writes an OBJ file that takes minutes to read, so longer than an import may, and little memory:
-/// one polygon of which every other corner is reflex, and each may be in the way of any ear. Who
-/// watches the file sees it whole.
+/// Writes an OBJ file that takes minutes to read, longer than an import may, but little memory: one
+/// polygon in which every second corner is reflex and may block any ear. The file appears under its
+/// name when it is complete.
 inline void write_slow_mesh(const std::string& file) {
   constexpr int kCorners = 100'000;
   constexpr double kFullTurn_rad = 6.283185307179586;

@@ -10,7 +10,7 @@
 
 namespace camway::testing {
 
-/// A folder of its own that vanishes with the object.
+/// A new folder, which the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -23,7 +23,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Writes a file into it and returns its path.
+  /// Writes a file into the folder and returns its path.
   std::string write(const std::string& name, std::string_view text) const {
     std::ofstream(path_ / name) << text;
     return (path_ / name).string();

@@ -17,14 +17,14 @@ inline scene::Placement at(const geometry::Vec3& position,
   return scene::Placement::make(position, orientation, fault);
 }
 
-/// What a box is made of, to be put into a scene.
+/// Returns the source of a box object.
 inline std::shared_ptr<const scene::ObjectSource> box_source(const geometry::Vec3& size_m) {
   scene::Mesh mesh = *scene::box_mesh(size_m).mesh;
   const scene::ImportReport report = scene::report_of(mesh, "box");
   return scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {});
 }
 
-/// So many keyframes of a small camera in a cube of side 8.
+/// Returns a request with random keyframes of a small camera in a cube of side 8 m.
 inline planning::PlanRequest random_path_request(std::size_t keyframes, std::mt19937_64& random) {
   std::uniform_real_distribution<double> place(-4.0, 4.0);
   planning::PlanRequest request;

@@ -22,8 +22,8 @@ using wire::Fault;
 using wire::layout_of;
 using Bytes = std::vector<std::uint8_t>;
 
-/// What a decoded message may take for each byte of its encoding. The dearest is a row of three
-/// indices, 12 bytes on the wire: the row's vector (24), the indices (12).
+/// Largest memory of a decoded message for each byte of its encoding. The maximum is a row of three
+/// indices, 12 bytes on the wire: the row's vector (24) and the indices (12).
 constexpr std::size_t kDecodedPerByte = 3;
 constexpr std::size_t kDecodedConstant = 256;
 
@@ -71,9 +71,8 @@ TYPED_TEST(WireCheck, RefusesEveryTruncationAndAnyTrailingByte) {
   }
 }
 
-// 17,000 mutants of each type: 220,000 over all types. What the check lets pass must decode without
-// an exception, cost little, and be the very message that was sent; what it refuses never reaches
-// the decoder.
+// 17,000 mutants of each type. A message that passes the check must decode without an exception,
+// with little memory, and be the message that was sent. A refused one never reaches the decoder.
 TYPED_TEST(WireCheck, MutantsAreRefusedOrHarmless) {
   constexpr int kMutants = 17'000;
   Random random(kSeed);
@@ -117,7 +116,7 @@ TYPED_TEST(WireCheck, AllocatesNothingForAMessageThatIsRight) {
   }
 }
 
-/// A message with one int32 replaced: by `value`, at `offset` from the begin.
+/// Returns a message with the int32 at `offset` from the begin replaced by `value`.
 Bytes with_int32(Bytes bytes, std::size_t offset, std::int32_t value) {
   const auto bits = static_cast<std::uint32_t>(value);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -135,7 +134,7 @@ occupancy_request_t small_batch() {
   return message;
 }
 
-// Offsets of small_batch().
+// Offsets in small_batch().
 constexpr std::size_t kClientIdLength = 8;
 constexpr std::size_t kClientId = kClientIdLength + 4;
 constexpr std::size_t kPointCount = kClientId + 4 + 8 + 8 + 4 + 5 + 8;
@@ -147,8 +146,7 @@ struct HostileCase {
   const char* reason;
 };
 
-// The first five are those that the decoder of LCM 1.3.1 was seen to throw at or to take 1.5 GB
-// for.
+// On the first five, the decoder of LCM 1.3.1 threw or allocated 1.5 GB.
 TEST(WireCheckFaults, NamesTheFieldAtFault) {
   const Bytes good = wire::encode(small_batch());
   Bytes no_nul = good;

@@ -29,7 +29,7 @@ TEST(LocalTraffic, IsWhatTheUrlSays) {
   EXPECT_EQ(port_of_local_network("tcpq://localhost:7700"), std::nullopt);
 }
 
-/// A UDP socket on the loopback, of which several may be bound to a port, as LCM's are.
+/// A UDP socket on the loopback device. Several may be bound to a port, like LCM's.
 class LoopbackSocket {
  public:
   explicit LoopbackSocket(int port = 0) : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
@@ -49,7 +49,7 @@ class LoopbackSocket {
   [[nodiscard]] int port() const { return ntohs(address_.sin_port); }
   [[nodiscard]] bool is_guarded() const {
     socklen_t instructions = 0;
-    // How long its filter is, where it has one.
+    // Returns the length of its filter, if it has one.
     return ::getsockopt(socket_, SOL_SOCKET, SO_GET_FILTER, nullptr, &instructions) == 0 &&
            instructions > 0;
   }
@@ -67,8 +67,8 @@ class LoopbackSocket {
 
 std::string url_of(int port) { return "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0"; }
 
-/// Two hosts are needed to see what is dropped: tests/integration/two_hosts_test.cpp. In these
-/// tests a socket stands for LCM's.
+/// Dropped messages take two hosts to see: tests/integration/two_hosts_test.cpp. In these tests a
+/// socket stands for LCM's.
 TEST(LocalTraffic, HearsThisHost) {
   int port = 0;
   { port = LoopbackSocket().port(); }
@@ -101,7 +101,7 @@ TEST(LocalTraffic, ChangesNothingWhereTwoSocketsMayBeTheOne) {
   EXPECT_FALSE(one.is_guarded() || other.is_guarded());
 }
 
-// Others open sockets at the same port, and close them again, so that their numbers are used again.
+// Other threads open sockets at the same port and close them, so that descriptors are reused.
 TEST(LocalTraffic, MeetsNoSocketThatAnotherThreadOpensMeanwhile) {
   const LoopbackSocket before;
   const std::string url = url_of(before.port());

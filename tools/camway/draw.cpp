@@ -16,6 +16,7 @@
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"
 #include "tools/drawing/floor_plan.h"
+#include "tools/drawing/side_by_side.h"
 #include "tools/json/json_io.h"
 #include "tools/json/json_path.h"
 #include "tools/support/output_file.h"
@@ -31,6 +32,7 @@ struct DrawFlags {
   std::string response;
   std::string picture;
   draw::SceneUp vertical = draw::SceneUp::kY;
+  bool is_side_by_side = false;
 };
 
 std::vector<motion::Keyframe> given_keyframes(const planning::PlanResult& result) {
@@ -62,7 +64,7 @@ ExitCode invalid(const std::string& error) {
   return ExitCode::kInvalidInput;
 }
 
-/// The path may be of another scene than the one that is drawn; the picture would not show it.
+/// Warns if the path was made for another scene than the one that is drawn.
 void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapshot) {
   const Parsed<PathFile> response = read_path_file(flags.response);
   if (!response.value || response.value->scene_digest.empty()) return;
@@ -95,8 +97,9 @@ ExitCode run_draw(const DrawFlags& flags) {
   draw::PictureFiles files;
   (picture.extension() == ".svg" ? files.svg : files.png) = picture;
   const std::shared_ptr<const scene::Mesh> mesh = loaded.snapshot->mesh.share();
-  const std::string error =
-      draw_floor_plan(floor_plan(flags, *request.value, *result.value, *mesh), files);
+  const draw::FloorPlan plan = floor_plan(flags, *request.value, *result.value, *mesh);
+  const std::string error = flags.is_side_by_side ? draw::draw_side_by_side(plan, files)
+                                                  : draw::draw_floor_plan(plan, files);
   return error.empty() ? ExitCode::kSuccess : invalid(error);
 }
 
@@ -124,6 +127,8 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
   service::add_choice(*command, "--vertical", flags->vertical, kVerticals,
                       "Axis that points up in the scene as read, --up included [y]")
       ->type_name("AXIS");
+  command->add_flag("--side-by-side", flags->is_side_by_side,
+                    "Draw two small plans, before and after, without details");
   command->footer(exit_code_help("") +
                   "\nExample: camway draw --request "
                   "scenes/requests/office-graze-door.json --response out.json --picture out.svg");

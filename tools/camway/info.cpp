@@ -29,7 +29,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson vector_json(const geometry::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// As far as they can be told without a request: its tolerance is taken to be the default.
+/// Returns the warnings that need no request; the tolerance is assumed to be the default.
 std::vector<std::string> warnings_of(const scene::ImportReport& report) {
   return scene::import_warnings(report, planning::PlanOptions{}.interval_tolerance_m);
 }

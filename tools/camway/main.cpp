@@ -39,7 +39,8 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version
-    // Else `camway scene uplaod --help` would show the help of `camway scene` as if all were well.
+    // Otherwise `camway scene uplaod --help` would show the help of `camway scene` without an
+    // error.
     const std::string unknown = camway::service::unknown_word(app);
     if (unknown.empty()) return app.exit(success);
     camway::tools::print_error(unknown);
@@ -51,12 +52,13 @@ int run(int argc, char** argv) {
   return static_cast<int>(exit_code);
 }
 
-/// Whether what was printed has come where it should. fmt::print throws where it notices; most of
-/// it is noticed here only.
+/// Returns whether the output was written completely. fmt::print throws on some failures; most show
+/// up only when the stream is flushed here.
 bool is_output_written() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
 int no_output() {
-  camway::tools::print_error("standard output cannot be written: the disk is full, or nobody reads");
+  camway::tools::print_error(
+      "standard output cannot be written: the disk is full, or nobody reads");
   return static_cast<int>(camway::tools::ExitCode::kInvalidInput);
 }
 

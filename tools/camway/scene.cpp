@@ -30,11 +30,10 @@
 namespace camway::tools {
 namespace {
 
-/// How long a change that a daemon refuses because it ends waits for the next one to be heard: more
-/// than a heartbeat.
+/// Time to wait for the next daemon after a stopping one refuses a change: more than a heartbeat.
 constexpr double kSuccessorWait_s = 1.5;
 
-/// What the subcommands of `camway scene` share, and what they are told.
+/// Options of the subcommands of `camway scene`.
 struct SceneCommandFlags {
   std::string url;
   std::string prefix = "CAMWAY";
@@ -67,7 +66,7 @@ struct SceneCommandFlags {
 
 using Flags = std::shared_ptr<SceneCommandFlags>;
 
-/// What no body may leave in it.
+/// Returns the box that no body may leave in the scene.
 std::string bounds_note(const SceneInfo& scene) {
   const geometry::Bounds bounds = from_client_bounds(scene.body_bounds);
   return bounds.any() ? ", bodies within " + service::bounds_text(bounds) : std::string();
@@ -115,7 +114,7 @@ ExitCode print_answer(const SceneAnswer& answer, const std::string& key_file) {
   return ExitCode::kSuccess;
 }
 
-/// The bytes of a file and its extension.
+/// Reads the bytes of a file and its extension.
 bool read_upload(const std::string& file, SceneMesh& mesh) {
   std::ifstream in(file, std::ios::binary);
   std::array<char, 65536> part;
@@ -139,7 +138,8 @@ bool read_upload(const std::string& file, SceneMesh& mesh) {
   return true;
 }
 
-/// The mesh that the flags name; nothing, and said why, if its file cannot be read.
+/// Returns the mesh that the flags name. If its file cannot be read, prints the reason and returns
+/// nothing.
 std::optional<SceneMesh> mesh_of(const SceneCommandFlags& flags) {
   SceneMesh mesh;
   mesh.file = flags.file;
@@ -169,7 +169,7 @@ std::optional<SceneShape> shape_of(const SceneCommandFlags& flags) {
   return std::nullopt;
 }
 
-/// Why the flags make no pose; empty if they do.
+/// Returns the fault of the flags for a pose; empty if there is none.
 std::string fault_in_pose(const SceneCommandFlags& flags) {
   if (flags.orientation_wxyz.empty()) return {};
   double largest = 0.0;
@@ -178,14 +178,14 @@ std::string fault_in_pose(const SceneCommandFlags& flags) {
                        : "--orientation: 0,0,0,0 is no quaternion of a turn; 1,0,0,0 turns nothing";
 }
 
-/// What the flags do not say is that of `pose`.
+/// Returns `pose` with the changes of the flags.
 Pose pose_of(const SceneCommandFlags& flags, Pose pose) {
   std::ranges::copy(flags.position_m, pose.position_m.begin());
   std::ranges::copy(flags.orientation_wxyz, pose.orientation_wxyz.begin());
   return pose;
 }
 
-/// While it lives a signal to end calls off what the client asks for; the next one ends the
+/// While this object exists, a signal to end cancels the client's call, and a second one ends the
 /// process.
 class CallOff {
  public:
@@ -196,7 +196,7 @@ class CallOff {
             const bool came = interruption.came_within(kLookMs);
             if (came && is_cancelled) interruption.end_process();
             is_cancelled = is_cancelled || came;
-            // Again and again: it may have come before the client asked anything.
+            // Repeated, because the signal may have come before the client's call.
             if (is_cancelled) client.cancel_scene_calls();
           }
         }) {}
@@ -205,7 +205,7 @@ class CallOff {
   std::jthread thread_;
 };
 
-/// Opens a client and lets `call` ask with it.
+/// Opens a client and runs `call` with it.
 template <class Call>
 ExitCode with_client(const SceneCommandFlags& flags, const Call& call) {
   ClientOptions options;
@@ -257,7 +257,8 @@ ExitCode run_add(const SceneCommandFlags& flags) {
   });
 }
 
-/// The pose that the object has now; any if there is no such object, as the daemon says then.
+/// Returns the present pose of the object; any pose if there is no such object, for which the
+/// change then fails.
 SceneAnswer find_pose(Client& client, const SceneCommandFlags& flags, Pose& pose) {
   SceneAnswer answer = client.describe_scene(flags.scene);
   for (const SceneObject& object : answer.objects) {
@@ -286,7 +287,8 @@ ExitCode run_move(const SceneCommandFlags& flags) {
   });
 }
 
-/// The points of a file with three numbers a line; nothing, and said why, if it is none.
+/// Reads a file with three numbers on each line. If it is no such file, prints the reason and
+/// returns nothing.
 std::optional<std::vector<std::array<double, 3>>> read_points(const std::string& file) {
   std::ifstream in(file);
   std::vector<std::array<double, 3>> points;
@@ -355,7 +357,7 @@ CLI::App* add_command(CLI::App& parent, const Flags& flags, const char* name, co
   return command;
 }
 
-/// One that changes a scene, or may take its time for other reasons.
+/// Adds a subcommand that changes a scene or may take long for other reasons.
 CLI::App* add_change(CLI::App& parent, const Flags& flags, const char* name, const char* help) {
   CLI::App* command = add_command(parent, flags, name, help);
   command
@@ -402,7 +404,7 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
       ->type_name("STATE");
 }
 
-/// `otherwise` is what holds where a flag is not given.
+/// `otherwise` describes the value without the flag.
 void add_pose_flags(CLI::App& command, const Flags& flags, const char* otherwise) {
   const std::string unsaid = std::string(" [") + otherwise + "]";
   command.add_option("--position", flags->position_m, "Of the object's origin, metres" + unsaid)

@@ -60,12 +60,12 @@ OrderedJson scene_json(const SceneInfo& scene) {
           {"occupancy_resolution_m", scene.occupancy_resolution_m}};
 }
 
-/// The quantiles that are shown, and what they are called.
+/// The quantiles that are shown, and their names.
 constexpr std::array<std::pair<const char*, double>, 3> kQuantiles{
     {{"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}}};
 constexpr double kMillisecondsPerSecond = 1e3;
 
-/// With the times in milliseconds.
+/// Returns a latency as JSON, with times in milliseconds.
 OrderedJson latency_json(const Latency& latency) {
   OrderedJson json{{"count", latency.count}, {"sum_s", latency.sum_s}};
   for (const auto& [name, q] : kQuantiles) {
@@ -74,7 +74,7 @@ OrderedJson latency_json(const Latency& latency) {
   return json;
 }
 
-/// Only statuses that occurred, by name.
+/// Returns the counts of the statuses that occurred, by name.
 OrderedJson answers_json(const std::array<std::int64_t, 16>& answers) {
   OrderedJson json = OrderedJson::object();
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -172,7 +172,7 @@ void print_traffic(const DaemonStatus& status) {
       status.stale_messages, status.replayed_messages, status.crowded_messages);
 }
 
-/// What became of reloads, where one failed.
+/// Returns the line about reloads if one failed.
 void print_reloads(const DaemonStatus& status) {
   if (status.failed_reloads == 0) return;
   constexpr std::int64_t kMicroseconds = 1'000'000;
@@ -217,8 +217,8 @@ void print_text(const DaemonStatus& status) {
   }
 }
 
-/// One line of `--watch`: what changed since the status before it, which may be of a daemon that is
-/// gone.
+/// Returns a line of `--watch`: the changes since the status before, which may be of another
+/// daemon.
 void print_line(const DaemonStatus& status, const std::optional<DaemonStatus>& before) {
   std::string rate = "-";
   std::string quantiles = "-";
@@ -238,7 +238,7 @@ void print_line(const DaemonStatus& status, const std::optional<DaemonStatus>& b
 void print(const StatusFlags& flags, const DaemonStatus& status,
            const std::optional<DaemonStatus>& before) {
   if (flags.json) {
-    // A line for each status, so that what reads them knows where one ends.
+    // One line for each status, so that a reader finds its end.
     fmt::print("{}\n", status_json(status).dump(flags.watch ? -1 : 2, ' ', false,
                                                 OrderedJson::error_handler_t::replace));
   } else if (flags.watch) {

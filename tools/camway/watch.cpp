@@ -69,10 +69,12 @@ const char* name_of(WatchEvent::Kind kind) {
 
 std::string text_of(const WatchEvent& event) {
   switch (event.kind) {
-    case WatchEvent::Kind::kAnswer:
-      return fmt::format("revision {}: {}, {} segments: {}", event.scene_revision,
-                         to_string(event.answer->status), event.answer->path.segments().size(),
+    case WatchEvent::Kind::kAnswer: {
+      const std::size_t segments = event.answer->path.segments().size();
+      return fmt::format("revision {}: {}, {} segment{}: {}", event.scene_revision,
+                         to_string(event.answer->status), segments, segments == 1 ? "" : "s",
                          event.answer->message);
+    }
     case WatchEvent::Kind::kBroken: {
       std::string text = event.scene_revision == 0
                              ? std::string("the scene is gone")
@@ -136,7 +138,7 @@ void print(const WatchEvent& event, bool as_json) {
   std::fflush(stdout);
 }
 
-/// Events on their way from the client's thread.
+/// A queue of events from the client's thread.
 class Events {
  public:
   void add(const WatchEvent& event) {
@@ -147,7 +149,7 @@ class Events {
     changed_.notify_one();
   }
 
-  /// The next; nothing if `until` passes.
+  /// Returns the next event; nothing if `until` passes.
   std::optional<WatchEvent> take(std::chrono::steady_clock::time_point until) {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_until(lock, until, [this] { return !events_.empty(); })) return std::nullopt;
@@ -162,13 +164,13 @@ class Events {
   std::deque<WatchEvent> events_;
 };
 
-/// How following ended.
+/// The end of the watch.
 struct Followed {
   ExitCode code;
   bool is_daemon_there = true;
 };
 
-/// Prints events until the flags or a signal end it, or no daemon is heard at all.
+/// Prints events until a flag or a signal ends it, or no daemon is heard at all.
 Followed follow(const WatchFlags& flags, const Interruption& interruption, Events& events) {
   using Clock = std::chrono::steady_clock;
   constexpr double kForEver_s = 1e8;
@@ -215,7 +217,7 @@ ExitCode invalid_input(std::string_view message) {
 ExitCode run_watch(WatchFlags flags) {
   const Parsed<RequestFile> request = read_plan_request(flags.request);
   if (!request.value) return invalid_input(request.error);
-  // The daemon would say so, too, in the names of the wire.
+  // The daemon would refuse this, too, but with the names of the wire.
   if (const auto fault = planning::validate(*request.value)) {
     return invalid_input(flags.request + ": " + fault->message);
   }
@@ -237,7 +239,7 @@ ExitCode run_watch(WatchFlags flags) {
   const std::int64_t id = client.watch(to_client_request(*request.value, flags.scene), take);
   const auto [code, is_daemon_there] = follow(flags, interruption, events);
   if (!is_daemon_there) return code;
-  // Else it would watch, and plan again, until the lease is over.
+  // Otherwise the daemon would watch and plan again until the lease is over.
   constexpr double kFarewell_s = 3.0;
   if (!client.unwatch(id, kFarewell_s) && code == ExitCode::kSuccess) {
     print_error("the daemon did not say that it heard of the end; it watches on until --lease-s");

@@ -49,6 +49,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/include/camway DESTINATION ${CMAK
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/lcmtypes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/lcmtypes
         COMPONENT client FILES_MATCHING PATTERN "*.lcm" PATTERN "README.md"
         PATTERN "wire" EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/wire.md DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/docs
+        COMPONENT client)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/camwayConfig.cmake.in
   ${PROJECT_BINARY_DIR}/camwayConfig.cmake INSTALL_DESTINATION ${camway_package_dir})

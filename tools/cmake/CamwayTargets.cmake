@@ -50,11 +50,12 @@ function(camway_executable name)
   target_link_libraries(${name} PRIVATE camway_flags camway_warnings ${arg_DEPENDS})
 endfunction()
 
-# camway_test(NAME [NETWORK] SOURCES ... DEPENDS ...): one GoogleTest program per folder of tests/, whose
-# name is the label of its tests (`ctest -L service`). NETWORK runs each test in a private network
-# namespace of its own, for tests that use LCM.
+# camway_test(NAME [NETWORK] [QUICK] SOURCES ... DEPENDS ... [SLOW TEST ...]): one GoogleTest program per
+# folder of tests/, whose name is the label of its tests (`ctest -L service`). NETWORK runs each test in a
+# private network namespace of its own, for tests that use LCM. QUICK adds the label `quick` to all tests
+# but those named after SLOW, which take more than a second.
 function(camway_test name)
-  cmake_parse_arguments(arg "NETWORK" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;DEPENDS;SLOW" ${ARGN})
   camway_executable(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} GTest::gtest
                     GTest::gmock GTest::gtest_main)
   if(CAMWAY_SANITIZE)
@@ -67,6 +68,15 @@ function(camway_test name)
                                              ${PROJECT_SOURCE_DIR}/tools/scripts/netns.sh)
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 LABELS "${folder}")
+  string(REPLACE ";" ":" slow "${arg_SLOW}")
+  set(labels ${folder})
+  if(arg_QUICK)
+    list(APPEND labels quick)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${slow}"
+                       PROPERTIES TIMEOUT 300 LABELS "${labels}")
+  if(slow)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${slow}"
+                         PROPERTIES TIMEOUT 300 LABELS "${folder}")
+  endif()
 endfunction()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The heart of ./demo: asks a running daemon for paths, prints what came of it, draws one.
+// The main part of ./demo: requests paths from a running daemon, prints the results and draws one.
 //
 //   camway_demo SCENE_NAME SCENE_FILE OUT_DIR REQUEST.json...
 //
@@ -28,7 +28,7 @@ constexpr std::size_t kDrawnSamples = 1500;
 
 void print_error(const std::string& text) { fmt::print(stderr, "camway_demo: {}\n", text); }
 
-/// A request and what came of it.
+/// A request and its answer.
 struct Answered {
   std::string name;
   PlanRequest request;
@@ -60,7 +60,7 @@ std::optional<Answered> ask(Client& client, const std::string& scene, const std:
   return answered;
 }
 
-/// The path as the client evaluates it, from the very numbers that came.
+/// Returns samples of the path as the client evaluates it, from the received numbers.
 draw::SampledPath sample(const Path& path) {
   draw::SampledPath samples;
   for (std::size_t i = 0; i < kDrawnSamples; ++i) {
@@ -83,7 +83,7 @@ std::vector<collision::CollisionInterval> to_collision(
   return converted;
 }
 
-/// Draws an answer; an error text, empty on success.
+/// Draws an answer. Returns an error text, empty on success.
 std::string draw_answer(const Answered& answered, scene::Mesh mesh, const std::string& folder) {
   const PlanResponse& response = answered.response;
   draw::FloorPlan plan;
@@ -103,7 +103,7 @@ std::string draw_answer(const Answered& answered, scene::Mesh mesh, const std::s
   return draw::draw_floor_plan(plan, {base.string() + ".svg", base.string() + ".png"});
 }
 
-/// Asks for all requests and prints a row for each; the first one's answer, if all were answered.
+/// Plans all requests and prints a row for each. Returns the first answer if all were answered.
 std::optional<Answered> ask_all(Client& client, const scene::Mesh& mesh, const std::string& scene,
                                 const std::vector<std::string>& files) {
   std::optional<Answered> first;

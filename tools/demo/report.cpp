@@ -13,7 +13,7 @@
 namespace camway::demo {
 namespace {
 
-/// Steps that each collision interval is cut into to name what is hit.
+/// Number of steps of a collision interval for finding the objects that are hit.
 constexpr int kStepsPerInterval = 24;
 constexpr std::size_t kMostNames = 2;
 
@@ -29,9 +29,9 @@ motion::Keyframe to_motion(const PathKeyframe& keyframe) {
   return converted;
 }
 
-/// The filled quadrilateral and the sides of the tube that it sweeps on its way to the next pose,
-/// as triangles. The sides matter: a wall that the quadrilateral meets in parallel is touched for
-/// an instant only, between any two poses.
+/// Returns triangles of the filled quadrilateral and of the sides of the volume that it sweeps to
+/// the next pose. The sides are necessary: the quadrilateral touches a parallel wall for one
+/// instant only, which is between two poses.
 using Step = std::vector<geometry::Triangle>;
 
 Step step_between(const motion::Corners& from, const motion::Corners& to) {
@@ -59,7 +59,7 @@ bool touches(const scene::Mesh& mesh, const scene::MeshObject& object, const Ste
   return false;
 }
 
-/// Adds the names of what the step touches to `names`, each once.
+/// Adds the names of the objects that the step touches to `names`, each once.
 void add_names(const scene::Mesh& mesh, const Step& step, std::vector<std::string>& names) {
   geometry::Box bounds;
   for (const geometry::Triangle& triangle : step) bounds.extend(geometry::bounds(triangle));
@@ -85,7 +85,7 @@ std::size_t count_inserted(const PlanResponse& response) {
                     [](const PathKeyframe& keyframe) { return keyframe.inserted; }));
 }
 
-constexpr const char* kRow = "{:<24} {:<44} {:>8} {:>9} {:<10} {:>9} {:>10}";
+constexpr const char* kRow = "{:<24} {:<51} {:>8} {:>9} {:<10} {:>9} {:>10}";
 
 }  // namespace
 

@@ -10,26 +10,26 @@
 #include "daemon/motion/path/path.h"
 #include "daemon/scene/mesh/mesh.h"
 
-/// What the demo tells about an answer. Everything is worked out from what came over the wire.
+/// The demo's report on an answer. It is computed from the received answer alone.
 namespace camway::demo {
 
-/// The given keyframes of an answer, with the times that the daemon derived.
+/// Returns the given keyframes of an answer, with the times that the daemon derived.
 std::vector<motion::Keyframe> given_keyframes(const PlanResponse& response);
-/// All of them.
+/// Returns the given and the inserted keyframes of an answer.
 std::vector<motion::Keyframe> all_keyframes(const PlanResponse& response);
 
-/// The path before correction: the daemon's interpolation of the given keyframes, done again here.
-/// Empty if the answer has no keyframes.
+/// Returns the path before correction, by interpolating the given keyframes again as the daemon
+/// does. Returns an empty path if the answer has no keyframes.
 motion::Path path_before(const PlanResponse& response);
 
 motion::Camera to_motion(const Camera& camera);
 
-/// Names of the scene's objects that the near quadrilateral touches in the collision intervals of
-/// the path before correction, in order of appearance.
+/// Returns the names of the objects that the near quadrilateral touches in the collision intervals
+/// of the path before correction, in the order of the first contact.
 std::vector<std::string> objects_hit(const scene::Mesh& mesh, const Camera& camera,
                                      const PlanResponse& response);
 
-/// Head and rows of the table.
+/// Return the head and a row of the table.
 std::string table_head();
 std::string table_row(const std::string& request, const PlanResponse& response,
                       const std::vector<std::string>& objects);

@@ -5,12 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-
-#include <cairo-svg.h>
 
 #include "tools/drawing/floor_plan_view.h"
-#include "tools/support/output_file.h"
+#include "tools/drawing/picture_file.h"
 
 namespace camway::draw {
 namespace {
@@ -22,8 +19,6 @@ constexpr double kDetailWidth_px = 400.0;
 constexpr double kGap_px = 16.0;
 constexpr std::size_t kMostDetails = 3;
 constexpr double kLeastEnlargement = 1.6;  // below it a detail shows nothing new
-
-using PlanBox = Eigen::AlignedBox2d;
 
 /// Parts of the plan that are shown enlarged.
 std::vector<PlanBox> places_of_collision(const FloorPlan& plan) {
@@ -53,26 +48,6 @@ std::vector<PlanBox> places_of_collision(const FloorPlan& plan) {
   return places;
 }
 
-/// Everything that moves, with some of what is around it.
-PlanBox world_shown(const FloorPlan& plan) {
-  PlanBox box;
-  for (const motion::Keyframe& k : plan.keyframes) box.extend(to_plan(k.pose.position, plan.up));
-  for (const SampledPath* path : {&plan.before, &plan.after}) {
-    for (const PathSample& s : *path) box.extend(to_plan(s.pose.position, plan.up));
-  }
-  if (box.isEmpty()) {
-    for (const geometry::Vec3& vertex : plan.mesh.vertices) box.extend(to_plan(vertex, plan.up));
-  }
-  if (box.isEmpty()) box.extend(PlanPoint(0.0, 0.0));
-  const double margin_m = std::max(1.6, 0.1 * box.sizes().maxCoeff());
-  return {PlanPoint(box.min().array() - margin_m), PlanPoint(box.max().array() + margin_m)};
-}
-
-View fitted(const Frame& frame, const PlanBox& box) {
-  const PlanPoint size = box.sizes();
-  return {frame, box.center(), std::min(frame.width / size.x(), frame.height / size.y())};
-}
-
 struct Layout {
   double width_px;
   double height_px;
@@ -80,7 +55,7 @@ struct Layout {
   std::vector<View> details;
 };
 
-/// With a column of details at the right if there are `places`.
+/// Returns the layout, with a column of details at the right if there are `places`.
 Layout lay_out_with(const FloorPlan& plan, const std::vector<PlanBox>& places) {
   const PlanBox world = world_shown(plan);
   Layout layout{plan.width_px, 0.0, {}, {}};
@@ -129,7 +104,7 @@ void draw_details(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
               palette::kInk, 0.0, true);
     const PlanPoint half =
         PlanPoint(detail.frame.width, detail.frame.height) / (2 * detail.px_per_m);
-    // A narrow column shows more above and below than there is in the plan.
+    // A narrow column would show more height than the plan has.
     const Frame& plan_frame = layout.main.frame;
     const PlanPoint begin(plan_frame.x, plan_frame.y);
     const PlanPoint end = begin + PlanPoint(plan_frame.width, plan_frame.height);
@@ -170,7 +145,7 @@ void draw_area_sample(cairo_t* cr, const PlanPoint& at, const Color& fill, const
   cairo_stroke(cr);
 }
 
-/// Four columns of three samples with their meaning.
+/// Draws the legend: four columns of three samples with their meaning.
 void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section) {
   constexpr std::array kColumns{0.0, 390.0, 720.0, 1040.0};
   const double top = layout.height_px - kLegend_px + 40;
@@ -208,27 +183,11 @@ void draw_legend(cairo_t* cr, const Layout& layout, const FloorSection& section)
   label(3, 1, "lower, above the floor");
 }
 
-/// A bar of 1, 2 or 5 times a power of ten, and the two axes of the paper.
+/// Draws a scale bar and the two axes of the paper.
 void draw_scale(cairo_t* cr, const Layout& layout, SceneUp up) {
-  constexpr double kLongest_px = 190.0;
-  const double most_m = kLongest_px / layout.main.px_per_m;
-  const double decade_m = std::pow(10.0, std::floor(std::log10(most_m)));
-  const double length_m = decade_m * (most_m >= 5 * decade_m ? 5 : most_m >= 2 * decade_m ? 2 : 1);
   const double y = layout.height_px - kLegend_px + 46;
   const double right = layout.width_px - kMargin_px;
-  const double left = right - length_m * layout.main.px_per_m;
-  set_color(cr, palette::kInk);
-  cairo_set_line_width(cr, 2.5);
-  for (const double x : {left, right}) {
-    cairo_move_to(cr, x, y - 7);
-    cairo_line_to(cr, x, y + 7);
-  }
-  cairo_move_to(cr, left, y);
-  cairo_line_to(cr, right, y);
-  cairo_stroke(cr);
-  char text[40];
-  std::snprintf(text, sizeof text, "%g m", length_m);
-  draw_text(cr, {(left + right) / 2, y - 12}, text, 17, palette::kInk, 0.5);
+  draw_scale_bar(cr, {right, y}, layout.main.px_per_m, 17);
   draw_text(cr, {right, y + 40},
             up == SceneUp::kY ? "x to the right, z down" : "x to the right, y up", 15,
             palette::kMuted, 1.0);
@@ -236,65 +195,12 @@ void draw_scale(cairo_t* cr, const Layout& layout, SceneUp up) {
 
 void draw_all(cairo_t* cr, const Layout& layout, const FloorPlan& plan,
               const FloorSection& section) {
-  set_color(cr, {1.0, 1.0, 1.0});
-  cairo_paint(cr);
   draw_text(cr, {kMargin_px, 44}, plan.title, 28, palette::kInk, 0.0, true);
   draw_text(cr, {kMargin_px, 74}, plan.subtitle, 18, palette::kMuted);
   draw_view(cr, layout.main, plan, section);
   draw_details(cr, layout, plan, section);
   draw_legend(cr, layout, section);
   draw_scale(cr, layout, plan.up);
-}
-
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
-
-/// Draws on `surface`; returns cairo's reason if that failed.
-std::string draw_on(cairo_surface_t* surface, const Layout& layout, const FloorPlan& plan,
-                    const FloorSection& section) {
-  const Context context(cairo_create(surface), &cairo_destroy);
-  draw_all(context.get(), layout, plan, section);
-  cairo_show_page(context.get());
-  const cairo_status_t status = cairo_status(context.get());
-  return status == CAIRO_STATUS_SUCCESS ? "" : cairo_status_to_string(status);
-}
-
-/// What cairo writes a picture to: a `std::string`.
-cairo_status_t append(void* picture, const unsigned char* bytes, unsigned size) {
-  static_cast<std::string*>(picture)->append(reinterpret_cast<const char*>(bytes), size);
-  return CAIRO_STATUS_SUCCESS;
-}
-
-std::string write_picture(const std::filesystem::path& file, const std::string& reason,
-                          const std::string& picture) {
-  if (!reason.empty()) return file.string() + ": cannot be drawn: " + reason;
-  return tools::write_file(file, picture);
-}
-
-std::string draw_svg(const std::filesystem::path& file, const Layout& layout, const FloorPlan& plan,
-                     const FloorSection& section) {
-  std::string picture;
-  const Surface surface(
-      cairo_svg_surface_create_for_stream(&append, &picture, layout.width_px, layout.height_px),
-      &cairo_surface_destroy);
-  std::string reason = draw_on(surface.get(), layout, plan, section);
-  cairo_surface_finish(surface.get());
-  const cairo_status_t status = cairo_surface_status(surface.get());
-  if (reason.empty() && status != CAIRO_STATUS_SUCCESS) reason = cairo_status_to_string(status);
-  return write_picture(file, reason, picture);
-}
-
-std::string draw_png(const std::filesystem::path& file, const Layout& layout, const FloorPlan& plan,
-                     const FloorSection& section) {
-  const Surface surface(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(layout.width_px)),
-                                 static_cast<int>(std::ceil(layout.height_px))),
-      &cairo_surface_destroy);
-  std::string picture;
-  std::string reason = draw_on(surface.get(), layout, plan, section);
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), &append, &picture);
-  if (reason.empty() && status != CAIRO_STATUS_SUCCESS) reason = cairo_status_to_string(status);
-  return write_picture(file, reason, picture);
 }
 
 }  // namespace
@@ -341,10 +247,8 @@ std::string draw_floor_plan(const FloorPlan& plan, const PictureFiles& files) {
       cut_floor(plan.mesh, plan.up,
                 plan.cut_height_m.value_or(cut_height_m(plan.mesh, plan.up, plan.keyframes)));
   const Layout layout = lay_out(plan);
-  std::string error;
-  if (!files.svg.empty()) error = draw_svg(files.svg, layout, plan, section);
-  if (error.empty() && !files.png.empty()) error = draw_png(files.png, layout, plan, section);
-  return error;
+  return write_pictures(files, {layout.width_px, layout.height_px},
+                        [&](cairo_t* cr) { draw_all(cr, layout, plan, section); });
 }
 
 }  // namespace camway::draw

@@ -3,21 +3,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace camway::draw {
 namespace {
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
+constexpr double kShortestEdge_px = 1.0;
+constexpr std::size_t kFewPoints = 64;  // a line of so few is drawn with all of them
 
+/// Whether a line through `points` may be visible in the frame.
+template <typename Points>
+bool is_seen(const View& view, const Points& points) {
+  constexpr double kWidestLine_px = 8.0;
+  PlanBox box;
+  for (const PlanPoint& p : points) box.extend(view.to_px(p));
+  const PlanPoint corner(view.frame.x - kWidestLine_px, view.frame.y - kWidestLine_px);
+  const PlanPoint size(view.frame.width + 2 * kWidestLine_px,
+                       view.frame.height + 2 * kWidestLine_px);
+  return box.intersects(PlanBox(corner, corner + size));
+}
+
+/// Adds a line to the current path, unless it lies outside of the frame. Leaves out points that are
+/// closer together than a line is wide.
 void trace(cairo_t* cr, const View& view, const std::vector<PlanPoint>& points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  constexpr double kLeastStep_px = 2.5;
+  if (points.empty() || !is_seen(view, points)) return;
+  PlanPoint last = view.to_px(points.front());
+  cairo_move_to(cr, last.x(), last.y());
+  for (std::size_t i = 1; i < points.size(); ++i) {
     const PlanPoint p = view.to_px(points[i]);
-    if (i == 0) {
-      cairo_move_to(cr, p.x(), p.y());
-    } else {
-      cairo_line_to(cr, p.x(), p.y());
+    if (i + 1 < points.size() && points.size() > kFewPoints && (p - last).norm() < kLeastStep_px) {
+      continue;
     }
+    cairo_line_to(cr, p.x(), p.y());
+    last = p;
   }
 }
 
@@ -27,15 +48,23 @@ void stroke(cairo_t* cr, const Color& color, double width_px) {
   cairo_stroke(cr);
 }
 
+double cross(const PlanPoint& a, const PlanPoint& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 void draw_scene(cairo_t* cr, const View& view, const FloorSection& section) {
-  set_color(cr, palette::kTop);
-  // Each triangle alone: in one path, faces seen from below would cancel those seen from above.
+  // All triangles get the same orientation. In one path, opposite orientations would cancel.
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
   for (const std::array<PlanPoint, 3>& top : section.tops) {
-    trace(cr, view, {top[0], top[1], top[2]});
+    if (!is_seen(view, top)) continue;
+    const bool turns_left = cross(top[1] - top[0], top[2] - top[0]) > 0.0;
+    trace(cr, view, {top[0], top[turns_left ? 1 : 2], top[turns_left ? 2 : 1]});
     cairo_close_path(cr);
-    cairo_fill(cr);
   }
-  for (const std::array<PlanPoint, 2>& edge : section.outlines) trace(cr, view, {edge[0], edge[1]});
+  set_color(cr, palette::kTop);
+  cairo_fill(cr);
+  for (const std::array<PlanPoint, 2>& edge : section.outlines) {
+    if (view.px_per_m * (edge[1] - edge[0]).norm() < kShortestEdge_px) continue;
+    trace(cr, view, {edge[0], edge[1]});
+  }
   stroke(cr, palette::kOutline, 0.8);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   for (const std::vector<SectionLine>& object : section.cut) {
@@ -58,7 +87,7 @@ std::vector<PlanPoint> quad_on_paper(const FloorPlan& plan, const motion::Pose& 
   return points;
 }
 
-/// The line of the near quadrilateral's middle, and the curves of its corners.
+/// Draws the curve of the near quadrilateral's centre, and the corner curves.
 void draw_path(cairo_t* cr, const View& view, const FloorPlan& plan, const SampledPath& path,
                const Color& color, double width_px) {
   Color light = color;
@@ -120,6 +149,25 @@ void draw_keyframes(cairo_t* cr, const View& view, const FloorPlan& plan) {
 
 }  // namespace
 
+PlanBox world_shown(const FloorPlan& plan) {
+  PlanBox box;
+  for (const motion::Keyframe& k : plan.keyframes) box.extend(to_plan(k.pose.position, plan.up));
+  for (const SampledPath* path : {&plan.before, &plan.after}) {
+    for (const PathSample& s : *path) box.extend(to_plan(s.pose.position, plan.up));
+  }
+  if (box.isEmpty()) {
+    for (const geometry::Vec3& vertex : plan.mesh.vertices) box.extend(to_plan(vertex, plan.up));
+  }
+  if (box.isEmpty()) box.extend(PlanPoint(0.0, 0.0));
+  const double margin_m = std::max(1.6, 0.1 * box.sizes().maxCoeff());
+  return {PlanPoint(box.min().array() - margin_m), PlanPoint(box.max().array() + margin_m)};
+}
+
+View fitted(const Frame& frame, const PlanBox& box) {
+  const PlanPoint size = box.sizes();
+  return {frame, box.center(), std::min(frame.width / size.x(), frame.height / size.y())};
+}
+
 void set_color(cairo_t* cr, const Color& c) {
   cairo_set_source_rgba(cr, c.red, c.green, c.blue, c.alpha);
 }
@@ -177,6 +225,26 @@ void draw_collision_mark(cairo_t* cr, const PlanPoint& at, bool remains) {
     }
   }
   stroke(cr, palette::kCollision, 2.6);
+}
+
+void draw_scale_bar(cairo_t* cr, const PlanPoint& right, double px_per_m, double letters_px) {
+  constexpr double kLongest_px = 190.0;
+  const double most_m = kLongest_px / px_per_m;
+  const double decade_m = std::pow(10.0, std::floor(std::log10(most_m)));
+  const double length_m = decade_m * (most_m >= 5 * decade_m ? 5 : most_m >= 2 * decade_m ? 2 : 1);
+  const double left = right.x() - length_m * px_per_m;
+  set_color(cr, palette::kInk);
+  cairo_set_line_width(cr, 2.5);
+  for (const double x : {left, right.x()}) {
+    cairo_move_to(cr, x, right.y() - 7);
+    cairo_line_to(cr, x, right.y() + 7);
+  }
+  cairo_move_to(cr, left, right.y());
+  cairo_line_to(cr, right.x(), right.y());
+  cairo_stroke(cr);
+  char text[40];
+  std::snprintf(text, sizeof text, "%g m", length_m);
+  draw_text(cr, {(left + right.x()) / 2, right.y() - 12}, text, letters_px, palette::kInk, 0.5);
 }
 
 const PathSample& sample_at(const SampledPath& path, double time_s) {

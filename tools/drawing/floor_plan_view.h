@@ -7,7 +7,7 @@
 
 #include "tools/drawing/floor_plan.h"
 
-/// The inside of a floor plan's frames. Used by floor_plan.cpp only.
+/// The drawing inside the frames of a floor plan. Only the sources of this folder use it.
 namespace camway::draw {
 
 struct Color {
@@ -28,12 +28,12 @@ constexpr Color kCollision{0.835, 0.369, 0.0};  // vermilion
 constexpr Color kInserted{0.8, 0.475, 0.655};   // reddish purple
 }  // namespace palette
 
-/// A rectangle on paper, pixels.
+/// A rectangle on paper. [Units: pixels]
 struct Frame {
   double x, y, width, height;
 };
 
-/// A window onto the plan: what part of the world is seen in which frame.
+/// A frame and the part of the plan that is drawn in it.
 struct View {
   Frame frame;
   PlanPoint center;
@@ -45,21 +45,33 @@ struct View {
   }
 };
 
+using PlanBox = Eigen::AlignedBox2d;
+
+/// Returns the bounds of all paths and keyframes, with a margin; of the scene if there are none.
+PlanBox world_shown(const FloorPlan& plan);
+
+/// Returns the view of the whole `box`, as large as `frame` allows.
+View fitted(const Frame& frame, const PlanBox& box);
+
 void set_color(cairo_t* cr, const Color& color);
-/// Text with a light rim, so that it stays legible on lines; `anchor` 0 left, 0.5 centred, 1 right.
+/// Draws text with a light rim, which keeps it legible on lines. `anchor` 0 is left-aligned, 0.5
+/// centred, 1 right-aligned.
 void draw_text(cairo_t* cr, const PlanPoint& at, const std::string& text, double size_px,
                const Color& color, double anchor = 0.0, bool bold = false);
 
-/// A keyframe's mark: a disc with a wedge in the viewing direction (radians on paper).
+/// Draws the mark of a keyframe: a disc with a wedge in the viewing direction on paper.
 void draw_keyframe_mark(cairo_t* cr, const PlanPoint& at, double direction_rad, bool inserted);
 
-/// A place of collision's mark: an open circle, with a cross if the correction did not mend it.
+/// Draws the mark of a collision: an open circle, with a cross if the collision remains.
 void draw_collision_mark(cairo_t* cr, const PlanPoint& at, bool remains);
 
-/// Scene, paths and keyframes in one view, with a border.
+/// Draws a scale bar of 1, 2 or 5 times a power of ten that ends at `right`.
+void draw_scale_bar(cairo_t* cr, const PlanPoint& right, double px_per_m, double letters_px);
+
+/// Draws scene, paths and keyframes in one view, with a border.
 void draw_view(cairo_t* cr, const View& view, const FloorPlan& plan, const FloorSection& section);
 
-/// Pose of `path` nearest in time to `time_s`. Precondition: not empty.
+/// Returns the sample of `path` nearest in time to `time_s`. Requires a path that is not empty.
 const PathSample& sample_at(const SampledPath& path, double time_s);
 
 }  // namespace camway::draw

@@ -13,8 +13,8 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// Coordinates as a key of ordered maps. Meshes repeat a shared vertex bit for bit, so that exact
-/// comparison joins what belongs together.
+/// Coordinates as the key of ordered maps. Meshes repeat a shared vertex with the same bits, so
+/// exact comparison finds it.
 using Key2 = std::array<double, 2>;
 using Key3 = std::array<double, 3>;
 Key2 key(const PlanPoint& p) { return {p.x(), p.y()}; }
@@ -22,7 +22,8 @@ Key3 key(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 using PlanSegment = std::array<PlanPoint, 2>;
 
-/// Where an edge passes `height_m`; the same bits for both directions of the edge.
+/// Returns the point where an edge passes `height_m`, the same bits for both directions of the
+/// edge.
 PlanPoint crossing(const Vec3& p, const Vec3& q, SceneUp up, double height_m) {
   const bool ordered = key(p) < key(q);
   const Vec3& a = ordered ? p : q;
@@ -83,7 +84,7 @@ double top_of(const Triangle& t, SceneUp up) {
   return std::max({height_of(t[0], up), height_of(t[1], up), height_of(t[2], up)});
 }
 
-/// Borders, and creases sharper than 25 degrees, of some triangles.
+/// Returns the borders of some triangles, and their creases sharper than 25 degrees.
 std::vector<PlanSegment> feature_edges(const std::vector<Triangle>& triangles, SceneUp up) {
   constexpr double kCrease = 0.906;
   constexpr double kShort_m = 1e-3;

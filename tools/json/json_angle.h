@@ -10,9 +10,9 @@ namespace camway::tools {
 /// Angles are degrees in files and radians in memory.
 inline double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 
-/// The degrees to write for an angle: of the doubles next to the quotient one that reads back as
-/// the same bits, if there is one. Otherwise what is read is off by a rounding, and written again
-/// it is the same text.
+/// Returns the degrees to write for an angle: the rounded quotient or one of its two neighbours,
+/// whichever `radians` maps back to the same bits. If none does, the angle that is read is off by a
+/// rounding, and writing it again gives the same text.
 inline double degrees(double radians_) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double nearest = radians_ * (180.0 / std::numbers::pi);

@@ -23,8 +23,8 @@ Vec3 read_center(const Field& body) {
   return center ? read_point(*center) : Vec3::Zero();
 }
 
-/// Stops where there are more than a body may have, before they cost anything: the count is judged
-/// by `planning::validate`, and one too many is enough for that.
+/// Stops reading at one element more than a body may have: `planning::validate` then refuses the
+/// count, and a longer list costs no memory.
 std::vector<Vec3> read_points(const Field& list) {
   std::vector<Vec3> points;
   const std::size_t count = std::min(list.size(), motion::kMaxBodyPoints + 1);

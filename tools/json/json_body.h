@@ -8,17 +8,17 @@
 
 namespace camway::tools {
 
-/// Reads the `body` of a request: an object with a `type` and what that type needs, in metres and
-/// in the camera frame.
+/// Reads the `body` of a request: an object with a `type` and the members of that type, in metres
+/// and in the camera frame. `center` may be left out.
 ///
 ///     {"type": "camera"}
-///     {"type": "box", "size": [x, y, z], "center": [x, y, z]}      center may be left out
-///     {"type": "sphere", "radius": r, "center": [x, y, z]}         likewise
-///     {"type": "convex", "points": [[x, y, z], ...]}               or "pieces": [[[x, y, z], ...],
-///     ...]
+///     {"type": "box", "size": [x, y, z], "center": [x, y, z]}
+///     {"type": "sphere", "radius": r, "center": [x, y, z]}
+///     {"type": "convex", "points": [[x, y, z], ...]}
+///     {"type": "convex", "pieces": [[[x, y, z], ...], ...]}
 ///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...]}
 ///
-/// Nothing for a camera, and where the field fails. Ranges are `planning::validate`'s.
+/// Returns nothing for a camera and if the field fails. `planning::validate` checks the ranges.
 std::optional<motion::BodyShape> read_body(const Field& field);
 
 }  // namespace camway::tools

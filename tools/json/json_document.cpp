@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Receives the parser's events and builds the document. The library's own builder knows no limit
-/// and lets the last of two equal keys win.
+/// Receives the parser's events and builds the document. The library's own builder has no limits
+/// and accepts an object with two equal keys.
 class DocumentBuilder {
  public:
   explicit DocumentBuilder(json& root) : root_(root) {}
@@ -47,7 +47,8 @@ class DocumentBuilder {
   }
 
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// Bytes read when the syntax broke; nothing if the document was refused for another reason.
+  /// Returns the position of a syntax error; nothing if the document was refused for another
+  /// reason.
   [[nodiscard]] std::optional<std::size_t> position() const { return position_; }
 
  private:
@@ -93,8 +94,8 @@ class DocumentBuilder {
     return true;
   }
 
-  /// Cuts "[json.exception.parse_error.101] parse error at line 3, column 2: " off the library's
-  /// text: we give the place ourselves, and in one form for every kind of error.
+  /// Removes "[json.exception.parse_error.101] parse error at line 3, column 2: " from the
+  /// library's text. The place is added elsewhere, in one form for every kind of error.
   static std::string short_reason(std::string_view text) {
     if (const std::size_t bracket = text.find("] "); bracket != std::string_view::npos) {
       text.remove_prefix(bracket + 2);

@@ -15,45 +15,44 @@
 
 namespace camway::tools {
 
-/// What a document may cost before it is refused. A request with as many keyframes as planning
-/// takes and the response to it stay below; a hostile document cannot make the reader take
-/// gigabytes.
+/// Limits of a document, beyond which it is refused. The largest request and its response stay
+/// below them; a hostile document cannot make the reader allocate gigabytes.
 inline constexpr std::size_t kMaxDocumentBytes = std::size_t{256} << 20;
 inline constexpr std::size_t kMaxDocumentValues = 16'000'000;
 inline constexpr std::size_t kMaxDocumentDepth = 32;
 
-/// Either a value or why there is none.
+/// A value, or the reason why there is none.
 template <typename T>
 struct Parsed {
   std::optional<T> value;
-  std::string error;  ///< names the source and what is wrong in it; empty exactly with a value
+  std::string error;  ///< names the source and the fault; empty exactly if there is a value
 };
 
-/// Parses strict JSON. Refused beyond the syntax: documents past the limits above, numbers that
-/// overflow a double, and a key that stands twice in one object (readers differ in which of the two
-/// they take). `source` heads the error: `R.json: line 3, column 14: ...`. Lines and columns count
-/// from 1, columns in bytes. Never throws for a bad document.
+/// Parses strict JSON. Also refuses documents beyond the limits above, numbers that overflow a
+/// double, and a key that occurs twice in one object, because readers differ in which one they
+/// take. `source` begins the error: `R.json: line 3, column 14: ...`. Lines and columns count from
+/// 1, columns in bytes. Never throws for a bad document.
 Parsed<nlohmann::json> parse_document(std::string_view text, std::string_view source);
 
-/// Reads all of `file` ("-": standard input), at most kMaxDocumentBytes.
+/// Reads the whole `file` ("-": standard input). Refuses more than kMaxDocumentBytes.
 Parsed<std::string> read_text(const std::string& file);
 
-/// A value inside a document that knows its path, for reading with messages such as
-/// `keyframes[3].orientation: must be an array of 4 numbers`. The first error is kept, and after it
-/// every read gives a default, so that callers check once at the end. Points to its parent and to
-/// the error text: for local use only.
+/// A value of a document together with its path, for errors such as
+/// `keyframes[3].orientation: must be an array of 4 numbers`. Only the first error is kept; after
+/// it every read returns a default, so callers check once at the end. Holds pointers to its parent
+/// and to the error text, which must outlive it.
 class Field {
  public:
   /// The document itself.
   Field(const nlohmann::json& root, std::string& error) : value_(&root), error_(&error) {}
 
-  /// A member that must be there.
+  /// Returns a required member.
   [[nodiscard]] Field member(std::string_view key) const;
-  /// A member that may be missing.
+  /// Returns an optional member, or nothing if it is missing.
   [[nodiscard]] std::optional<Field> optional_member(std::string_view key) const;
-  /// Element `index` of an array. Precondition: index < size().
+  /// Returns element `index` of an array. Requires index < size().
   [[nodiscard]] Field element(std::size_t index) const;
-  /// Length of an array; an error and 0 for anything else.
+  /// Returns the length of an array; for any other value records an error and returns 0.
   [[nodiscard]] std::size_t size() const;
 
   [[nodiscard]] double number() const;
@@ -64,33 +63,33 @@ class Field {
   /// Reads exactly `count` numbers into `out`.
   void numbers(double* out, std::size_t count) const;
 
-  /// The keys of an object in alphabetical order; an error for anything else.
+  /// Returns the keys of an object in alphabetical order; for any other value records an error.
   [[nodiscard]] std::vector<std::string> keys() const;
 
-  /// An error for the first member whose key is none of `known`, so that a word that is spelled
-  /// wrongly or that only a later version knows is not taken for a wish that was heeded. Keys that
-  /// begin with '_' and the key "comment" are for the writer of the document alone, and pass.
+  /// Records an error for the first member whose key is not in `known`: an option that is
+  /// misspelled, or that only a later version knows, must not be ignored silently. Keys that begin
+  /// with '_' and the key "comment" are remarks and pass.
   void allow_only(std::initializer_list<std::string_view> known) const;
 
   /// Records an error about this value, unless there is one already.
   void fail(std::string_view message) const;
   [[nodiscard]] bool failed() const { return !error_->empty(); }
-  /// `keyframes[3].orientation`; empty for the document.
+  /// Returns the path, such as `keyframes[3].orientation`; empty for the document.
   [[nodiscard]] std::string path() const;
 
  private:
   Field(const nlohmann::json* value, const Field* parent, std::string_view key, std::size_t index)
       : value_(value), parent_(parent), key_(key), index_(index), error_(parent->error_) {}
 
-  const nlohmann::json* value_ = nullptr;  ///< null where the document has none
+  const nlohmann::json* value_ = nullptr;  ///< null if the document has no such value
   const Field* parent_ = nullptr;
   std::string_view key_;  ///< empty for an element of an array
   std::size_t index_ = 0;
   std::string* error_;
 };
 
-/// Returns the value that the field's text names; else an error that lists the names, and the
-/// first value.
+/// Returns the value that the field's text names. For an unknown name, records an error that lists
+/// all names and returns the first value.
 template <typename Value, std::size_t kCount>
 Value named(const Field& field,
             const std::array<std::pair<std::string_view, Value>, kCount>& names) {
@@ -104,8 +103,8 @@ Value named(const Field& field,
   return names.front().second;
 }
 
-/// Parses `text` and lets `read` make something of the document: the value, or the first error that
-/// either met.
+/// Parses `text` and converts the document by `read`. Returns the value, or the first error of
+/// either step.
 template <typename T>
 Parsed<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_view source) {
   const Parsed<nlohmann::json> document = parse_document(text, source);
@@ -116,7 +115,7 @@ Parsed<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_v
   return {std::move(value), {}};
 }
 
-/// The same of a file; "-" is standard input.
+/// Reads a file ("-": standard input) and converts it like `parse_as`.
 template <typename T>
 Parsed<T> read_as(T (*read)(const Field&), const std::string& file) {
   const Parsed<std::string> text = read_text(file);

@@ -36,8 +36,8 @@ Vector read_vector(const Field& field) {
   return v;
 }
 
-/// The unit quaternion in the direction of `wxyz`. Scaled by the largest coefficient first, so that
-/// squares neither overflow nor vanish.
+/// Returns the unit quaternion in the direction of `wxyz`. Divides by the largest coefficient
+/// first, so that squares neither overflow nor underflow.
 geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
   const double largest = wxyz.cwiseAbs().maxCoeff();
   if (largest == 0.0) {
@@ -49,7 +49,7 @@ geometry::Quat unit_quaternion(const Field& field, const geometry::Vec4& wxyz) {
   return geometry::from_wxyz(scaled / scaled.norm());
 }
 
-/// The time of keyframe `index`, where the first has one, and none where it has none.
+/// Reads the time of keyframe `index`, which must have one exactly if the first keyframe has one.
 void read_time(const Field& item, std::size_t index, RequestFile& request, Keyframe& keyframe) {
   const std::optional<Field> time = item.optional_member("time");
   if (time) keyframe.time_s = time->number();
@@ -60,7 +60,7 @@ void read_time(const Field& item, std::size_t index, RequestFile& request, Keyfr
             ": time stands in all keyframes or in none");
 }
 
-/// The quaternion, in either order of its numbers.
+/// Reads the quaternion, in either order of its numbers.
 geometry::Quat read_orientation(const Field& item, RequestFile& request) {
   const std::optional<Field> xyzw_field = item.optional_member("orientation_xyzw");
   if (!xyzw_field) {
@@ -112,7 +112,7 @@ collision::Witness read_witness(const Field& field, planning::WitnessNames& name
   collision::Witness witness;
   witness.time_s = field.member("time").number();
   names.object = field.member("object").text();
-  // Below 0 it is a side of the bounds.
+  // A negative number is a side of the bounds.
   constexpr auto kSides = static_cast<std::int64_t>(geometry::Bounds::kSides);
   witness.triangle = static_cast<std::uint32_t>(
       field.member("triangle").integer(-kSides, std::numeric_limits<std::uint32_t>::max()));
@@ -176,7 +176,7 @@ PlanResult read_result(const Field& root) {
   }
   std::vector<motion::Segment> segments;
   if (const auto list = root.optional_member("segments")) segments = read_segments(*list);
-  // Only of good segments: a path has preconditions.
+  // A path requires valid segments.
   if (!root.failed()) result.path = motion::Path(std::move(segments));
   if (const auto list = root.optional_member("keyframes")) {
     result.keyframes = read_response_keyframes(*list);

@@ -8,7 +8,7 @@
 namespace camway::tools {
 namespace {
 
-/// Members that files call otherwise.
+/// Members with another name in files.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames{{
     {"camera.fov_x", "camera.fov_x_deg"},
     {"camera.fov_y", "camera.fov_y_deg"},

@@ -5,8 +5,8 @@
 
 namespace camway::tools {
 
-/// How files spell the members of a request, for messages about it: "camera.fov_x" is
-/// "camera.fov_x_deg", for there it is in degrees.
+/// Returns the spelling of a request's members in files, for messages about it. For example
+/// "camera.fov_x" becomes "camera.fov_x_deg", because files have degrees.
 planning::FieldSpelling json_spelling();
 
 }  // namespace camway::tools

@@ -46,7 +46,7 @@ void read_angle(const Field& parent, std::string_view key, double& value_rad) {
   if (const auto member = parent.optional_member(key)) value_rad = radians(member->number());
 }
 
-/// An error where `key` is there though the policy does not look at it.
+/// Records an error if `key` is there although the policy does not use it.
 void refuse_without(std::string_view policy, const Field& field, std::string_view key) {
   if (const auto member = field.optional_member(key)) {
     member->fail("counts only with \"policy\": \"" + std::string(policy) + "\"");

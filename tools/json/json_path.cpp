@@ -50,7 +50,7 @@ PathFile read_path(const Field& root) {
   const Field list = root.member("segments");
   refuse_unknown_fields(list);
   std::vector<motion::Segment> segments = read_segments(list);
-  // Only of good segments: a path has preconditions.
+  // A path requires valid segments.
   if (!root.failed()) file.path = motion::Path(std::move(segments));
   if (const auto keyframes = root.optional_member("keyframes")) {
     file.keyframe_times_s = read_keyframe_times(*keyframes);

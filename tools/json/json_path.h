@@ -9,38 +9,37 @@
 #include "daemon/motion/path/path.h"
 #include "tools/json/json_document.h"
 
-/// Paths as JSON, whoever wrote them.
+/// Paths as JSON, from Camway or from other programs.
 namespace camway::tools {
 
-/// What a path from anywhere says of itself. A response of ours is one; so is
-/// `{"segments": [...]}`.
+/// A path file. A response of Camway is one; `{"segments": [...]}` is the smallest one.
 struct PathFile {
   motion::Path path;
-  /// When the path means to pass the keyframes that it was made for, in their order: the times of
-  /// those in `keyframes` that are not marked as inserted. Empty if one of them has no time.
+  /// Times at which the path passes its given keyframes, in their order: the times of the keyframes
+  /// that are not marked as inserted. Empty if one of these has no time.
   std::vector<double> keyframe_times_s;
-  std::string scene_digest;  ///< of the scene that it was made for; empty if it does not say
-  /// The near distance that it was made for, as a share of the request's. [Limit: 0 < value <= 1]
+  std::string scene_digest;  ///< digest of the scene that it was made for; empty if unknown
+  /// Near distance that it was made for, divided by the request's. [Limit: 0 < value <= 1]
   double near_scale = 1.0;
-  geometry::Bounds bounds;  ///< that it was made within
+  geometry::Bounds bounds;  ///< bounds that it was made for
 };
 
-/// Reads the path. `segments` has to be there and every field of a segment has to be known, remarks
-/// apart (`Field::allow_only`): what a stranger's `weights` or `knots` change, we would prove of
-/// another path. Checked here: the form, that each segment is longer than nothing and begins when
-/// the one before ends; the numbers are `planning::find_fault`'s. `keyframes` (with `time` and
-/// `origin`: "given" or "inserted"), `scene_digest` and `near_scale` may be left out. All else is
-/// ignored, for it cannot change what is proved.
+/// Reads a path. Requires `segments`, without unknown fields except for remarks
+/// (`Field::allow_only`): a field such as `weights` or `knots` would mean another path than the one
+/// that is proved. Checks the form, that each segment ends after it begins, and that it begins when
+/// the one before ends; `planning::find_fault` checks the numbers. `keyframes` (with `time` and
+/// `origin`: "given" or "inserted"), `scene_digest`, `bounds` and `near_scale` are optional. Other
+/// fields are ignored, because they cannot change what is proved.
 Parsed<PathFile> parse_path_file(std::string_view text, std::string_view source);
 
-/// The same from a file; "-" is standard input.
+/// Reads a path from a file ("-": standard input).
 Parsed<PathFile> read_path_file(const std::string& file);
 
-/// Reads a list of segments, each at least as long as nothing and beginning where the one before
-/// ends. Ignores unknown fields.
+/// Reads a list of segments. Each must end after it begins, and begin when the one before ends.
+/// Ignores unknown fields.
 std::vector<motion::Segment> read_segments(const Field& list);
 
-/// "given", "inserted", or an error.
+/// Reads "given" or "inserted"; records an error for any other text.
 motion::KeyframeOrigin read_origin(const Field& field);
 
 }  // namespace camway::tools

@@ -6,8 +6,9 @@
 
 namespace camway::tools {
 
-/// Reads what a response says of correction and of what stood in its way, whatever is there of it:
-/// `corrections`, `measures`, `near_scale`, `time_scale`, `slowed`, `keyframe_faults`, `infeasibility`.
+/// Reads the fields of a response about correction into `result`, each if it is there:
+/// `corrections`, `measures`, `near_scale`, `time_scale`, `slowed`, `keyframe_faults`,
+/// `infeasibility`.
 void read_report(const Field& root, planning::PlanResult& result);
 
 }  // namespace camway::tools

@@ -13,16 +13,16 @@ namespace {
 
 using motion::Keyframe;
 
-/// Builds the text of a response. Objects that are one thing (a keyframe, an interval) stand on one
-/// line, so that a person can read a long path and `diff` can compare two.
+/// Builds the text of a response. Each small object (a keyframe, an interval) is on one line, so
+/// that a person can read a long path and `diff` can compare two.
 class Writer {
  public:
   explicit Writer(std::string& out) : out_(out) {}
 
   void raw(std::string_view text) { out_ += text; }
 
-  /// The shortest decimal that reads back as the same double, always with a point or an exponent:
-  /// without one a reader takes -0 for the integer 0 and loses the sign.
+  /// Writes the shortest decimal that reads back as the same double, always with a point or an
+  /// exponent: otherwise readers take -0 for the integer 0 and lose the sign.
   void number(double value, std::string_view what) {
     if (!std::isfinite(value)) {
       if (error_.empty()) error_ = std::string(what) + ": is not finite";
@@ -59,7 +59,7 @@ class Writer {
     out_ += ']';
   }
 
-  /// `[` item `,` item ... `]`, one item a line.
+  /// Writes an array with one item on each line.
   template <typename List, typename WriteItem>
   void list(const List& items, WriteItem write_item) {
     bool first = true;
@@ -119,7 +119,7 @@ void write_witness(Writer& w, const collision::Witness& witness,
   w.raw("}");
 }
 
-/// `names` may be fewer than the intervals: nobody named the witnesses then.
+/// Writes collision intervals. `names` may be shorter than `intervals` if witnesses have no names.
 void write_intervals(Writer& w, const std::vector<collision::CollisionInterval>& intervals,
                      const std::vector<planning::WitnessNames>& names, std::string_view what) {
   std::size_t i = 0;
@@ -137,7 +137,7 @@ void write_intervals(Writer& w, const std::vector<collision::CollisionInterval>&
   });
 }
 
-/// An object on one line, its values finite.
+/// Writes an object with finite values on one line.
 void write_numbers(Writer& w, std::initializer_list<std::pair<const char*, double>> members,
                    std::string_view what) {
   bool first = true;
@@ -264,7 +264,7 @@ void write_infeasibility(Writer& w, const planning::Infeasibility& proof) {
   w.raw("]}");
 }
 
-/// `null` where there is no limit.
+/// Writes a corner of bounds, with null for a side without a limit.
 void write_corner(Writer& w, const geometry::Vec3& corner_W) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     w.raw(axis == 0 ? "[" : ", ");
@@ -286,7 +286,7 @@ void write_bounds(Writer& w, const geometry::Bounds& bounds) {
   w.raw("}");
 }
 
-/// What correction did, and what stood in its way.
+/// Writes the corrections, measures and faults.
 void write_report(Writer& w, const planning::PlanResult& result) {
   w.raw(",\n  \"corrections\": ");
   w.list(result.corrections, [&](const correction::Correction& c) { write_correction(w, c); });

@@ -11,7 +11,7 @@
 namespace camway::make_scenes {
 namespace {
 
-/// A keyframe that collides would make the whole request invalid, and the fault is ours.
+/// Throws if a keyframe collides, because that would make the request invalid.
 void check_keyframes(const Entry& entry) {
   for (const Request& request : entry.requests) {
     if (!request.times_ms.empty() && request.times_ms.size() != request.views.size()) {

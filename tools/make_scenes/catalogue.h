@@ -9,22 +9,22 @@
 
 namespace camway::make_scenes {
 
-/// A scene file with the requests that are asked of it.
+/// A scene file and its requests.
 struct Entry {
-  std::string file;  ///< "office.obj"
+  std::string file;  ///< name of the file, such as "office.obj"
   std::string title;
-  std::string note;  ///< for scenes/README.md
+  std::string note;  ///< text for scenes/README.md
   Scene scene;
   std::vector<Request> requests;
 };
 
-/// Everything that `scenes/` holds, in order. Throws std::logic_error with the request's name and
-/// the keyframe's number if a keyframe comes nearer than `kLeastClearanceM` to its own scene.
+/// Returns the content of `scenes/`, in order. Throws std::logic_error with the request's name and
+/// the keyframe's number if a keyframe is nearer than `kLeastClearanceM` to its own scene.
 std::vector<Entry> make_catalogue();
 
 constexpr double kLeastClearanceM = 0.02;
 
-/// The text of scenes/README.md.
+/// Returns the text of scenes/README.md.
 std::string readme(const std::vector<Entry>& entries);
 
 std::vector<Request> office_requests();

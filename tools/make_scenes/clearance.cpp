@@ -27,7 +27,7 @@ double point_segment(const Vec& p, const Vec& a, const Vec& b) {
   return length(minus(p, plus_scaled(a, ab, s)));
 }
 
-/// Whether the point of the face's plane nearest to `p` lies in the face.
+/// Returns whether the point of the face's plane nearest to `p` lies in the face.
 bool above_face(const Vec& p, const Face& f, const Vec& normal) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec edge = minus(f[(i + 1) % 3], f[i]);
@@ -105,7 +105,7 @@ std::array<Vec, 4> near_quadrilateral(const Lens& lens, const View& view) {
   return corners;
 }
 
-/// Whether the boxes of the two are further apart than `distance` on some axis.
+/// Returns whether the bounding boxes of the two are further apart than `distance` along some axis.
 template <typename A, typename B>
 bool far_apart(const A& a, const B& b, double distance) {
   for (std::size_t axis = 0; axis < 3; ++axis) {

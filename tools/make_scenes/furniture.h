@@ -3,8 +3,8 @@
 
 #include "tools/make_scenes/solid.h"
 
-/// Furniture. Each piece stands on the floor at the origin of its placement (y = 0) and adds to the
-/// object that was begun last; its front looks along +z of its own frame.
+/// Furniture. Each function adds a piece to the object that was begun last. The piece stands on the
+/// floor at the origin of its placement (y = 0); its front faces +z of its own frame.
 namespace camway::make_scenes {
 
 /// 1.6 x 0.8 m, 0.74 m high, with a drawer block and a screen; the chair's side is +z.
@@ -21,7 +21,7 @@ void add_lamp(Scene& scene, const Placement& at);
 void add_plant(Scene& scene, const Placement& at, Dice& dice);
 /// A bench of `length`, 0.4 m deep and 0.45 m high.
 void add_bench(Scene& scene, const Placement& at, Um length);
-/// A closed steel box, 1 x 1 x 1.2 m inside, walls of 8 cm: no way in or out.
+/// A closed steel box, 1 x 1 x 1.2 m inside, with walls of 8 cm.
 void add_safe(Scene& scene, const Placement& at);
 
 }  // namespace camway::make_scenes

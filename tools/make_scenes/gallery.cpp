@@ -9,8 +9,9 @@ namespace {
 
 using namespace gallery;
 
-/// A closed prism of three sides from `from` to `to`; `thickness` is the length of two of its
-/// section's edges, which lie along the two axes that the wire runs along least.
+/// Adds a closed prism of three sides from `from` to `to`. `thickness` is the length of two edges
+/// of its section, which lie along the two axes with the smallest components of the wire's
+/// direction.
 void add_wire(Scene& scene, const Point& from, const Point& to, Um thickness) {
   std::size_t major = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {
@@ -144,7 +145,8 @@ void add_ring(Scene& scene) {
   add_wire(scene, {kRingX, kEyeY + kRingRadius, kMiddleZ}, {kRingX, kHeight, kMiddleZ}, mm(2));
 }
 
-/// Triangles from one vertex to a square zigzag below it: no splitting of space separates them.
+/// Adds triangles from one vertex to a square zigzag below it, which no spatial subdivision
+/// separates.
 void add_fan(Scene& scene) {
   constexpr int kPerSide = 60;
   const Um half = mm(600);

@@ -23,7 +23,7 @@ constexpr Um kPlatesX = mm(19000);     ///< plates without thickness
 constexpr Um kLouvreX = mm(23000);     ///< slats across half the corridor
 constexpr Um kRingX = mm(27000);       ///< a ring of 0.6 m radius, its axis along x
 constexpr Um kFanX = mm(31000);        ///< 240 triangles at one vertex, slivers, duplicates
-constexpr Um kSlotX = mm(36000);       ///< a wall with a slot of 0.3 x 2 m, and a rod before it
+constexpr Um kSlotX = mm(36000);  ///< a wall with a slot of 0.3 x 2 m, and a rod in front of it
 
 constexpr Um kRingRadius = mm(600);
 constexpr Um kSlotZ = mm(1200);
@@ -31,7 +31,8 @@ constexpr Um kRodZ = mm(2800);
 
 }  // namespace gallery
 
-/// What is thin, single, duplicated or degenerate, in the order of the corridor.
+/// Returns a scene of thin, single, duplicated and degenerate geometry, in the order of the
+/// corridor.
 Scene make_gallery();
 
 }  // namespace camway::make_scenes

@@ -41,7 +41,7 @@ void Maze::join(const Cell& a, const Cell& b) {
   (along_row ? open_east_ : open_south_)[index(first)] = true;
 }
 
-/// Depth first, in a random order of neighbours; at most as deep as there are cells.
+/// Opens walls by a depth-first search in random order. Its depth is at most the number of cells.
 void Maze::carve(const Cell& from, Dice& dice, std::array<bool, kCells>& visited) {
   visited[index(from)] = true;
   std::array<Cell, 4> steps = kSteps;

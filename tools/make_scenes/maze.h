@@ -9,13 +9,13 @@
 
 namespace camway::make_scenes {
 
-/// A maze of square cells, with a few walls taken out so that there are several ways round.
+/// A maze of square cells. A few walls are left out, so that there are several ways.
 class Maze {
  public:
   static constexpr int kColumns = 10;
   static constexpr int kRows = 8;
-  static constexpr Um kPitch = mm(2000);     ///< from one cell's middle to the next
-  static constexpr Um kThickness = mm(200);  ///< of walls, floor and ceiling
+  static constexpr Um kPitch = mm(2000);     ///< distance between the centres of adjacent cells
+  static constexpr Um kThickness = mm(200);  ///< thickness of walls, floor and ceiling
   static constexpr Um kHeight = mm(2400);
 
   struct Cell {
@@ -28,13 +28,13 @@ class Maze {
 
   [[nodiscard]] Scene scene() const;
 
-  /// Whether one can pass from `a` to the neighbouring cell `b`.
+  /// Returns whether there is no wall between `a` and the adjacent cell `b`.
   [[nodiscard]] bool open(const Cell& a, const Cell& b) const;
 
-  /// A shortest way from `from` to `to`, both included.
+  /// Returns a shortest way from `from` to `to`, both included.
   [[nodiscard]] std::vector<Cell> way(const Cell& from, const Cell& to) const;
 
-  /// The middle of a cell at a height above the floor.
+  /// Returns the centre of a cell at a height above the floor.
   static Point middle(const Cell& cell, Um y);
 
  private:

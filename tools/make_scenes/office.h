@@ -24,17 +24,17 @@ constexpr Um kCorridorMiddleZ = mm(10000);
 constexpr Um kInnerWall = mm(200);
 constexpr Um kDoorHeight = mm(2100);
 
-/// Level of the floor one stands on.
+/// Returns the height of the floor of a storey.
 constexpr Um floor_y(int storey) { return storey * kStoreyHeight; }
 
 struct Room {
   const char* name;
   bool north;
-  Um x0, x1;  ///< faces of its walls
-  Um door_x;  ///< middle of its door to the corridor
+  Um x0, x1;  ///< inner faces of its walls
+  Um door_x;  ///< centre of its door to the corridor
 
   [[nodiscard]] constexpr Um middle_x() const { return (x0 + x1) / 2; }
-  /// The z of a place `depth` into the room, from the corridor wall's face on the room's side.
+  /// Returns the z at `depth` into the room, measured from the room's face of the corridor wall.
   [[nodiscard]] constexpr Um z_at(Um depth) const {
     return north ? kCorridorNorthZ - kInnerWall - depth : kCorridorSouthZ + kInnerWall + depth;
   }
@@ -54,9 +54,9 @@ constexpr std::array<Room, 8> kRooms{{
     {"s3", false, mm(24100), mm(29700), mm(26900)},
 }};
 
-/// Doors between neighbouring rooms: in the partition's middle, at this depth from the corridor.
+/// Depth from the corridor at which the doors between adjacent rooms are.
 constexpr Um kInnerDoorDepth = mm(1300);
-/// Whether the partition between room `index` and the next has a door on `storey`.
+/// Returns whether the partition between room `index` and the next has a door on `storey`.
 constexpr bool has_inner_door(int storey, std::size_t index) {
   return (index == 0 && storey != 1) || (index == 6 && storey >= 1);
 }
@@ -99,10 +99,10 @@ constexpr Um kSafeZ = mm(13200);
 
 }  // namespace office
 
-/// The building's shell and everything in it.
+/// Returns the building with its furniture.
 Scene make_office();
 
-/// Furnishes one room of `storey`, or the whole atrium.
+/// Furnish a room of `storey`, and the atrium.
 void furnish_room(Scene& scene, int storey, std::size_t room_index, Dice& dice);
 void furnish_atrium(Scene& scene, Dice& dice);
 

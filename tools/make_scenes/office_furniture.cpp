@@ -9,14 +9,14 @@ namespace {
 
 using namespace office;
 
-/// Furniture of one room, placed by what matters there: `u` to the right of the room's middle and
-/// `depth` away from the corridor, both seen from the door.
+/// Furniture of one room, in coordinates seen from the door: `u` to the right of the room's centre,
+/// and `depth` away from the corridor.
 class Furnisher {
  public:
   Furnisher(Scene& scene, int storey, const Room& room, Dice& dice)
       : scene_(scene), storey_(storey), room_(room), dice_(dice) {}
 
-  /// `turn` 0 looks away from the corridor.
+  /// With `turn` 0 the piece faces away from the corridor.
   [[nodiscard]] Placement at(Um u, Um depth, const Turn& turn = kTurn0) const {
     const Um x = room_.middle_x() + (room_.north ? u : -u);
     return {{x, floor_y(storey_), room_.z_at(depth)}, room_.north ? compose(turn, kTurn180) : turn};

@@ -12,7 +12,7 @@ constexpr Direction kNorth{0, 0, -1};
 constexpr Direction kSouth{0, 0, 1};
 constexpr Direction kWest{-1, 0, 0};
 
-/// A point in millimetres, `above_floor` of a storey.
+/// Returns a point from millimetres, `above_floor` above the floor of a storey.
 Point at(int storey, std::int64_t x, std::int64_t above_floor, std::int64_t z) {
   return {mm(x), floor_y(storey) + mm(above_floor), mm(z)};
 }

@@ -16,7 +16,7 @@ std::vector<Point> middles(const std::vector<Maze::Cell>& cells) {
   return points;
 }
 
-/// `way` without the cells in which it turns.
+/// Returns `way` without the cells in which it changes direction.
 std::vector<Maze::Cell> without_corners(const std::vector<Maze::Cell>& way) {
   std::vector<Maze::Cell> result{way.front()};
   for (std::size_t i = 1; i + 1 < way.size(); ++i) {
@@ -27,8 +27,8 @@ std::vector<Maze::Cell> without_corners(const std::vector<Maze::Cell>& way) {
   return result;
 }
 
-/// Two neighbours with a wall between them and the longest way round that is not above `limit`
-/// steps.
+/// Returns two adjacent cells with a wall between them and the longest way around it of at most
+/// `limit` steps.
 std::vector<Maze::Cell> walled_neighbours(const Maze& maze, std::size_t limit) {
   std::vector<Maze::Cell> best;
   for (int row = 0; row < Maze::kRows; ++row) {

@@ -8,7 +8,7 @@
 namespace camway::make_scenes {
 namespace {
 
-/// Cosine and sine of half of the angle whose cosine and sine are given, in (-90, 90] degrees, by
+/// Returns cosine and sine of half the angle with this cosine and sine, in (-90, 90] degrees. Uses
 /// square roots only.
 std::array<double, 2> half_angle(double cosine, double sine) {
   if (cosine >= 0.0) {

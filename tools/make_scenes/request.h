@@ -9,14 +9,15 @@
 
 namespace camway::make_scenes {
 
-/// Unit quaternion w, x, y, z from the camera frame (looks down -z, +y up) to the world.
+/// A unit quaternion w, x, y, z that rotates the camera frame (looks down -z, +y up) into the
+/// world.
 using Quaternion = std::array<double, 4>;
 using Direction = std::array<double, 3>;
 
-/// Looks along `forward` (any length but 0) without roll.
+/// Returns the orientation that looks along `forward`, without roll. Requires a length above 0.
 Quaternion look_along(const Direction& forward);
 
-/// `orientation`, turned by 90 degrees about the viewing direction.
+/// Returns `orientation`, rotated by 90 degrees about the viewing direction.
 Quaternion rolled_90(const Quaternion& orientation);
 
 struct View {
@@ -32,24 +33,23 @@ struct Lens {
 
 struct Request {
   std::string name;
-  std::string purpose;  ///< for scenes/README.md
+  std::string purpose;  ///< text for scenes/README.md
   Lens lens;
   std::vector<View> views;
-  std::vector<int> times_ms;  ///< one for each view, or none
+  std::vector<int> times_ms;  ///< one for each view, or empty
 };
 
-/// Views through `eyes`, each looking the way the camera travels there: from the point before it to
-/// the point after it.
+/// Returns views at `eyes` in the direction of travel: from the point before to the point after.
 std::vector<View> along(const std::vector<Point>& eyes);
 
-/// Views from `eyes` that all look along `forward`.
+/// Returns views at `eyes` that all look along `forward`.
 std::vector<View> facing(const std::vector<Point>& eyes, const Direction& forward);
 
-/// The request file of `request` on the scene file `scene`.
+/// Returns the text of the request file for the scene file `scene`.
 std::string to_json(const Request& request, const std::string& scene);
 
-/// Least distance in metres of the filled near quadrilateral at `view` to the triangles, or
-/// `cutoff_m` if none is nearer. For checking only: nothing that is written depends on it.
+/// Returns the distance between the filled near quadrilateral at `view` and the triangles, at most
+/// `cutoff_m`. It serves a check only; no file depends on it.
 double clearance_m(const std::vector<Triangle>& triangles, const Lens& lens, const View& view,
                    double cutoff_m);
 

@@ -9,7 +9,7 @@
 namespace camway::make_scenes {
 namespace {
 
-/// Nearest integer to a / b, halves away from zero. Precondition: b > 0.
+/// Returns the nearest integer to a / b, with halves rounded away from zero. Requires b > 0.
 std::int64_t divide_rounded(std::int64_t a, std::int64_t b) {
   return a >= 0 ? (2 * a + b) / (2 * b) : -((-2 * a + b) / (2 * b));
 }
@@ -41,7 +41,7 @@ std::vector<Um> cuts(Um low, Um high, const std::vector<Opening>& openings, bool
   return result;
 }
 
-/// The cells of a panel between all cuts, some of them open.
+/// The cells of a panel between all cuts; some are open.
 class PanelCells {
  public:
   PanelCells(const Panel& panel, const std::vector<Opening>& openings)
@@ -59,7 +59,8 @@ class PanelCells {
   }
 
  private:
-  /// `i` and `j` may be one below zero (wrapped around): outside is not solid.
+  /// Returns whether a cell is solid. `i` and `j` may be -1 as an unsigned number: the outside is
+  /// not.
   [[nodiscard]] bool solid(std::size_t i, std::size_t j) const {
     if (i >= u_.size() - 1 || j >= v_.size() - 1) return false;
     return std::none_of(openings_.begin(), openings_.end(), [&](const Opening& o) {

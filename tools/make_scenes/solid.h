@@ -35,10 +35,10 @@ constexpr Turn kTurn37{4, 3, 5};    // 36.9 degrees
 constexpr Turn kTurn23{12, 5, 13};  // 22.6 degrees
 constexpr Turn kTurnMinus28{15, -8, 17};
 
-/// First `first`, then `second`.
+/// Returns the rotation by `first`, then by `second`.
 Turn compose(const Turn& first, const Turn& second);
 
-/// Where a piece of furniture stands: turned about its own origin, then moved.
+/// The placement of a piece of furniture: a rotation about its own origin, then a translation.
 struct Placement {
   Point origin{};
   Turn turn = kTurn0;
@@ -46,7 +46,7 @@ struct Placement {
   [[nodiscard]] Point operator()(const Point& local) const;
 };
 
-/// Triangles under names. Every vertex of an object is written once.
+/// A list of triangles, grouped into named objects. Every vertex of an object is written once.
 class Scene {
  public:
   struct Object {
@@ -54,21 +54,21 @@ class Scene {
     std::size_t first_triangle = 0;
   };
 
-  /// What follows belongs to `name`.
+  /// Begins an object, to which the next triangles belong.
   void begin_object(const std::string& name);
 
   void add_triangle(const Point& a, const Point& b, const Point& c);
-  /// Two triangles that share the diagonal from `a` to `c`.
+  /// Adds two triangles that share the diagonal from `a` to `c`.
   void add_quad(const Point& a, const Point& b, const Point& c, const Point& d);
-  /// A closed box between two corners, given in the frame of `placement`.
+  /// Adds a closed box between two corners in the frame of `placement`.
   void add_box(const Placement& placement, const Point& low, const Point& high);
-  /// A closed upright prism over a regular polygon. Precondition: `sides` divides 24.
+  /// Adds a closed upright prism over a regular polygon. Requires `sides` to divide 24.
   void add_prism(const Placement& placement, const Point& base, Um radius, Um height, int sides);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
 
-  /// Wavefront OBJ in metres with six decimals, one `o` per object.
+  /// Returns the scene as Wavefront OBJ in metres with six decimals, one `o` for each object.
   [[nodiscard]] std::string obj(const std::string& title) const;
 
  private:
@@ -76,7 +76,7 @@ class Scene {
   std::vector<Object> objects_;
 };
 
-/// Point `index` of 24 on a circle of `radius` about the y axis, from +x towards -z.
+/// Returns point `index` of 24 on a circle of `radius` about the y axis, from +x towards -z.
 Point on_circle(Um radius, int index);
 
 /// A rectangle cut out of a wall or slab, in its own two coordinates.
@@ -102,11 +102,12 @@ struct Slab {
 };
 void add_slab(Scene& scene, const Slab& slab, const std::vector<Opening>& openings = {});
 
-/// Numbers that only look random; the same everywhere (Steele et al. 2014, SplitMix64).
+/// A pseudo-random generator with the same numbers on every machine: SplitMix64 (Steele et al.
+/// 2014).
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed) {}
-  /// In [0, count).
+  /// Returns a number in [0, count).
   std::int64_t below(std::int64_t count);
 
  private:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 #
-# Holds every #include against the map in ARCHITECTURE.md: a room may include itself, what the column
+# Holds every #include against the map in docs/design/rooms.md: a room may include itself, what the column
 # "may include" of its row names, and what those may include in turn. A file belongs to the row of the
 # nearest folder above it that has one. LCM and the messages generated for it are for the wire; other
 # libraries are for one room or one file each; FCL, Embree and CGAL are for tests alone. Needs nothing
@@ -15,7 +15,7 @@ set -euo pipefail
 
 root=${1:-$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../..}
 cd "$root"
-readonly kMap=ARCHITECTURE.md
+readonly kMap=docs/design/rooms.md
 [[ -r $kMap ]] || { echo "check_layers: $root has no $kMap" >&2; exit 2; }
 
 mapfile -t sources < <(find daemon client lcmtypes tools tests -type f \

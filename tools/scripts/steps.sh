@@ -52,5 +52,24 @@ build() {
     cat "$log"
     return 1
   fi
-  cmake --build --preset "$preset" --parallel "$(build_jobs)" ${1:+--target "$@"}
+  # On a terminal Ninja counts in place.
+  if [[ -t 1 ]]; then
+    cmake --build --preset "$preset" --parallel "$(build_jobs)" ${1:+--target "$@"}
+  else
+    cmake --build --preset "$preset" --parallel "$(build_jobs)" ${1:+--target "$@"} | count_in_tenths
+  fi
+}
+
+# For logs: one line for each tenth, and whatever is no count, such as an error and the command that
+# led to it.
+count_in_tenths() {
+  awk '/^\[[0-9]+\/[0-9]+\] / {
+         split(substr($1, 2), count, /[\/\]]/)
+         tenth = int(10 * count[1] / count[2])
+         if (tenth > shown) printf "built %d of %d\n", count[1], count[2]
+         shown = tenth
+         fflush()
+         next
+       }
+       {print; fflush()}'
 }

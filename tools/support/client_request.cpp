@@ -64,7 +64,7 @@ Orientation::Policy sent_policy(correction::OrientationRule rule) {
   return Orientation::Policy::kFree;
 }
 
-/// Only what counts with the policy: the daemon refuses the rest.
+/// Returns the policy with the members that it uses; the daemon refuses others.
 Orientation sent_orientation(const correction::OrientationPolicy& policy) {
   Orientation sent;
   sent.policy = sent_policy(policy.rule);
@@ -115,7 +115,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
   sent.camera = {request.camera.fov_x_rad, request.camera.fov_y_rad, request.camera.near_m};
   if (request.body) {
     sent.body = std::visit([](const auto& shape) { return sent_body(shape); }, *request.body);
-    // A near quadrilateral of its own goes as the camera.
+    // A body that is a near quadrilateral is sent as the camera.
     if (const auto* own = std::get_if<motion::Camera>(&*request.body)) {
       sent.camera = {own->fov_x_rad, own->fov_y_rad, own->near_m};
     }

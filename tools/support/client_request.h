@@ -9,12 +9,11 @@
 
 namespace camway::tools {
 
-/// A request as read from a file, in the form in which the client sends it to a daemon that holds
-/// its scene under the name `scene`. All options are sent explicitly, so the daemon's defaults play
-/// no part.
+/// Returns a request from a file as the client sends it to a daemon whose scene has the name
+/// `scene`. Every option is set, so the daemon's defaults have no effect.
 PlanRequest to_client_request(const planning::PlanRequest& request, const std::string& scene);
 
-/// Bounds as the client has them, and back.
+/// Convert bounds into the client's type and back.
 Bounds to_client_bounds(const geometry::Bounds& bounds);
 geometry::Bounds from_client_bounds(const Bounds& bounds);
 

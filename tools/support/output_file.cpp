@@ -37,7 +37,7 @@ int write_whole(const fs::path& file, std::string_view bytes) {
   return why;
 }
 
-/// A file that may be replaced by another; what is else is written as it comes.
+/// Returns whether a file may be replaced by another one: whether it is a regular file or missing.
 bool is_ordinary(const fs::path& file) {
   std::error_code failed;
   const fs::file_type type = fs::symlink_status(file, failed).type();
@@ -60,7 +60,7 @@ std::string why_unwritable(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) return fault(file, EISDIR);
   if (!is_ordinary(file)) {
-    // Opening a pipe would wait for its reader. A link to nothing makes the file that it names.
+    // Opening a pipe would wait for its reader. Writing to a dangling link makes its target.
     const bool may = ::access(file.c_str(), W_OK) == 0 || errno == ENOENT;
     return fault(file, may ? 0 : errno);
   }

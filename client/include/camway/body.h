@@ -8,17 +8,18 @@
 
 namespace camway {
 
-/// What moves along a path and must not collide. Given in the camera frame: the eye is the origin,
-/// the camera looks down -Z, +Y is up. Metres.
+/// The shape that moves along a path and must not collide. Coordinates are metres in the camera
+/// frame: the eye is the origin, the camera looks down -Z, +Y is up. Set only the members
+/// that `shape` names.
 ///
-///     request.body = camway::Body::box({0.4, 0.2, 0.4});   // a drone about its camera
+///     request.body = camway::Body::box({0.4, 0.2, 0.4});   // a drone around its camera
 struct Body {
   enum class Shape {
     kCamera,  ///< the near quadrilateral of the request's camera
-    kBox,     ///< `center_m`, `size_m`
-    kSphere,  ///< `center_m`, `radius_m`
-    kConvex,  ///< `pieces_m`
-    kMesh,    ///< `vertices_m`, `triangles`
+    kBox,     ///< a solid box along the camera's axes: `center_m`, `size_m`
+    kSphere,  ///< a solid ball: `center_m`, `radius_m`
+    kConvex,  ///< a union of solid convex hulls: `pieces_m`
+    kMesh,    ///< a surface without an inside: `vertices_m`, `triangles`
   };
   using Point = std::array<double, 3>;
 
@@ -26,10 +27,10 @@ struct Body {
   Point center_m{};
   Point size_m{};         ///< full edge lengths along x, y, z [Limit: 0 < value]
   double radius_m = 0.0;  ///< [Limit: 0 < value]
-  /// Sets of points whose convex hulls together are the body. [Limit: 512 points in all]
+  /// Point sets; the body is the union of their convex hulls. [Limit: 512 points in all]
   std::vector<std::vector<Point>> pieces_m;
-  std::vector<Point> vertices_m;  ///< [Limit: 512]
-  /// Indices of vertices; a surface without inside. [Limit: 1024]
+  std::vector<Point> vertices_m;  ///< [Limit: 512 vertices]
+  /// Indices into `vertices_m`, counted from 0. [Limit: 1024 triangles]
   std::vector<std::array<std::int32_t, 3>> triangles;
 
   static Body box(const Point& size_m, const Point& center_m = {}) {

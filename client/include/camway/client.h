@@ -20,39 +20,43 @@
 
 namespace camway {
 
+/// The options of a client. The defaults suit a daemon on the same host.
 struct ClientOptions {
-  /// LCM network; empty: the environment's LCM_DEFAULT_URL, else multicast that stays on this host.
-  /// With ttl 0 no other host is heard either.
-  /// To reach other hosts: "udpm://239.255.76.67:7667?ttl=1", the daemon's `--url` likewise.
+  /// URL of the LCM network. Empty: LCM_DEFAULT_URL of the environment, or else multicast on this
+  /// host alone. With ttl 0 neither side hears other hosts. To reach other hosts, use
+  /// "udpm://239.255.76.67:7667?ttl=1" here and as the daemon's `--url`.
   std::string url;
-  std::string prefix = "CAMWAY";  ///< of all channels, as the daemon's [Limit: [A-Za-z0-9_-]{1,11}]
-  /// How client and daemon know each other's messages; null: what is sent is not signed, and what
-  /// comes is believed.
+  /// First part of all channel names, the same as the daemon's. [Limit: [A-Za-z0-9_-]{1,11}]
+  std::string prefix = "CAMWAY";
+  /// Signs and checks messages. Null: messages are not signed, and received ones not checked.
   std::shared_ptr<const Authentication> authentication;
-  std::string client_id;  ///< [Limit: [A-Za-z0-9_-]{1,32}] empty: a random one
+  /// Name of this client, different from all others. Empty: random. [Limit: [A-Za-z0-9_-]{1,32}]
+  std::string client_id;
 
-  /// A call ends by then, whatever happens (planning calls: not before the request's own deadline).
+  /// Largest duration of a call. A planning call lasts at least until the deadline of its request.
+  /// [Limit: 0 < value]
   double deadline_s = 60.0;
-  /// How long the daemon may take for a change of a scene, from its receipt; what is not in force
-  /// by then changes nothing and ends with `kTimeout`. 0: its own default. [Limit: 0 <= value]
+  /// Time for a change of a scene, from its receipt by the daemon; 0 for the daemon's default. A
+  /// change that takes longer is cancelled and ends with `kTimeout`. [Limit: 0 <= value]
   double change_deadline_s = 0.0;
-  double try_timeout_s = 0.4;  ///< how long a first answer may take before the request is repeated
-  double backoff = 1.6;        ///< each further try waits so many times longer [Limit: >= 1]
-  double max_try_timeout_s = 5.0;  ///< but never longer than this
-  /// By how much of itself a wait is made shorter or longer at random, so that many clients that
-  /// were refused at once do not come back at once. [Limit: 0 <= value < 1]
+  double try_timeout_s = 0.4;  ///< wait before the first repetition of a request [Limit: 0 < value]
+  double backoff = 1.6;        ///< factor from one wait to the next [Limit: 1 <= value]
+  double max_try_timeout_s = 5.0;  ///< longest wait before a repetition [Limit: 0 < value]
+  /// Largest random change of a wait, as a fraction of the wait. It keeps clients that were refused
+  /// together from coming back together. [Limit: 0 <= value < 1]
   double jitter = 0.2;
-  std::uint64_t seed = 0;  ///< of that; 0: another one each time
-  /// A watched path is watched for so long after the client fell silent. The daemon may allow less.
-  /// [Limit: 1 <= value <= 86400]
+  std::uint64_t seed = 0;  ///< random seed of the jitter; 0: a different one for each client
+  /// Time for which a path stays watched after the last message of the client. The daemon may
+  /// allow less. [Limit: 1 <= value <= 86400]
   double watch_lease_s = 30.0;
-  /// A change of a scene that a daemon refuses because it ends is asked of the next one, for which
-  /// the call waits so long; then it ends with `kStopping`. [Limit: 0 <= value]
+  /// Time to wait for the next daemon if one refuses a change of a scene because it is stopping.
+  /// After that the call ends with `kStopping`. [Limit: 0 <= value]
   double successor_wait_s = std::numeric_limits<double>::infinity();
-  int retries = 5;  ///< repetitions without a sign of life before the call gives up
+  /// Repetitions without a sign of life from a daemon after which a call ends. [Limit: 0 <= value]
+  int retries = 5;
 };
 
-/// Asks a Camway daemon over LCM.
+/// A connection to a Camway daemon over LCM.
 ///
 ///     camway::Client client;
 ///     camway::PlanRequest request;
@@ -70,113 +74,117 @@ struct ClientOptions {
 ///       std::cout << t << ' ' << pose.position_m[0] << ' ' << pose.position_m[1] << '\n';
 ///     }
 ///
-/// Calls never throw for trouble of network, daemon or planner: the result says how the call ended.
-/// A request whose answer does not come is sent again, with growing waits, under the same id, which
-/// is harmless: the daemon may die and be started again meanwhile. Parts of an answer that were
-/// lost are asked for.
+/// Faults of the network, the daemon or planning never throw; the status of the result reports
+/// them. A request without an answer is repeated under the same id, with growing waits, also across
+/// a restart of the daemon. Missing pages of an answer are requested again.
 ///
-/// All members may be called from any thread, and many requests may be on their way at a time. A
-/// client has a thread of its own. Any number of clients may live in a process.
+/// Members that return an answer block until the call has ended. Called from a handler of the same
+/// client, they return `kBusy` at once.
+///
+/// Thread-safe. Many requests may be pending at a time. Each client has a thread of its own, and a
+/// process may have any number of clients.
 class Client {
  public:
-  /// Opens the network. Takes up to ten seconds where multicast does not work, for LCM tests that
-  /// first; never throws for it (see `error`).
+  /// Opens the network. Takes up to ten seconds where multicast does not work, because LCM tests
+  /// that first. Does not throw for a network that cannot be used; see `error`.
   explicit Client(ClientOptions options = {});
-  /// Ends all requests that are on their way; no handler is called once this returns. A handler of
-  /// this client may destroy it too, and must not use anything of it afterwards; the client's
-  /// thread ends by itself then, soon after the handler returns.
+  /// Ends all pending requests; no handler runs after it returns. A handler of this client may
+  /// destroy it, and must not use it afterwards; the client's thread then ends soon after the
+  /// handler returns.
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// Why this client cannot be used (bad options, no network); empty when it can.
+  /// Returns why this client cannot be used (bad options, no network); empty if it can.
   const std::string& error() const;
   bool good() const { return error().empty(); }
 
-  /// What somebody should know though the client can be used; empty: nothing. With ttl 0 a client
-  /// hears this host only; where the kernel does not permit that, this says why.
+  /// Returns a warning about a client that can be used, or nothing: with ttl 0 it says why the
+  /// kernel does not let the client ignore other hosts.
   const std::string& warning() const;
 
-  /// What the daemon knows this client by.
+  /// Returns the id under which the daemon knows this client.
   const std::string& client_id() const;
 
-  /// Asks for a path and waits for the answer.
+  /// Requests a path and waits for the answer.
   PlanResponse plan(const PlanRequest& request);
 
-  /// Asks for a path and returns at once. The answer comes in the future, and to the handler if
-  /// there is one; when the client is destroyed before, it says so.
+  /// Requests a path and returns at once. The answer goes to `handlers.on_answer`, if set, and then
+  /// to the future. If the client is destroyed first, the answer has the status `kNoAnswer`.
   PendingPlan plan_async(const PlanRequest& request, PlanHandlers handlers = {});
 
-  /// Calls off a request that was sent by this client. Its answer comes soon: `kCancelled`, or what
-  /// it was if it was ready. Does nothing for other ids, and nothing the second time.
+  /// Cancels a plan request of this client. Its answer comes soon: `kCancelled`, or the finished
+  /// answer if there is one. Has no effect on other ids; may be repeated.
   void cancel(std::int64_t request_id);
 
-  /// Asks for a path and leaves it with the daemon: `on_event` hears of the answer, and from then
-  /// on of each change of the scene that breaks the path, of the corrected path, and of a better
-  /// one once what was in the way is gone, until `unwatch`. Lost messages and restarts of the
-  /// daemon are seen to. Returns the id of the request; 0, after `on_event` heard why, if it cannot
-  /// be sent.
+  /// Requests a path and has the daemon watch it until `unwatch`. `on_event` receives the answer;
+  /// then each change of the scene that breaks the path, the corrected path, and a better path once
+  /// an obstacle is gone. Handles lost messages and daemon restarts. Returns the id of the request.
+  /// If the request cannot be sent, calls `on_event` with `kEnded` and returns 0.
   std::int64_t watch(const PlanRequest& request, WatchHandler on_event);
 
-  /// Ends it. An event that is on its way may still come. The daemon is told until it answers, as
-  /// long as this client lives; it ends the watch by itself when the lease is over. Does nothing
-  /// for other ids.
+  /// Ends a watch. A pending event may still arrive. The daemon is told until it answers, as long
+  /// as this client exists; otherwise it ends the watch when the lease is over. Has no effect on
+  /// other ids.
   void unwatch(std::int64_t request_id);
 
-  /// The same, and waits until the daemon does not watch any more; for who destroys the client
-  /// next. True if the daemon said so, or the lease is over; false if `timeout_s` passed or the
-  /// network broke. Not for handlers of this client, where it is false at once.
+  /// Ends a watch and waits until the daemon has ended it, for example before the client is
+  /// destroyed. Returns true if the daemon confirmed it or the lease is over; false if `timeout_s`
+  /// passed or the network failed. In a handler of this client it returns false without effect.
   bool unwatch(std::int64_t request_id, double timeout_s);
 
-  /// Has the daemon watch the better path that it offered last (`WatchEvent::Kind::kBetter`) in the
-  /// place of the one before: `kAnswer` tells so, with the same path; `kWithdrawn` or `kBroken` if
-  /// a change of the scene came first. Does nothing where none is on offer. For handlers too.
+  /// Has the daemon watch the better path that it offered last (`WatchEvent::Kind::kBetter`)
+  /// instead of the present one. The event `kAnswer` confirms it, with the same path; `kWithdrawn`
+  /// or `kBroken` comes instead if the scene changed first. Has no effect without an offer.
+  /// Handlers may call it.
   void take_better(std::int64_t request_id);
 
-  /// Asks a scene's occupancy map.
+  /// Queries the occupancy map of a scene.
   OccupancyAnswer occupancy(const OccupancyBatch& batch);
 
-  /// Makes a scene of one mesh, or replaces the one of that name; of nothing if `mesh` names
-  /// neither a file nor bytes. The resolution of its occupancy map, 0 for no map, and the bounds
-  /// that no body may leave in it, are for its life.
+  /// Makes a scene of one mesh, or replaces the scene of that name. The scene is empty if `mesh`
+  /// has neither a file nor bytes. The resolution of the occupancy map (0: no map) and the bounds
+  /// that no body may leave are the same for all later revisions.
   SceneAnswer load_scene(const std::string& scene, const SceneMesh& mesh,
                          double occupancy_resolution_m = 0.0, const Bounds& body_bounds = {});
   SceneAnswer unload_scene(const std::string& scene);
   SceneAnswer list_scenes();
-  /// All objects of a scene.
+  /// Lists all objects of a scene.
   SceneAnswer describe_scene(const std::string& scene);
 
-  /// Adds an object to a scene, or replaces the one of that name. Each change makes a new revision;
-  /// plans that have begun keep theirs.
+  /// Adds an object to a scene, or replaces the object of that name. Each change makes a new
+  /// revision; a plan keeps the revision with which it began.
   SceneAnswer put_object(const std::string& scene, const std::string& object,
                          const SceneShape& shape, const Pose& pose = {});
   SceneAnswer move_object(const std::string& scene, const std::string& object, const Pose& pose);
   SceneAnswer remove_object(const std::string& scene, const std::string& object);
 
-  /// All revisions of a scene that can be had again, the newest included, and what led to each.
+  /// Lists the revisions of a scene that can be restored, the newest included, and the change that
+  /// made each.
   SceneAnswer scene_history(const std::string& scene);
-  /// Makes the newest revision of a scene have the objects of an earlier one; or makes a scene
-  /// `restore_as` of them, if that is not empty, or replaces the one of that name.
+  /// Makes a new revision of a scene with the objects of an earlier one. With `restore_as`, makes
+  /// or replaces the scene of that name instead.
   SceneAnswer restore_scene(const std::string& scene, std::int64_t revision,
                             const std::string& restore_as = "");
 
-  /// Tells an object that is an OctoMap what a sensor at `origin_m` saw, all in the world's frame.
-  /// Each scan makes a new revision.
+  /// Inserts a scan into an object that is an OctoMap: a sensor at `origin_m` saw `points_m`, in
+  /// the world frame. Each scan makes a new revision.
   SceneAnswer insert_scan(const std::string& scene, const std::string& object,
                           const std::vector<std::array<double, 3>>& points_m,
                           const std::array<double, 3>& origin_m);
 
-  /// Fetches a scene's occupancy map.
+  /// Returns the occupancy map of a scene.
   SceneMap export_map(const std::string& scene);
-  /// Has the daemon write it to a file below one of its scene roots, of which the name ends with
-  /// ".bt". One that is there is replaced.
+  /// Has the daemon write the occupancy map of a scene to a file below one of its scene roots. The
+  /// name must end with ".bt"; an existing file is replaced.
   SceneAnswer export_map_to(const std::string& scene, const std::string& file);
 
-  /// For another thread than those that wait in calls about scenes: all of them end soon, with
-  /// `kCancelled` if they changed nothing, or with their answer if the change was in force already.
+  /// Ends all calls about scenes that other threads wait in. Each returns soon: with `kCancelled`
+  /// if nothing was changed, or with its answer if the change was made already.
   void cancel_scene_calls();
 
-  /// Waits for the daemon's next heartbeat; there is one each second.
+  /// Waits for the next heartbeat of the daemon, which comes once a second by default. Returns
+  /// `kNoDaemon` if none comes within `timeout_s`.
   DaemonStatus status(double timeout_s = 3.0);
 
  private:

@@ -6,31 +6,35 @@
 
 namespace camway {
 
-/// What a corrected path is improved for, while it stays proved free.
+/// The quantity that corrections optimise. The path stays proved free of collision.
 enum class Objective {
-  kClosest,    ///< to the path as interpolated
-  kShortest,   ///< way of the eye
+  kClosest,    ///< least deviation from the path as interpolated
+  kShortest,   ///< least length of the eye's way
   kSmoothest,  ///< least bending energy
-  kSafest,     ///< furthest from the scene
+  kSafest,     ///< largest distance from the scene
 };
 
-/// What corrections may do to the orientation of the camera. Given keyframes are kept in any case.
+/// The changes of orientation that corrections may make. The orientations of given keyframes never
+/// change. Every policy compares the camera with the path as interpolated, at the same time.
 ///
 ///     request.orientation = camway::Orientation::level({0, 1, 0});
 struct Orientation {
   enum class Policy {
-    kFree,    ///< turn it as needed
-    kKeep,    ///< at every time as on the path as interpolated
-    kLevel,   ///< turn it, but do not tilt its horizon, the line across `up`, more than it was
-    kTarget,  ///< turn it, but keep `target_m` within `cone_rad` of the view, or as close as it was
+    kFree,  ///< no restriction
+    kKeep,  ///< no change of orientation
+    /// The camera's x axis leaves the plane across `up` no further than before: the horizon does
+    /// not tilt.
+    kLevel,
+    /// `target_m` stays within `cone_rad` of the direction of view, or no further off than before.
+    kTarget,
   };
 
   Policy policy = Policy::kFree;
-  std::array<double, 3> up{};        ///< of any length; all zero for the default, Y
-  std::array<double, 3> target_m{};  ///< in the world frame
-  double cone_rad = 0.0;             ///< half angle [Limit: 0 < value <= π; 0 for the default]
-  /// Most that the camera may be turned from how it would be on the path as interpolated.
-  /// [Limit: 0 <= value <= π]
+  std::array<double, 3> up{};        ///< kLevel: any length, world frame; all zero for +Y
+  std::array<double, 3> target_m{};  ///< kTarget: a point in the world frame
+  double cone_rad = 0.0;  ///< kTarget: half angle of the cone [Limit: 0 < value <= π; 0 for 0.5]
+  /// Largest angle between the camera and the path as interpolated at the same time; unset: no
+  /// limit. Applies to every policy. [Limit: 0 <= value <= π]
   std::optional<double> max_turn_rad;
 
   static Orientation keep() {
@@ -53,17 +57,19 @@ struct Orientation {
   }
 };
 
-/// Limits that the path is to meet. 0: no limit.
+/// Limits on the motion of the eye and on the turn rate, at every instant of the path. 0 means no
+/// limit.
 struct MotionLimits {
   double speed_m_per_s = 0.0;
   double acceleration_m_per_s2 = 0.0;
   double turn_rate_rad_per_s = 0.0;
-  /// Whether the path may be slowed to meet them; else a path that breaks them is not `ok`.
+  /// Whether the daemon may slow the path to meet the limits. If not, a path that breaks a limit
+  /// has the status `kPartial`.
   bool may_retime = false;
 };
 
-/// A box along the axes of the world that no point of the body may leave. A side without a number
-/// is no limit.
+/// A world-axis-aligned box that no point of the body may leave. A side without a value is no
+/// limit.
 struct Bounds {
   std::array<std::optional<double>, 3> min_m{};
   std::array<std::optional<double>, 3> max_m{};

@@ -12,76 +12,74 @@
 
 namespace camway {
 
-/// How long something took, counted on a logarithmic scale by the daemon.
+/// A histogram of durations with logarithmic buckets, counted since the daemon's start.
 struct Latency {
-  std::int64_t count = 0;
-  double sum_s = 0.0;
-  /// What took longer than the bucket before allows, and no longer than this one does; see
-  /// `latency_t`. May end early: the rest is 0.
+  std::int64_t count = 0;  ///< number of durations
+  double sum_s = 0.0;      ///< sum of all durations
+  /// Bucket i counts the durations of at most 10 µs · 2^(i/4) that are longer than the bound of
+  /// bucket i-1; bucket 95 has no upper bound. Buckets behind the last are 0.
   std::vector<std::int64_t> buckets;
 
-  /// What a share `q` of all took at most, to a fifth of itself; 0 if nothing was counted, the
-  /// longest time there is a bucket for (two minutes) if it was longer. [Limit: 0 <= q <= 1]
+  /// Returns the upper bound of the bucket that holds the quantile `q`, at most a fifth above it.
+  /// Returns 0 for an empty histogram, and the last finite bound (two minutes) for longer
+  /// durations. [Limit: 0 <= q <= 1]
   double quantile_s(double q) const;
-  /// Of what came since `before`, an earlier state of the same.
+  /// Returns the histogram of the durations that were added since `before`, an earlier state.
   Latency since(const Latency& before) const;
 };
 
-/// The daemon's heartbeat.
+/// The heartbeat of a daemon. Counters begin at the daemon's start.
 struct DaemonStatus {
   Status status = Status::kNoDaemon;
-  std::string error;  ///< what failed and what to do about it; empty when `ok()`
+  std::string error;  ///< the failure and its remedy; empty when `ok()`
 
   bool ok() const { return status == Status::kOk; }
 
   std::string version;
   double uptime_s = 0.0;
-  std::int32_t num_workers = 0;
-  std::int32_t queued_requests = 0;
-  std::int32_t running_requests = 0;
-  // Counted since the daemon's start:
-  std::int64_t answered_requests = 0;
-  std::int64_t repeated_requests = 0;  ///< repetitions of requests that were known already
-  std::int64_t cache_hits = 0;         ///< of them: those that were answered already
-  std::int64_t overloaded_requests = 0;
-  std::int64_t malformed_messages = 0;
-  std::int64_t dropped_answers = 0;  ///< for want of room; their clients ask again
-  std::int64_t unsent_messages = 0;  ///< that LCM did not take
-  std::int64_t request_pages_asked_again = 0;
-  std::int64_t answer_pages_asked_again = 0;
-  std::int64_t scene_changes = 0;
-  // Not trusted, where the daemon checks signatures:
-  std::int64_t unsigned_messages = 0;
-  std::int64_t broken_envelopes = 0;
-  std::int64_t unknown_key_messages = 0;
-  std::int64_t altered_messages = 0;
-  std::int64_t stale_messages = 0;
-  std::int64_t replayed_messages = 0;
-  std::int64_t crowded_messages = 0;
+  std::int32_t num_workers = 0;          ///< requests that can be planned at the same time
+  std::int32_t queued_requests = 0;      ///< requests that wait for a worker now
+  std::int32_t running_requests = 0;     ///< requests that are being planned now
+  std::int64_t answered_requests = 0;    ///< answers sent, repeated ones included
+  std::int64_t repeated_requests = 0;    ///< requests that were known already
+  std::int64_t cache_hits = 0;           ///< repeated requests that were answered from the cache
+  std::int64_t overloaded_requests = 0;  ///< requests refused because the queue was full
+  std::int64_t malformed_messages = 0;   ///< messages that could not be read
+  std::int64_t dropped_answers = 0;      ///< answers dropped because too many waited to be sent
+  std::int64_t unsent_messages = 0;      ///< messages that LCM did not accept
+  std::int64_t request_pages_asked_again = 0;  ///< missing pages that the daemon asked for
+  std::int64_t answer_pages_asked_again = 0;   ///< missing pages that clients asked for
+  std::int64_t scene_changes = 0;              ///< revisions that clients made
+  // Messages that failed the check of signatures, by reason; 0 without keys.
+  std::int64_t unsigned_messages = 0;     ///< without a signature
+  std::int64_t broken_envelopes = 0;      ///< with an envelope that cannot be read
+  std::int64_t unknown_key_messages = 0;  ///< signed with a key that the daemon does not have
+  std::int64_t altered_messages = 0;      ///< with a wrong signature
+  std::int64_t stale_messages = 0;        ///< with a time outside the window
+  std::int64_t replayed_messages = 0;     ///< received before
+  std::int64_t crowded_messages = 0;      ///< from more senders than the daemon can remember
   std::int64_t received_messages = 0;
   std::int64_t received_bytes = 0;
   std::int64_t sent_messages = 0;
   std::int64_t sent_bytes = 0;
-  /// By the number of their `Status`, repeated ones not counted again.
-  std::array<std::int64_t, 16> plan_answers{};
-  std::array<std::int64_t, 16> occupancy_answers{};
-  std::array<std::int64_t, 16> scene_answers{};
-  /// Of plan requests: from the receipt to the answer; of that until a worker began, and planning.
-  Latency receipt_to_answer;
-  Latency waiting;
-  Latency planning;
-  std::int64_t broken_paths = 0;   ///< times that a change broke a watched path
-  std::int32_t watched_paths = 0;  ///< now
+  std::array<std::int64_t, 16> plan_answers{};       ///< answers by `Status`, without repeated ones
+  std::array<std::int64_t, 16> occupancy_answers{};  ///< answers by `Status`, without repeated ones
+  std::array<std::int64_t, 16> scene_answers{};      ///< answers by `Status`, without repeated ones
+  Latency receipt_to_answer;       ///< plan requests: time from the receipt to the answer
+  Latency waiting;                 ///< plan requests: time from the receipt until a worker begins
+  Latency planning;                ///< plan requests: time of the planning
+  std::int64_t broken_paths = 0;   ///< number of times that a change broke a watched path
+  std::int32_t watched_paths = 0;  ///< paths that are watched now
 
-  bool signed_only = false;  ///< whether the daemon drops what is not signed with its keys
+  bool signed_only = false;  ///< whether the daemon drops messages without a valid signature
 
-  std::int64_t failed_reloads = 0;       ///< of the configuration, since the daemon's start
-  std::int64_t failed_reload_utime = 0;  ///< of the last: microseconds since 1970; 0 if none failed
-  std::string failed_reload;             ///< why the last one failed; empty if none did
-  bool reload_failed = false;            ///< whether no reload has succeeded since then
+  std::int64_t failed_reloads = 0;       ///< reloads of the configuration that failed
+  std::int64_t failed_reload_utime = 0;  ///< time of the last, microseconds since 1970; 0 if none
+  std::string failed_reload;             ///< reason of the last failure; empty if there was none
+  bool reload_failed = false;            ///< whether no reload has succeeded since that failure
 
-  std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()` if there are very many
-  std::vector<SceneInfo> scenes;  ///< in order of name
+  std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()`, which has to fit a message
+  std::vector<SceneInfo> scenes;  ///< scenes of the daemon, in order of name
 };
 
 }  // namespace camway

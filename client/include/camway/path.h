@@ -6,16 +6,16 @@
 
 namespace camway {
 
-/// Where a camera is and how it is turned.
+/// Position and orientation of a camera or an object.
 struct Pose {
-  std::array<double, 3> position_m{};  ///< the eye, in the world frame
-  std::array<double, 4> orientation_wxyz{1, 0, 0,
-                                         0};  ///< unit Hamilton quaternion, camera to world
+  std::array<double, 3> position_m{};  ///< the eye, or the object's origin, in the world frame
+  /// Unit Hamilton quaternion; rotates vectors of the camera, or of the object, into the world.
+  std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
 };
 
-/// One piece of a path, exactly as it came. With `u = (t - t0_s) / (t1_s - t0_s)` the position is
-/// the cubic Bézier curve of `position_m`, and the orientation is the degree-6 Bézier curve of
-/// `orientation_wxyz` divided by its length.
+/// One segment of a path, with the numbers that the daemon sent. With
+/// `u = (t - t0_s) / (t1_s - t0_s)`, the position is the cubic Bézier curve of `position_m`, and
+/// the orientation is the degree-6 Bézier curve of `orientation_wxyz` divided by its length.
 struct Segment {
   double t0_s = 0.0;
   double t1_s = 0.0;
@@ -23,25 +23,27 @@ struct Segment {
   std::array<std::array<double, 4>, 7> orientation_wxyz{};
 };
 
-/// A path in time: segments that follow each other without a gap. These numbers are the path, not
-/// an approximation of it: what the daemon checked against the scene is what `pose` evaluates. A
-/// value; safe to read from any number of threads.
+/// A motion over time: consecutive segments, each beginning where the one before ends. The daemon
+/// checked these numbers themselves against the scene; they do not approximate another path.
+///
+/// A value type. Concurrent reads are safe.
 class Path {
  public:
   Path() = default;
-  /// Precondition: the segments are in order, each ends where the next begins, `t0_s < t1_s`.
+  /// Requires segments in order of time, each ending where the next begins, with `t0_s < t1_s`.
   explicit Path(std::vector<Segment> segments);
 
   bool empty() const { return segments_.empty(); }
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// First and last instant [Units: seconds]; 0 for an empty path.
+  /// Returns the first and the last instant; 0 for an empty path. [Units: seconds]
   double begin() const;
   double end() const;
 
-  /// The pose at `time_s`, by de Casteljau. Times outside the path give its first or last pose.
-  /// Where segments meet, the later one is used. Has no pose to give for an empty path, a time that
-  /// is not a number, or a segment whose orientation vanishes: the numbers are NaN then.
+  /// Returns the pose at `time_s`, evaluated by de Casteljau's algorithm. A time outside the path
+  /// returns its first or last pose; where two segments meet, the later one is evaluated. Returns
+  /// NaN in every member if the path is empty or the time is NaN, and a NaN orientation where the
+  /// orientation curve vanishes.
   Pose pose(double time_s) const;
 
  private:

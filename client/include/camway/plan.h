@@ -17,18 +17,17 @@
 
 namespace camway {
 
-/// The part of a perspective camera that can run into things: the near quadrilateral. The camera
-/// looks down its -Z axis, +Y is up. [Limit: fields of view in (0, π), 0 < near_m; or all 0 where
-/// another body moves]
+/// A perspective camera; its near quadrilateral must not collide. The camera looks down its -Z
+/// axis, +Y is up. [Limit: fields of view in (0, π), 0 < near_m; or all 0 if another body moves]
 struct Camera {
   double fov_x_rad = 1.5707963267948966;  ///< full horizontal field of view
   double fov_y_rad = 1.0471975511965976;  ///< full vertical field of view
-  double near_m = 0.1;                    ///< from the eye to the near plane
+  double near_m = 0.1;                    ///< distance from the eye to the near plane
 };
 
-/// A pose that the path is to pass through.
+/// A pose that the path must pass through.
 struct Keyframe {
-  std::optional<double> time_s;  ///< when; all keyframes of a request have a time, or none has
+  std::optional<double> time_s;  ///< set in all keyframes of a request, or in none
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
 };
@@ -38,156 +37,171 @@ struct PathKeyframe {
   double time_s = 0.0;
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
-  bool inserted = false;  ///< put in by the daemon to avoid a collision
-  bool repaired = false;  ///< a given one that was moved because it collided
+  bool inserted = false;                               ///< whether a correction inserted it
+  bool repaired = false;  ///< whether it is a given keyframe that was moved because it collided
 };
 
-/// Which of the requests that wait goes first. A client's time counts four times for requests of
-/// low priority, a quarter for those of high priority: beside a client that says normal, one that
-/// says high gets four times as much planned.
+/// The priority of a request in the daemon's queue. It orders the waiting requests of one client.
+/// Between clients it weighs the planning time that each is charged: low counts four times, high a
+/// quarter. So a client that sends high gets four times as much planned as one that sends normal.
 enum class Priority { kLow = -1, kNormal = 0, kHigh = 1 };
 
-/// A question for a path. Zero or empty options stand for the daemon's defaults.
+/// A request for a path. A zero or empty option stands for the daemon's default, which
+/// docs/requests.md lists.
 struct PlanRequest {
   std::string scene;  ///< name of a scene that the daemon holds [Limit: 128 bytes]
   Camera camera;
-  Body body;  ///< what must not collide; the camera's near quadrilateral unless set
-  /// [Limit: 2 to 100,000, free of collision unless `repair_keyframes`]
+  Body body;  ///< shape that must not collide; by default the near quadrilateral of `camera`
+  /// Poses that the path must pass through. They must be free of collision unless
+  /// `repair_keyframes` is set. [Limit: 2 to 100,000]
   std::vector<Keyframe> keyframes;
-  /// Of keyframes without times: from one to the next takes √(t² + r²) seconds, where t is their
-  /// distance divided by this and r the angle between them in radians, but no less than a hundredth
-  /// of the mean of all these. 0: 1 m/s, as in a request with times. [Limit: 1e-6 to 1e6]
+  /// Speed for keyframes without times; 0 for the default of 1 m/s. The interval between two
+  /// keyframes lasts √(t² + r²) seconds, where t is their distance divided by this speed and r is
+  /// the angle between them in radians, but at least a hundredth of the mean interval. Leave it 0
+  /// if the keyframes have times. [Limit: 1e-6 to 1e6]
   double default_speed_m_per_s = 0.0;
 
-  std::string method;  ///< "ladder", "keyframe_insertion" or empty
+  std::string method;  ///< "ladder", "keyframe_insertion", or empty for the daemon's default
   Priority priority = Priority::kNormal;
-  /// How often the daemon says how far it is, to `PlanHandlers::on_progress`. 0: twice a second if
-  /// there is such a handler, else never. [Limit: at least 0.1 counts]
+  /// Time between two calls of `PlanHandlers::on_progress`. 0 means 0.5 s if there is such a
+  /// handler, and no progress reports otherwise. Values below 0.1 count as 0.1.
   double progress_period_s = 0.0;
-  /// How long the daemon watches the path after its answer; `Client::watch` sees to that.
+  /// Time for which the daemon watches the path after its answer. `Client::watch` sets it.
   double watch_lease_s = 0.0;
-  double deadline_s = 0.0;            ///< from the daemon's receipt on, waiting included
-  double chord_error_m = 0.0;         ///< how far the tessellated swept surface may stray
-  double interval_tolerance_m = 0.0;  ///< how closely ends of collision intervals are bracketed
-  double clearance_m = 0.0;  ///< how far the body has to stay from the scene [Limit: 0 <= value]
-  /// Cut-off of the correction; 0: correct nothing. The daemon's default if not set.
+  double deadline_s = 0.0;     ///< time from the daemon's receipt to its answer, waiting included
+  double chord_error_m = 0.0;  ///< largest error of the tessellated swept surface
+  /// Motion of the body within which the ends of collision intervals are known.
+  double interval_tolerance_m = 0.0;
+  double clearance_m = 0.0;  ///< required distance between body and scene [Limit: 0 <= value]
+  /// Largest number of keyframes that corrections may insert. With 0 collisions are only reported.
+  /// Unset: the daemon's default.
   std::optional<std::int32_t> max_inserted_keyframes;
   Objective objective = Objective::kClosest;
   Orientation orientation;
   MotionLimits limits;
-  Bounds bounds;  ///< beside those of the scene; `clearance_m` is about the scene alone
-  /// Where nothing else helps, the near distance may be made smaller by up to this share; cameras
-  /// only. [Limit: 0 <= value < 1]
+  /// Box that the body must not leave, in addition to the bounds of the scene. `clearance_m` does
+  /// not apply to it.
+  Bounds bounds;
+  /// Largest fraction by which the near distance may shrink if no other correction succeeds. Only
+  /// for cameras. [Limit: 0 <= value < 1]
   double max_shrink = 0.0;
-  /// Given keyframes that collide are moved to the nearest free pose instead of being refused.
+  /// Whether a given keyframe that collides is moved to the nearest free pose. If not, the request
+  /// ends with `kInvalid`.
   bool repair_keyframes = false;
-  std::int64_t seed = 0;  ///< of the searches for ways round
+  std::int64_t seed = 0;  ///< random seed of the searches for detours
 
-  /// 0: the client picks a new one. Otherwise a number that this client id never used for another
-  /// request; the daemon answers the same id with the same answer, without planning again.
+  /// Id of the request; 0 lets the client pick one. Any other number must never have been used by
+  /// this client id for another request: the daemon sends the same answer to the same id, without
+  /// planning again.
   std::int64_t request_id = 0;
 };
 
-/// How far the daemon is with a request.
+/// The progress of a request in the daemon.
 struct PlanProgress {
   enum class Stage {
-    kWaiting = 0,     ///< for a worker
-    kPreparing = 1,   ///< the path through the keyframes is made, and they are checked
-    kDetecting = 2,   ///< its collisions are searched for
-    kCorrecting = 3,  ///< they are corrected
-    kCertifying = 4,  ///< the path is proved as it will be sent
+    kWaiting = 0,     ///< waits for a worker
+    kPreparing = 1,   ///< interpolates the keyframes and checks them
+    kDetecting = 2,   ///< searches the path for collisions
+    kCorrecting = 3,  ///< corrects the collisions
+    kCertifying = 4,  ///< proves the path as it will be sent
   };
   Stage stage = Stage::kWaiting;
-  std::int32_t requests_ahead = 0;  ///< while waiting: about how many are begun before
-  std::int32_t num_collisions = 0;  ///< of the path as interpolated; 0 before they are corrected
-  std::int32_t num_corrected = 0;   ///< of them
-  double since_receipt_s = 0.0;
-  double deadline_s = 0.0;  ///< that holds for the request, from its receipt
+  std::int32_t requests_ahead = 0;  ///< kWaiting: estimated number of requests that start earlier
+  /// Collisions of the path as interpolated; 0 before kCorrecting.
+  std::int32_t num_collisions = 0;
+  std::int32_t num_corrected = 0;  ///< number of these collisions that are corrected
+  double since_receipt_s = 0.0;    ///< time since the daemon received the request
+  double deadline_s = 0.0;         ///< deadline of the request, counted from its receipt
 };
 
-/// Where a collision was seen to be deepest.
+/// The deepest point of a collision, as far as the daemon searched. It shows where to look and is
+/// no part of a proof.
 struct Witness {
   double time_s = 0.0;
-  std::string object;  ///< of the scene; empty if it has no name
-  /// Of the scene, counted from 0; -1 to -6: the body left min.x, min.y, min.z, max.x, max.y or
-  /// max.z of its bounds, which `object` names, too.
+  std::string object;  ///< object of the scene; empty if it has no name
+  /// Triangle of the scene, counted from 0. From -1 to -6: the body left the side min.x, min.y,
+  /// min.z, max.x, max.y or max.z of its bounds, which `object` names ("bounds.min.y").
   std::int32_t triangle = 0;
-  /// Part of the body: "edge 2", "corner 0", "inside" of a near quadrilateral, "surface" of a
+  /// Part of the body: "edge 2", "corner 0" or "inside" of a near quadrilateral, "surface" of a
   /// sphere, "face 7" of other bodies.
   std::string feature;
-  double depth_m = 0.0;             ///< about how far the body had to move to be free
-  std::array<double, 3> point_m{};  ///< of the scene, in the world frame
+  double depth_m = 0.0;             ///< estimated distance that the body has to move to be free
+  std::array<double, 3> point_m{};  ///< point of the scene or of the bounds, in the world frame
 };
 
-/// A stretch of a path in which the body collides with the scene, or comes nearer than the required
-/// clearance.
+/// A time range of a path in which the body collides with the scene, is nearer to it than the
+/// required clearance, or leaves its bounds.
 struct CollisionInterval {
   double t_begin_s = 0.0;
   double t_end_s = 0.0;
   std::optional<Witness> witness;
 };
 
-/// Wall-clock milliseconds that the daemon took.
+/// Wall-clock times of the stages of planning, in milliseconds.
 struct PlanTiming {
-  double motion_ms = 0.0;
-  double detect_ms = 0.0;
-  double correct_ms = 0.0;
-  double certify_ms = 0.0;
+  double motion_ms = 0.0;   ///< interpolation and the check of the keyframes
+  double detect_ms = 0.0;   ///< search for collisions
+  double correct_ms = 0.0;  ///< correction
+  double certify_ms = 0.0;  ///< proof of the final path
   double total_ms = 0.0;
 };
 
-/// What came of a request.
+/// The answer to a request for a path.
 struct PlanResponse {
   Status status = Status::kNoAnswer;
-  std::string error;    ///< what failed and what to do about it; empty when `ok()`
-  std::string message;  ///< the daemon's own sentence, also when all is well
+  std::string error;    ///< the failure and its remedy; empty when `ok()`
+  std::string message;  ///< one sentence of the daemon, also when `ok()`
 
   bool ok() const { return status == Status::kOk; }
 
-  std::int32_t keyframe = -1;                 ///< of the given one at fault or without a way out; -1 if none
+  /// Index of the given keyframe that is at fault, or from which no way out was found; -1 if none.
+  std::int32_t keyframe = -1;
   Path path;                                  ///< empty unless ok, partial or timeout
-  std::vector<PathKeyframe> keyframes;        ///< given and inserted ones, with their times
-  std::vector<CollisionInterval> collisions;  ///< of the interpolated path, before correction
-  std::vector<CollisionInterval> remaining;   ///< of `path`; none when `ok()`
+  std::vector<PathKeyframe> keyframes;        ///< given and inserted keyframes, with their times
+  std::vector<CollisionInterval> collisions;  ///< collisions of the path as interpolated
+  std::vector<CollisionInterval> remaining;   ///< collisions of `path`; none when `ok()`
 
-  bool certified =
-      false;  ///< whether freedom of collision is proved for `path`, between samples too
-  double clearance_lower_bound_m = 0.0;
+  /// Whether `path` is proved free of collision at every instant, rounding included.
+  bool certified = false;
+  double clearance_lower_bound_m = 0.0;  ///< proved distance between body and scene
 
-  Bounds bounds;  ///< that the body had to keep to: those of request and scene together
-  std::vector<Correction> corrections;          ///< what became of each of `collisions`
-  std::optional<PathMeasures> measures_before;  ///< of the path as interpolated
-  std::optional<PathMeasures> measures;         ///< of `path`
-  double near_scale = 1.0;  ///< the near distance that is proved, as a share of the one asked for
-  /// Duration of `path` by the one asked for; above 1 where it was slowed to meet limits. All times
-  /// of the answer are new ones then.
+  Bounds bounds;                        ///< intersection of the request's and the scene's bounds
+  std::vector<Correction> corrections;  ///< one for each of `collisions`; may be empty
+  std::optional<PathMeasures> measures_before;  ///< measures of the path as interpolated
+  std::optional<PathMeasures> measures;         ///< measures of `path`
+  double near_scale = 1.0;  ///< near distance that is proved, divided by the requested one
+  /// Duration of `path` divided by the requested one; above 1 if the path was slowed to meet motion
+  /// limits. Then every time of the answer is a new one.
   double time_scale = 1.0;
-  std::vector<SlowedStretch> slowed;           ///< where that was, in order of time
-  std::vector<KeyframeFault> keyframe_faults;  ///< why invalid, or what was repaired
-  std::optional<Infeasibility> infeasibility;  ///< the proof, if infeasible
-  /// Whether the deadline left anything undone, of whatever status: then, and only then, the same
-  /// request may have another answer the next time.
+  std::vector<SlowedStretch> slowed;           ///< slowed parts of `path`, in order of time
+  std::vector<KeyframeFault> keyframe_faults;  ///< given keyframes that collide, or were repaired
+  std::optional<Infeasibility> infeasibility;  ///< the proof of `kInfeasible`
+  /// Whether the deadline left anything undone, whatever the status. Only then may the same request
+  /// have another answer the next time.
   bool deadline_reached = false;
 
   std::string scene;
-  std::int64_t scene_revision = 0;  ///< of the scene that the answer holds for
-  std::string scene_digest;
+  std::int64_t scene_revision = 0;  ///< revision of the scene that the answer holds for; 0 if none
+  std::string scene_digest;         ///< digest of that revision
   std::int64_t request_id = 0;
   PlanTiming timing;
-  int tries = 0;           ///< how often the request was sent
-  double elapsed_s = 0.0;  ///< from the call to its return
+  int tries = 0;           ///< number of times that the request was sent
+  double elapsed_s = 0.0;  ///< time from the call to the answer
 };
 
-/// What a client calls on its own thread: quick things, that do not wait for the client.
+/// Callbacks of `Client::plan_async`. They run on the client's own thread, so they must be quick
+/// and must not call a blocking member of the client. Exceptions are ignored there.
 struct PlanHandlers {
   std::function<void(const PlanProgress&)> on_progress;
-  std::function<void(const PlanResponse&)> on_answer;  ///< once, before `PendingPlan::answer`
+  /// Runs once, before `PendingPlan::answer` is ready. A request that cannot be sent runs it on the
+  /// caller's thread, before `plan_async` returns.
+  std::function<void(const PlanResponse&)> on_answer;
 };
 
-/// A request that was sent.
+/// A pending request for a path.
 struct PendingPlan {
-  std::int64_t request_id = 0;  ///< for `Client::cancel`; 0 if the request could not be sent
-  std::future<PlanResponse> answer;
+  std::int64_t request_id = 0;       ///< argument for `Client::cancel`; 0 if nothing was sent
+  std::future<PlanResponse> answer;  ///< the answer, or the reason why there is none
 };
 
 }  // namespace camway

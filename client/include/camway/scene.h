@@ -16,79 +16,81 @@ namespace camway {
 /// A scene that the daemon holds.
 struct SceneInfo {
   std::string name;
-  std::int64_t revision = 0;  ///< increases with every change
-  std::string digest;         ///< of the triangles; equal content, equal digest
+  std::int64_t revision = 0;  ///< number of the newest revision; increases with every change
+  std::string digest;         ///< hash of all triangles; equal scenes have equal digests
   std::int64_t num_triangles = 0;
-  std::array<double, 3> bounds_min_m{};  ///< of the triangles
-  std::array<double, 3> bounds_max_m{};
-  Bounds body_bounds;                   ///< what no body may leave in it
-  double occupancy_resolution_m = 0.0;  ///< 0: no occupancy map
+  std::array<double, 3> bounds_min_m{};  ///< lower corner of the bounding box of the triangles
+  std::array<double, 3> bounds_max_m{};  ///< upper corner of the bounding box of the triangles
+  Bounds body_bounds;                    ///< box that no body may leave, whatever a request says
+  double occupancy_resolution_m = 0.0;   ///< edge of a voxel of the occupancy map; 0: no map
 };
 
 /// An object of a scene.
 struct SceneObject {
   std::string name;
-  std::string kind;  ///< "mesh", "box", "sphere", "cylinder", "point cloud", "occupancy map"
-  std::string digest;
+  std::string kind;    ///< "mesh", "box", "sphere", "cylinder", "point cloud", "occupancy map"
+  std::string digest;  ///< hash of its triangles in the world; equal objects have equal digests
   std::int64_t num_triangles = 0;
-  Pose pose;  ///< of the object's own frame in the world
-  std::array<double, 3> bounds_min_m{};
-  std::array<double, 3> bounds_max_m{};
+  Pose pose;                             ///< pose of the object's own frame in the world
+  std::array<double, 3> bounds_min_m{};  ///< lower corner of its bounding box in the world
+  std::array<double, 3> bounds_max_m{};  ///< upper corner of its bounding box in the world
 };
 
-/// A revision of a scene that can be had again, and the change that led to it.
+/// A revision of a scene that can be restored, and the change that made it.
 struct SceneRevision {
   std::int64_t revision = 0;
-  std::int64_t utime = 0;  ///< when it was made, microseconds since 1970
+  std::int64_t utime = 0;  ///< time of the change, microseconds since 1970
   std::string operation;   ///< "load", "put", "move", "remove", "scan" or "restore"
-  std::string object;      ///< that was changed; empty: all of the scene
-  std::string client_id;   ///< who asked for it; empty: nobody, the daemon read its files
-  std::int64_t restored_revision = 0;  ///< of "restore": whose objects it has again; else 0
+  std::string object;      ///< object that was changed; empty: the whole scene
+  std::string client_id;   ///< client that made the change; empty: the daemon read its files
+  std::int64_t restored_revision = 0;  ///< "restore": revision whose objects it has; else 0
 };
 
-/// A mesh, or an OctoMap, that is a file in any format that Camway reads: one that the daemon finds
-/// below its scene roots, or bytes that are uploaded.
+/// A mesh or an OctoMap in a file format that Camway reads: a file below the daemon's scene roots,
+/// or bytes to upload.
 struct SceneMesh {
-  std::string file;                 ///< relative to a scene root of the daemon; empty for bytes
-  std::vector<std::uint8_t> bytes;  ///< the content of a file
-  std::string format;  ///< extension that says the format of `bytes`: "obj", "ply", "bt", ...
-  double scale = 1.0;  ///< file units to metres
+  std::string file;                 ///< path relative to a scene root of the daemon; empty: `bytes`
+  std::vector<std::uint8_t> bytes;  ///< content of a file; used if `file` is empty
+  std::string format;               ///< file extension for `bytes`: "obj", "ply", "bt", ...
+  double scale = 1.0;               ///< metres per unit of the file
+  /// Rotation of the file's axes: none, Z up to Y up, or Y up to Z up.
   enum class Up { kAsInFile = 0, kZToY = 1, kYToZ = 2 } up = Up::kAsInFile;
-  /// Of an OctoMap: what it knows nothing of. Occupied: all within the box of what it knows, and a
-  /// layer of voxels about it.
+  /// State of the voxels that an OctoMap does not know. `kOccupied` fills those in the box of the
+  /// known voxels, and one layer of voxels around that box.
   enum class Unknown { kFree = 0, kOccupied = 1 } unknown = Unknown::kFree;
 };
 
-/// About the object's origin.
+/// A box centred at the object's origin.
 struct SceneBox {
-  std::array<double, 3> size_m{};
+  std::array<double, 3> size_m{};  ///< full edge lengths along x, y, z
 };
-/// Enclosed by triangles that stand out by the chord error at most, by default a hundredth of the
-/// radius.
+/// A sphere centred at the object's origin. The triangles enclose it.
 struct SceneSphere {
   double radius_m = 0.0;
-  double chord_error_m = 0.0;
+  double chord_error_m = 0.0;  ///< largest distance of a triangle from it; 0: 1 % of the radius
 };
-/// Likewise, about the axis z and the middle of its height.
+/// A cylinder along the object's z axis, centred at the object's origin. The triangles enclose it.
 struct SceneCylinder {
   double radius_m = 0.0;
   double height_m = 0.0;
-  double chord_error_m = 0.0;
+  double chord_error_m = 0.0;  ///< largest distance of a triangle from it; 0: 1 % of the radius
 };
-/// Cubes of a grid that hold a point are solid.
+/// A point cloud. Every cube of a grid is solid if it holds a point.
 struct ScenePoints {
-  std::vector<std::array<double, 3>> points_m;
-  double cell_m = 0.0;
+  std::vector<std::array<double, 3>> points_m;  ///< points in the object's frame
+  double cell_m = 0.0;                          ///< edge of a cube
 };
-/// How far the scans of a sensor are to be believed, as OctoMap has it.
+/// The sensor model of OctoMap for scans: occupancy probabilities and range (Hornung et al. 2013).
 struct SceneSensor {
-  double hit_probability = 0.7;       ///< of a voxel that was seen [Limit: 0.5 < value < 1]
-  double miss_probability = 0.4;      ///< of one that was seen through [Limit: 0 < value < 0.5]
-  double least_probability = 0.1192;  ///< nothing is surer to be free [Limit: 0 < value < 0.5]
-  double most_probability = 0.971;    ///< nor occupied [Limit: 0.5 < value < 1]
-  double max_range_m = 0.0;  ///< points further away only say what is free up to there; 0: no limit
+  double hit_probability = 0.7;       ///< for a voxel with a point [Limit: 0.5 < value < 1]
+  double miss_probability = 0.4;      ///< for a voxel seen through [Limit: 0 < value < 0.5]
+  double least_probability = 0.1192;  ///< lower clamp of a voxel [Limit: 0 < value < 0.5]
+  double most_probability = 0.971;    ///< upper clamp of a voxel [Limit: 0.5 < value < 1]
+  /// Range of the sensor; 0: no limit. A point beyond it marks free space up to the range, and no
+  /// occupied voxel.
+  double max_range_m = 0.0;
 };
-/// An OctoMap that knows nothing before it is scanned.
+/// An OctoMap without known voxels, to be filled by `Client::insert_scan`.
 struct SceneVoxels {
   double resolution_m = 0.0;  ///< edge of a voxel
   SceneMesh::Unknown unknown = SceneMesh::Unknown::kFree;
@@ -97,29 +99,30 @@ struct SceneVoxels {
 using SceneShape =
     std::variant<SceneMesh, SceneBox, SceneSphere, SceneCylinder, ScenePoints, SceneVoxels>;
 
-/// What a call about scenes came to.
+/// The result of a call about scenes.
 struct SceneAnswer {
   Status status = Status::kNoAnswer;
-  std::string error;  ///< what failed and what to do about it; empty when `ok()`
+  std::string error;  ///< the failure and its remedy; empty when `ok()`
 
   bool ok() const { return status == Status::kOk; }
 
-  std::string message;               ///< warnings about a file; empty when there is nothing to say
-  SceneInfo scene;                   ///< as it is now, after the change; not of `list_scenes`
-  std::vector<SceneInfo> scenes;     ///< of `list_scenes`, in order of name
-  std::vector<SceneObject> objects;  ///< of `describe_scene`, in order; else the one that changed
-  std::vector<SceneRevision> revisions;  ///< of `scene_history`, oldest first
+  std::string message;            ///< warnings of the import of a file; empty if there are none
+  SceneInfo scene;                ///< the scene after the change; empty for `list_scenes`
+  std::vector<SceneInfo> scenes;  ///< `list_scenes`: all scenes, in order of name
+  /// `describe_scene`: all objects, in order of name. Other calls: the object that was changed.
+  std::vector<SceneObject> objects;
+  std::vector<SceneRevision> revisions;  ///< `scene_history`: all revisions, oldest first
 };
 
-/// An occupancy map that the daemon sent.
+/// The occupancy map of a scene, as a file.
 struct SceneMap {
   Status status = Status::kNoAnswer;
-  std::string error;  ///< what failed and what to do about it; empty when `ok()`
+  std::string error;  ///< the failure and its remedy; empty when `ok()`
 
   bool ok() const { return status == Status::kOk; }
 
-  SceneInfo scene;                  ///< of which it is the map
-  std::vector<std::uint8_t> bytes;  ///< a file in OctoMap's binary format (.bt)
+  SceneInfo scene;                  ///< scene to which the map belongs
+  std::vector<std::uint8_t> bytes;  ///< content of a file in OctoMap's binary format (.bt)
 };
 
 }  // namespace camway

@@ -12,34 +12,37 @@
 
 namespace camway {
 
-/// What became of a path that the daemon watches.
+/// An event of a path that the daemon watches.
 struct WatchEvent {
   enum class Kind {
-    kAnswer,  ///< an answer came: the first, a corrected one, or one after a restart of the daemon
-    kBroken,  ///< a change of the scene: the path of the last answer collides now, as `broken` says
-    kFree,    ///< the path that was broken is proved free again, as it was answered
-    /// Nobody watches for now, as `status` and `error` say: told once, within 3.5 s after the
-    /// daemon fell silent. The client goes on trying, and the next event says what came of it.
+    /// A new answer: the first, a corrected one, or one after a restart of the daemon. Check its
+    /// status.
+    kAnswer,
+    kBroken,  ///< a change of the scene makes the path of the last answer collide, as `broken` says
+    kFree,    ///< a broken path is proved free again, unchanged
+    /// The path is not watched for now; `status` and `error` say why. Reported once; silence of the
+    /// daemon within 3.5 s. The client keeps trying, and the next event has the result.
     kLost,
-    kWatched,  ///< after kLost: watched again, and what was said last before that holds still
-    kEnded,    ///< the answer before proves no path, so there is nothing to watch
-    /// What a path was broken by is gone, wholly or in part, and `answer` has a better one by the
-    /// request's own objective. The one before is watched on until `Client::take_better`, whose
-    /// outcome is kAnswer.
+    kWatched,  ///< after kLost: watched again; the last event before kLost still holds
+    kEnded,    ///< the watch has ended, because the last answer proves no path or `error` says why
+    /// An obstacle is gone at least in part, and `answer` has a path that is better by the
+    /// request's objective. The present path stays watched; `Client::take_better` changes over.
     kBetter,
-    kWithdrawn,  ///< the better path is not on offer any more: a change of the scene broke it
+    kWithdrawn,  ///< the better path is no longer offered: a change of the scene broke it
   };
   Kind kind = Kind::kLost;
   std::int64_t request_id = 0;
-  std::int64_t scene_revision = 0;        ///< that it holds for; 0 if the scene is gone
-  std::vector<CollisionInterval> broken;  ///< without witnesses
-  std::optional<PlanResponse> answer;     ///< with kAnswer, look at its status; and with kBetter
-  /// With kLost, why: `kNoDaemon` if no daemon is heard, else e.g. `kLimit` or `kOverloaded`.
+  std::int64_t scene_revision = 0;        ///< revision that the event holds for; 0: scene is gone
+  std::vector<CollisionInterval> broken;  ///< kBroken: all collisions, without witnesses
+  std::optional<PlanResponse> answer;     ///< set with kAnswer and kBetter
+  /// kLost: `kNoDaemon` if no daemon is heard, otherwise the refusal, such as `kLimit` or
+  /// `kOverloaded`. kEnded: why the request cannot be sent, if it cannot. Other events: kOk.
   Status status = Status::kOk;
-  std::string error;
+  std::string error;  ///< kLost, kEnded: the reason
 };
 
-/// Called on the client's own thread: quick things, that do not wait for the client.
+/// Callback of `Client::watch`. It runs on the client's own thread, so it must be quick and must
+/// not call a blocking member of the client. Exceptions are ignored there.
 using WatchHandler = std::function<void(const WatchEvent&)>;
 
 }  // namespace camway

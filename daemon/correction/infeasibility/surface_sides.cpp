@@ -33,8 +33,8 @@ std::optional<IndexSet> SurfaceSides::around(const Vec3& point_W) const {
     return true;
   });
   std::ranges::sort(met);
-  const auto repeated = std::ranges::unique(met);
-  met.erase(repeated.begin(), repeated.end());
+  // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
+  met.erase(std::unique(met.begin(), met.end()), met.end());
   IndexSet inside;
   for (const std::uint32_t t : met) {
     const RayHit hit = ray_hit(point_W, mesh_.triangle(t));

@@ -278,7 +278,7 @@ class Ladder {
   // A detour replaces everything between the two keyframes.
   bool replace_gap(std::size_t index, Search search) {
     Problem problem = this->problem(index);
-    const auto [first, last] = std::ranges::equal_range(gaps_, gaps_[index]);
+    const auto [first, last] = std::equal_range(gaps_.begin(), gaps_.end(), gaps_[index]);
     std::vector<std::size_t> same_gap;
     for (auto gap = first; gap != last; ++gap) {
       const auto i = static_cast<std::size_t>(gap - gaps_.begin());

@@ -27,7 +27,7 @@ constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt3;  // of a cell, in si
 constexpr double kMostNear = 8.0;      // times its length that a way without room costs more
 constexpr double kMarginAround = 4.0;  // balls around the scene: ways may lead there too
 constexpr double kRoomInFront = 2.5;   // sides of a cell, from its middle, of a wall that is bare
-constexpr std::size_t kTurnsBetweenLooks = 64;  // at the clock
+constexpr std::size_t kLooksPerClock = 64;  // looks at a cell for each reading of the clock
 
 enum class State : std::uint8_t { kFree, kMixed, kBlocked };
 
@@ -231,13 +231,17 @@ class CellSearch {
     reach(start_, 0);
     reach(goal_, 1);
     for (std::size_t turn = 0; !has_met_; ++turn) {
-      if (tree_.size() >= options_.max_cells) return false;
-      if (turn % kTurnsBetweenLooks == 0 && deadline_.passed()) return false;
+      if (tree_.size() >= options_.max_cells || is_late()) return false;
       const std::optional<std::uint32_t> cell = next(turn % kEnds.size());
-      if (!cell) return true;
+      if (!cell) return !is_late_;
       divide(*cell);
     }
     return false;
+  }
+
+  bool is_late() {
+    if (looks_++ % kLooksPerClock == 0) is_late_ = deadline_.passed();
+    return is_late_;
   }
 
   /// Which to divide for that end; nothing where none is left.
@@ -250,6 +254,7 @@ class CellSearch {
       if (tree_[cell].children != kNone) continue;
       tree_[cell].waiting &= static_cast<std::uint8_t>(~kEnds[end]);
       if (!leads_nowhere(cell, end)) return cell;
+      if (is_late()) break;
     }
     return std::nullopt;
   }
@@ -404,6 +409,8 @@ class CellSearch {
   /// Mixed cells next to what was reached, by end.
   std::array<std::priority_queue<Waiting>, kEnds.size()> waiting_;
   bool has_met_ = false;
+  std::size_t looks_ = 0;
+  bool is_late_ = false;  ///< whether the deadline had passed when the clock was read last
 };
 
 }  // namespace

@@ -34,8 +34,8 @@ std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> row
     }
   }
   std::ranges::sort(cuts);
-  const auto repeated = std::ranges::unique(cuts);
-  cuts.erase(repeated.begin(), repeated.end());
+  // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   cuts.push_back(piece.t1_s);
   return cuts;
 }

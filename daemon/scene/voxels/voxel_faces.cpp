@@ -243,8 +243,8 @@ std::optional<VoxelFaces> VoxelFaces::of(const VoxelSet& set, double voxel_m,
   std::vector<std::uint64_t> bricks = set.sorted_keys();
   for (std::uint64_t& key : bricks) key = brick_of(key);
   std::ranges::sort(bricks);
-  const auto rest = std::ranges::unique(bricks);
-  bricks.erase(rest.begin(), rest.end());
+  // Not std::ranges::unique: Clang 14 cannot compile that of GCC 12's library.
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
   std::optional<std::vector<MeshPart>> parts = parts_of(set, voxel_m, bricks, max_triangles);
   if (!parts) return std::nullopt;
   VoxelFaces made_faces;

@@ -34,8 +34,8 @@ def pipeline():
     figure.box(360, 182, 140, 48, ["scene snapshot", "immutable, shared"], "warm")
     figure.arrow([(400, 182), (400, 112)])
     figure.arrow([(500, 206), (640, 206), (640, 112)])
-    figure.text(86, 28, "wire", "small")
-    figure.text(774, 28, "wire", "small")
+    figure.text(86, 28, "bytes from LCM", "small")
+    figure.text(774, 28, "bytes to LCM", "small")
     return figure
 
 
@@ -133,7 +133,36 @@ def threads():
     return figure
 
 
-FIGURES = {"pipeline": pipeline, "proof": proof, "ladder": ladder, "snapshots": snapshots, "threads": threads}
+def rooms():
+    """The rooms, each above those that it includes."""
+    figure = Figure(880, 604, "The rooms, each above those that it includes")
+    figure.box(230, 16, 420, 44, ["daemon/process", "command line, configuration, signals, metrics"])
+    figure.box(230, 82, 420, 44, ["daemon/service", "core, queue, transport, log; plans, scenes, occupancy, watches"])
+    figure.box(230, 148, 420, 44, ["daemon/messages", "planning's types and the messages; pages"])
+    figure.box(230, 214, 420, 44, ["daemon/planning", "plan(snapshot, request) → result"], "accent")
+    figure.box(230, 280, 270, 44, ["daemon/correction", "path, search, smoothing, infeasibility, ladder"], "accent")
+    figure.box(520, 280, 130, 44, ["daemon/paper", "the paper's method"])
+    figure.box(230, 346, 420, 44, ["daemon/collision", "path and scene → collision intervals, or a proof that there is none"], "accent")
+    figure.box(230, 412, 190, 56, ["daemon/motion", "path, body,", "spline, timing"], "accent")
+    figure.box(440, 412, 210, 56, ["daemon/scene", "mesh, voxels, index, field,", "occupancy, import, snapshot"], "warm")
+    figure.box(230, 490, 420, 40, ["daemon/geometry", "triangles, boxes, segments, hulls, with rounding bounds"])
+    figure.box(230, 548, 420, 40, ["daemon/base", "deadlines, progress, work on all processors"])
+    for top in (60, 126, 192):
+        figure.arrow([(440, top), (440, top + 20)])
+    for x, top, bottom in ((365, 258, 278), (585, 258, 278), (365, 324, 344), (585, 324, 344),
+                           (325, 390, 410), (545, 390, 410), (325, 468, 488), (545, 468, 488), (440, 530, 546)):
+        figure.arrow([(x, top), (x, bottom)])
+    figure.box(16, 16, 176, 56, ["client", "camway::Client,", "types, messages, engine"])
+    figure.box(16, 115, 176, 56, ["lcmtypes", "messages, channels, checks,", "signatures"], "warm")
+    figure.arrow([(104, 72), (104, 113)])
+    figure.arrow([(230, 104), (212, 104), (212, 132), (194, 132)])
+    figure.arrow([(230, 170), (212, 170), (212, 155), (194, 155)])
+    figure.box(688, 16, 176, 72, ["tools", "camway, json, drawing,", "demo, make_scenes;", "may include everything"])
+    figure.box(688, 115, 176, 56, ["tests", "the same tree;", "may include everything"])
+    return figure
+
+
+FIGURES = {"rooms": rooms, "pipeline": pipeline, "proof": proof, "ladder": ladder, "snapshots": snapshots, "threads": threads}
 
 
 def main():

@@ -15,7 +15,7 @@ std::int64_t system_utime() {
   return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
 }
 
-/// An envelope whose tag is right, or why there is none.
+/// An envelope whose tag is right, or the reason why there is none.
 struct Verified {
   std::optional<envelope_t> envelope;
   Distrust why = Distrust::kUnsigned;

@@ -16,32 +16,32 @@
 
 namespace camway::wire {
 
-/// Why a message is not trusted.
+/// The reason why a message is not trusted.
 enum class Distrust : std::uint8_t {
-  kUnsigned,    ///< no envelope
-  kBroken,      ///< an envelope that cannot be read
-  kUnknownKey,  ///< signed with a key that we do not have
-  kAltered,     ///< the tag is not that of our key of that id: the sender has another key under it,
-                ///< or payload, channel, time or whatever else is not what was signed
-  kStale,       ///< too old, or from the future
-  kReplayed,    ///< came before
-  kCrowded,     ///< more senders than can be remembered
+  kUnsigned,    ///< the message is no envelope
+  kBroken,      ///< the envelope cannot be read
+  kUnknownKey,  ///< the envelope is signed with a key that is not known here
+  kAltered,     ///< the tag is wrong: the sender has another key under this id, or the payload, the
+                ///< channel or another signed member was changed
+  kStale,       ///< the time of signing is outside the window
+  kReplayed,    ///< the message was received before
+  kCrowded,     ///< there are more senders than can be remembered
 };
 inline constexpr std::size_t kDistrusts = 7;
 
-/// E.g. "unsigned", "wrong_key_or_altered".
+/// Returns the name of a reason, such as "unsigned" or "wrong_key_or_altered".
 std::string_view to_string(Distrust why);
 
-/// Signs what one program sends and checks what it receives. From any thread.
+/// Signs the messages that a program sends and checks those that it receives. Thread-safe.
 class MessageAuth {
  public:
   using Clock = std::int64_t (*)();  ///< microseconds since 1970
 
-  /// `clock`: the system's if null.
+  /// A null `clock` stands for the system's clock.
   MessageAuth(std::shared_ptr<const MessageKeys> keys, const ReplayGuard::Limits& limits,
               Clock clock = nullptr);
 
-  /// The envelope that carries `message` on `channel`.
+  /// Returns the encoded envelope that carries `message` on `channel`.
   [[nodiscard]] std::vector<std::uint8_t> seal(std::string_view channel,
                                                std::span<const std::uint8_t> message);
 
@@ -49,10 +49,10 @@ class MessageAuth {
     std::optional<std::vector<std::uint8_t>> message;
     Distrust why = Distrust::kUnsigned;  ///< meaningful when `message` is empty
   };
-  /// What is in an envelope that came on `channel`, if it is to be trusted.
+  /// Returns the payload of an envelope that came on `channel`, or the reason not to trust it.
   [[nodiscard]] Opened open(std::string_view channel, std::span<const std::uint8_t> message);
 
-  /// From now on these keys count. What was sent or received before is not forgotten.
+  /// Replaces the keys. The counter and the memory of received messages stay.
   void set_keys(std::shared_ptr<const MessageKeys> keys);
 
  private:
@@ -64,7 +64,8 @@ class MessageAuth {
   ReplayGuard guard_;
 };
 
-/// Opens an envelope of a recording: its tag counts, its age does not.
+/// Returns the payload of an envelope from a recording. Checks the tag, but neither age nor
+/// repetition.
 [[nodiscard]] MessageAuth::Opened open_recorded(const MessageKeys& keys, std::string_view channel,
                                                 std::span<const std::uint8_t> message);
 

@@ -15,21 +15,21 @@
 namespace camway::wire {
 namespace {
 
-/// What is signed begins with this, so that a tag means nothing elsewhere.
+/// The first part of all signed data, so that a tag is not valid in any other context.
 constexpr std::string_view kDomain = "camway envelope 1";
 constexpr std::size_t kMaxFileBytes = 16'384;
 constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
-/// Of files of root's, their group may do the rest: read.
+/// Rights that must be off in files of root's: their group may read.
 constexpr mode_t kOthersOfRoots = S_IWGRP | S_IXGRP | S_IRWXO;
 
 static_assert(MessageKeys::kSecretBytes >= crypto_generichash_KEYBYTES_MIN &&
               MessageKeys::kSecretBytes <= crypto_generichash_KEYBYTES_MAX);
 static_assert(sizeof(envelope_t::tag) == crypto_generichash_BYTES);
 
-/// Closes on destruction.
+/// A file descriptor that the destructor closes.
 class File {
  public:
-  // Without O_NONBLOCK a pipe of that name would be waited for.
+  // Without O_NONBLOCK, opening a pipe would wait.
   explicit File(const std::string& name)
       : fd_(open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK)) {}
   ~File() {
@@ -43,7 +43,7 @@ class File {
   int fd_;
 };
 
-/// What speaks against trusting an open file; empty if nothing does.
+/// Returns why an open file cannot be trusted; empty if it can.
 std::string fault_of(int fd) {
   struct stat information {};
   if (fstat(fd, &information) != 0) return std::strerror(errno);
@@ -62,7 +62,7 @@ std::string fault_of(int fd) {
   return {};
 }
 
-/// False if it cannot be read, or grew longer than a key file may be.
+/// Returns false if the file cannot be read, or grew longer than a key file may be.
 bool read_text(int fd, std::string& text) {
   text.resize(kMaxFileBytes + 1);
   std::size_t size = 0;
@@ -78,7 +78,7 @@ bool read_text(int fd, std::string& text) {
   return complete;
 }
 
-/// Numbers go into the tag as they stand on the wire.
+/// Adds a number as it is on the wire, big-endian.
 void update(crypto_generichash_state& state, std::uint64_t number) {
   std::array<std::uint8_t, sizeof number> bytes{};
   for (auto byte = bytes.rbegin(); byte != bytes.rend(); ++byte) {
@@ -136,7 +136,7 @@ MessageKeys::~MessageKeys() {
   for (Key& key : keys_) sodium_memzero(key.secret.data(), key.secret.size());
 }
 
-/// Takes in a line without its remark; returns what is wrong with it, without saying the secret.
+/// Adds the key of a line without its remark. Returns the fault of the line, without the secret.
 std::string MessageKeys::add_line(std::string_view line) {
   const std::string_view id = next_word(line);
   if (id.empty()) return {};
@@ -192,7 +192,7 @@ MessageKeys::Verdict MessageKeys::verify(std::string_view channel,
                                 [&](const Key& k) { return k.id == envelope.key_id; });
   if (key == keys_.end()) return Verdict::kUnknownKey;
   const Tag tag = tag_of(key->secret, channel, envelope);
-  // In a time that says nothing of where they differ.
+  // Compares in constant time.
   const bool same = sodium_memcmp(tag.data(), envelope.tag, tag.size()) == 0;
   return same ? Verdict::kGood : Verdict::kAltered;
 }

@@ -15,32 +15,34 @@
 
 namespace camway::wire {
 
-/// The keys that those share who may talk to each other, by id. Immutable, so safe from any thread;
-/// the secrets are wiped when it goes.
+/// The keys that the programs of one system share, by id. The destructor wipes the secrets from
+/// memory. Immutable and therefore thread-safe.
 class MessageKeys {
  public:
   static constexpr std::size_t kSecretBytes = 32;
   static constexpr std::size_t kMaxKeys = 64;
 
-  /// Keys, or what is wrong with their file.
+  /// Keys, or the fault of their file.
   struct Read {
     std::shared_ptr<const MessageKeys> keys;
     std::string error;  ///< names file and line; empty exactly when `keys` is set
   };
-  /// Reads a file with a key on each line: its id, 0 to 2147483647, and 64 hexadecimal digits; `#`
-  /// begins a remark. The first key signs, all of them are accepted. The file must be a regular one
-  /// that belongs to who runs this process and that nobody else may read or write; or one of root's
-  /// that at most its group may read, for a service whose user owns nothing. (An access list shows
-  /// as the rights of the group, so what systemd's LoadCredential makes passes, too.)
+  /// Reads a file with a key on each line: an id from 0 to 2147483647, and 64 hexadecimal digits.
+  /// `#` begins a remark. The first key signs; every key is accepted.
+  ///
+  /// Requires a regular file that belongs to the user of this process and that nobody else may use;
+  /// or a file of root's that at most its group may read, for a service whose user owns no files.
+  /// (An access control list shows as rights of the group, so files of systemd's LoadCredential
+  /// pass.)
   static Read from_file(const std::string& file);
-  /// The same of the text of such a file; `file` is for messages.
+  /// Reads the text of such a file. `file` is its name for messages.
   static Read from_text(std::string_view text, const std::string& file);
 
   ~MessageKeys();
   MessageKeys(const MessageKeys&) = delete;
   MessageKeys& operator=(const MessageKeys&) = delete;
 
-  /// Sets `key_id` and `tag` of a message that is otherwise complete.
+  /// Sets `key_id` and `tag` of an envelope. Requires all its other members to be set.
   void sign(std::string_view channel, envelope_t& envelope) const;
 
   enum class Verdict : std::uint8_t { kGood, kUnknownKey, kAltered };
@@ -48,7 +50,7 @@ class MessageKeys {
 
   [[nodiscard]] std::vector<std::int32_t> ids() const;
 
-  /// That nobody can guess.
+  /// Returns a cryptographically secure random number.
   static std::int64_t random_number();
 
  private:

@@ -6,7 +6,7 @@
 namespace camway::wire {
 namespace {
 
-/// a - b of any two numbers, cut to the range of the type.
+/// Returns a - b, clamped to the range of the type.
 std::int64_t difference(std::int64_t a, std::int64_t b) {
   std::int64_t result = 0;
   if (!__builtin_sub_overflow(a, b, &result)) return result;
@@ -37,14 +37,14 @@ ReplayGuard::Verdict ReplayGuard::take(const envelope_t& envelope, std::int64_t 
   return Verdict::kNew;
 }
 
-/// Nothing that they said so far is accepted any more, so nobody need remember it.
+/// Forgets the senders whose messages so far are all stale.
 void ReplayGuard::forget_silent(std::int64_t now_us) {
   std::erase_if(senders_, [&](const auto& entry) {
     return difference(now_us, entry.second.newest_us) > limits_.window_us;
   });
 }
 
-/// Notes a message of a sender; false if it was noted before or may have been.
+/// Notes a counter of a sender. Returns false if it was noted before or may have been.
 bool ReplayGuard::note(Sender& sender, std::int64_t counter) {
   const std::int64_t ahead = difference(counter, sender.highest);
   if (ahead > 0) {

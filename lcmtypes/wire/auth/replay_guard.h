@@ -11,34 +11,35 @@
 
 namespace camway::wire {
 
-/// Tells messages that are new from those that were sent before, or are too old to tell. Its memory
-/// is bounded: who is not heard for longer than messages are accepted is forgotten, and what he
-/// said is stale by then. To be asked about messages only whose tag is right. For one thread at a
-/// time.
+/// Recognises messages that were received before, or that are too old to tell. Memory is bounded: a
+/// sender is forgotten once all its messages are stale. Requires messages whose tag is right.
+///
+/// Not thread-safe.
 class ReplayGuard {
  public:
   struct Limits {
-    /// How far a message's time may be from ours, in microseconds, both included: its way and what
-    /// the clocks of two hosts differ by.
+    /// Largest difference between the time of a message and the local clock, inclusive. It allows
+    /// for the transmission and for the difference of two hosts' clocks. [Units: microseconds]
     std::int64_t window_us = 30'000'000;
-    std::size_t senders = 16'384;
-    /// Whether what was signed before this guard began is stale, for it does not remember what came
-    /// then. Else it may be said again to a program that has just started.
+    std::size_t senders = 16'384;  ///< largest number of senders to remember
+    /// Whether a message that was signed before this guard began is stale. If not, a message can be
+    /// replayed to a program that has just started, because the guard does not remember it.
     bool only_since_start = true;
   };
-  /// Messages may overtake each other by so many.
+  /// Number of a sender's newest counters that are remembered. A message is accepted if its counter
+  /// is less than this below the highest one.
   static constexpr std::size_t kReordered = 1024;
 
   enum class Verdict : std::uint8_t {
     kNew,
-    kStale,     ///< outside the window, or from before this guard began
-    kReplayed,  ///< was here, or is older than more than `kReordered` that were
-    kCrowded,   ///< there are too many senders to remember another
+    kStale,     ///< outside the window, or signed before this guard began
+    kReplayed,  ///< received before, or `kReordered` or more below the sender's highest counter
+    kCrowded,   ///< from a new sender, when the memory for senders is full
   };
 
   ReplayGuard(const Limits& limits, std::int64_t began_us) : limits_(limits), began_us_(began_us) {}
 
-  /// Judges a message, and remembers it if it is new.
+  /// Returns the verdict on a message and remembers a new one.
   Verdict take(const envelope_t& envelope, std::int64_t now_us);
 
   [[nodiscard]] std::size_t senders() const { return senders_.size(); }
@@ -47,7 +48,7 @@ class ReplayGuard {
   struct Sender {
     std::int64_t newest_us = 0;
     std::int64_t highest = 0;
-    std::bitset<kReordered> seen;  ///< bit i: whether number `highest - i` was here
+    std::bitset<kReordered> seen;  ///< bit i: whether the counter `highest - i` was received
   };
 
   void forget_silent(std::int64_t now_us);

@@ -22,7 +22,8 @@ using testing_support::quick;
 
 using AskOccupancyTest = testing_support::ClientTest;
 
-/// Answers every point, box and sphere by the sign of its first number, all else with it.
+/// Answers every point, box and sphere by the sign of its first number, and every other query with
+/// that number.
 std::vector<Bytes> echo(const occupancy_request_t& request, std::int64_t revision) {
   occupancy_response_t response{};
   response.client_id = request.client_id;

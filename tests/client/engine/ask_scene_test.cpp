@@ -56,7 +56,7 @@ TEST_F(AskSceneTest, SaysHowLongAChangeMayTake) {
   }
 }
 
-/// Calls off as soon as `request` was asked for.
+/// Cancels as soon as `request` has arrived, and returns the answer.
 SceneAnswer called_off(Client& client, const std::atomic<std::int64_t>& request) {
   const std::jthread other([&] {
     while (request == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));

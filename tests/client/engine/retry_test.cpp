@@ -15,7 +15,7 @@ using std::chrono::seconds;
 const Clock::time_point kStart = Clock::now();
 constexpr Retry::Rules kRules{1.0, 2.0, 5.0, 0.0, 3};
 
-/// Lets a question that nothing answers run; when it is sent, and what ends it.
+/// Runs a request that nothing answers. Holds the times at which it is sent, and what ends it.
 struct History {
   std::vector<double> sent_s;
   Action end;

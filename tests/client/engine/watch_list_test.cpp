@@ -23,7 +23,7 @@ using Kind = WatchEvent::Kind;
 
 constexpr std::int64_t kId = 7;
 
-/// A list whose messages and calls the test takes in its hands.
+/// A watch list whose messages and calls the test collects.
 class WatchListTest : public testing::Test {
  protected:
   WatchListTest()
@@ -43,7 +43,7 @@ class WatchListTest : public testing::Test {
     list_.add(request, [this](const WatchEvent& event) { events_.push_back(event); });
   }
 
-  /// Steps as the engine does, so long, and a heartbeat each second if `beats`.
+  /// Steps like the engine for some time, with a heartbeat each second if `beats`.
   void live(Clock::duration how_long, bool beats) {
     for (Clock::duration passed{}; passed < how_long; passed += milliseconds(50)) {
       step_at(milliseconds(50));
@@ -74,7 +74,7 @@ class WatchListTest : public testing::Test {
     return wire::encode(page);
   }
 
-  /// Ends the last call with that answer.
+  /// Ends the last call with this answer.
   void finish_call(const Bytes& bytes) {
     ASSERT_FALSE(calls_.empty());
     const std::shared_ptr<Call> call = calls_.back();
@@ -108,7 +108,7 @@ class WatchListTest : public testing::Test {
     list_.take_report(wire::encode(message), now_);
   }
 
-  /// What was sent since the last call of this.
+  /// Returns the messages since the last call of this function.
   std::vector<watch_t> sent() {
     std::vector<watch_t> messages;
     for (const Outgoing& message : std::exchange(sent_, {})) {
@@ -118,7 +118,7 @@ class WatchListTest : public testing::Test {
     return messages;
   }
 
-  /// The same, but for questions whether the daemon lives.
+  /// Returns these messages without requests for a sign of life.
   std::vector<watch_t> sent_renewals() {
     std::vector<watch_t> messages = sent();
     std::erase_if(messages, [](const watch_t& message) { return message.num_paths == 0; });
@@ -130,7 +130,7 @@ class WatchListTest : public testing::Test {
     list_.step(now_);
   }
 
-  /// Asked, answered at revision 3, and known to be watched.
+  /// Adds a path that is answered at revision 3 and known to be watched.
   void begin() {
     step_at({});
     finish_call(answer(3));
@@ -346,7 +346,7 @@ TEST_F(WatchListTest, ThreeMissedHeartbeatsAreToldOnceWithTheReason) {
   EXPECT_EQ(told(Kind::kLost), 0);
   const Clock::time_point silent_since = now_;
   while (told(Kind::kLost) == 0) live(milliseconds(50), /*beats=*/false);
-  // The last heartbeat came up to a second before.
+  // The last heartbeat may be up to a second old.
   EXPECT_GT(now_ - silent_since, seconds(2));
   EXPECT_LE(now_ - silent_since, milliseconds(3500));
   EXPECT_EQ(events_.back().status, Status::kNoDaemon);

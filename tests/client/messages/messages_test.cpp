@@ -161,7 +161,7 @@ TEST(PlanPages, HoldTheOptionsOfCorrectionOnEveryPage) {
   }
 }
 
-// What is not set is the daemon's default, 0 means 0: on the wire these are two members.
+// An unset value means the daemon's default and 0 means 0; the wire has two members for that.
 TEST(PlanPages, NothingIsCorrectedOnlyWhereItIsAskedFor) {
   const auto sent = [](std::optional<std::int32_t> most) {
     PlanRequest request = request_with(2);
@@ -445,7 +445,7 @@ TEST(PlanCollector, RefusesPageNumbersOutOfRange) {
   }
 }
 
-/// The response to one page of three segments after `damage` was done to it.
+/// Returns the response to one page of three segments after `damage` was applied to it.
 template <class Damage>
 PlanResponse damaged(Damage damage) {
   plan_response_t page = answer_pages(wire_request(), 3, 3)[0];
@@ -506,7 +506,7 @@ TEST(OccupancyRequests, SplitALargeBatchWithoutLossOrReordering) {
     for (const auto& query : request.sphere_paths_m) ASSERT_EQ(query[3], number(paths++));
   }
   EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances, paths}), testing::Each(6000u));
-  // Not more messages than needed: only the last may be less than nearly full.
+  // There are no more messages than needed: only the last may be less than nearly full.
   EXPECT_EQ(requests.size(), (6000u * (24 + 48 + 32 + 56 + 32 + 56) + 59'899) / 59'900);
 }
 

@@ -11,7 +11,7 @@ namespace camway {
 namespace {
 
 constexpr std::uint64_t kSeed = 20261122;
-/// The documented scale, said anew: bucket i ends at 10 us * 2^(i/4).
+/// The documented scale, computed independently: bucket i ends at 10 us * 2^(i/4).
 constexpr double kRatio = 1.189207115002721;
 
 Latency counted(const std::vector<double>& seconds) {

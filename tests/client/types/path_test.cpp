@@ -15,15 +15,16 @@ namespace {
 constexpr std::uint32_t kSeed = 20060623;
 constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// Error of de Casteljau in degree n: each of its n rounds takes a convex combination (one rounding
-/// in 1-u, two products, one sum: relative 3 units at most each), so the result is off by at most
-/// 3 n u max|p| to first order; one n more covers the higher orders.
+/// Returns a bound on the error of de Casteljau's algorithm in degree n. Each of its n rounds takes
+/// a convex combination (one rounding in 1-u, two products, one sum: at most 3 units relatively),
+/// so the error is at most 3 n u max|p| to first order; one n more covers the higher orders.
 double de_casteljau_error(int degree, double largest) {
   return 4.0 * degree * kUnitRoundoff * largest;
 }
 
-/// `t` has rounding of its own: u is off by a few units, which moves the point by |derivative|
-/// times that, and the derivative of degree n is at most 2 n max|p|.
+/// Returns a bound on the error from the parameter. `t` is rounded, so u is off by a few units,
+/// which moves the point by |derivative| times that; the derivative of degree n is at most 2 n
+/// max|p|.
 double parameter_error(int degree, double largest, double largest_u_error) {
   return 2.0 * degree * largest * largest_u_error;
 }
@@ -51,7 +52,7 @@ class PathTest : public testing::Test {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// A segment whose orientation stays away from zero: control points around (1, 0, 0, 0).
+  /// Returns a segment whose orientation is never near zero: control points around (1, 0, 0, 0).
   Segment random_segment(double t0_s, double t1_s) {
     Segment segment;
     segment.t0_s = t0_s;
@@ -89,8 +90,8 @@ TEST_F(PathTest, AgreesWithTheBernsteinSum) {
     auto turn = bernstein_sum(segment.orientation_wxyz, u);
     const long double length =
         std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
-    // The numerator is at least 1 long (its first number is 1), so dividing does not enlarge its
-    // error, and hypot and the division add a few units.
+    // The numerator has a length of at least 1 (its first number is 1), so the division does not
+    // enlarge its error; hypot and the division add a few units.
     const double turn_bound =
         2.0 * (de_casteljau_error(6, 1.0) + parameter_error(6, 1.0, u_error)) + 8 * kUnitRoundoff;
     for (std::size_t d = 0; d < 4; ++d) {
@@ -108,8 +109,8 @@ TEST_F(PathTest, OrientationHasUnitLengthWhateverTheScale) {
     for (int i = 0; i <= 100; ++i) {
       const auto q = Path({segment}).pose(i / 100.0).orientation_wxyz;
       const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-      // Each number carries at most 4 units (three hypot, one division), the sum of squares 8 and a
-      // few.
+      // Each number has an error of at most 4 units (three hypot, one division), the sum of squares
+      // 8 and a few.
       EXPECT_NEAR(squared, 1.0, 16 * kUnitRoundoff) << "scale " << scale;
     }
   }
@@ -126,7 +127,7 @@ TEST_F(PathTest, EndsAreControlPointsAndTimesOutsideStayThere) {
   EXPECT_EQ(path.pose(-1e300).position_m, segments[0].position_m[0]);
   EXPECT_EQ(path.pose(std::numeric_limits<double>::infinity()).position_m,
             segments[2].position_m[3]);
-  // Where segments meet, the later one counts.
+  // At a join the later segment is evaluated.
   EXPECT_EQ(path.pose(2.0).position_m, segments[1].position_m[0]);
   EXPECT_EQ(path.pose(2.5).position_m, segments[2].position_m[0]);
 }

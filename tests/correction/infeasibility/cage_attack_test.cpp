@@ -17,7 +17,7 @@ using geometry::Quat;
 using geometry::Vec3;
 using testing::RandomCage;
 
-/// Short by default; a long run takes more from the environment.
+/// Returns the number of cages: few by default, more from the environment for a long run.
 int cages_to_make() {
   const char* wanted = std::getenv("CAMWAY_CAGES");
   return wanted != nullptr ? std::max(1, std::atoi(wanted)) : 120;
@@ -25,7 +25,7 @@ int cages_to_make() {
 constexpr int kPosesAFace = 60;
 constexpr double kNear_m = 0.1;
 
-/// What tries to get out: a rectangle, its shorter side first.
+/// The body that tries to leave: a rectangle, with its shorter side first.
 motion::Body rectangle(double short_m, double long_m) {
   return motion::Body(motion::Camera{2.0 * std::atan(0.5 * short_m / kNear_m),
                                      2.0 * std::atan(0.5 * long_m / kNear_m), kNear_m});
@@ -42,8 +42,8 @@ class Attack {
         body_(rectangle(short_m, long_m_)),
         space_(index_, body_, options_) {}
 
-  /// A free pose with the centre on the box: exactly what cannot be. In the holes' middles, along
-  /// their sides and diagonals, and near there.
+  /// Searches a free pose with the centre on the box, which a proof excludes: at the centres of the
+  /// holes, along their sides and diagonals, and near these.
   bool finds_pose_on_a_face() {
     for (std::size_t name = 0; name < 6; ++name) {
       for (int i = 0; i < kPosesAFace; ++i) {
@@ -53,8 +53,8 @@ class Attack {
     return false;
   }
 
-  /// Motions that are proved free, from inside to outside, about the middle of a hole and turned to
-  /// it.
+  /// Searches motions from inside to outside that are proved free, through the centre of a hole and
+  /// aligned with it.
   bool finds_way_out(const Vec3& inside_W, const Vec3& outside_W, int samples) {
     const std::size_t name = std::uniform_int_distribution<std::size_t>(0, 5)(random_);
     const motion::Pose hole = pose_on(name);
@@ -79,8 +79,8 @@ class Attack {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// The middle between two bars that are neighbours, or between which there was one, and how far
-  /// apart they are.
+  /// Returns the centre between two bars, adjacent or with one bar between them, and their
+  /// distance.
   std::pair<double, double> between(const std::vector<double>& bars) {
     const auto last = static_cast<int>(bars.size()) - 1;
     const int i = std::uniform_int_distribution<int>(0, last - 1)(random_);
@@ -105,7 +105,7 @@ class Attack {
                                           within(0, 3.2)};
     const double angle =
         angles[std::uniform_int_distribution<std::size_t>(0, 4)(random_)] + 0.3 * near(random_);
-    // Not flat in the plane of the face, where it might be inside a plate.
+    // Not flat in the plane of the face, where the body might be inside a plate.
     const double tilt = within(0, 1) < 0.5 ? 0.0 : within(-1.0, 1.0);
     const Vec3 normal = Vec3::Unit(axis);
     const Vec3 chord =
@@ -126,8 +126,8 @@ class Attack {
   FreeSpace space_;
 };
 
-/// A side of the body a little below or above what the widest hole between neighbours lets through,
-/// of all faces or, now and then, of one.
+/// Returns a side of the body a little below or above the widest hole between adjacent bars, of all
+/// faces or sometimes of one face.
 double side_near_a_hole(const RandomCage& cage, std::mt19937_64& random) {
   const auto any = [&](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
   const auto hole_m = [&](const std::vector<double>& bars) {
@@ -148,7 +148,7 @@ double side_near_a_hole(const RandomCage& cage, std::mt19937_64& random) {
   return kFactors[static_cast<std::size_t>(any(5))] * widest_m;
 }
 
-/// The exact frame of the cage, with its axes named as the found one has them.
+/// Returns the exact frame of the cage, with the order of axes of the found one.
 std::optional<Quat> exact_frame(const RandomCage& cage, const CageBox& found) {
   for (const Quat& named : {cage.turn, Quat(cage.turn.conjugate()), Quat::Identity()}) {
     if (named.normalized().angularDistance(found.orientation) < 1e-9) return named;
@@ -156,8 +156,8 @@ std::optional<Quat> exact_frame(const RandomCage& cage, const CageBox& found) {
   return std::nullopt;
 }
 
-// Of what is called closed, fractions say the same, and neither poses on its faces nor ways out
-// are found; both are, of what is open.
+// If a cage counts as closed, exact arithmetic agrees, and there is neither a free pose on its
+// faces nor a way out. If it counts as open, there are both.
 TEST(Cage, NothingGetsOutOfRandomCages) {
   std::mt19937_64 random = testing::seeded(41);
   testing::CageMaker maker(random);

@@ -22,8 +22,8 @@ using geometry::Box;
 using geometry::Vec3;
 using ::testing::HasSubstr;
 
-/// Bars of square section around the faces of a box, `bars` + 1 each way on each face, those on the
-/// edges included.
+/// Returns bars of square section on the faces of a box, `bars` + 1 in each direction on each face,
+/// including those on the edges.
 std::vector<Box> cage_bars(const Box& box, const std::array<int, 3>& bars, double thickness_m) {
   std::vector<Box> result;
   const Vec3 half = Vec3::Constant(thickness_m / 2);
@@ -58,7 +58,7 @@ std::optional<Cage> cage(const scene::Mesh& mesh, const std::vector<Vec3>& cente
   return find_cage(mesh, find_closed_surfaces(mesh), centers, chord_m, 1e-9);
 }
 
-/// What the other checker says of it.
+/// Returns the fault that the independent checker finds.
 std::string fault_in(const Cage& found, const scene::Mesh& mesh, const std::vector<Vec3>& centers) {
   return testing::CageChecker(mesh, found.triangles, found.box)
       .check(centers[found.inside], centers[found.outside]);
@@ -75,14 +75,14 @@ void add_rectangle(scene::Mesh& mesh, const Vec3& corner, const Vec3& u, const V
   testing::add_triangle(mesh, corner, corner + u + v, corner + v);
 }
 
-/// Without the bars on one side of the box; those of the faces beside it end at its plane.
+/// Removes the bars on one side of the box; the bars of the adjacent faces end at its plane.
 std::vector<Box> open_below(std::vector<Box> bars, double z) {
   std::erase_if(bars,
                 [&](const Box& bar) { return bar.min().z() < z && bar.max().z() < z + 0.05; });
   std::vector<Box> result;
   for (Box& bar : bars) {
     bar.min().z() = std::max(bar.min().z(), z);
-    // The copy of a bar that two faces share would take the floor below it away, modulo 2.
+    // Two copies of a bar that two faces share would cancel the floor below, modulo 2.
     if (std::none_of(result.begin(), result.end(), [&](const Box& b) { return b.isApprox(bar); })) {
       result.push_back(bar);
     }
@@ -90,9 +90,9 @@ std::vector<Box> open_below(std::vector<Box> bars, double z) {
   return result;
 }
 
-/// Of what the bars leave of the faces of `box`, the largest diagonal of bounds of a connected
-/// part; nothing if a part reaches a border. By lines through all coordinates of bars instead of a
-/// grid. A part's bounds reach the middles of bars that are next to it, as if those were half as
+/// Returns the largest diagonal of the bounds of a connected part of the faces of `box` outside of
+/// the bars; nothing if a part reaches a border. Uses lines through all coordinates of bars instead
+/// of a grid. The bounds of a part reach the axes of the adjacent bars, as if these were half as
 /// thick.
 std::optional<double> widest_hole(const std::vector<Box>& bars, const Box& box) {
   double widest = 0.0;
@@ -182,8 +182,8 @@ TEST(Cage, NothingIsBetweenPointsOnOneSide) {
   EXPECT_FALSE(cage(mesh, {Vec3(1.0 + 1e-10, 2.55, 3.55), kOutside}, 0.15)) << "in a hole";
 }
 
-// Keyframes are only met up to rounding: one that is nearer to a side or a bar than that is on
-// neither side of it.
+// Keyframes are met up to rounding only: a keyframe that is nearer than that to a side or a bar is
+// on neither side of it.
 TEST(Cage, IsToldOnlyByKeyframesThatAreClearOfItsSides) {
   const scene::Mesh mesh = mesh_of(cage_bars(kBox, kTenBars, 0.02));
   const auto is_found = [&](const Vec3& inside, const Vec3& outside, double within_m) {
@@ -208,7 +208,7 @@ TEST(Cage, AMissingBarIsAWayOut) {
     bars.erase(bars.begin() + static_cast<std::ptrdiff_t>(i));
     const std::optional<double> hole_m = widest_hole(bars, kBox);
     const bool closed = hole_m && *hole_m < 0.15;
-    // Bars on edges are there twice, for either face.
+    // Bars on edges occur twice, once for each face.
     ASSERT_EQ(cage(mesh_of(bars), {kOutside, kInside}, 0.15).has_value(), closed) << i;
     held += closed ? 1 : 0;
   }
@@ -241,7 +241,7 @@ TEST(FaceGrid, BlocksTheOtherSideOfASurfaceOnly) {
   EXPECT_EQ(beyond.widest_hole_m(kOpenBorder), 0.0);
 }
 
-// The bounds of a bar across a face hold half of the face, and the bar does not.
+// The bounds of a slanted bar cover half of the face, and the bar does not.
 TEST(Cage, ASlantedBarFillsNoMoreThanItself) {
   std::vector<Box> bars = cage_bars(kBox, kTenBars, 0.02);
   std::erase_if(bars, [](const Box& bar) {
@@ -306,8 +306,8 @@ TEST(Cage, PlatesMakeFaces) {
   EXPECT_FALSE(cage(mesh_of(bars), centers, 0.5)) << "a plate for half of the face";
 }
 
-// There is not a bar in it, whatever the size of the body, and boxes about the points outside,
-// which come first, are none.
+// There are no bars, so the size of the body does not matter. Boxes about the points outside, which
+// are tried first, are no cages.
 TEST(Cage, PlatesAreEnough) {
   const double thick_m = 0.2;
   std::vector<Box> plates;
@@ -316,7 +316,7 @@ TEST(Cage, PlatesAreEnough) {
     Box high = low;
     low.max()[axis] = kBox.min()[axis];
     high.min()[axis] = kBox.max()[axis];
-    // Beside those that came before, not through them.
+    // Adjacent to the plates before, without intersecting them.
     for (int done = 0; done < axis; ++done) {
       low.min()[done] = high.min()[done] = kBox.min()[done];
       low.max()[done] = high.max()[done] = kBox.max()[done];
@@ -362,7 +362,7 @@ TEST(Cage, OnATurnedFloor) {
   EXPECT_FALSE(cage(open, centers, 0.5));
 }
 
-// Of a face that is long one way and has many lines the other way.
+// A face that is long in one direction and has many grid lines in the other.
 TEST(Cage, LongAndNarrowIsNoMatterOfMemory) {
   const Box box(Vec3(0, 0, 0), Vec3(2e7, 1, 1));
   scene::Mesh mesh = mesh_of(cage_bars(box, {4, 200, 200}, 0.001));
@@ -380,9 +380,9 @@ TEST(Cage, FarFromTheOrigin) {
   EXPECT_FALSE(cage(mesh, {kInside + far, kOutside + far}, 0.11));
 }
 
-// Cages of any size, thickness and number of bars, some with bars taken away or moved: found only
-// where the holes, measured otherwise, are narrower than the chord, and always where they are by
-// more than the cells can blur.
+// Cages of any size, thickness and number of bars, some with bars removed or moved. One may be
+// found only if its holes, measured independently, are narrower than the chord, and must be found
+// if they are narrower by more than the width of some cells.
 TEST(Cage, RandomCagesAgainstAnotherMeasure) {
   std::mt19937_64 random = testing::seeded(17);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

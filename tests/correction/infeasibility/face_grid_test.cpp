@@ -28,11 +28,11 @@ Number area(const Flat& a, const Flat& b, const Flat& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Corners of a convex polygon, counter-clockwise, without those on its sides; less than three if
-/// it has no inside.
+/// Corners of a convex polygon, counter-clockwise, without those on its sides. It has fewer than
+/// three if its inside is empty.
 using Polygon = std::vector<Flat>;
 
-/// The convex hull (Andrew 1979).
+/// Returns the convex hull (Andrew 1979).
 Polygon hull_of(std::vector<Flat> points) {
   std::sort(points.begin(), points.end());
   Polygon hull;
@@ -50,7 +50,7 @@ Polygon hull_of(std::vector<Flat> points) {
   return hull;
 }
 
-/// In it or on its border.
+/// Returns whether a point is in the polygon or on its border.
 bool holds(const Polygon& polygon, const Flat& p) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     if (area(polygon[i], polygon[(i + 1) % polygon.size()], p) < 0) return false;
@@ -58,7 +58,7 @@ bool holds(const Polygon& polygon, const Flat& p) {
   return polygon.size() >= 3;
 }
 
-/// Whether a side of the one has all of the other beyond it: then their insides do not meet.
+/// Returns whether all of `other` is beyond a side of `one`, so that their insides do not meet.
 bool has_beyond(const Polygon& one, const Polygon& other) {
   for (std::size_t i = 0; i < one.size(); ++i) {
     if (std::all_of(other.begin(), other.end(), [&](const Flat& p) {
@@ -83,7 +83,7 @@ struct Case {
   Vec3 margin_m = Vec3::Zero();
   std::array<FaceGrid::Lines, 2> lines;
 
-  /// Corners of where the plane meets the solid, whose vertices may be moved by the margin.
+  /// Returns the corners of the section of plane and solid, whose vertices may move by the margin.
   [[nodiscard]] Polygon section(const std::vector<Vec3>& signs) const {
     std::vector<Point> corners;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -134,7 +134,7 @@ class Random {
   }
   int axis() { return std::uniform_int_distribution<int>(0, 2)(random_); }
 
-  /// A tetrahedron, or a parallelepiped that may be parallel to the axes.
+  /// Makes a tetrahedron, or a parallelepiped that may be parallel to the axes.
   Case solid() {
     Case c;
     const Vec3 place = one_of(3) ? Vec3(1e5 * vector()) : vector();
@@ -159,8 +159,8 @@ class Random {
     return c;
   }
 
-  /// Lines here and there, some where an edge of the section crosses another line, but for some
-  /// steps of rounding.
+  /// Adds grid lines, some within a few units of rounding of a point where an edge of the section
+  /// crosses another line.
   void add_lines(Case& c) {
     const std::array<int, 2> axes = {(c.axis + 1) % 3, (c.axis + 2) % 3};
     geometry::Box box;
@@ -200,8 +200,8 @@ class Random {
   std::mt19937_64 random_;
 };
 
-// Cells beside solids that are turned at will, next to lines that their edges meet but for some
-// roundings, and with vertices that may be elsewhere: what is called blocked is, in fractions.
+// Cells near arbitrarily rotated solids, next to lines that edges meet up to a few roundings, and
+// with uncertain vertices: exact arithmetic confirms every blocked cell.
 TEST(FaceGrid, BlocksNothingBesideASolid) {
   Random random(31);
   std::array<int, 2> blocked{};
@@ -236,8 +236,8 @@ TEST(FaceGrid, BlocksNothingBesideASolid) {
   EXPECT_GT(blocked[1], 1000);
 }
 
-// One cell with a corner on a side of the section but for a few steps of rounding, otherwise
-// inside: blocked only where all of it is.
+// One cell has a corner on a side of the section up to a few units of rounding and is otherwise
+// inside. It may be blocked only if all of it is inside.
 TEST(FaceGrid, RoundsToTheSafeSide) {
   Random random(33);
   int blocked = 0;
@@ -259,7 +259,8 @@ TEST(FaceGrid, RoundsToTheSafeSide) {
     double line = x.convert_to<double>();
     const double step = random.one_of(2) ? 1e9 : -1e9;
     for (int i = random.one_of(2) ? 1 : 0; i > 0; --i) line = std::nextafter(line, step);
-    // Counter-clockwise: what is inside lies left of an upward side's way, and the other way round.
+    // Counter-clockwise: the inside is to the left of an upward side, and to the right of a
+    // downward one.
     const double inward = b[1] > a[1] ? -1e-3 : 1e-3;
     const double recedes =
         (b[0].convert_to<double>() - ax) * inward * (b[1] > a[1] ? 1.0 : -1.0) > 0.0 ? -1e-3 : 1e-3;
@@ -279,8 +280,8 @@ TEST(FaceGrid, RoundsToTheSafeSide) {
   EXPECT_GT(cut, 200);
 }
 
-// Triangles in the plane of the face that share edges, overlap, and are there twice: each point of
-// a blocked cell is on one of them.
+// Triangles in the plane of the face that share edges, overlap, or occur twice: each point of a
+// blocked cell is on one of them.
 TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
   Random random(32);
   int blocked = 0;
@@ -310,7 +311,7 @@ TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
     grid.block_flat(c.mesh, c.mesh, c.triangles);
     const auto u_axis = (c.axis + 1) % 3;
     const auto v_axis = (c.axis + 2) % 3;
-    // Vertices that are at one place move together.
+    // Vertices at the same place move together.
     std::vector<Vec3> signs(c.mesh.vertices.size(), Vec3::Zero());
     for (std::size_t i = 0; i < signs.size() && !c.margin_m.isZero(); ++i) {
       const auto same =
@@ -344,10 +345,10 @@ TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
   EXPECT_GT(blocked, 500);
 }
 
-// Both lie on the same side of the edge they share, so it is no border of what is covered oddly:
-// what is beyond it must not be taken for what is covered twice.
+// Two triangles lie on the same side of their common edge, so it is no border of the area that is
+// covered an odd number of times. The area beyond it must not count as covered twice.
 TEST(FaceGrid, BlocksNothingBeyondAnEdgeOfTwoThatOverlap) {
-  // Which part of the grid is asked first must not matter.
+  // The order in which parts of the grid are tested must not matter.
   for (const bool is_turned : {false, true}) {
     scene::Mesh mesh;
     const auto corner = [&](double u, double v) {

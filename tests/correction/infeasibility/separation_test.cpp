@@ -26,7 +26,7 @@ std::optional<Separation> separation(const scene::Mesh& mesh, const std::vector<
   return find_separation(mesh, find_closed_surfaces(mesh), points, 0.0);
 }
 
-/// Found, and right by independent means.
+/// Expects a separating surface, which an independent checker confirms.
 void expect_separated(const scene::Mesh& mesh, const std::vector<Vec3>& points, std::size_t inside,
                       std::size_t outside, std::size_t triangles) {
   const std::optional<Separation> found = separation(mesh, points);
@@ -45,7 +45,7 @@ scene::Mesh cuboid() {
   return mesh;
 }
 
-/// Each triangle with vertices of its own, as STL files have them.
+/// Returns the mesh with separate vertices for each triangle, as in STL files.
 scene::Mesh soup(const scene::Mesh& mesh) {
   scene::Mesh result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -80,13 +80,13 @@ TEST(Separation, NothingSeparatesPointsOfOneSide) {
 TEST(Separation, RaysThroughVerticesEdgesAndPlanes) {
   scene::Mesh mesh;
   testing::add_octahedron(mesh, Vec3::Zero(), 1.0);
-  // From the centre, and from points outside before and behind, the ray meets two vertices; at
-  // y = ±1 it touches one; at z = 0 it meets edges.
+  // From the centre, and from points outside in front and behind, the ray meets two vertices; at y
+  // = ±1 it touches one; at z = 0 it meets edges.
   expect_separated(mesh, {Vec3(0, 0, 0), Vec3(-2, 0, 0)}, 0, 1, 8);
   expect_separated(mesh, {Vec3(-2, 1, 0), Vec3(0, 0.5, 0)}, 1, 0, 8);
   expect_separated(mesh, {Vec3(-2, 0, 1), Vec3(0, -0.5, 0)}, 1, 0, 8);
   EXPECT_FALSE(separation(mesh, {Vec3(-2, 0, 0), Vec3(2, 0, 0), Vec3(-2, 1, 0), Vec3(-2, 0, -1)}));
-  // In the planes of faces.
+  // Points in the planes of faces.
   expect_separated(cuboid(), {Vec3(-3, 1, 0), Vec3(-3, -1, -1), Vec3(0, 0, 0)}, 2, 0, 12);
   EXPECT_FALSE(separation(cuboid(), {Vec3(-3, 1, 1), Vec3(-3, -1, 0), Vec3(1, 3, 0)}));
 }
@@ -123,7 +123,7 @@ TEST(Separation, NestedShells) {
   const Vec3 outer(4, 0, 0);
   expect_separated(mesh, {inner, between}, 0, 1, 32);
   expect_separated(mesh, {between, outer}, 0, 1, 128);
-  // Either would do; the inner one is smaller.
+  // Both surfaces separate the points; the inner one is smaller.
   expect_separated(mesh, {outer, inner}, 1, 0, 32);
 }
 
@@ -162,7 +162,7 @@ TEST(Separation, SlitsAreNotClosed) {
   rounded.vertices[0].x() = std::nextafter(rounded.vertices[0].x(), 2.0);
   EXPECT_FALSE(separation(rounded, {Vec3(0, 0, 0), Vec3(3, 0, 0)}));
 
-  // An edge that ends in the middle of another: the face x = 1 as a fan about a point on its edge.
+  // An edge that ends in the middle of another: the face x = 1 is a fan about a point on its edge.
   scene::Mesh fan = soup(cuboid());
   fan.triangles.erase(fan.triangles.end() - 2, fan.triangles.end());
   const Vec3 on_edge(1, 0, 1);
@@ -190,7 +190,7 @@ TEST(Separation, CopiesOfTrianglesAndLooseOnesDoNotMatter) {
   one_twice.triangles.push_back({t[1], t[0], t[2]});
   expect_separated(one_twice, {Vec3(0, 0, 0), Vec3(3, 0, 0)}, 0, 1, 12);
 
-  // A fin on an edge: three triangles there, and more on the fin.
+  // A fin on an edge: its edge has three triangles, and the fin has more.
   scene::Mesh fin = cuboid();
   testing::add_triangle(fin, Vec3(1, 1, 1), Vec3(1, 1, -1), Vec3(2, 2, 0));
   testing::add_triangle(fin, Vec3(1, 1, 1), Vec3(2, 2, 0), Vec3(2, 2, 3));
@@ -202,7 +202,7 @@ TEST(Separation, CopiesOfTrianglesAndLooseOnesDoNotMatter) {
 TEST(Separation, SurfacesWithoutOrientationThatPassThroughThemselves) {
   scene::Mesh mesh;
   testing::add_klein_bottle(mesh, 2.0, 0.75);
-  // Each half of the eight is a tube; it is one tube, as they change places after a turn.
+  // Each half of the eight is a tube; both are one tube, since they swap places after a turn.
   expect_separated(mesh, {Vec3(5, 0, 0), Vec3(2.4, 0.05, 0.0)}, 1, 0, 40 * 24 * 2);
   expect_separated(mesh, {Vec3(1.6, 0.05, 0.0), Vec3(0, 0, 0)}, 0, 1, 40 * 24 * 2);
   EXPECT_FALSE(separation(mesh, {Vec3(1.6, 0.05, 0.0), Vec3(2.4, 0.05, 0.0)}));
@@ -215,8 +215,8 @@ TEST(Separation, WhereTwoSolidsOverlapEachCountsForItself) {
   expect_separated(mesh, {Vec3(0.5, 0.5, 0.5), Vec3(-0.5, 0.5, 0.5)}, 0, 1, 12);
 }
 
-// 30,000 bricks that share their walls: too many seams to eliminate all, and the brick around a
-// point is found all the same.
+// 30,000 bricks with common walls: too many seams to eliminate all of them, but the brick around a
+// point is still found.
 TEST(Separation, SpaceFilledWithBricks) {
   scene::Mesh mesh;
   for (int i = 0; i < 30'000; ++i) {
@@ -228,7 +228,7 @@ TEST(Separation, SpaceFilledWithBricks) {
   expect_separated(mesh, {Vec3(-5, 0, 0), Vec3(15.5, 15.25, 15.75)}, 1, 0, 12);
 }
 
-/// Sums of tetrahedra on a small lattice with copies, gaps and loose triangles.
+/// Returns sums of tetrahedra on a small lattice, with copies, holes and loose triangles.
 scene::Mesh random_mesh(std::mt19937_64& random) {
   std::uniform_int_distribution<int> lattice(0, 3);
   const auto vertex = [&] { return Vec3(lattice(random), lattice(random), lattice(random)); };
@@ -236,7 +236,7 @@ scene::Mesh random_mesh(std::mt19937_64& random) {
   std::array<Vec3, 4> v = {vertex(), vertex(), vertex(), vertex()};
   for (int left = std::uniform_int_distribution<int>(1, 5)(random); left > 0; --left) {
     testing::add_tetrahedron(mesh, v);
-    // Every second shares a face with the one before.
+    // Every second one shares a face with the one before.
     for (std::size_t k = random() % 2 == 0 ? 3 : 0; k < 4; ++k) v[k] = vertex();
   }
   for (int left = lattice(random); left > 0; --left) {
@@ -249,8 +249,8 @@ scene::Mesh random_mesh(std::mt19937_64& random) {
   return mesh;
 }
 
-/// Whether any closed surface of at most 64 triangles has one of the points inside and not the
-/// other: there is none exactly if the set of triangles that a way between them crosses is a sum
+/// Returns whether a closed surface of at most 64 triangles has exactly one of the points inside.
+/// There is none exactly if the set of triangles that a path between the points crosses is a sum
 /// modulo 2 of stars of edges (linear algebra: a functional that is 0 on a kernel).
 bool some_surface_separates(const scene::Mesh& mesh, const Vec3& a, const Vec3& b) {
   std::map<std::array<std::array<double, 3>, 2>, std::uint64_t> stars;
@@ -282,7 +282,7 @@ bool some_surface_separates(const scene::Mesh& mesh, const Vec3& a, const Vec3& 
 TEST(Separation, RandomSurfacesAgainstLinearAlgebraAndTheChecker) {
   constexpr int kCases = 20'000;
   std::mt19937_64 random = testing::seeded(41);
-  // Half of the coordinates are those of vertices, so rays pass through vertices and edges.
+  // Half of the coordinates are those of vertices, so that rays pass through vertices and edges.
   std::uniform_int_distribution<int> quarter(-1, 13);
   const auto point = [&] {
     return Vec3(quarter(random) / 4.0, quarter(random) / 4.0, quarter(random) / 4.0);
@@ -291,7 +291,7 @@ TEST(Separation, RandomSurfacesAgainstLinearAlgebraAndTheChecker) {
   int found_none = 0;
   for (int i = 0; i < kCases; ++i) {
     const scene::Mesh mesh = random_mesh(random);
-    // In the middle of four vertices, which often are those of a tetrahedron, and anywhere.
+    // At the centre of four vertices, which often belong to one tetrahedron, and at random.
     const std::size_t first = random() % (mesh.vertices.size() - 3);
     const std::vector<Vec3> points = {(mesh.vertices[first] + mesh.vertices[first + 1] +
                                        mesh.vertices[first + 2] + mesh.vertices[first + 3]) /

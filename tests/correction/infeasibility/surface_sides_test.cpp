@@ -22,8 +22,8 @@ struct Sides {
   SurfaceSides sides;
 };
 
-// Cuboids that may stand in each other or cross; coordinates are small whole numbers, so rays go
-// through vertices and along edges and faces all the time.
+// Cuboids that may contain or intersect each other. Coordinates are small integers, so rays often
+// pass through vertices and along edges and faces.
 TEST(SurfaceSides, AreTheSameExactlyInTheSameCuboids) {
   std::mt19937_64 random = testing::seeded(1);
   std::uniform_int_distribution<int> corner(0, 8);

@@ -54,14 +54,14 @@ Case case_with(const Mesh& mesh, std::vector<Keyframe> keyframes) {
 
 Keyframe at(double time_s, const Vec3& position) { return {time_s, {position, Quat::Identity()}}; }
 
-// Flies past a column that stands a little in the way.
+// Returns a path past a column that stands a little in the way.
 Case column() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.1, -3, -0.2}, {0.5, 3, 0.0});
   return case_with(mesh, {at(0, {-0.15, 0, 2}), at(3, {-0.15, 0, 0.9}), at(6, {-0.15, 0, -2})});
 }
 
-// A wall without an end in y; a door at x in [2, 3.5].
+// Returns a wall that is endless in y, with a door at x in [2, 3.5].
 Case wall_with_door() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-6, -8, -0.05}, {2, 8, 0.05});
@@ -92,7 +92,7 @@ TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {Rung::kMove}); }
 
 TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {Rung::kGoRound}); }
 
-// The near quadrilateral is 0.4 wide and 0.3 high; the gap 0.34 wide and without an end in y.
+// The near quadrilateral is 0.4 wide and 0.3 high; the gap is 0.34 wide and endless in y.
 TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-40, -60, -0.05}, {-0.17, 60, 0.05});
@@ -103,9 +103,7 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
 }
 
-// A closed room with a partition of 2 cm. The diagonal of its hole is 1.2 times the short side of
-// the near quadrilateral, which has to pass long side first, rolled by 45 degrees.
-/// A closed room of 2.4 x 2.4 x 3.6 m.
+// Returns a closed room of 2.4 x 2.4 x 3.6 m.
 Mesh closed_room() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-1.3, -1.3, 1.8}, {1.3, 1.3, 1.9});
@@ -117,7 +115,7 @@ Mesh closed_room() {
   return mesh;
 }
 
-/// Across the room, 2 cm thick, with a hole between two corners.
+/// Adds a wall across the room, 2 cm thick, with a hole between two corners.
 void add_wall(Mesh& mesh, double z_m, const Vec3& low, const Vec3& high) {
   testing::add_cuboid(mesh, {-1.2, -1.2, z_m - 0.01}, {low[0], 1.2, z_m + 0.01});
   testing::add_cuboid(mesh, {high[0], -1.2, z_m - 0.01}, {1.2, 1.2, z_m + 0.01});
@@ -125,11 +123,13 @@ void add_wall(Mesh& mesh, double z_m, const Vec3& low, const Vec3& high) {
   testing::add_cuboid(mesh, {low[0], high[1], z_m - 0.01}, {high[0], 1.2, z_m + 0.01});
 }
 
-/// Of 40 x 30 cm.
+/// Returns a camera with a quadrilateral of 40 x 30 cm.
 motion::Body wide_camera() {
   return motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
 }
 
+// The diagonal of the hole is 1.2 times the short side of the near quadrilateral, which has to pass
+// with its long side first, rolled by 45 degrees.
 TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
   Mesh mesh = closed_room();
   add_wall(mesh, 0.0, {-0.127, -0.127, 0}, {0.127, 0.127, 0});
@@ -138,7 +138,7 @@ TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
   expect_corrected(c, {Rung::kGoRound});
 }
 
-// A slit, and a hole that is not in line with it, turned the other way.
+// A slit, and behind it a hole that is displaced and needs another roll.
 TEST(Ladder, ThreadsTwoHolesInARow) {
   Mesh mesh = closed_room();
   add_wall(mesh, 0.6, {-0.7, 0.1, 0}, {-0.3, 0.17, 0});
@@ -148,8 +148,7 @@ TEST(Ladder, ThreadsTwoHolesInARow) {
   expect_corrected(c, {Rung::kGoRound});
 }
 
-// Less than a metre apart, and 28 m by the only way there is: round the end of a wall in a closed
-// room.
+// Less than a metre apart, and 28 m along the only way: around the end of a wall in a closed room.
 TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-8.2, -1.4, -2.2}, {8.2, -1.2, 2.2});
@@ -173,8 +172,7 @@ TEST(Ladder, LeavesWhatItCannotCorrect) {
   EXPECT_EQ(result.path.pieces.size(), c.path().pieces.size());
 }
 
-// What lies outside the stretches that were changed is the same bit for bit.
-// There is no path then, but who asked for another keyframe was not told so.
+// There is no path then, but the given keyframe of the request was another one.
 TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
@@ -189,7 +187,7 @@ TEST(Ladder, ProvesNothingByKeyframesThatWereRepaired) {
   EXPECT_FALSE(c.corrected().cage);
 }
 
-// A closed surface is asked for before the large lattices are searched.
+// Closed surfaces are tested before the large lattices are searched.
 TEST(Ladder, ProvesBeforeItSearchesFar) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-20, -20, -20}, {20, 20, 20});
@@ -201,6 +199,7 @@ TEST(Ladder, ProvesBeforeItSearchesFar) {
     EXPECT_LT(correction.tried.lattice_points, 40'000);
 }
 
+// The parts of the path outside of the changed ranges keep their bits.
 TEST(Ladder, IsLocal) {
   Case c = column();
   for (int i = 1; i <= 4; ++i) c.keyframes.push_back(at(6 + 2 * i, {-0.15, 0, -2.0 - i}));
@@ -237,7 +236,7 @@ TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
   expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
 }
 
-// A tour through clutter, with several collisions in neighbouring gaps.
+// Returns a tour through clutter, with several collisions in adjacent intervals between keyframes.
 Case cluttered_tour(std::mt19937_64& random) {
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   for (;;) {
@@ -260,7 +259,7 @@ bool covers(const Correction& correction, double time_s) {
          time_s <= correction.t_end_s;
 }
 
-// What corrections say of themselves, compared with the path that is returned, at many times.
+// The fields of each correction, compared with the returned path at many times.
 TEST(Ladder, TellsWhatBecameOfThePath) {
   std::mt19937_64 random = testing::seeded(4501);
   int corrected = 0;
@@ -287,7 +286,7 @@ TEST(Ladder, TellsWhatBecameOfThePath) {
         turned_rad[k] = std::max(turned_rad[k], is.orientation.angularDistance(was.orientation));
       }
       if (is_covered) continue;
-      // The rest of a piece that was cut differs by rounding.
+      // A remaining part of a piece that was cut differs by rounding.
       constexpr double kRounding = 1e-14;
       ASSERT_LT((is.position - was.position).norm(), kRounding) << run << " at " << time_s;
       ASSERT_LT((is.orientation.coeffs() - was.orientation.coeffs()).norm(), kRounding) << run;
@@ -299,11 +298,11 @@ TEST(Ladder, TellsWhatBecameOfThePath) {
       EXPECT_LE(before.begin_s(), correction.t_begin_s);
       EXPECT_LT(correction.t_begin_s, correction.t_end_s);
       EXPECT_LE(correction.t_end_s, before.end_s());
-      // Both are of samples.
+      // Both values come from samples.
       EXPECT_NEAR(correction.moved_m, moved_m[k], 0.02 * moved_m[k]) << run;
       EXPECT_NEAR(correction.turned_rad, turned_rad[k], 0.02 * turned_rad[k] + 1e-7) << run;
       EXPECT_GT(moved_m[k] + turned_rad[k], 0.0);
-      // The collision that it is for is within it.
+      // The changed range contains the collision.
       EXPECT_LT(correction.t_begin_s, correction.interval.t_end_s);
       EXPECT_GT(correction.t_end_s, correction.interval.t_begin_s);
     }
@@ -311,7 +310,7 @@ TEST(Ladder, TellsWhatBecameOfThePath) {
   EXPECT_GT(corrected, 12);
 }
 
-// Each is at least as good by its own measure as the path that is closest, and most are better.
+// Each objective is at least as good by its own measure as the closest path, and most are better.
 TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
   std::mt19937_64 random = testing::seeded(4503);
   std::map<Objective, int> better;
@@ -328,11 +327,11 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
       const ObjectiveCost now = objective_cost(objective, path, original, space, Deadline::never());
       const ObjectiveCost before =
           objective_cost(objective, closest, original, space, Deadline::never());
-      // The sum over gaps, of samples at other times than those that were compared.
+      // The measure sums over intervals at other samples than those that were compared.
       EXPECT_LE(now.value, 1.001 * before.value) << run << ": " << static_cast<int>(objective);
       EXPECT_GE(now.least_gap_m, 0.97 * before.least_gap_m) << run;
       better[objective] += now.value < 0.99 * before.value ? 1 : 0;
-      // What it did not have to turn for, it did not turn.
+      // The path keeps its orientation where no rotation was necessary.
       for (int i = 0; i <= 200; ++i) {
         const double time_s = std::lerp(path.begin_s(), path.end_s(), i / 200.0);
         EXPECT_LT(path.pose(time_s).orientation.angularDistance(closest.pose(time_s).orientation),
@@ -344,7 +343,7 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
     EXPECT_GT(count, kRuns / 2) << static_cast<int>(objective);
 }
 
-// Two walls with doors that are not where the path would go.
+// Returns two walls with doors beside the interpolated path.
 Case two_walls(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Mesh mesh;
@@ -357,8 +356,8 @@ Case two_walls(std::mt19937_64& random) {
                           at(6, {unit(random), 0, -2.5})});
 }
 
-// Sums of squares say little of the furthest point, so others may stray less, but seldom and
-// little.
+// The sum of squares does not bound the furthest point, so other objectives may deviate less, but
+// rarely and by little.
 TEST(Ladder, ClosestStraysTheLeast) {
   std::mt19937_64 random = testing::seeded(4504);
   int compared = 0;

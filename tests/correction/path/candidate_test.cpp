@@ -17,7 +17,7 @@ using motion::BumpRow;
 using motion::CubicPath;
 using motion::CubicPoint;
 
-/// Past x = 0, z from 4 to -4, keyframes every 2 s.
+/// Returns a path at x = 0 with z from 4 to -4, keyframes every 2 s.
 CubicPath straight_path() {
   std::vector<motion::Keyframe> keyframes;
   for (int i = 0; i <= 4; ++i)
@@ -25,7 +25,7 @@ CubicPath straight_path() {
   return motion::interpolate_cubic(keyframes);
 }
 
-/// The gap from 2 to 4 s, as the ladder poses it.
+/// Returns the problem of the interval from 2 to 4 s, as the ladder makes it.
 Problem middle_problem() {
   Problem problem;
   problem.path = straight_path().around(0.0, 6.0);
@@ -37,12 +37,12 @@ Problem middle_problem() {
   return problem;
 }
 
-/// A bump of that height about the middle of the gap, with its support in it.
+/// Returns a bump of this height about the middle of the interval, with its support inside.
 BumpRow single(const Vec3& height) {
   return {{2.0, 4.0, 4}, 2, {{height / motion::kBumpPeak, Vec4::Zero()}}};
 }
 
-/// Random coefficients within the gap, turning as well.
+/// Returns random coefficients within the interval, with rotation.
 BumpRow any_row(std::mt19937_64& random) {
   std::uniform_real_distribution<double> off(-0.5, 0.5);
   BumpRow row{{2.0, 4.0, 8}, 2, {}};
@@ -55,7 +55,7 @@ BumpRow any_row(std::mt19937_64& random) {
   return row;
 }
 
-/// A plate that the quadrilateral meets with its inside while it passes `z_m`.
+/// Adds a plate that the quadrilateral meets with its inside while it passes `z_m`.
 void add_plate(scene::Mesh& mesh, double z_m) {
   const Vec3 low(0, -5, z_m - 0.1);
   const Vec3 high(0, 5, z_m + 0.1);
@@ -63,7 +63,7 @@ void add_plate(scene::Mesh& mesh, double z_m) {
   testing::add_triangle(mesh, low, high, {0, 5, z_m - 0.1});
 }
 
-/// The path is there at 3 s.
+/// Returns a plate at the path's place at 3 s.
 SearchScene plate_in_the_way() {
   scene::Mesh mesh;
   add_plate(mesh, 1.0);
@@ -113,7 +113,7 @@ TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
                 scene.detect.clearance_m);
     } else {
       ++refused;
-      // It collides there, or comes as near as cannot be told apart.
+      // It collides there, or comes nearer than the search can resolve.
       EXPECT_LT(least_distance_m(scene, path, tried.collision->t_begin_s - 1e-3,
                                  tried.collision->t_end_s + 1e-3),
                 scene.detect.clearance_m + scene.detect.tolerance_m);
@@ -123,15 +123,15 @@ TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
   EXPECT_GT(refused, 15);
 }
 
-// Pieces beyond the row are the same bit for bit; what of a piece that it cuts is beyond it, but
-// for the rounding of cutting.
+// Pieces beyond the row keep their bits. Of a piece that the row cuts, the part beyond differs by
+// the rounding of cutting only.
 TEST(Attempt, KeepsKeyframesAndWhatIsBeyond) {
   std::mt19937_64 random = testing::seeded(2);
   const SearchScene scene({});
   const FreeSpace space = scene.space();
   const Problem problem = middle_problem();
   const BumpRow within = any_row(random);
-  // Over both keyframes, and zero there but for rounding.
+  // A row over both keyframes that is zero at them up to rounding.
   BumpRow across{{2.0, 4.0, 8}, -1, {}};
   const CubicPoint a{Vec3(0.3, 0.1, 0.7), Vec4::Zero()};
   across.bumps = {a, holding(across.knots, 0, a, a), a};
@@ -169,14 +169,14 @@ TEST(Attempt, RefusesWhatMovesAKeyframe) {
   }
 }
 
-// Rows that go past the part of the path that the problem has would change what it does not see;
-// unless nothing is there.
+// A row that extends beyond the path of the problem would change an unknown part; it is refused
+// unless it is zero there.
 TEST(Attempt, StaysWithinItsPartOfThePath) {
   const SearchScene scene({});
   const FreeSpace space = scene.space();
   const CubicPoint a{Vec3(0.1, 0, 0), Vec4::Zero()};
-  // With knots every second: from a second before the begin to 3 s, and from 3 s to a second after
-  // the end; zero at all keyframes.
+  // With knots every second: from a second before the beginning to 3 s, and from 3 s to a second
+  // after the end; zero at all keyframes.
   const auto row_from = [&](int first) {
     const motion::KnotRow knots{2.0, 4.0, 2};
     return BumpRow{knots, first, {a, holding(knots, first + 1, a, a), a}};
@@ -197,7 +197,7 @@ TEST(Attempt, StaysWithinItsPartOfThePath) {
   EXPECT_FALSE(attempt(problem, {}, space, Deadline::never()).candidate);
 }
 
-// A second plate, which somebody else has to correct: it may stay, but not grow.
+// A second plate belongs to another correction: its collision may stay, but not grow.
 TEST(Attempt, OthersMayStayAndMustNotGrow) {
   scene::Mesh mesh = plate_in_the_way().mesh;
   add_plate(mesh, 1.5);
@@ -209,14 +209,14 @@ TEST(Attempt, OthersMayStayAndMustNotGrow) {
   ASSERT_TRUE(found);
   ASSERT_EQ(found->size(), 2U);
   problem.interval = (*found)[1];
-  // The bump stands over the plate at z = 1 and hardly reaches the other.
+  // The bump is over the plate at z = 1 and hardly reaches the other.
   const BumpRow row{{2.4, 3.6, 4}, 2, {{Vec3(0.6, 0, 0), Vec4::Zero()}}};
   EXPECT_FALSE(attempt(problem, {row}, space, Deadline::never()).candidate);
   problem.foreign_collisions = {(*found)[0]};
   const Attempt tried = attempt(problem, {row}, space, Deadline::never());
   ASSERT_TRUE(tried.candidate);
   EXPECT_GT(least_distance_m(scene, tried.candidate->path, (*found)[0].t_end_s, row.end_s()), 0.0);
-  // As if the other had been found a little shorter than it is.
+  // As if the other collision had been found a little shorter than it is.
   problem.foreign_collisions[0].t_end_s -= 0.02;
   const Attempt grown = attempt(problem, {row}, space, Deadline::never());
   EXPECT_FALSE(grown.candidate);
@@ -224,7 +224,7 @@ TEST(Attempt, OthersMayStayAndMustNotGrow) {
   EXPECT_NEAR(grown.collision->t_begin_s, problem.foreign_collisions[0].t_end_s, 1e-9);
 }
 
-// As where all bumps of a row came out as nothing: nothing is corrected then.
+// If all bumps of a row are zero, nothing is corrected.
 TEST(Attempt, RefusesRowsThatChangeNothing) {
   scene::Mesh mesh;
   add_plate(mesh, 1.0);
@@ -267,7 +267,7 @@ TEST(FirstNewCollision, IsTheFirstOfThemAll) {
     EXPECT_NEAR(found->t_begin_s, (*all)[known].t_begin_s, 2e-3);
   }
   problem.foreign_collisions.clear();
-  // Between the plates nothing is found.
+  // Between the plates there is no collision.
   EXPECT_FALSE(first_new_collision(problem.path, (*all)[0].t_end_s, (*all)[1].t_begin_s, problem,
                                    space, Deadline::never()));
 }

@@ -24,7 +24,7 @@ motion::Pose any_pose(std::mt19937_64& random) {
   return {position, testing::random_rotation(random)};
 }
 
-// Distances are of a few metres.
+// Rounding of distances of a few metres.
 const double kRounding_m = geometry::triangle_distance_error_m(8.0);
 
 TEST(FreeSpace, TheBallHoldsTheBodyInEveryOrientation) {
@@ -81,8 +81,8 @@ TEST(FreeSpace, KnowsOfPosesWhatAskingEveryTriangleTells) {
   }
 }
 
-// Up to the first hit every sample keeps its distance; at the hit the body is as near as can be
-// told.
+// Up to the first hit every sample keeps its distance. At the hit the body is as near as the search
+// resolves.
 TEST(FreeSpace, FirstHitIsTheFirst) {
   constexpr double kMargin_m = 0.01;
   constexpr double kStep_m = 2e-3;
@@ -104,7 +104,7 @@ TEST(FreeSpace, FirstHitIsTheFirst) {
     }
     if (!hit) continue;
     ++hits;
-    // It is resolved to half the margin, and a bracket may be two tolerances wide.
+    // It is resolved to half of the margin, and a bracket may be two tolerances wide.
     const motion::Pose at = motion::unsigned_pose(motion::between(from, to, *hit));
     EXPECT_LE(scene.distance_m(at), keep_m + kMargin_m);
   }
@@ -126,7 +126,7 @@ TEST(FreeSpace, BallsAreToldApartExactlyAndMeasuredAbout) {
     EXPECT_EQ(told_m > 0.0, gap_m > 0.0);
     EXPECT_GE(told_m, std::min(gap_m, 0.1) - kRounding_m);
     EXPECT_LE(told_m, 0.1);
-    // What was met may be further than the nearest by a quarter.
+    // The obstacle that is met may be further than the nearest one by a quarter.
     EXPECT_LE(told_m, std::min(0.1, (gap_m + radius_m) / 0.8 - radius_m) + kRounding_m);
     free += told_m > 0.0 ? 1 : 0;
   }
@@ -134,7 +134,7 @@ TEST(FreeSpace, BallsAreToldApartExactlyAndMeasuredAbout) {
   EXPECT_LT(free, 450);
 }
 
-// With a distance field the answers are the same where they are not "far enough".
+// With a distance field the answers are the same, unless they are "far enough".
 TEST(FreeSpace, TheDistanceFieldChangesNoAnswerOfABall) {
   std::mt19937_64 random = testing::seeded(5);
   const scene::SnapshotResult made =
@@ -159,12 +159,12 @@ TEST(FreeSpace, DistancesOfPosesCountMovingAndTurning) {
   const double turn_rad = 0.5;
   const SignedPose turned{Vec3::Zero(), Vec4(std::cos(turn_rad / 2), 0, std::sin(turn_rad / 2), 0)};
   EXPECT_NEAR(space.distance_m(a, turned), space.ball_radius_m() * turn_rad, 1e-14);
-  // Signed: the same orientation with the other sign is a full turn away.
+  // Signed poses: the same orientation with the other sign is a full turn away.
   EXPECT_NEAR(space.distance_m(a, {a.position, -a.orientation}),
               space.ball_radius_m() * 2.0 * std::numbers::pi, 1e-12);
 }
 
-// Bounds are asked for together with the scene: the nearer one counts.
+// Bounds and scene are tested together: the nearer one counts.
 TEST(FreeSpace, MindsBoundsLikeTheScene) {
   const geometry::Bounds bounds{Vec3(-1, -0.9, -1.1), Vec3(1, 1.2, 0.8)};
   std::mt19937_64 random = testing::seeded(19);
@@ -212,7 +212,8 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
   }
 }
 
-// As little as it takes: on no axis further than the body is beyond, and at once within.
+// The pose moves by as little as possible: along no axis further than the body is beyond, and at
+// once to a pose within.
 TEST(FreeSpace, BringsPosesWithinBounds) {
   const geometry::Bounds bounds{Vec3(-1, -0.9, -1.1), Vec3(1, 1.2, 0.8)};
   std::mt19937_64 random = testing::seeded(20);
@@ -239,7 +240,7 @@ TEST(FreeSpace, BringsPosesWithinBounds) {
   EXPECT_GT(moved, 300);
 }
 
-// A straight motion may not end nearer to the bounds than the margin, nor leave them on its way.
+// A straight motion may not end nearer to the bounds than the margin, and may not leave them.
 TEST(FreeSpace, FindsWhereAMotionLeavesTheBounds) {
   const SearchScene scene({}, sphere(0.2));
   geometry::Bounds bounds;

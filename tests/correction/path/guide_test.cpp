@@ -16,7 +16,7 @@ using motion::KnotRow;
 
 constexpr double kRounding_m = 1e-12;  // of sums of a few metres
 
-/// A path through three keyframes; guides replace what is between the first two.
+/// Returns a path through three keyframes; guides replace the part between the first two.
 CubicPath path_at(const Vec3& middle, const Quat& turned) {
   return motion::interpolate_cubic(
       std::vector<motion::Keyframe>{{0.0, {Vec3(0, 0, 2), Quat::Identity()}},
@@ -28,7 +28,7 @@ CubicPath some_path() {
   return path_at({0.3, 0.1, -1.5}, Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())));
 }
 
-/// From the path's first keyframe to the second over some poses far off it.
+/// Returns a guide from the path's first keyframe to the second, over some poses far off the path.
 Guide some_guide(std::mt19937_64& random, const CubicPath& path, int poses, double off_m) {
   std::uniform_real_distribution<double> place(-off_m, off_m);
   const SignedPose from = signed_pose_at(path, 0.0);
@@ -76,15 +76,15 @@ TEST(TimedGuide, BeginsAndEndsWithTheGuide) {
   }
 }
 
-// How far along the guide it is never decreases, and nowhere does it go faster than twice the
-// mean. Told by the way itself: a guide that is longer than the straight line everywhere has
+// The position along the guide never decreases, and moves at most twice as fast as the mean. The
+// test reads it from the pose: a guide that is longer than the straight line everywhere has
 // different poses everywhere.
 TEST(TimedGuide, GoesForwardAndDoesNotHurry) {
   const SearchScene scene({});
   const CubicPath path = path_at({0, 0, -2}, Quat::Identity());
   const SignedPose from = signed_pose_at(path, 0.0);
   const SignedPose to = signed_pose_at(path, 3.0);
-  // Sideways, forwards and back again: the place tells the distance gone.
+  // The guide goes sideways, forwards and back, so that the place determines the distance along it.
   const Guide guide = {from, {{3, 0, 2}, from.orientation}, {{3, 0, -2}, from.orientation}, to};
   const auto gone_m = [&](const SignedPose& pose) {
     if (pose.position.z() > 2.0 - 1e-9) return pose.position.x();
@@ -103,8 +103,8 @@ TEST(TimedGuide, GoesForwardAndDoesNotHurry) {
   EXPECT_NEAR(last_m, 10.0, 1e-9);
 }
 
-// Along the path itself it keeps the path's own time, as far as a grid of 24 times and 96 places
-// can tell.
+// A guide along the path itself keeps the path's times, up to the resolution of a grid of 24 times
+// and 96 places.
 TEST(TimedGuide, KeepsTheTimesOfThePath) {
   const SearchScene scene({});
   const CubicPath path = path_at({0, 0, -2}, Quat::Identity());
@@ -152,7 +152,7 @@ TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
     ASSERT_TRUE(moved);
     for (int k = 1; k < knots.count; ++k) {
       EXPECT_TRUE((*moved)(k).image.isZero(0.0));
-      // The middle of the body is where the guide has it.
+      // The centre of the body is on the guide.
       const motion::Pose old = path.pose(knots.knot_s(k));
       const motion::Pose now{old.position + (*moved)(k).position, old.orientation};
       const motion::Pose wanted = motion::unsigned_pose(timed.at(knots.knot_s(k)));
@@ -161,8 +161,8 @@ TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
   }
 }
 
-// The image turns a quarter as fast as the camera: after two full turns it comes back with the
-// other sign, and there is no spline to the old keyframe that turns that way.
+// The image rotates a quarter as fast as the camera: after two full turns it arrives with the other
+// sign, and there is no spline to the old keyframe with that rotation.
 TEST(OffsetsTo, NothingForAGuideThatArrivesWithTheOtherSign) {
   const SearchScene scene({});
   const FreeSpace space = scene.space();
@@ -221,8 +221,8 @@ TEST(BumpsFor, KeepKeyframesAndWhatIsBeyond) {
   }
 }
 
-// Variation diminishing: between two knots, within the hull of the four coefficients about them;
-// of a coefficient that holds a keyframe the hull has that.
+// Variation diminishing: between two knots the addition is in the hull of the four coefficients
+// about them, which include the outer ones that keep the keyframes.
 TEST(BumpsFor, SwingNoFurtherThanTheCoefficients) {
   std::mt19937_64 random = testing::seeded(4);
   for (const int count : {6, 8, 16, 33}) {
@@ -314,7 +314,7 @@ TEST(Shortened, IsNoLongerAndStillFree) {
   EXPECT_GE(bent, 5);
 }
 
-// Motions between poses further apart than the shorter way would turn are left as they are.
+// Motions between poses that are further apart than the shorter rotation are not changed.
 TEST(Shortened, DoesNotTurnTheOtherWay) {
   const SearchScene scene({});
   FreeSpace space = scene.space();

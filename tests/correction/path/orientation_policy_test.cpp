@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ladder under every rule for orientations, on scenes where the camera has to turn.
+// The ladder under each orientation policy, on scenes in which the camera has to turn.
 #include <gtest/gtest.h>
 
 #include "daemon/correction/ladder/ladder.h"
@@ -110,8 +110,8 @@ Quat yawed_and_pitched(double yaw_deg, double pitch_deg) {
          Eigen::AngleAxisd(pitch_deg * kDegree, Vec3::UnitX());
 }
 
-// A wall across z with an endless slit at `slant_deg` from the x axis. Where it is thicker than the
-// camera is wide, all of the camera has to fit at once.
+// Returns a wall across z with an endless slit at `slant_deg` from the x axis. If it is thicker
+// than the camera is wide, the whole camera has to fit at once.
 Mesh wall_with_slit(double slant_deg, double half_width_m, double thickness_m) {
   Mesh mesh;
   testing::add_cuboid(mesh, {-kFar, half_width_m, -0.5 * thickness_m},
@@ -123,16 +123,16 @@ Mesh wall_with_slit(double slant_deg, double half_width_m, double thickness_m) {
   return mesh;
 }
 
-// The near quadrilateral is 0.4 wide and 0.1 high, the slit 0.14 wide: it fits at up to 5.7° from
-// the slit, and not rolled only if it is turned by more than 60°.
+// The near quadrilateral is 0.4 wide and 0.1 high, and the slit 0.14 wide. The camera fits at up to
+// 5.7° from the slit; without roll only if it turns by more than 60°.
 Case slanted_slit() {
   return {wall_with_slit(30.0, 0.07, 0.5),
           camera_of(0.2, 0.05),
           {{0, {{0, 0, 1.5}, Quat::Identity()}}, {4, {{0, 0, -1.5}, Quat::Identity()}}}};
 }
 
-// An upright gap of 0.34 and a camera that is 0.4 wide and 0.38 high: it has to be yawed by 32°.
-// Between two keyframes that look down and turn.
+// A vertical gap of 0.34 and a camera that is 0.4 wide and 0.38 high: it has to be yawed by 32°,
+// between two keyframes that look down and turn.
 Case upright_gap() {
   return {wall_with_slit(90.0, 0.17, 0.04),
           camera_of(0.2, 0.19),
@@ -140,7 +140,7 @@ Case upright_gap() {
            {4, {{0, -0.5, -1.2}, yawed_and_pitched(15, -25)}}}};
 }
 
-// Flies past a column, looking at a point beyond it.
+// Returns a path past a column, looking at a point beyond it.
 Case column() {
   Mesh mesh;
   testing::add_cuboid(mesh, {-0.3, -kFar, -0.2}, {0.5, kFar, 0.0});
@@ -187,7 +187,7 @@ TEST(OrientationPolicy, TurnsNothingWhereOrientationsAreKept) {
   expect_free(column(), limited(0));
 }
 
-// Passing the column takes some 30 cm to the side, 4° as seen from the target.
+// Passing the column takes a motion of some 30 cm, or 4° as seen from the target.
 TEST(OrientationPolicy, TurnsTowardsTheTargetAsItMovesAside) {
   const OrientationPolicy policy = towards({-0.15, 0, -4}, 2.0);
   const Outcome outcome = corrected(column(), policy, Objective::kClosest);
@@ -200,7 +200,7 @@ TEST(OrientationPolicy, KeepsTheTargetInViewOnAWayRound) {
   expect_free(wall_with_door(), towards({0, 0, -6}, 8.0));
 }
 
-// The target is behind the camera: then it may not turn further away from it.
+// The target is behind the camera, which may then not turn further away from it.
 TEST(OrientationPolicy, LooksNoFurtherAwayFromATargetOutsideTheCone) {
   expect_free(column(), towards({1, 0.5, 7}, 10.0));
 }

@@ -86,7 +86,7 @@ TEST(OrientationRule, WhatIsAllowedMeetsTheRuleAndTurnsAboutThePivot) {
     const Pose allowed = allowed_pose(policy, wanted, before, pivot_C);
     const double room = rule_room(policy, allowed, before);
     met += room >= 0.0 ? 1 : 0;
-    // Close to the target every small step turns the way to it.
+    // Close to the target every small step changes the direction to it.
     const bool is_next_to_target = (policy.target_W - wanted.position).norm() < 0.5;
     if (is_single && !is_next_to_target) {
       EXPECT_GE(room, 0.0) << i << " rule " << static_cast<int>(policy.rule);
@@ -117,7 +117,7 @@ TEST(OrientationRule, LeavesAPoseThatIsAllowedAsItIs) {
   EXPECT_GT(same, 500);
 }
 
-// Looking straight up there is no horizon to tilt; looking beyond, the camera is upside down.
+// When the camera looks straight up there is no horizon to tilt; beyond, it is upside down.
 TEST(OrientationRule, LevelMayLookStraightUpAndTurnAboutTheViewThere) {
   OrientationPolicy policy;
   policy.rule = OrientationRule::kLevel;
@@ -159,7 +159,8 @@ CubicPath with_random_bumps(const CubicPath& path, Random& random) {
   return motion::with_bumps(path, {&row, 1});
 }
 
-// The proof against dense samples: no breach may be missed, and few paths refused without one.
+// Compares the proof with dense samples: no breach may be missed, and few paths may be refused
+// without one.
 TEST(OrientationRule, APathIsPassedOnlyIfNoSampleBreaksTheRule) {
   Random random(2404);
   int passed = 0;

@@ -21,7 +21,7 @@ Contact contact(const StackedPoint& direction, double room_m, std::uint32_t tria
   return {{direction, room_m, triangle, vertex}};
 }
 
-/// Two triangles with three vertices each, as far away as `rooms_m` says.
+/// Returns the contacts of two triangles with three vertices each, at the distances `rooms_m`.
 std::vector<Contact> contacts(Draw& draw, const std::vector<double>& rooms_m) {
   std::vector<Contact> all;
   for (std::size_t i = 0; i < rooms_m.size(); ++i)
@@ -29,7 +29,7 @@ std::vector<Contact> contacts(Draw& draw, const std::vector<double>& rooms_m) {
   return all;
 }
 
-/// How far beyond the plane the vertex is where the bound just holds.
+/// Returns the distance of the vertex beyond the plane at which the bound is tight.
 double room_at(const BoundConstraint& bound, const Contact& contact, const StackedPoint& moved) {
   return contact.row.room_m + bound.bound_m - bound.direction.dot(moved);
 }
@@ -65,7 +65,7 @@ TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   EXPECT_EQ(bounds.wanted_m(), kComfort * kRadius_m);
   bounds.keep(0.05);
   const StackedPoint moved = draw.stacked(1.0);
-  // Hard only for what is near; less than the least there was where it is nearer than that.
+  // Only near contacts are hard: at the distance to keep, or at their own if that is less.
   std::vector<Contact> near = contacts(draw, {1.2, 0.9, 1.1, 0.2, 0.03, 3.0});
   bounds.add(0, moved, kReply, near);
   std::vector<BoundConstraint> hard;
@@ -82,7 +82,7 @@ TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   EXPECT_EQ(soft[0].direction.head<3>(), near[1].row.direction.head<3>());
 }
 
-// The weight of a gap does not depend on how much the path gives way: a stiff one moves less.
+// The weight of a gap does not depend on the path's compliance: a stiff path moves less.
 TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
   Draw draw(6203);
   const auto moved_m = [](double response) {

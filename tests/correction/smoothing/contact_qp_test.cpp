@@ -16,7 +16,8 @@ namespace {
 
 using testing::Draw;
 
-/// Samples that response to each other as points of a spline do: symmetric, positive semidefinite.
+/// Samples that react to each other like points of a spline: the matrix is symmetric and positive
+/// semidefinite.
 struct Case {
   StackedPoints unforced;
   Eigen::MatrixXd response;
@@ -47,7 +48,7 @@ Case random_case(Draw& draw, int samples, int bounds_of_sample, double share_sof
   return c;
 }
 
-/// How much each bound gets from a unit force on each, what gives way included.
+/// Returns the response of each bound to a unit multiplier on each, compliance included.
 Eigen::MatrixXd matrix_of(const Case& c) {
   Eigen::MatrixXd matrix(c.size(), c.size());
   for (Eigen::Index i = 0; i < c.size(); ++i) {
@@ -76,8 +77,8 @@ Eigen::VectorXd forces_of(const Case& c) {
   return forces;
 }
 
-/// All ways to choose which bounds feel a force: the one with no force that pulls, and no bound
-/// that does not hold.
+/// Tries all active sets. Returns the one without negative multipliers and without a violated
+/// bound.
 std::optional<Eigen::VectorXd> exact_forces(const Case& c) {
   const Eigen::MatrixXd matrix = matrix_of(c);
   const Eigen::VectorXd missing = missing_in(c);
@@ -98,7 +99,7 @@ std::optional<Eigen::VectorXd> exact_forces(const Case& c) {
   return std::nullopt;
 }
 
-/// Again and again from what was found, until nothing changes: each call is bounded.
+/// Repeats the solution from the last result until nothing changes, because each call is bounded.
 void find_until_settled(Case& c) {
   constexpr double kUnchanged = 1e-14;
   for (int i = 0; i < 3000; ++i) {
@@ -109,7 +110,7 @@ void find_until_settled(Case& c) {
   }
 }
 
-/// What the dual maximises.
+/// Returns the dual objective.
 double dual_of(const Case& c, const Eigen::VectorXd& forces) {
   return missing_in(c).dot(forces) - 0.5 * forces.dot(matrix_of(c) * forces);
 }
@@ -122,7 +123,8 @@ TEST(ContactForces, AreThoseOfTheBestActiveSet) {
     const std::optional<Eigen::VectorXd> exact = exact_forces(c);
     ASSERT_TRUE(exact) << run;
     find_until_settled(c);
-    // Forces may be large where bounds nearly exclude each other; what they do is what counts.
+    // Multipliers may be large where bounds nearly exclude each other, so the test compares their
+    // effect.
     const double size = 1.0 + exact->cwiseAbs().maxCoeff();
     EXPECT_LT((matrix_of(c) * (forces_of(c) - *exact)).norm(), 1e-6 * size) << run;
     EXPECT_NEAR(dual_of(c, forces_of(c)), dual_of(c, *exact), 1e-6 * size) << run;
@@ -134,7 +136,7 @@ TEST(ContactForces, AreThoseOfTheBestActiveSet) {
 TEST(ContactForces, MeetTheConditionsOfTheOptimumWhereThereAreMany) {
   Draw draw(4202);
   for (int run = 0; run < 20; ++run) {
-    // Many bounds of one sample may exclude each other; soft ones cannot.
+    // Many hard bounds of one sample may exclude each other; soft ones cannot.
     Case c = random_case(draw, 30, 3, 1.0);
     find_until_settled(c);
     const Eigen::VectorXd forces = forces_of(c);
@@ -174,7 +176,7 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
   }
 }
 
-// One bound has a solution that can be written down.
+// A single bound has a closed solution.
 TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
   Case c;
   c.unforced = StackedPoints::Zero(1, 7);
@@ -189,9 +191,8 @@ TEST(ContactForces, OfASoftBoundGiveWayAsTheySay) {
   EXPECT_EQ(c.bounds[0].multiplier, 0.0) << "it holds already";
 }
 
-// A sample that no variable moves: nothing helps there, and nobody else must suffer for it.
-// What they response to each other is kept as a matrix, which must not grow with bodies of
-// thousands of triangles.
+// The matrix of responses must not grow with bodies of thousands of triangles, so the number of
+// multipliers is limited.
 TEST(ContactForces, AreOfLimitedNumber) {
   Draw draw(4407);
   Case c = random_case(draw, 40, 100, 0.0);
@@ -200,7 +201,7 @@ TEST(ContactForces, AreOfLimitedNumber) {
       c.bounds, [](const BoundConstraint& bound) { return bound.multiplier > 0.0; });
   EXPECT_GT(felt, 100);
   EXPECT_LE(felt, 1024);
-  // And those first that miss most, so the worst of all feels one or holds.
+  // The most violated bounds come first, so the worst of all has a multiplier or holds.
   const Eigen::VectorXd missing_m = missing_in(c);
   Eigen::Index worst = 0;
   missing_m.maxCoeff(&worst);
@@ -214,6 +215,7 @@ TEST(ContactForces, AreOfLimitedNumber) {
   EXPECT_LT(missing_m[worst] - moved.dot(c.bound(worst).direction), missing_m[worst]);
 }
 
+// No multiplier helps a sample that no variable moves, and it must not affect the others.
 TEST(ContactForces, LeaveAloneWhatNoForceMoves) {
   Draw draw(4205);
   Case c = random_case(draw, 3, 1, 1.0);

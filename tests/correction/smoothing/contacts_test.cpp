@@ -21,12 +21,13 @@ using testing::Draw;
 
 constexpr double kAll_m = std::numeric_limits<double>::infinity();
 constexpr double kLever_m = 0.37;
-// Distances and planes of points within 5 m: some ten roundings of that size, and the distance's
-// own. Where the shortest way is short, its direction is off by that much more.
+// Bound on the rounding of distances and planes of points within 5 m: some ten roundings of that
+// size, and the distance's own. For a short distance the error of its direction is larger in
+// proportion.
 constexpr double kRounding_m = 1e-12;
 constexpr double kShort_m = 1e-2;
-// Images have half the length of a unit or more, and the body turns four times as fast as its image
-// does; derivatives of a point's place are below its distance from the eye times powers of that.
+// Images have at least half of unit length, and the body rotates four times as fast as its image.
+// Derivatives of a point's position are below its distance from the eye times powers of that.
 constexpr double kTurn_per_m = 4.0 / (0.5 * kLever_m);
 constexpr double kSize_m = 0.6;
 constexpr double kSecond_per_m = kSize_m * kTurn_per_m * kTurn_per_m;
@@ -37,7 +38,7 @@ motion::Body made(const motion::BodyShape& shape) {
   return motion::Body::make(shape, error).value();
 }
 
-/// Scattered triangles, and a body that is free of them somewhere.
+/// Scattered triangles, and a pose of the body that is free of them.
 struct Case {
   scene::Mesh mesh;
   scene::SceneIndex index;
@@ -62,12 +63,12 @@ struct Case {
     add_contact_rows(space, space.may_turn(), reference, kLever_m, point, all(), horizon_m, rows);
     return rows;
   }
-  /// A vertex of the body in the world.
+  /// Returns a vertex of the body in the world.
   [[nodiscard]] Vec3 vertex_W(const StackedPoint& at, std::size_t vertex) const {
     const motion::Pose pose = this->pose(at);
     return pose.position + pose.orientation * body.triangles_C()[vertex / 3][vertex % 3];
   }
-  /// The body's triangle `part` in the world.
+  /// Returns the body's triangle `part` in the world.
   [[nodiscard]] Triangle part_W(const StackedPoint& at, std::size_t part) const {
     return {vertex_W(at, 3 * part), vertex_W(at, 3 * part + 1), vertex_W(at, 3 * part + 2)};
   }
@@ -109,7 +110,7 @@ TEST(Contacts, LeaveAsMuchRoomAsTheDistanceIs) {
   }
 }
 
-// Of where the body's vertex is beyond the plane, which stays.
+// The derivative of the vertex's distance from the plane, which stays fixed.
 TEST(Contacts, PointWhereTheRoomGrows) {
   Draw draw(4302);
   for (int run = 0; run < 100; ++run) {
@@ -118,7 +119,7 @@ TEST(Contacts, PointWhereTheRoomGrows) {
       const Vec3 away_W = row.direction.head<3>();
       ASSERT_NEAR(away_W.norm(), 1.0, kRounding_m);
       for (Eigen::Index i = 0; i < 7; ++i) {
-        // Central differences: off by a sixth of the third derivative.
+        // The error of central differences is a sixth of the third derivative.
         constexpr double kStep_m = 1e-4;
         const StackedPoint step = kStep_m * StackedPoint::Unit(i);
         const Vec3 moved =
@@ -131,7 +132,7 @@ TEST(Contacts, PointWhereTheRoomGrows) {
   }
 }
 
-// What the rows promise of the distance is broken in second order only.
+// The bounds of the rows on the distance are violated by terms of second order only.
 TEST(Contacts, BoundTheDistanceAfterASmallStep) {
   Draw draw(4303);
   int pairs = 0;
@@ -156,7 +157,7 @@ TEST(Contacts, BoundTheDistanceAfterASmallStep) {
   EXPECT_GT(pairs, 2000);
 }
 
-// Of a body of many triangles; the oracle has a body for each of them.
+// A body of many triangles; the oracle has one body for each of them.
 TEST(Contacts, AreTheTightestOfATriangleWhereThereAreMany) {
   constexpr std::size_t kMost = 48;
   Draw draw(4306);
@@ -217,7 +218,7 @@ TEST(Contacts, AskForNoTurnWhereNoneIsAllowed) {
   }
 }
 
-// A side of the bounds keeps each vertex inside by the ball's radius alone.
+// A side of the bounds keeps each vertex inside by the ball's radius only.
 TEST(Contacts, OfASideAreOfEveryVertex) {
   Draw draw(4306);
   for (int run = 0; run < 100; ++run) {

@@ -17,7 +17,7 @@ using geometry::Vec3;
 using motion::CubicPath;
 using testing::Draw;
 
-/// A camera above a floor that reaches further than it sees.
+/// A camera above a floor that extends beyond its view.
 struct Case {
   scene::Mesh mesh;
   scene::SceneIndex index;
@@ -43,7 +43,7 @@ CubicPath straight(const Vec3& from, const Vec3& to, double duration_s) {
       .path;
 }
 
-// Whoever compares objectives reads these numbers in an answer.
+// An answer reports the same numbers.
 TEST(ObjectiveCost, IsWhatMeasuresSay) {
   const Case c;
   Draw draw(6101);
@@ -64,7 +64,7 @@ TEST(ObjectiveCost, IsWhatMeasuresSay) {
   }
 }
 
-// At a constant height all of it is known: what is missing does not change, and the way is its
+// At a constant height everything is known: the missing clearance is constant, and the way is its
 // length.
 TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
   const Case c;
@@ -79,7 +79,7 @@ TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
     // As exact as the clearance of an answer.
     EXPECT_LE(cost.least_gap_m, share * comfort_m * (1.0 + 1e-9));
     EXPECT_GE(cost.least_gap_m, share * comfort_m * (1.0 - collision::kClearanceGap) - 1e-9);
-    // However long it takes.
+    // It does not depend on the duration.
     const CubicPath slow = straight(up, up + Vec3(3, 0, 0), 20.0);
     EXPECT_NEAR(c.cost(Objective::kSafest, slow, slow).value, cost.value, 1e-6);
   }
@@ -96,7 +96,7 @@ TEST(ObjectiveCost, IsBetterOnlyIfLessAndNoNearer) {
   EXPECT_TRUE(is_better({0.9, 0.2}, {1.0, 0.1}));
 }
 
-// Only what is tight counts for the others.
+// The other objectives count tight clearances only.
 TEST(ObjectiveCost, OfOthersKnowsTightGapsAlone) {
   const Case c;
   const double radius_m = c.space().ball_radius_m();

@@ -32,7 +32,7 @@ Keyframe at(double time_s, const Vec3& position, const Quat& orientation = Quat:
   return {time_s, {position, orientation}};
 }
 
-/// A scene, a camera and a gap that has to be crossed in it.
+/// A scene, a camera and an interval between keyframes in it.
 struct Case {
   scene::Mesh mesh;
   scene::SceneIndex index;
@@ -43,7 +43,7 @@ struct Case {
 
   void build() { index = scene::SceneIndex::build(mesh); }
   [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, policy); }
-  /// As the objective sees it; the lever arm is that of the relaxation.
+  /// Returns the value of the objective; the lever arm is that of the relaxation.
   [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
     const double lever_m = 4.0 * space().ball_radius_m();
     const FreeCoefficients free(problem, offsets.knots, ends);
@@ -52,7 +52,7 @@ struct Case {
   }
 };
 
-/// The distance of the near quadrilateral, triangle by triangle, at equidistant times.
+/// Returns the least distance of the near quadrilateral over equidistant times, by all triangles.
 double least_gap_m(const Case& c, const CubicPath& path, double begin_s, double end_s,
                    int samples) {
   const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
@@ -86,7 +86,7 @@ Relaxed relaxed_fully(const Case& c, const Relaxed& free, Ends ends, Objective o
   return relaxed(c.problem, free, ends, improvement, space, Deadline::never());
 }
 
-/// The inner coefficients all alike.
+/// Returns equal inner coefficients.
 Offsets lifted(const Problem& problem, int count, const Vec3& by) {
   Offsets offsets{{problem.gap_begin_s(), problem.gap_end_s(), count}, 1, {}};
   for (int k = 1; k < count; ++k) offsets.at.push_back({by, geometry::Vec4::Zero()});
@@ -109,7 +109,8 @@ void expect_same(const CubicPath& a, const CubicPath& b) {
   }
 }
 
-/// A tour through clutter in which one gap is crossed by some large swing that happens to be free.
+/// A tour through clutter in which one interval is crossed by a large swing that happens to be
+/// free.
 struct Swing {
   Case c;
   Ends ends = Ends::kFree;
@@ -128,7 +129,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
     c.problem = testing::problem_of_gap(keyframes, static_cast<std::size_t>(draw.integer(0, 2)));
     c.detect.clearance_m = draw.integer(0, 1) * 0.01;
     swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
-    // What the swing leaves as it was may collide, and is not to be corrected.
+    // The parts that the swing left unchanged may collide and are not corrected.
     c.problem.foreign_collisions =
         collision::detect_collisions(c.index, c.problem.path.path(), c.body,
                                      c.problem.path.begin_s(), c.problem.path.end_s(), c.detect,
@@ -146,7 +147,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
   return swing;
 }
 
-/// Whether the body keeps what is required at many times, but where others have to see to it.
+/// Expects the required distance at many times, except where other corrections are responsible.
 void expect_free(const Case& c, const CubicPath& path) {
   const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
   constexpr int kTimes = 3000;
@@ -197,7 +198,7 @@ TEST(Relaxation, GivesTheCandidateOfItsOffsets) {
     ASSERT_EQ(result.candidate.path.pieces.size(), expected.pieces.size());
     for (int i = 0; i <= 100; ++i) {
       const double time_s = std::lerp(expected.begin_s(), expected.end_s(), i / 100.0);
-      // What keeping keyframes takes from rounding.
+      // The rounding from keeping keyframes.
       EXPECT_LT((result.candidate.path.at(time_s).position - expected.at(time_s).position).norm(),
                 1e-13);
     }
@@ -255,7 +256,7 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
   EXPECT_EQ(stopped_early, 20) << "one correction must not use up what all have";
 }
 
-// Nothing is in the way: what it began with is the objective's minimum in the end.
+// Without obstacles the result is the objective's minimum.
 TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   Case c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
@@ -277,7 +278,7 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   }
 }
 
-// The camera flies along a corridor close to one of its walls.
+// The camera flies along a corridor close to one wall.
 TEST(Relaxation, SafestGoesAwayFromWalls) {
   Case c;
   testing::add_cuboid(c.mesh, {-0.7, -9, -4}, {-0.6, 9, 4});
@@ -291,10 +292,9 @@ TEST(Relaxation, SafestGoesAwayFromWalls) {
   const Relaxed result = relaxed_fully(c, *free, Ends::kFree, Objective::kSafest);
   const double after_m = least_gap_m(c, result.candidate.path, 0.0, 6.0, 2000);
   EXPECT_LT(before_m, 0.06);
-  // In the middle there is half a metre to either side; three radii of the ball count as enough.
+  // In the centre there is half a metre to either side; three radii of the ball count as enough.
   EXPECT_GT(after_m, 0.3);
-  // Bending alone would take it there too: where a keyframe is close to a wall, it goes the other
-  // way.
+  // Bending alone would lead there, too: near a keyframe close to a wall, it leads the other way.
   c.problem = testing::problem_of_gap({at(0, {0.4, 0, 3}), at(6, {0.4, 0, -3})}, 0);
   const std::optional<Relaxed> straight =
       correction_with(c, lifted(c.problem, 12, {0.0, 0.1, 0}), Ends::kFree);
@@ -315,27 +315,27 @@ TEST(Relaxation, ShortestShortensUpToWhatIsInTheWay) {
       correction_with(c, lifted(c.problem, 16, {0.8, 2.0, 0}), Ends::kFree);
   ASSERT_TRUE(free);
   const Relaxed result = relaxed_fully(c, *free, Ends::kFree, Objective::kShortest);
-  // The lower edge of the quadrilateral, 0.1 before the eye, straight over the edges of the block:
-  // no less than that, and little more.
+  // The lower edge of the quadrilateral is 0.1 in front of the eye and passes straight over the
+  // edges of the block: at least that far, and little further.
   const double top_m = 0.4 + std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
   const double least_m = std::hypot(1.7, top_m) + 0.4 + std::hypot(1.9, top_m);
   EXPECT_GT(length_m(free->candidate.path), 1.2 * least_m);
   EXPECT_GT(length_m(result.candidate.path), least_m);
   EXPECT_LT(length_m(result.candidate.path), 1.05 * least_m);
-  // What steps leave at the samples is 0.03 radii of the ball; two thirds of that between them.
+  // Steps keep 0.03 radii of the ball at the samples, and two thirds of that between them.
   EXPECT_GT(least_gap_m(c, result.candidate.path, 0.0, 6.0, 4000),
             0.02 * c.space().ball_radius_m());
 }
 
-// Plates without thickness across the way, each between two samples: at none of these times is one
-// of them near the camera, which is as thin.
+// Plates without thickness across the path, each between two samples: at no sample is the camera,
+// which is as thin, near one of them.
 TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
   for (const Objective objective : kObjectives) {
     Case c;
     constexpr int kFewKnots = 8;
     c.policy.rule = OrientationRule::kKeep;
     c.problem = testing::problem_of_gap({at(0, {0, 0, 2.1}), at(8, {0, 0, -1.9})}, 0);
-    // The middle is a knot; samples are a quarter of a second from knots, an eighth of a metre.
+    // The centre is a knot; samples are a quarter of a second from knots, an eighth of a metre.
     const double z = c.problem.path.at(4.0).position.z() - 0.1;
     testing::add_triangle(c.mesh, {-0.02, -4, z}, {0.02, -4, z}, {0, 0.2, z});
     c.build();
@@ -347,7 +347,7 @@ TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
     EXPECT_FALSE(collision::first_collision(c.index, result.candidate.path.path(), c.body, 0.0, 8.0,
                                             c.detect, Deadline::never())
                      .interval);
-    // It is above where it passes the plate, and not where it was: it came down to it.
+    // The path passes above the plate, lower than at its beginning: it came down to it.
     const CubicPath& path = result.candidate.path;
     const double edge_m = 0.2 + std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
     int passing = 0;
@@ -374,7 +374,7 @@ TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
     Swing swing = random_swing(draw);
     Case& c = swing.c;
     c.problem.path = swing.free->candidate.path;
-    // On coarser knots than before; some wide swings can only be made worse by these.
+    // On coarser knots than before; some wide swings can only get worse on these.
     FreeSpace space = c.space();
     Improvement improvement{Objective::kSmoothest, kEnough};
     const std::optional<Candidate> better =
@@ -410,12 +410,12 @@ TEST(Relaxation, GetsFarWhereTurningIsLimited) {
     const double after = swing.c.value(result.offsets, swing.ends, Objective::kSmoothest);
     better += after < 0.5 * before ? 1 : 0;
   }
-  // Those whose steps break the rule are refused as a whole, and retreat.
+  // Steps that break the rule are refused as a whole.
   EXPECT_GT(better, kRuns * 9 / 10);
 }
 
 // The objective's minimum is a hundredth of the ball's radius above a block that is too far away to
-// be known where it begins; one step would take it there.
+// be a contact at first; one step would lead there.
 TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
   Case c;
   c.policy.rule = OrientationRule::kKeep;
@@ -435,7 +435,7 @@ TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
   EXPECT_GT(gap_m(result), 0.02 * radius_m);
 }
 
-// The next keyframe is so close that what keeps the one before it would reach it.
+// The next keyframe is so close that the coefficients which keep the one before would reach it.
 TEST(Relaxation, PolishesNextToAShortGap) {
   Case c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});

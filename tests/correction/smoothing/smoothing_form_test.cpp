@@ -19,11 +19,11 @@ using motion::KnotRow;
 using testing::Draw;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-// Of some hundred sums and products of numbers of size 10 or less.
+// Bound on the rounding of some hundred sums and products of numbers up to 10.
 constexpr double kRounding = 1e-12;
 constexpr double kLever_m = 0.4;
 
-/// A gap of a random tour, at its begin, its end, between, or alone.
+/// An interval of a random tour: at its beginning, at its end, between others, or alone.
 struct Case {
   Problem problem;
   KnotRow knots;
@@ -36,15 +36,15 @@ Case random_case(Draw& draw) {
       static_cast<std::size_t>(draw.integer(0, static_cast<int>(keyframes.size()) - 2));
   Case c{testing::problem_of_gap(keyframes, gap), {}};
   c.knots = {c.problem.gap_begin_s(), c.problem.gap_end_s(), draw.integer(4, 24)};
-  // Somewhere else than the original.
+  // A path other than the original.
   motion::BumpRow row{{c.problem.path.begin_s(), c.problem.path.end_s(), 9}, -1, {}};
   for (int k = -1; k <= 10; ++k) row.bumps.push_back({draw.vector(0.5), draw.image(0.1)});
   c.problem.path = motion::with_bumps(c.problem.path, std::vector{row});
   return c;
 }
 
-/// Runs `check` on many cases and both kinds of ends; every place that a gap can have is among
-/// them.
+/// Runs `check` on many cases and both kinds of ends. The cases include every position of an
+/// interval in a tour.
 template <class Check>
 void for_many(Draw& draw, int count, const Check& check) {
   int first = 0;
@@ -121,7 +121,7 @@ TEST(FreeCoefficients, FixedEndsChangeNothingBeyondNorTheSlopeThere) {
   });
 }
 
-// Also where the neighbours are a whole number of knots away, and that is rounded.
+// Also if the adjacent keyframes are an integer number of knots away, up to rounding.
 TEST(FreeCoefficients, DoNotReachBeyondTheNextKeyframe) {
   Draw draw(4104);
   int reaching = 0;
@@ -140,7 +140,7 @@ TEST(FreeCoefficients, DoNotReachBeyondTheNextKeyframe) {
     ASSERT_GE(knots.knot_s(free.first() - 2), problem.keyframes_s[0]) << run;
     ASSERT_LE(knots.knot_s(free.last() + 2), problem.keyframes_s[3]) << run;
     reaching += free.first() < 0 ? 1 : 0;
-    // Nor less far than they may, but for rounding.
+    // They reach as far as they may, up to rounding.
     if (free.first() > -count / 2) {
       ASSERT_LT(knots.knot_s(free.first() - 3), problem.keyframes_s[0] + 1e-9 * spacing_s) << run;
     }
@@ -156,9 +156,9 @@ TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
     ASSERT_EQ(offsets.first, free.first());
     ASSERT_EQ(offsets.last(), free.last());
     const StackedPoints back = free.variables_of(offsets, kLever_m);
-    // Divided and multiplied by the lever.
+    // Divided and multiplied by the lever arm.
     ASSERT_LE((back - variables).cwiseAbs().maxCoeff(), 2.0 * kEps);
-    // What is held is what keeps the keyframe.
+    // The fixed coefficients keep the keyframe.
     for (int k = free.first(); k <= free.last(); ++k) {
       if (!free.is_held(k)) continue;
       const CubicPoint held = holding(c.knots, k, offsets(k - 1), offsets(k + 1));
@@ -168,7 +168,7 @@ TEST(FreeCoefficients, VariablesAndOffsetsAreTheSame) {
   });
 }
 
-/// The path, straight on beyond its ends.
+/// Returns the path, extended straight beyond its ends.
 StackedPoint on(const CubicPath& path, double time_s) {
   const double inside_s = std::clamp(time_s, path.begin_s(), path.end_s());
   const StackedPoint there = stacked(path.at(inside_s), kLever_m);
@@ -181,7 +181,7 @@ StackedPoint on(const CubicPath& path, double time_s) {
   return there + 3.0 / (piece.t1_s - piece.t0_s) * (time_s - inside_s) * stacked(slope, kLever_m);
 }
 
-/// The objective, from control points one by one; its weights are part of what is computed.
+/// Returns the objective from single control points; its weights are part of the computation.
 double value_of(const Case& c, Objective objective, const Offsets& offsets, int first, int last) {
   const bool is_near = objective == Objective::kClosest || objective == Objective::kSafest;
   const double distance = is_near ? 1.0 : 0.0;
@@ -231,8 +231,8 @@ TEST(SmoothingForm, IsTheSumOfSquaresOfControlPoints) {
                  });
 }
 
-// Of a quadratic the difference quotients are exact, but for rounding: that of the value, which is
-// large beside what a small step changes.
+// Difference quotients of a quadratic are exact up to the rounding of the value, which is large
+// compared with the change of a small step.
 TEST(SmoothingForm, IsLeastWhereItSays) {
   Draw draw(4107);
   for_many_forms(

@@ -28,7 +28,7 @@ Body made(const BodyShape& shape) {
   return body ? *body : Body(kCamera);
 }
 
-/// Triangles whose first vertex is the least and that are in order, so that lists compare.
+/// Sorts triangles and their vertices, so that lists can be compared.
 std::vector<std::array<double, 9>> sorted(std::span<const Triangle> triangles) {
   std::vector<std::array<double, 9>> list;
   for (const Triangle& t : triangles) {
@@ -146,7 +146,7 @@ TEST(Body, SlackCoversTheRoundingOfCorners) {
     const BoxShape box{random.vector(random.log_uniform(1e-3, 1e6)),
                        Vec3::Constant(random.log_uniform(1e-9, 1.0))};
     const Body body = made(box);
-    // Lower and upper corner as they ought to be, against the half-spaces' own corners.
+    // Expected lower and upper corner, compared with the half-spaces' own corners.
     for (const Triangle& t : body.triangles_C()) {
       for (const Vec3& vertex : t) {
         Rational square = 0;

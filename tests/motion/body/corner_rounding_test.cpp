@@ -36,7 +36,7 @@ TEST(CornerRounding, HoldsAgainstFiftyDigits) {
     }
   }
   std::printf("worst share of the bound: %.3f\n", worst);
-  // A bound a hundred times too large would be of no use either.
+  // A bound that is a hundred times too large would be useless.
   EXPECT_GT(worst, 0.01);
 }
 

@@ -11,7 +11,7 @@ using test::Random;
 using test::Vec3;
 using test::Vec4;
 
-/// The power-basis formula, as an independent way to evaluate.
+/// Evaluates by the power basis, independently of the implementation.
 template <class Value, std::size_t N>
 Value bernstein_sum(const std::array<Value, N>& points, double u) {
   Value sum = Value::Zero();
@@ -69,8 +69,8 @@ TEST(Segment, PoseHasUnitLength) {
   }
 }
 
-// Central differences over h have an error of h² times the next but one derivative, and rounding of
-// 1/h or 1/h². The bound is what both allow for data of size 10 at h = 1e-4 of the parameter.
+// Central differences over h have an error of h² times the second next derivative, plus rounding
+// divided by h or h². The bound allows for both, for data of size 10 at h = 1e-4 of the parameter.
 TEST(Segment, DerivativesAgreeWithDifferences) {
   Random random(15);
   for (int i = 0; i < 200; ++i) {

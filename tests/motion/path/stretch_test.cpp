@@ -19,7 +19,8 @@ Vec3 placed(const Stretch& stretch, const Vec3& point_C) {
   return stretch.R_WC * point_C + stretch.eye_W;
 }
 
-/// The furthest that a corner is, at samples of the stretch, from where the middle has it.
+/// Returns the largest distance of a corner, at samples of the stretch, from its place at the
+/// middle.
 double sampled_reach_m(const Segment& segment, double u0, double u1, const Stretch& stretch,
                        const Corners& corners_C, int samples) {
   double largest_m = 0.0;
@@ -33,7 +34,8 @@ double sampled_reach_m(const Segment& segment, double u0, double u1, const Stret
   return largest_m;
 }
 
-/// The furthest that a corner is, at samples of the stretch, from the line between its two ends.
+/// Returns the largest distance of a corner, at samples of the stretch, from the line between its
+/// ends.
 double sampled_bend_m(const Segment& segment, double u0, double u1, const Stretch& stretch,
                       const Corners& corners_C, int samples) {
   double largest_m = 0.0;
@@ -51,8 +53,7 @@ double sampled_bend_m(const Segment& segment, double u0, double u1, const Stretc
 }
 
 // From a camera of a millimetre to one of ten metres, from the origin to 1e6 m away, from whole
-// segments down to stretches where only rounding is left, with orientation control points that
-// nearly cancel.
+// segments to stretches with rounding only, with orientation control points that nearly cancel.
 TEST(Stretch, ReachHoldsAgainstFiftyDigits) {
   Random random(20261);
   for (int run = 0; run < 1'500; ++run) {
@@ -71,7 +72,7 @@ TEST(Stretch, ReachHoldsAgainstFiftyDigits) {
     const double seen_m = sampled_reach_m(segment, u0, u1, stretch, corners_C, 6);
     ASSERT_LE(seen_m, stretch.reach_m(radius_m)) << "run " << run << ", width " << width;
     ASSERT_LE(stretch.rounding_m(radius_m), stretch.reach_m(radius_m));
-    // The ratio of the sample is rounded as well, by less than this share of the step.
+    // The ratio of the sample is rounded as well, by less than this fraction of the step.
     const double ratio_m = 8.0 * kEpsilon / width * stretch.reach_m(radius_m);
     ASSERT_LE(sampled_bend_m(segment, u0, u1, stretch, corners_C, 6),
               stretch.bend_m(radius_m) + ratio_m)
@@ -79,7 +80,7 @@ TEST(Stretch, ReachHoldsAgainstFiftyDigits) {
   }
 }
 
-// What is gained by direction: halving a stretch halves its reach and quarters its bend.
+// The gain of the direction: halving a stretch halves its reach and quarters its bend.
 TEST(Stretch, BendFallsWithTheSquareOfTheLength) {
   Random random(20267);
   for (int run = 0; run < 200; ++run) {
@@ -108,7 +109,7 @@ TEST(Stretch, AtOneInstantReachIsRounding) {
     const double seen_m = sampled_reach_m(segment, u, u, stretch, corners_C, 1);
     ASSERT_LE(seen_m, bound_m) << "run " << run;
     worst = std::max(worst, seen_m / bound_m);
-    // Of no use if it were not far below what collisions are resolved to.
+    // The bound is useful only if it is far below the resolution of collisions.
     double extent_m = 0.0;
     for (const Vec3& point : segment.position) {
       extent_m = std::max(extent_m, (point - segment.position[0]).norm());
@@ -140,7 +141,7 @@ TEST(Stretch, IsTightOnShortStretches) {
   }
 }
 
-// An arc cosine would report zero or 1e-8 for small turns: the bound must follow the true angle
+// An arc cosine would report zero or 1e-8 for small rotations. The bound must follow the true angle
 // down to rounding.
 TEST(Stretch, FollowsSmallTurns) {
   for (double angle_rad = 1e-2; angle_rad > 1e-11; angle_rad /= 10.0) {
@@ -202,7 +203,7 @@ TEST(Stretch, OfNumbersWithoutMeaningHasNoFiniteReach) {
       if (in_position) segment.position[2].y() = bad;
       if (!in_position) segment.orientation[3].z() = bad;
       const Stretch stretch = SegmentMotion(segment).around(0.0, 1.0);
-      // A huge orientation is finite, and then all that is known is the diameter.
+      // A huge orientation is finite, and then only the diameter is known.
       const bool unknown = !(stretch.reach_m(0.5) < kInfinity) || stretch.turn_sine == 1.0;
       EXPECT_TRUE(unknown) << bad << (in_position ? " position" : " orientation");
       EXPECT_TRUE(!in_position || !(stretch.reach_m(0.5) < 1e300)) << bad;

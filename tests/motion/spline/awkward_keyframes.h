@@ -10,7 +10,7 @@
 
 namespace camway::motion::test {
 
-/// Keyframes with a difficulty.
+/// Keyframes with a particular difficulty.
 struct AwkwardKeyframes {
   std::string name;
   std::vector<Keyframe> keyframes;
@@ -19,12 +19,12 @@ struct AwkwardKeyframes {
 
 inline constexpr std::uint64_t kAwkwardSeed = 60;
 
-/// How GoogleTest prints a parameter.
+/// Prints a parameter for GoogleTest.
 inline void PrintTo(const AwkwardKeyframes& set, std::ostream* out) {
   *out << set.name << ", seed " << kAwkwardSeed;
 }
 
-/// One set for each difficulty that is known. Deterministic.
+/// Returns one set for each known difficulty. Deterministic.
 std::vector<AwkwardKeyframes> awkward_keyframes();
 
 }  // namespace camway::motion::test

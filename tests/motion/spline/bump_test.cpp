@@ -34,7 +34,8 @@ BumpRow random_row(Random& random, const CubicPath& path, double image_size) {
   return row;
 }
 
-// The uniform cubic B-spline by its definition as a sum of truncated powers (Schoenberg 1946).
+// Returns the uniform cubic B-spline by its definition as a sum of truncated powers (Schoenberg
+// 1946).
 double b_spline(double x) {
   if (x >= 2.0) return 0.0;  // where the sum cancels, but for rounding that grows with x
   constexpr std::array<double, 5> kSigns = {1.0, -4.0, 6.0, -4.0, 1.0};
@@ -81,14 +82,14 @@ TEST(Bump, KeepsThePathSmooth) {
     const CubicPath path = random_path(random, 6);
     const std::vector<BumpRow> rows = {random_row(random, path, 0.05),
                                        random_row(random, path, 0.05)};
-    // Cut out of the interpolating cubic by three convex combinations, and two rows of up to four
-    // terms added.
+    // The rounding of three convex combinations that cut the interpolating cubic, and of two rows
+    // of up to four terms.
     test::expect_smooth(with_bumps(path, rows).path(), 16.0);
   }
 }
 
-// Knots a few nanoseconds apart, or as far from time 0 as seconds since 1970: what the rows add has
-// its knots where the path has joints, and the path stays smooth by the numbers that are sent.
+// Knots are a few nanoseconds apart, or as far from time 0 as seconds since 1970. The rows have
+// their knots where the path has joints, and the path stays smooth by the numbers that are sent.
 TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
   Random random(817);
   for (int round = 0; round < 200; ++round) {
@@ -99,7 +100,7 @@ TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
     places->taken_s.push_back(path.end_s());
     places->same_s = 1e-5;
     BumpRow row = random_row(random, path, 0.05);
-    // One of its inner knots next to a joint.
+    // One of its inner knots is next to a joint.
     const double near_s = path.pieces[2].t0_s + random.log_uniform(1e-12, 5e-6);
     const double spacing_s = row.knots.spacing_s();
     row.knots = {near_s - 2.0 * spacing_s, near_s + 2.0 * spacing_s, 4, places};
@@ -110,8 +111,8 @@ TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
   }
 }
 
-// The piece under the wide row is more spacings of the narrow one away than an int can count: to
-// step there would take for ever.
+// The piece under the wide row is further away, in spacings of the narrow row, than an int can
+// count; a loop over the spacings would not end.
 TEST(Bump, OfRowsOfVeryDifferentWidths) {
   Random random(816);
   const CubicPath path = random_path(random, 6);

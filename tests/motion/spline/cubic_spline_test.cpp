@@ -18,7 +18,7 @@ std::vector<double> random_knots(Random& random, int count) {
   return knots;
 }
 
-/// The largest distance of the spline from `curve`, relative to the size of the data.
+/// Returns the largest distance of the spline from `curve`, relative to the size of the data.
 template <class Curve>
 double error_of_spline(const std::vector<double>& knots, EndCondition ends, Curve curve) {
   std::vector<Vec4> points;
@@ -40,7 +40,7 @@ double error_of_spline(const std::vector<double>& knots, EndCondition ends, Curv
   return error / size;
 }
 
-// Differences of nearby points lose digits in proportion to how short an interval is.
+// Differences of nearby points lose digits in proportion to the shortness of an interval.
 constexpr double kReproduced = 1e-12;
 
 TEST(CubicSpline, ReproducesLines) {
@@ -65,8 +65,8 @@ TEST(CubicSpline, ReproducesParabolasWithBesselEndsOnly) {
   }
 }
 
-// The error of cubic spline interpolation is of fourth order: halving the spacing divides it by 16,
-// away from the ends. With natural ends it is of second order there.
+// Away from the ends the error of cubic spline interpolation is of fourth order: half of the
+// spacing gives 1/16 of the error. At natural ends it is of second order.
 TEST(CubicSpline, ConvergesWithTheOrderOfItsEnds) {
   const auto wave = [](double t) { return Vec4(std::sin(t), std::cos(2.0 * t), t, std::exp(-t)); };
   const auto error = [&](int count, EndCondition ends) {
@@ -93,7 +93,7 @@ TEST(CubicSpline, SecondDerivativesAgreeAtKnots) {
       const Vec3 left =
           bezier::jet_at(spline_piece<Vec3>(knots, points, slopes, i - 1), 1.0).second;
       const Vec3 right = bezier::jet_at(spline_piece<Vec3>(knots, points, slopes, i), 0.0).second;
-      // Rounding of stored control points, as large as slopes make them.
+      // The rounding of stored control points, as large as the slopes make them.
       const double size = 1.0 + points[i].norm() + slopes[i].norm() * std::max(before_s, after_s);
       const double shortest_s = std::min(before_s, after_s);
       EXPECT_LT((left / (before_s * before_s) - right / (after_s * after_s)).norm(),

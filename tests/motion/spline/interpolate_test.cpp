@@ -19,7 +19,8 @@ using test::Random;
 using test::Vec3;
 using test::Vec4;
 
-/// Orientations are met to this, in radians: a dozen quaternion products, a root and a division.
+/// Bound on the error of orientations at keyframes, in radians: a dozen quaternion products, a root
+/// and a division.
 constexpr double kOrientationRounding_rad = 64.0 * kEpsilon;
 
 class Interpolate : public testing::TestWithParam<test::AwkwardKeyframes> {};
@@ -55,7 +56,7 @@ TEST_P(Interpolate, OrientationHasUnitLengthEverywhere) {
   }
 }
 
-/// How far two paths are from each other at most, at dense samples, `undo` applied to the second.
+/// The largest distance of two paths, at dense samples, with `undo` applied to the second.
 struct Difference {
   double position_m = 0.0;
   double angle_rad = 0.0;
@@ -138,7 +139,7 @@ TEST_P(Interpolate, SignsOfQuaternionsDoNotMatter) {
   }
 }
 
-/// A half turn has a sense of its own, which reversal does not change.
+/// A half turn has a direction of its own, which reversal does not change.
 class InterpolateReversible : public Interpolate {};
 
 std::vector<test::AwkwardKeyframes> without_half_turns() {
@@ -228,7 +229,7 @@ TEST(InterpolateTwo, TurnsAboutOneAxis) {
   }
 }
 
-// The natural end condition: no acceleration at either end, exactly as given by the control points.
+// The natural end condition: the acceleration is zero at both ends, exactly by the control points.
 TEST(Interpolate, PositionHasNaturalEnds) {
   Random random(65);
   const Path path = interpolate(test::with_times(test::random_poses(random, 9)));
@@ -237,7 +238,8 @@ TEST(Interpolate, PositionHasNaturalEnds) {
     EXPECT_LT(end.acceleration_m_per_s2.norm(), 1e3 * kEpsilon);
 }
 
-/// Second derivative at `x` of the polynomial with these zeros, by differentiating its factors.
+/// Returns the second derivative at `x` of the polynomial with these zeros, by differentiating its
+/// factors.
 double second_derivative_of_product(const std::vector<double>& zeros, double x) {
   double sum = 0.0;
   for (std::size_t i = 0; i < zeros.size(); ++i) {
@@ -254,8 +256,8 @@ double second_derivative_of_product(const std::vector<double>& zeros, double x) 
 
 // An oracle for the whole position spline: of all interpolants, the natural one has the least
 // bending energy. So adding any smooth function that vanishes at the keyframes must raise the
-// integral of the squared acceleration, also when it is added with either sign and so little that
-// its own energy is small against a first-order change.
+// integral of the squared acceleration, with either sign, and even if it is so small that its own
+// energy is small against a first-order change.
 TEST(Interpolate, PositionBendsLeast) {
   Random random(66);
   const std::vector<Keyframe> keyframes = test::with_times(test::random_poses(random, 6));
@@ -276,8 +278,8 @@ TEST(Interpolate, PositionBendsLeast) {
       mixed += acceleration.dot(amplitude) * bump / kSamples;
       own += amplitude.squaredNorm() * bump * bump / kSamples;
     }
-    // Energy changes by ±2·h·mixed + h²·own. The midpoint rule on 20,000 samples leaves a part of
-    // 1e-7.
+    // The energy changes by ±2·h·mixed + h²·own. The midpoint rule on 20,000 samples has a relative
+    // error of 1e-7.
     constexpr double kLittle = 1e-5;
     EXPECT_GT(kLittle * own, 2.0 * std::abs(mixed)) << amplitude.transpose();
   }

@@ -10,7 +10,8 @@ namespace {
 using test::kEpsilon;
 using test::Random;
 
-/// By the recursion of Cox and de Boor, in long double: order 1 to 4 on the knots from `first`.
+/// Returns a B-spline by the recursion of Cox and de Boor, in long double: order 1 to 4 on the
+/// knots from `first`.
 long double basis(const std::array<double, 5>& knots, std::size_t first, std::size_t order,
                   long double t) {
   if (order == 1) return knots[first] <= t && t < knots[first + 1] ? 1.0L : 0.0L;
@@ -137,8 +138,8 @@ TEST(KnotRow, ValuesOfBumpsAddUpToOne) {
   }
 }
 
-// What the bound is for: the acceleration that rounding of control points makes of a piece of that
-// duration, against that of a motion of the gap's size.
+// The purpose of the bound: it limits the acceleration from rounding of the control points of such
+// a piece, relative to that of a motion of the interval's size.
 TEST(LeastPiece, CarriesAccelerations) {
   Random random(3505);
   double worst = 0.0;
@@ -150,7 +151,7 @@ TEST(LeastPiece, CarriesAccelerations) {
     ASSERT_GT(least_s, 0.0);
     ASSERT_LE(least_s, gap_s);
     if (least_s == gap_s) continue;
-    // A piece of a parabola with that acceleration, somewhere far out, cut as bumps cut pieces.
+    // A piece of a parabola with that acceleration, far from the origin, cut as bumps cut pieces.
     const double acceleration = travelled_m / gap_s / gap_s;
     const double at_m = size_m * random.uniform(0.5, 1.0);
     const std::array<double, 4> whole = {at_m, at_m, at_m + acceleration * gap_s * gap_s / 6.0,

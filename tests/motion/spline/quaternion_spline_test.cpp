@@ -93,8 +93,8 @@ TEST(QuaternionSpline, AConstantOrientationIsConstant) {
   }
 }
 
-// Between keyframes less than 60° apart on S³ the motion should not wander: it stays within a
-// fraction of the step of the shortest turn.
+// Between keyframes less than 60° apart on S³ the motion stays within a fraction of the step from
+// the shortest rotation.
 TEST(QuaternionSpline, StaysNearTheShortestTurns) {
   Random random(93);
   for (int repeat = 0; repeat < 50; ++repeat) {
@@ -115,7 +115,7 @@ TEST(QuaternionSpline, StaysNearTheShortestTurns) {
   }
 }
 
-// What the header says of the tilt of turns that only nearly keep their axis.
+// The tilt of rotations that only nearly keep their axis is as the header states.
 TEST(QuaternionSpline, TiltOfTenTurnsAboutNearlyOneAxisIsAsDocumented) {
   Random random(94);
   constexpr double kNoise = 1e-7;

@@ -17,7 +17,7 @@ using test::Vec4;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
-/// Random orientations within about `spread` of one, or all over S³ for a large spread.
+/// Returns random orientations within about `spread` of one, or all over S³ for a large spread.
 std::vector<Vec4> random_orientations(Random& random, int count, double spread) {
   const Vec4 centre = random.unit_four_vector();
   std::vector<Vec4> orientations;
@@ -48,7 +48,7 @@ TEST(MinNormPoint, IsOptimal) {
   }
 }
 
-// Frank & Wolfe's (1956) slow and simple method as an oracle: its iterates are in the hull and
+// Frank & Wolfe's (1956) slow and simple method is the oracle: its iterates are in the hull and
 // converge from above, so the true minimum cannot be longer.
 TEST(MinNormPoint, IsNoLongerThanAnyPointOfTheHull) {
   Random random(82);
@@ -91,7 +91,7 @@ TEST(LeastDot, IsThatOfDenseSamplesOfTheArcs) {
     const double least = least_dot_with_polygon(r, q);
     EXPECT_LE(least, sampled + 4.0 * kEpsilon);
     // Between samples at most 2/2000 rad apart the dot product, whose second derivative is at most
-    // 1, falls by (1/2000)²/2 more.
+    // 1, falls by at most (1/2000)²/2 more.
     EXPECT_GE(least, sampled - 0.5 / kSamples / kSamples);
   }
 }
@@ -139,8 +139,7 @@ TEST(ReferenceFrame, KeepsARightAngleFromTenTurns) {
     for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(0, 0, 1), random.vector(1.0)}) {
       const std::vector<Vec4> q = turns_about(axis, 10.0, step_deg);
       const double clearance_rad = std::acos(-least_dot_with_polygon(reference_frame(q), q));
-      // The linear terms that break ties move r by their weight, 1e-3, times what is left of the
-      // mean.
+      // The linear terms that break ties move r by their weight, 1e-3, times the rest of the mean.
       EXPECT_NEAR(clearance_rad, std::numbers::pi / 2.0, 1e-4) << step_deg;
     }
   }
@@ -158,8 +157,8 @@ TEST(ReferenceFrame, MovesWithTheWorldFrameAndTheSign) {
     const Vec4 g = random.unit_four_vector();
     std::vector<Vec4> moved;
     for (const Vec4& p : q) moved.push_back(quaternion::multiply(g, p));
-    // The square root of rounding is what the nearest point of a hull is determined to at worst;
-    // these sets are better than that.
+    // The nearest point of a hull is determined to the square root of rounding at worst; these sets
+    // are better than that.
     constexpr double kMoved = 1e-11;
     EXPECT_LT((reference_frame(moved) - quaternion::multiply(g, r)).norm(), kMoved);
     std::vector<Vec4> negative;

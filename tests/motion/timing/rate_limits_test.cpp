@@ -8,7 +8,7 @@ namespace {
 
 using test::Random;
 
-/// The largest factor over dense samples.
+/// Returns the largest factor over dense samples.
 double sampled_stretch(const Segment& segment, const RateLimits& limits) {
   double factor = 0.0;
   for (int i = 0; i <= 2000; ++i)
@@ -21,7 +21,7 @@ Segment slower(Segment segment, double factor) {
   return segment;
 }
 
-/// Limits of one kind, or of all.
+/// Returns limits of one kind, or of all.
 RateLimits random_limits(Random& random) {
   RateLimits limits;
   const int kind = random.integer(0, 3);
@@ -41,7 +41,7 @@ TEST(RateLimits, NoLimitIsAlwaysMet) {
   }
 }
 
-// Samples 1/2000 apart miss the top of a smooth curve by less than a thousandth here.
+// Samples 1/2000 apart miss the maximum of a smooth curve by less than a thousandth here.
 TEST(RateLimits, AreMetExactlyWhereDenseSamplesSaySo) {
   Random random(3102);
   for (int round = 0; round < 400; ++round) {

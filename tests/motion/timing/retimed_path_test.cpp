@@ -15,7 +15,8 @@ CubicPath random_path(Random& random, int count) {
 
 constexpr RateLimits kBiting{0.5, 0.5, 0.5};
 
-/// Largest distance of `slowed` from the path that it was made of, at the same given time.
+/// Returns the largest distance of `slowed` from the path that it was made of, at the same given
+/// time.
 double deviation_m(const CubicPath& path, const CubicPath& slowed, const TimeLaw& law) {
   double largest_m = 0.0;
   for (int i = 0; i <= 2000; ++i) {
@@ -36,7 +37,7 @@ TEST(RetimedPath, IsSmoothAndMeetsThePathAtTheKnots) {
     const TimeLaw law = TimeLaw::within(path.path(), kBiting, random.log_uniform(0.02, 0.5));
     ASSERT_GT(law.stretch(), 1.0);
     const CubicPath slowed = retimed(path, law);
-    // A solution of the tridiagonal system instead of a few sums.
+    // The rounding of the solution of a tridiagonal system, instead of a few sums.
     test::expect_smooth(slowed.path(), 8.0);
     EXPECT_EQ(slowed.begin_s(), path.begin_s());
     for (const CubicPiece& piece : path.pieces) {
@@ -48,8 +49,9 @@ TEST(RetimedPath, IsSmoothAndMeetsThePathAtTheKnots) {
   }
 }
 
-// For a smooth law by the fourth power; but it changes from braking to accelerating within a step,
-// whatever the step, and what the spline makes of that echoes in long pieces next to it.
+// For a smooth law the deviation falls with the fourth power of the step. But the law changes from
+// braking to accelerating within one step, and the spline oscillates there in the long pieces next
+// to it.
 TEST(RetimedPath, StraysLessTheShorterTheSteps) {
   Random random(3302);
   double coarse_m = 0.0;

@@ -26,7 +26,7 @@ double largest_stretch(const Path& path, const RateLimits& limits) {
   return factor;
 }
 
-/// Limits of random kinds, of which at least one is broken.
+/// Returns limits of random kinds, at least one of which the path breaks.
 RateLimits biting_limits(Random& random, const Path& path) {
   RateLimits limits;
   do {
@@ -38,7 +38,7 @@ RateLimits biting_limits(Random& random, const Path& path) {
   return limits;
 }
 
-/// Squared rate and half its derivative at the two ends of a piece, which is a parabola.
+/// Squared rate and half of its derivative at the two ends of a piece, which is a parabola.
 struct Ends {
   double x[2];
   double u[2];
@@ -46,7 +46,7 @@ struct Ends {
 Ends ends_of(const TimeLaw& law, std::size_t piece) {
   const double from_s = law.knots_s()[piece];
   const double step_s = law.knots_s()[piece + 1] - from_s;
-  // Not at the ends themselves, where the neighbour's parabola may answer.
+  // Not at the ends themselves, where the adjacent parabola may be evaluated.
   const double a = square(law.rate(from_s + 0.25 * step_s));
   const double b = square(law.rate(from_s + 0.5 * step_s));
   const double c = square(law.rate(from_s + 0.75 * step_s));
@@ -79,8 +79,8 @@ TEST(TimeLaw, OfAConstantSpeedIsConstant) {
   EXPECT_NEAR(law.rate(2.7), 1.0 / 3.0, 1e-12);
 }
 
-// On a circle at constant speed V the acceleration is V²/r, and only the speed can be changed: to
-// sqrt(a r). The spline's ends are not a circle.
+// On a circle at constant speed V the acceleration is V²/r, and only the speed can change: to
+// sqrt(a r). At its ends the spline is not a circle.
 TEST(TimeLaw, OnACircleMeetsTheAccelerationThatPointsInwards) {
   constexpr double kRadius_m = 2.0;
   constexpr double kSpeed_m_per_s = 1.5;
@@ -99,8 +99,8 @@ TEST(TimeLaw, OnACircleMeetsTheAccelerationThatPointsInwards) {
     EXPECT_NEAR(law.rate(keyframes[i].time_s), expected, 2e-3 * expected);
 }
 
-// A camera that flies straight on and pans in the middle. The pan has to be slow; before and after
-// it the speed changes at the limit: dx/dt = 2a/V, which is a trapezoid in time.
+// A camera flies straight on and pans in the middle. The pan has to be slow; before and after it
+// the speed changes at the limit, dx/dt = 2a/V, which is a trapezoid in time.
 TEST(TimeLaw, BrakesBeforeItHasToAndAcceleratesAfterwards) {
   constexpr double kSpeed_m_per_s = 2.0;
   const RateLimits limits{.acceleration_m_per_s2 = 0.5, .turn_rate_rad_per_s = 0.5};
@@ -120,7 +120,7 @@ TEST(TimeLaw, BrakesBeforeItHasToAndAcceleratesAfterwards) {
   const Path path({segment(0, 4, from, from), segment(4, 5, from, to), segment(5, 9, to, to)});
   const double step_s = 0.004;
   const TimeLaw law = TimeLaw::within(path, limits, step_s);
-  // The chord turns fastest in its middle, and slowest at its ends.
+  // The chord rotates fastest at its centre and slowest at its ends.
   const double at_pan = square(law.rate(4.0));
   EXPECT_NEAR(law.rate(4.5), 0.5 / (2.0 * 2.0 * std::tan(0.25)), 1e-3);
   for (const double before_s : {0.1, 0.5, 0.9, 1.2, 2.0, 3.5}) {
@@ -145,7 +145,7 @@ TEST(TimeLaw, MeetsAllLimitsAtItsKnots) {
         const Segment& segment = path.segments()[path.segment_index(knot_s)];
         const SegmentDerivatives at = derivatives_at(segment, segment_parameter(segment, knot_s));
         const double x = ends.x[end];
-        // What the differences above make of rounding.
+        // The rounding of the differences above.
         const double rounding =
             1e-12 * (1.0 + at.velocity_m_per_s.norm() / (law.knots_s()[i + 1] - law.knots_s()[i]));
         EXPECT_LE(x, 1.0 + 1e-12);

@@ -17,7 +17,7 @@ using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// A scene of objects at random poses, at this distance from the origin.
+/// Returns a scene of objects at random poses, at this distance from the origin.
 std::shared_ptr<const Snapshot> random_scene(RandomTriangles& random, int count, double away_m) {
   ObjectOptions options;
   SceneObjects objects;
@@ -63,7 +63,8 @@ TEST(ClearanceField, IsNeverMoreThanTheDistanceToAnyObject) {
   EXPECT_GT(useful, asked / 2) << "a bound that says nothing is no use";
 }
 
-// Half a millionth of a metre too much is what a forgotten rounding would be at this distance.
+// A rounding that is missing in the bound would cause an error of half a micrometre at this
+// distance.
 TEST(ClearanceField, HoldsWhereRoundingIsAllThatThereIs) {
   RandomTriangles random(1202);
   ObjectOptions options;

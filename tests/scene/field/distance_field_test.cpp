@@ -36,7 +36,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// In the bounds of the mesh grown by a quarter of their size on each side.
+/// Returns a point in the bounds of the mesh, extended by a quarter of their size on each side.
 Vec3 point_about(std::mt19937_64& random, const Box& bounds) {
   Vec3 point;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,8 @@ Vec3 snapped_to_faces(std::mt19937_64& random, const CellGrid& grid, Vec3 point)
   return point;
 }
 
-/// How much less the bound is than the distance, on average, in cells; fails where it is more.
+/// Returns by how much the bound is below the distance, on average and in cells. Fails if it is
+/// above.
 double checked_mean_loss(std::mt19937_64& random, const Mesh& mesh, const DistanceField& field,
                          int points) {
   const Box bounds = mesh.bounds();
@@ -85,7 +86,7 @@ void expect_never_more(std::mt19937_64& random, const Mesh& mesh, int points) {
   checked_mean_loss(random, mesh, *result.field, points);
 }
 
-/// Triangles of sizes from a thousandth of the scene to all of it.
+/// Returns triangles of sizes from a thousandth of the scene to the whole scene.
 Mesh soup(std::mt19937_64& random, int triangles, double size_m, const Vec3& middle) {
   std::vector<Triangle> result;
   for (int i = 0; i < triangles; ++i) {
@@ -100,7 +101,7 @@ Mesh soup(std::mt19937_64& random, int triangles, double size_m, const Vec3& mid
   return mesh_of_triangles(result);
 }
 
-/// Four walls of a room of 4 x 3 x 2, of this thickness (0: two walls in one place).
+/// Returns the four walls of a room of 4 x 3 x 2, of this thickness (0: two walls at one place).
 Mesh room(double scale, double thickness_m, const Vec3& corner) {
   Mesh mesh;
   const Vec3 size(4.0 * scale, 3.0 * scale, 2.0 * scale);
@@ -148,7 +149,7 @@ TEST(DistanceField, IsNeverMoreThanTheDistanceBetweenWalls) {
   }
 }
 
-/// Walls that lie exactly in faces between cells, which belong to the cells of both sides.
+/// Walls exactly in faces between cells belong to the cells of both sides.
 TEST(DistanceField, IsNeverMoreThanTheDistanceToWallsBetweenCells) {
   std::mt19937_64 random = testing::seeded(4);
   const Mesh outside = room(1.0, 0.0, Vec3::Zero());
@@ -204,7 +205,7 @@ TEST(DistanceField, KnowsHowFarAPointOutsideIs) {
         const oracle::Real distance_m = true_distance_m(mesh, point);
         const double bound_m = result.field->clearance_at_least_m(point);
         EXPECT_LE(static_cast<oracle::Real>(bound_m), distance_m);
-        // From about 1e90 on a nearer point stands for it.
+        // From about 1e90 on a nearer point replaces it.
         EXPECT_GE(bound_m, std::min(away_m * (1.0 - 1e-12), 1e90) - resolution_m);
       }
     }
@@ -286,7 +287,7 @@ TEST(DistanceField, IsOffWhereTheSceneFillsItsBox) {
   EXPECT_THAT(result.why_off, HasSubstr("does not pay"));
 }
 
-/// The effort allowed makes the cells coarse; without it, these would take minutes.
+/// The allowed effort makes the cells coarse; otherwise these scenes would take minutes.
 TEST(DistanceField, SpendsBoundedEffortOnHostileScenes) {
   std::mt19937_64 random = testing::seeded(10);
   constexpr std::size_t kCopies = 100'000;
@@ -318,7 +319,7 @@ TEST(DistanceField, SpendsBoundedEffortOnHostileScenes) {
   }
 }
 
-/// What moves beside a flat scene is outside its box, where the field knows much.
+/// A body beside a flat scene is outside of its box, where the field knows much.
 TEST(DistanceField, IsOnForFlatScenes) {
   const Mesh floor = mesh_of_triangles({{Vec3(0, 0, 0), Vec3(9, 0, 0), Vec3(0, 9, 0)},
                                         {Vec3(9, 9, 0), Vec3(9, 0, 0), Vec3(0, 9, 0)}});

@@ -21,7 +21,7 @@ std::size_t count(const Size& size) {
          static_cast<std::size_t>(size[2]);
 }
 
-/// Whole squared distances, one byte of each at a time.
+/// Returns complete squared distances, transformed one byte at a time.
 std::vector<int> transformed(const Size& size, const std::vector<std::uint8_t>& marks,
                              unsigned threads) {
   std::vector<int> squared(marks.size());
@@ -88,7 +88,7 @@ TEST(DistanceTransform, IsExact) {
   }
 }
 
-/// Along each axis beyond what 16 bits hold.
+/// Along each axis, beyond the range of 16 bits.
 TEST(DistanceTransform, StopsAtItsReach) {
   for (const Size& size : {Size{300, 2, 3}, Size{2, 300, 3}, Size{3, 2, 300}, Size{150, 150, 1}}) {
     std::vector<std::uint8_t> marks(count(size));

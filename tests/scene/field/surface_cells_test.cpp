@@ -22,7 +22,7 @@ using Cell = std::array<std::int32_t, 3>;
 
 constexpr std::uint64_t kSeed = 20120;
 
-/// A grid of 32 cells a side whose face number 16 is at `middle_m` on each axis.
+/// Returns a grid of 32 cells per axis whose face number 16 is at `middle_m` on each axis.
 CellGrid grid_about(double middle_m, double resolution_m) {
   CellGrid grid;
   grid.resolution_m = resolution_m;
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> marks_of(const Mesh& mesh, const CellGrid& grid, unsig
   return marks;
 }
 
-/// The exact cube of a cell, all sides moved outwards by `margin_cells`.
+/// Returns the exact cube of a cell, with all sides moved outwards by `margin_cells`.
 oracle::RealBox cube_of(const CellGrid& grid, const Cell& cell, oracle::Real margin_cells) {
   oracle::RealBox box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,11 +56,11 @@ bool touched(const Mesh& mesh, const oracle::RealBox& box) {
   return false;
 }
 
-/// No cell that clipping in extended precision finds within the margin promised is missing, and
-/// none is marked that is further away than the margin used.
+/// Expects that every cell is marked that clipping in extended precision finds within the promised
+/// margin, and that no cell is marked beyond the margin that is used.
 void expect_marks_as_clipping_says(const Mesh& mesh, const CellGrid& grid) {
   const std::vector<std::uint8_t> marks = marks_of(mesh, grid);
-  // The oracle rounds as well, though in units that are 2000 times smaller.
+  // The oracle rounds as well, but in units that are 2000 times smaller.
   const oracle::Real promised = 0.99 * reliable_margin_cells(grid);
   const oracle::Real allowed = 2.01 * mark_margin_cells(grid);
   std::size_t at = 0;
@@ -114,7 +114,7 @@ TEST(MarkTouchedCells, FaceEdgeAndCornerTouchAllNeighbours) {
   EXPECT_EQ(count({-0.75, 0.5, 0.25}), 8);
 }
 
-/// A wall beside a face, from either side: what `DistanceField` counts on for its rounding.
+/// A wall beside a face, from either side: `DistanceField` relies on this for its rounding.
 TEST(MarkTouchedCells, MarksTheCellBeyondAFaceWithinTheMargin) {
   const CellGrid grid = grid_about(0.0, 0.25);
   EXPECT_GE(reliable_margin_cells(grid), 12.0 * geometry::kUnitRoundoff * 32);

@@ -60,7 +60,7 @@ class Import : public testing::Test {
   fs::path folder_;
 };
 
-/// Vertices in a fixed order, so that it does not matter where a format starts a triangle.
+/// Sorts vertices, so that the vertex at which a format begins a triangle does not matter.
 std::vector<std::array<double, 3>> sorted_vertices(const Mesh& mesh) {
   std::vector<std::array<double, 3>> points;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -70,7 +70,7 @@ std::vector<std::array<double, 3>> sorted_vertices(const Mesh& mesh) {
   return points;
 }
 
-/// The triangle (1,2,3) (4,2,3) (1,5,3) in every format below.
+/// Expects the triangle (1,2,3) (4,2,3) (1,5,3), which is in every format below.
 void expect_the_triangle(const ImportResult& result, const Vec3& shift = Vec3::Zero()) {
   ASSERT_TRUE(result.mesh);
   std::vector<std::array<double, 3>> expected = {{1, 2, 3}, {1, 5, 3}, {4, 2, 3}};
@@ -112,7 +112,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-/// One triangle with its positions in an embedded buffer, under a node that moves it by (10, 0, 0).
+/// Returns one triangle with its positions in an embedded buffer, under a node that moves it by
+/// (10, 0, 0).
 std::string gltf(const std::array<float, 9>& positions) {
   const std::array<std::uint16_t, 3> indices = {0, 1, 2};
   std::vector<std::uint8_t> bytes(sizeof positions + sizeof indices);
@@ -130,7 +131,7 @@ std::string gltf(const std::array<float, 9>& positions) {
          base64(bytes) + R"("}]})";
 }
 
-/// The triangle under two nested nodes that move it by (10, 0, 0) and (0, 20, 0).
+/// Returns the triangle under two nested nodes that move it by (10, 0, 0) and (0, 20, 0).
 std::string collada(std::string_view opening = "", std::string_view closing = "") {
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -187,7 +188,7 @@ TEST_F(Import, CutsPolygonsToTriangles) {
 }
 
 TEST_F(Import, KeepsDecimalsFarFromTheOrigin) {
-  // Floats are 6 cm apart here: a wall at the place of its number, and a triangle of a centimetre.
+  // Floats are 6 cm apart here: a wall whose coordinate is exact, and a triangle of a centimetre.
   const std::string corners[] = {"1000000.03 0 0", "1000000.03 1 0", "1000000.03 0 1",
                                  "1000000.04 0 0"};
   std::string vertices;
@@ -222,7 +223,7 @@ TEST_F(Import, KeepsDecimalsFarFromTheOrigin) {
 TEST_F(Import, BoundsTheRoundingOfScaleAndOfSinglePrecision) {
   EXPECT_EQ(import_text("a.obj", kObj, {.scale = 3.0}).report.rounding_m, 2.0 * 0x1p-53 * 15.0);
   EXPECT_EQ(import_text("a.stl", kStl).report.rounding_m, 0x1p-53 * 5.0);
-  // A decimal that no float holds, moved by numbers that none holds either.
+  // A decimal that is no float, moved by numbers that are none either.
   std::string text = collada();
   text.replace(text.find("1 2 3 4 2 3"), 5, "1000000.03 2 3");
   text.replace(text.find("10 0 0"), 6, "10.1 0 0");
@@ -266,7 +267,7 @@ TEST_F(Import, DropsTrianglesWithoutAreaAndCountsThem) {
   const ImportResult result = import_text(
       "a.obj",
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 0 0\nv 1 1e-30 0\nf 1 2 3\nf 1 2 4\nf 2 2 3\nf 1 2 5\n");
-  // However thin, a triangle with an area stays.
+  // A triangle with an area stays, however thin it is.
   EXPECT_EQ(result.report.triangles, 2U);
   EXPECT_EQ(result.report.degenerate_triangles, 2U);
 }
@@ -344,7 +345,7 @@ TEST_F(Import, RefusesGarbageOfEveryType) {
   }
 }
 
-// 27 bytes that cost assimp 5 GB and 15 s: that number is in the error only if nobody tried.
+// 27 bytes that cost assimp 5 GB and 15 s. The error has the number only if the file was not read.
 TEST_F(Import, RefusesAFileThatPromisesBillions) {
   EXPECT_THAT(error_of(write("a.off", "OFF\n400000000 1 0\n0 0 0 0 \n")), HasSubstr("400000000"));
   EXPECT_THAT(error_of(write("b.off", "OFF\n#\n1 99999999999999999999 0\n")), HasSubstr("range"));
@@ -361,14 +362,14 @@ TEST_F(Import, EndsAReaderThatTakesTooMuchMemory) {
 }
 
 TEST_F(Import, EndsAReaderThatTakesTooLong) {
-  // More than is read before anybody looks at the clock.
+  // More than is read before the first check of the clock.
   std::string text;
   for (int i = 0; i < 400'000; ++i) text += "v 1.5 2.5 3.5\n";
   EXPECT_THAT(error_of(write("a.obj", text.append(kObj)), {.time_limit_s = 0.0}),
               HasSubstr("more than the limit of 0 s"));
 }
 
-/// A comb, so that ears are scarce: cutting it takes time that grows with the cube of its teeth.
+/// Returns a comb, which has few ears: cutting it takes time that grows with the cube of its teeth.
 std::string endless_comb() {
   std::string text;
   std::string face = "f";
@@ -387,7 +388,7 @@ TEST_F(Import, EndsAReaderThatTakesForEver) {
               HasSubstr("more than the limit of 0.3 s"));
 }
 
-/// The /proc/PID/status of our child of that name, or an empty text.
+/// Returns the /proc/PID/status of the child process of that name, or an empty text.
 std::string status_of_child(const std::string& name) {
   std::error_code error;
   for (const auto& task : fs::directory_iterator("/proc/self/task", error)) {
@@ -421,7 +422,7 @@ TEST_F(Import, TheReaderIsConfinedBeforeItReads) {
 }
 
 TEST_F(Import, SurvivesAReaderThatCrashes) {
-  // Nodes nested so deeply that the reader's recursion runs out of stack.
+  // Nodes are nested so deeply that the reader's recursion exhausts the stack.
   std::string opening;
   std::string closing;
   for (int i = 0; i < 400'000; ++i) {

@@ -18,10 +18,10 @@ using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// A frame with eight boxes in it, and the boxes as they were before they became bytes.
+/// A frame with eight boxes in it, and these boxes before they were quantised to bytes.
 struct Sample {
   Sample(RandomTriangles& random, const Vec3& at, double size_m) {
-    // Flat now and then, in one or two directions.
+    // Some boxes are flat in one or two directions.
     const Vec3 extent(size_m * (random.integer(0, 3) == 0 ? 0.0 : random.log_uniform(1e-4, 1.0)),
                       size_m * (random.integer(0, 3) == 0 ? 0.0 : random.log_uniform(1e-4, 1.0)),
                       size_m * random.log_uniform(1e-4, 1.0));
@@ -59,7 +59,8 @@ TEST(ByteFrame, BoxesOfBytesHoldTheBoxesAndLittleMore) {
         const Box held = s.frame.box_of(get_box(s.bytes, k));
         ASSERT_TRUE(held.contains(s.boxes[k])) << place.from_origin_m << " " << place.size_m;
         for (int axis = 0; axis < 3; ++axis) {
-          // A step is at most twice a 254th of the extent; each side moves by one and by rounding.
+          // A step is at most twice a 254th of the extent; each side moves by one step and by
+          // rounding.
           const double step_m =
               s.all.sizes()[axis] * 2.0 / 254.0 + 0x1p-32 * s.all.sizes().maxCoeff() + 0x1p-400;
           const double rounding_m =
@@ -88,19 +89,19 @@ TEST(BoxGaps, NeverExceedTheDistanceAndComeCloseToIt) {
         const double truth_m2 = geometry::squared_box_distance_m2(s.boxes[k], box);
         const double bound_m2 = static_cast<double>(gaps.squared[k]) * gaps.square_m2;
         ASSERT_LE(bound_m2, truth_m2 * (1.0 + kBoxGapRelativeError + 0x1p-48));
-        // What is proved to be beyond the reach is.
+        // A box that is proved to be beyond the reach is.
         const bool is_near = (gaps.near >> k & 1U) != 0;
         ASSERT_TRUE(is_near || truth_m2 > squared_reach_m2);
         ASSERT_TRUE(!is_near || bound_m2 <= squared_reach_m2 * (1.0 + 0x1p-19));
         const double held_m =
             std::sqrt(geometry::squared_box_distance_m2(s.frame.box_of(get_box(s.bytes, k)), box));
         const double step_m = std::sqrt(gaps.square_m2);
-        // Beyond 2^60 of the finest steps, which may be 2^-32 of the largest, nothing is told
-        // apart.
+        // Beyond 2^60 of the finest steps, which may be 2^-32 of the largest, boxes are not
+        // distinguished.
         if (held_m > 0x1p27 * step_m) continue;
         ++compared;
-        // Sides are moved outwards by 2^-20 steps, and by 2^-21 of how far from the frame's origin
-        // they are, which is the gap and 255 steps at most.
+        // Sides are moved outwards by 2^-20 steps, and by 2^-21 of their distance from the frame's
+        // origin, which is at most the gap and 255 steps.
         const double moved_m = 0x1p-12 * step_m + 0x1p-48 * place.from_origin_m;
         ASSERT_GE(std::sqrt(bound_m2), held_m * (1.0 - 0x1p-18) - moved_m);
       }
@@ -114,7 +115,7 @@ TEST(BoxGaps, CountTouchingAsNoGap) {
   for (int i = 0; i < 2000; ++i) {
     const Sample s(random, random.in_cube(1e3), 1.0);
     for (std::size_t k = 0; k < s.boxes.size(); ++k) {
-      // Shares one corner with the box, and nothing else.
+      // Shares exactly one corner with the box.
       Box corner(s.boxes[k].max());
       corner.extend(Vec3(s.boxes[k].max() + Vec3(1, 1, 1)));
       BoxGaps gaps;
@@ -154,7 +155,7 @@ TEST(ObliqueGaps, NeverExceedTheDistanceToTheBody) {
       ASSERT_EQ(gaps.near & ~before.near, 0U);
       improved += gaps.near != before.near ? 1 : 0;
       for (std::size_t k = 0; k < s.boxes.size(); ++k) {
-        // Any point of the box is no nearer than the bound says.
+        // Every point of the box is at least as far as the bound.
         for (int probe = 0; probe < 8; ++probe) {
           const Vec3 q = s.boxes[k].corner(static_cast<Box::CornerType>(probe));
           const Box all = s.all.merged(geometry::bounds(body[0]));

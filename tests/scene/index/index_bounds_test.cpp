@@ -8,7 +8,7 @@
 #include "tests/scene/index/index_oracle.h"
 #include "tests/scene/test_meshes.h"
 
-// Whatever the input, the index stays small and shallow, and answers.
+// For any input the index stays small and shallow, and answers.
 
 namespace camway::scene {
 namespace {
@@ -70,7 +70,7 @@ TEST_P(IndexBounds, AMillionCopiesOfOneTriangle) {
   copies.triangles.assign(1'000'000, {0, 1, 2});
   const SceneIndex tree = build(std::move(copies));
   expect_bounded(tree);
-  // Splitting cannot tell them apart, so it is not tried.
+  // A split cannot separate them, so it is not tried.
   EXPECT_EQ(tree.statistics().leaves, 1U);
   const std::array<Triangle, 1> body = {tree.triangle(0)};
   expect_equal(tree.nearest(body, kInfinity), Nearest{0.0, 0});
@@ -133,7 +133,7 @@ TEST_P(IndexBounds, AHouseBesideAStrayTriangleFarAway) {
   scene.push_back({Vec3(1e9, 0, 0), Vec3(1e9, 1, 0), Vec3(1e9, 0, 1)});
   const SceneIndex tree = build(mesh_of_triangles(scene));
   expect_bounded(tree);
-  // The house is taken apart all the same.
+  // The house is divided all the same.
   EXPECT_GT(tree.statistics().leaves, 50U);
   for (int i = 0; i < 20; ++i) expect_nearest(tree, random.in_cube(6.0), random.in_cube(0.1));
 }

@@ -14,7 +14,7 @@
 #include "daemon/scene/index/scene_index.h"
 #include "tests/geometry/random_triangles.h"
 
-/// What the queries must answer: every triangle asked in turn.
+/// The oracle of the queries: tests every triangle.
 namespace camway::scene {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ inline void expect_equal(const std::optional<Nearest>& a, const std::optional<Ne
   EXPECT_EQ(a->triangle, b->triangle);
 }
 
-/// Triangles of all sizes in a cube of 10 m, many small ones in one corner.
+/// Returns triangles of all sizes in a cube of 10 m, with many small ones in one corner.
 inline std::vector<geometry::Triangle> soup(geometry::RandomTriangles& random, int count) {
   std::vector<geometry::Triangle> triangles;
   for (int i = 0; i < count; ++i) {
@@ -78,7 +78,8 @@ inline std::vector<geometry::Triangle> soup(geometry::RandomTriangles& random, i
   return triangles;
 }
 
-/// Integer coordinates: touching, coplanar, equal and degenerate triangles, ties in distance.
+/// Returns triangles with integer coordinates: touching, coplanar, equal and degenerate ones, and
+/// ties in distance.
 inline std::vector<geometry::Triangle> grid_soup(geometry::RandomTriangles& random, int count) {
   std::vector<geometry::Triangle> triangles;
   for (int i = 0; i < count; ++i) {

@@ -28,7 +28,7 @@ struct Case {
   std::size_t meshes = 1;
 };
 
-/// An index of `count` meshes, each with a run of the triangles, and of one without any.
+/// Returns an index of `count` meshes, each with a range of the triangles, and of one without any.
 SceneIndex index_of_meshes(const std::vector<Triangle>& triangles, std::size_t count,
                            const IndexOptions& options) {
   if (count == 1) return SceneIndex::build(mesh_of_triangles(triangles), options);
@@ -46,7 +46,7 @@ SceneIndex index_of_meshes(const std::vector<Triangle>& triangles, std::size_t c
   return SceneIndex::of(meshes);
 }
 
-/// Distance of one triangle to the whole body.
+/// Returns the distance of one triangle from the whole body.
 double brute_nearest_of(const SceneIndex& tree, std::span<const Triangle> body,
                         std::uint32_t index) {
   double least_m = kInfinity;
@@ -158,7 +158,7 @@ TEST_P(IndexQueries, AnyWithinFindsWhatThereIs) {
     ++found;
     ASSERT_LT(any->distance_m, distance_m);
     const auto own = brute_nearest_of(tree_, body, any->triangle);
-    // The distance is that triangle's, to one part of the body at least.
+    // The distance is that of the triangle from at least one part of the body.
     ASSERT_GE(any->distance_m, own);
     ASSERT_TRUE(
         geometry::triangle_distance(body[0], tree_.triangle(any->triangle)) == any->distance_m ||
@@ -180,7 +180,7 @@ TEST_P(IndexQueries, NearIsWithinTheShareOfTheNearestAndSureUpToALimit) {
     ASSERT_EQ(near.has_value(), nearest.has_value());
     if (!near) continue;
     ASSERT_GE(near->distance_m, nearest->distance_m);
-    // Below the share of it only by the rounding of either.
+    // Below this fraction of it only by the rounding of either.
     const double error_m = 4.0 * tree_.nearest_error_m(body);
     ASSERT_GE(nearest->distance_m, share * near->distance_m - error_m);
     ASSERT_EQ(near->distance_m == 0.0, nearest->distance_m == 0.0);
@@ -191,8 +191,7 @@ TEST_P(IndexQueries, NearIsWithinTheShareOfTheNearestAndSureUpToALimit) {
   EXPECT_GT(rough, 0);
 }
 
-// Whether a body that goes straight from one place to another is anywhere nearer to a triangle than
-// `keep_m`, at samples.
+// Returns whether a body on a straight motion comes nearer to a triangle than `keep_m`, at samples.
 bool comes_near(const SceneIndex& tree, std::span<const Triangle> ends, double keep_m) {
   constexpr int kSamples = 16;
   for (int i = 0; i <= kSamples; ++i) {
@@ -236,7 +235,7 @@ TEST_P(IndexQueries, AClearPassageKeepsAwayAllTheWay) {
     wrong += !passage.is_clear && !near ? 1 : 0;
     if (passage.is_clear && tree_.any_within(middle, body.reach_m + clearance_m)) ++beyond_reach;
     if (passage.nearest) {
-      // Of one part of the body; others may not have been asked.
+      // The distance of one part of the body; others may not have been tested.
       EXPECT_GE(passage.nearest->distance_m,
                 brute_nearest_of(tree_, middle, passage.nearest->triangle));
     }
@@ -271,7 +270,7 @@ TEST_P(IndexQueries, VisitsWhatTouchesABox) {
     const Triangle low = {box.min(), box.max(), Vec3(box.min().x(), box.max().y(), box.min().z())};
     for (std::uint32_t k = 0; k < tree_.size(); ++k) {
       const Triangle t = tree_.triangle(k);
-      // A vertex inside, or a triangle inside the box that is touched, is a point in the box.
+      // A vertex inside, or a triangle inside the touched box, is a point in the box.
       const bool surely = box.contains(t[0]) || box.contains(t[1]) || box.contains(t[2]) ||
                           geometry::triangles_touch(low, t);
       ASSERT_TRUE(!surely || visited.contains(k));
@@ -341,7 +340,7 @@ TEST(SceneIndex, NearestIsTheSameForAllDecompositions) {
       const Vec3 at = size_m * random.in_cube(6.0);
       const Vec3 e = size_m * random.in_cube(0.2);
       const Vec3 f = size_m * random.in_cube(0.2);
-      // A parallelogram, as a near quadrilateral is.
+      // A parallelogram, like a near quadrilateral.
       const std::array<Triangle, 2> body = {Triangle{at, at + e, at + e + f},
                                             Triangle{at, at + e + f, at + f}};
       const auto nearest = octree.nearest(body, kInfinity);

@@ -29,7 +29,7 @@ Costs costs_of(const BallWay& way, const Box& box) {
 
 bool is_passed_by(double cost, const BallWay& way) { return cost > way.length_m(); }
 
-/// Else a search for what is on a long way would look at everything beside it.
+/// Otherwise a search along a long way would test everything beside it.
 TEST(BallWay, ItsBoundKnowsOfMostBoxesThatTheyArePassedByHoweverLongTheWay) {
   std::mt19937_64 random(kSeed);
   std::normal_distribution<double> normal;

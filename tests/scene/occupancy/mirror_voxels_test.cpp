@@ -21,7 +21,7 @@ using geometry::Vec3;
 constexpr std::uint64_t kSeed = 77411;
 constexpr double kCellM = 0.25;
 
-/// A map in its place with its faces there.
+/// A placed map with its faces.
 struct PlacedMap {
   std::optional<PlacedVoxelMap> solid;
   std::vector<Mesh> faces_W;
@@ -54,7 +54,7 @@ Placement random_placement(std::mt19937_64& random) {
                          Quat(unit(random), unit(random), unit(random), unit(random)), fault);
 }
 
-/// Single voxels, and cubes of which some fill blocks and some lie across them.
+/// Returns single voxels, and cubes of which some fill blocks and some cross them.
 VoxelSet random_voxels(std::mt19937_64& random) {
   std::uniform_int_distribution<std::int32_t> anywhere(-14, 14);
   VoxelSet voxels;
@@ -79,7 +79,7 @@ std::vector<Voxel> listed(const VoxelSet& voxels) {
   return list;
 }
 
-/// What faces touch, and what of all else in their box has its middle in the solid.
+/// Returns the voxels that faces touch, and all others in their box whose centre is in the solid.
 VoxelSet by_asking_all(const PlacedMap& map, double resolution_m) {
   const std::optional<PlacedVoxelMap> nothing;
   const VoxelGrid grid(resolution_m);
@@ -126,7 +126,7 @@ TEST(MirrorVoxels, RefusesWhatPassesTheLimitAndNothingElse) {
   }
 }
 
-// Who began to fill it would be at it for days.
+// Filling it would take days.
 TEST(MirrorVoxels, KnowsFromTheRoomOfTheSolidWhatIsHopeless) {
   VoxelSet cube;
   cube.insert(VoxelCube{{0, 0, 0}, 64});
@@ -146,7 +146,7 @@ TEST(MirrorVoxels, CostWhatTheSolidHasAndNotTheBoxAboutIt) {
   EXPECT_LT(made.voxels->size(), 100U);
 }
 
-/// Asks for a stop after `work` has most probably begun; what it was is then called off.
+/// Expects that a stop cancels `work`; it comes after `work` has most probably begun.
 template <class Work>
 void expect_called_off(const Work& work) {
   std::stop_source stop;

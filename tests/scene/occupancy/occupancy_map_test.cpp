@@ -52,7 +52,7 @@ Vec3 voxel_center(const Voxel& voxel, double resolution_m) {
   return (Vec3(voxel[0], voxel[1], voxel[2]).array() + 0.5).matrix() * resolution_m;
 }
 
-/// A random small scene with the list of its occupied voxels, found by asking for every voxel.
+/// A random small scene with the list of its occupied voxels, found by testing every voxel.
 struct Sample {
   double resolution_m = 0.0;
   Mesh mesh;
@@ -74,7 +74,7 @@ struct Sample {
     return oracle::voxel_box(voxel, resolution_m, margin_m);
   }
 
-  /// Inside, beside and far from the mesh; often on a face.
+  /// Returns a point inside, beside or far from the mesh, often on a face.
   [[nodiscard]] Vec3 point(std::mt19937_64& random) const {
     const double reach_m = resolution_m * oracle::log_uniform(random, 1.0, 100.0);
     Vec3 p = reach_m * oracle::random_direction(random);
@@ -103,7 +103,7 @@ TEST(OccupancyMap, OccupiesWhatTheTrianglesTouch) {
   }
 }
 
-/// The promise to users: nothing of the scene is in free space.
+/// The promise of the map: no point of the scene is in free space.
 TEST(OccupancyMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -172,7 +172,7 @@ TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
   }
 }
 
-/// The search leaves out nothing that counts: what it says is what asking every cube says.
+/// The searches skip nothing of relevance: their answers equal those of a test of every cube.
 TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -204,7 +204,8 @@ TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
   }
 }
 
-/// The answer lies between the entries into the voxels grown by the face error, and the exact ones.
+/// The answer is between the entries into the voxels grown by the face error and into the exact
+/// ones.
 TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -242,7 +243,8 @@ TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
   EXPECT_GT(hits, 1000);
 }
 
-/// Between the first touch of the voxels, and that of what is larger by more than all rounding.
+/// The answer is between the first contact with the voxels and with larger ones beyond all
+/// rounding.
 TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -258,7 +260,7 @@ TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
       }
       const double radius_m =
           random() % 4 == 0 ? 0.0 : sample.resolution_m * oracle::log_uniform(random, 1e-3, 10.0);
-      // What a million roundings of the largest number here would come to.
+      // The size of a million roundings of the largest number here.
       const Real more_m = 1e6L * 0x1p-53L * (from.lpNorm<1>() + to.lpNorm<1>());
       Real exact = HUGE_VALL;
       Real grown = HUGE_VALL;
@@ -284,7 +286,7 @@ TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
 /// One occupied voxel, [2, 3] x [2, 3] x [2, 3] m.
 class OneVoxel : public testing::Test {
  protected:
-  // No coordinate or distance below is beyond 12 m; a ray across a corner sees three moved faces.
+  // No coordinate or distance below exceeds 12 m; a ray across a corner meets three moved faces.
   const double entry_error_m =
       12.0 * OccupancyMap::kDistanceRelativeError + 2.0 * VoxelGrid(1.0).face_error_m(3);
   const std::shared_ptr<const OccupancyMap> map =
@@ -330,7 +332,7 @@ TEST_F(OneVoxel, SpherePathCornerCases) {
   const auto hit_m = [&](const Vec3& from, const Vec3& to, double radius_m) {
     return map->sphere_path_hit_m(from, to, radius_m);
   };
-  // Rounded like the farthest number of the question, here 16 m, some 60 times.
+  // Some 60 roundings of the largest number of the query, here 16 m.
   const double way_error_m = 16.0 * 0x1p-53 * 60.0;
   EXPECT_NEAR(hit_m({-6, 2.5, 2.5}, {10, 2.5, 2.5}, 0.5).value(), 7.5, way_error_m);
   EXPECT_NEAR(hit_m({-6, 2.5, 2.5}, {10, 2.5, 2.5}, 0.0).value(), 8.0, way_error_m);
@@ -404,7 +406,7 @@ TEST(OccupancyMap, RefusesWhatItCannotHold) {
   }
 }
 
-// Who began to fill the last one would be at it for hours.
+// Filling the last one would take hours.
 TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> place(-2.0, 2.0);
@@ -449,7 +451,7 @@ TEST(OccupancyMap, TheVoxelLimitIsExact) {
   EXPECT_FALSE(OccupancyMap::build(mesh, 0.1, std::nullopt, voxels - 1).map);
 }
 
-/// Leaves of a tree as OctoMap sees them: key of the lowest voxel and depth.
+/// Returns the leaves of a tree as OctoMap has them: key of the lowest voxel and depth.
 std::vector<std::array<int, 4>> occupied_leaves(const octomap::OcTree& tree) {
   std::vector<std::array<int, 4>> leaves;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
@@ -473,7 +475,8 @@ TEST(OccupancyMap, OctoMapReadsBackWhatIsWritten) {
   std::mt19937_64 random(kSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 0.123456789}) {
     Mesh mesh = oracle::random_mesh(random, resolution_m, 6);
-    // A point in the middle of an aligned block of eight voxels: touches all, and they are pruned.
+    // A point at the centre of an aligned block of eight voxels: it touches all, and they are
+    // pruned.
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.push_back(Vec3::Constant(101 * resolution_m));
     mesh.triangles.push_back({first, first, first});

@@ -24,7 +24,7 @@ std::shared_ptr<const OccupancyMap> map_of(const Mesh& mesh) {
   return OccupancyMap::build(mesh, kResolutionM).map;
 }
 
-/// Several meshes mirrored one by one, and what they are as one mesh.
+/// Several meshes mirrored one by one, and as one mesh.
 struct Sample {
   explicit Sample(std::uint64_t seed, int count) {
     std::mt19937_64 random(seed);
@@ -63,7 +63,7 @@ TEST(OccupancyMirror, AnswersAsOneMapOfAllObjects) {
                 sample.one->occupied_in_sphere(point, 0.2));
       ASSERT_EQ(sample.several->ray_hit_m(point, other, 5.0),
                 sample.one->ray_hit_m(point, other, 5.0));
-      // Not bit for bit: a cheaper box may be left out where it is cheaper by rounding only.
+      // Not the same bits: a box may be skipped that is cheaper by rounding only.
       const std::optional<double> way_m = sample.one->sphere_path_hit_m(point, other, 0.1);
       ASSERT_EQ(sample.several->sphere_path_hit_m(point, other, 0.1).has_value(), !!way_m);
       ASSERT_NEAR(sample.several->sphere_path_hit_m(point, other, 0.1).value_or(0.0),

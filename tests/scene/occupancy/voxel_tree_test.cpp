@@ -16,8 +16,8 @@ constexpr std::uint64_t kSeed = 77103;
 
 using Cubes = std::vector<std::array<std::int32_t, 4>>;  ///< lowest voxel and size, sorted
 
-/// Voxels and whole cubes about a place: the origin, where all octants of the root meet, or
-/// another, up to the ends of the keys.
+/// Returns voxels and complete cubes about a place: the origin, where all octants of the root meet,
+/// or another place, up to the ends of the keys.
 VoxelSet random_voxels(std::mt19937_64& random) {
   VoxelSet set;
   const auto pick = [&](std::int32_t low, std::int32_t high) {
@@ -49,7 +49,7 @@ Cubes cubes_of(const VoxelTree& tree) {
   return cubes;
 }
 
-/// What OctoMap prunes the same voxels to.
+/// Returns the cubes to which OctoMap prunes the same voxels.
 Cubes octomaps_cubes(const VoxelSet& set) {
   octomap::OcTree tree(1.0);
   const auto key = [](std::int32_t voxel) {
@@ -107,7 +107,7 @@ TEST(VoxelTree, ContainsItsVoxelsAndNoOthers) {
   }
 }
 
-/// Full cubes among what comes and goes, so that branches fill up, vanish and come into being.
+/// Full cubes come and go, so that branches fill up, vanish and appear.
 TEST(VoxelTree, UpdatedIsTheTreeThatIsMadeAnew) {
   std::mt19937_64 random(kSeed + 2);
   for (int trial = 0; trial < 60; ++trial) {

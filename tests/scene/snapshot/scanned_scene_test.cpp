@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes in which a map is scanned again and again, held against scenes that are made anew.
+// Scenes in which a map is scanned repeatedly, compared with scenes that are made from scratch.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ std::vector<Case> cases(std::mt19937_64& random) {
   return all;
 }
 
-/// What somebody sees from there: walls of rooms of 3 m, and what does not come back.
+/// Returns the scan of a sensor there: walls of rooms of 3 m, and rays without a return.
 std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
   std::normal_distribution<double> normal;
   std::vector<Vec3> points;
@@ -64,7 +64,7 @@ std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
   return points;
 }
 
-/// A map that shares nothing with `map`, of the same voxels.
+/// Returns a map with the same voxels that shares nothing with `map`.
 std::shared_ptr<const VoxelMap> anew(const VoxelMap& map) {
   VoxelSet occupied;
   VoxelSet free;
@@ -88,7 +88,7 @@ std::shared_ptr<const Snapshot> after(const std::shared_ptr<const Snapshot>& sce
   return result.snapshot;
 }
 
-/// With another object before the map and one behind it.
+/// Returns a scene with one object before the map and one after it.
 std::shared_ptr<const Snapshot> empty_scene(const Case& at) {
   auto scene = assemble("room", 1, {}, at.options);
   std::string fault;
@@ -139,7 +139,7 @@ void expect_equal_answers(const Snapshot& a, const Snapshot& b, std::mt19937_64&
   ASSERT_EQ(a.occupancy->statistics().nodes, b.occupancy->statistics().nodes);
 }
 
-/// What did not change is shared, and nothing else is said to be.
+/// Expects that unchanged parts are shared, and that no others are said to be.
 void expect_shared(const SceneObject& before, const SceneObject& now) {
   for (std::size_t i = 0; i < now.parts.size(); ++i) {
     const MeshPart& part = now.source->parts_O[i];
@@ -158,7 +158,8 @@ bool any_holds(const std::vector<Box>& boxes, const Vec3& point) {
   return std::ranges::any_of(boxes, [&](const Box& box) { return box.contains(point); });
 }
 
-/// A voxel that became solid is in a box of what came, one that is no more in one of what went.
+/// Expects that a voxel that became solid is in an added box, and one that is solid no more in a
+/// removed one.
 void expect_told(const Snapshot& before, const Snapshot& now) {
   const SceneDifference difference = scene::difference(before, now);
   const SceneObject& old_object = *before.find("map");
@@ -218,7 +219,7 @@ TEST(ScannedScene, IsTheSceneThatIsMadeAnewOfTheSameVoxels) {
   EXPECT_GT(shared, 100U);
 }
 
-/// Revisions that are built again have the mirror and the trees that they had.
+/// Revisions that are restored have the mirror and the trees that they had.
 TEST(ScannedScene, CanBeBuiltAgain) {
   std::mt19937_64 random = testing::seeded(77402);
   const Case at = cases(random).front();

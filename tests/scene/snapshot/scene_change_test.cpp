@@ -45,7 +45,7 @@ std::shared_ptr<const Snapshot> after(const Snapshot& before, const SceneChange&
   return result.snapshot;
 }
 
-/// A change of one of a few objects that is possible in `scene`.
+/// Returns a possible change of one of a few objects of `scene`.
 SceneChange random_change(RandomTriangles& random, const Snapshot& scene) {
   SceneChange change;
   change.object = std::string(1, static_cast<char>('a' + random.integer(0, 5)));
@@ -57,7 +57,7 @@ SceneChange random_change(RandomTriangles& random, const Snapshot& scene) {
   return change;
 }
 
-/// All that anyone can see of two scenes that shall be equal.
+/// Expects that everything visible of two equal scenes is equal.
 void expect_same(const Snapshot& a, const Snapshot& b) {
   EXPECT_EQ(a.digest, b.digest);
   EXPECT_EQ(a.mesh->vertices, b.mesh->vertices);
@@ -88,8 +88,8 @@ TEST(SceneChange, SharesWhatDidNotChange) {
   EXPECT_EQ(three->mesh.object_name(12), "wall");
 }
 
-// The index, the field and the mirror of a scene that changed, against those of one that was built
-// from the very triangles.
+// Index, field and mirror of a changed scene are compared with those of a scene built from the same
+// triangles.
 TEST(SceneChange, LeavesASceneAsIfBuiltAtOnce) {
   RandomTriangles random(1501);
   std::shared_ptr<const Snapshot> scene = empty_scene();
@@ -198,8 +198,7 @@ TEST(SceneHistory, GoesBackToEveryRevisionThatItKeeps) {
 
 TEST(SceneHistory, KeepsWithinItsBytes) {
   std::shared_ptr<const Snapshot> scene = empty_scene();
-  SceneHistory history(*scene,
-                       {.changes = 1000, .bytes = 3 * box(Vec3(1, 1, 1))->memory_bytes()});
+  SceneHistory history(*scene, {.changes = 1000, .bytes = 3 * box(Vec3(1, 1, 1))->memory_bytes()});
   for (int i = 0; i < 10; ++i) {
     const SceneChange change{Kind::kPut, "a", box(Vec3(1, 1, 1)), at(Vec3(i, 0, 0))};
     scene = after(*scene, change);

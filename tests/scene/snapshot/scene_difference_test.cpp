@@ -29,7 +29,7 @@ std::shared_ptr<const ObjectSource> box(double side_m) {
   return make_source(ObjectKind::kBox, std::move(mesh), report, {});
 }
 
-/// By name; the bounds tell them apart here, as no two objects have the same.
+/// Objects by name; their bounds distinguish them here, because no two have the same.
 using Places = std::map<std::string, Vec3>;
 
 Places places_of(const Snapshot& snapshot) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program of its own, because it replaces operator new.
+// A separate program, because it replaces operator new.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -46,7 +46,7 @@ using Kind = SceneChange::Kind;
 
 constexpr std::uint64_t kSeed = 1503;
 
-/// A sphere of some thousand triangles, or a map of as many voxels.
+/// Returns a sphere of some thousand triangles, or a map of as many voxels.
 std::shared_ptr<const ObjectSource> random_source(std::mt19937_64& random) {
   ObjectOptions options;
   if (random() % 2 == 0) options.field.reset();
@@ -65,7 +65,7 @@ std::shared_ptr<const ObjectSource> random_source(std::mt19937_64& random) {
   return make_map_source(map, report_of(*map, "OctoMap"), options);
 }
 
-/// What a scan that saw a solid wall makes of a map: some blocks of it are another.
+/// Returns a map after a scan of a solid wall: some of its blocks differ.
 std::shared_ptr<const ObjectSource> scanned(std::mt19937_64& random, const VoxelMap& map) {
   std::vector<ScannedBlock> blocks;
   for (int i = static_cast<int>(random() % 5); i >= 0; --i) {
@@ -97,7 +97,7 @@ SceneChange random_change(std::mt19937_64& random, const Snapshot& scene) {
   return change;
 }
 
-/// What a history says that it keeps, against what the program has less when it is gone.
+/// Compares the reported bytes of a history with the memory that its destruction frees.
 TEST(SceneHistory, KeepsWhatItsBytesSay) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -120,7 +120,7 @@ TEST(SceneHistory, KeepsWhatItsBytesSay) {
     const std::int64_t with_history = live_bytes;
     history.reset();
     const std::int64_t kept = with_history - live_bytes;
-    // Entries, names and reports, and what the allocator rounds up, for each source.
+    // Entries, names and reports, and the allocator's overhead, for each source.
     const std::int64_t beside = 4096 * (1 + changes + before);
     EXPECT_LE(kept, said + said / 20 + beside)
         << "trial " << trial << ": it keeps more than it says";
@@ -128,7 +128,7 @@ TEST(SceneHistory, KeepsWhatItsBytesSay) {
   }
 }
 
-/// Of a map that many scans change a little, many revisions fit into little more than the map.
+/// Many revisions of a map that scans change a little take little more memory than the map.
 TEST(SceneHistory, KeepsOfScansWhatTheyChanged) {
   std::mt19937_64 random(kSeed);
   VoxelSet voxels;

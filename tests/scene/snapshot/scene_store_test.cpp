@@ -210,7 +210,7 @@ TEST(SceneStore, KeepsNoMoreHistoryOfAllScenesThanItsLimit) {
   };
   for (int round = 0; round < 20; ++round) {
     for (int i = 0; i < 5; ++i) {
-      // What was put and taken out again is kept for the revisions between, and counts.
+      // An object that was put and removed is kept for the revisions between, and counts.
       ASSERT_TRUE(store.change("room" + std::to_string(i), put_box("a")).snapshot);
       ASSERT_LE(kept(), limits.history.bytes);
       ASSERT_TRUE(
@@ -241,7 +241,7 @@ TEST(SceneStore, HoldsNoMoreBytesOfOccupancyThanItsLimit) {
   EXPECT_THAT(third.error, HasSubstr("occupancy maps"));
 }
 
-/// Does `work(i)` on as many threads at a time.
+/// Runs `work(i)` on this many threads at a time.
 void side_by_side(int threads, const std::function<void(int)>& work) {
   std::latch begin(threads);
   std::vector<std::jthread> running;
@@ -263,7 +263,7 @@ TEST(SceneStore, ChangesSideBySideReachEveryLimitAndBreakNone) {
     side_by_side(kThreads, [&](int i) {
       const std::string name = "room" + std::to_string(i);
       store.put(revision_of(name, 1));
-      // In scenes of their own, and all in one.
+      // In separate scenes, and in one common scene.
       for (int k = 0; k < 10; ++k) {
         for (const std::string& scene : {name, std::string("hall")}) {
           const std::string box = std::to_string(i) + "-" + std::to_string(k);

@@ -25,8 +25,8 @@ using RealVec3 = Eigen::Matrix<Real, 3, 1>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Each edge belongs to two triangles that run along it in opposite directions: closed, and all
-/// triangles look to the same side.
+/// Expects that each edge belongs to two triangles with opposite directions: the mesh is closed,
+/// and all triangles face the same side.
 void expect_closed(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& t : mesh.triangles) {
@@ -39,7 +39,7 @@ void expect_closed(const Mesh& mesh) {
   for (const auto& [edge, sum] : edges) EXPECT_EQ(sum, 0);
 }
 
-/// Six times the volume that the triangles enclose: above 0 if they look outwards.
+/// Returns six times the enclosed volume, which is positive if the triangles face outwards.
 Real volume(const Mesh& mesh) {
   Real sum = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -45,7 +45,7 @@ TEST(MeshDigest, TellsEveryChangeApart) {
 }
 
 TEST(MeshDigest, DoesNotDependOnTheMachineOrTheRun) {
-  // A wire value: it must not change between versions without notice.
+  // A wire value, which must not change between versions without notice.
   EXPECT_EQ(mesh_digest(mesh_of_triangles({kTriangle})), "39d6a5811dcd0c65d11d527e58c0d8a7");
   Triangle negative_zero = kTriangle;
   negative_zero[0].x() = -0.0;

@@ -23,7 +23,7 @@ std::shared_ptr<const VoxelMap> empty_map(const SensorModel& sensor) {
   return VoxelMap::build(kResolutionM, {}, {}, UnknownSpace::kFree, {}, sensor).map;
 }
 
-/// What somebody sees who stands in a room of 4 m, with what does not come back.
+/// Returns the scan of a sensor in a room of 4 m, with rays without a return.
 std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
   std::normal_distribution<double> normal;
   std::vector<Vec3> points;
@@ -39,7 +39,7 @@ std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
   return points;
 }
 
-/// OctoMap itself, one tree that is never copied, is the oracle for a series of scans.
+/// The oracle for a series of scans is OctoMap itself, with one tree that is never copied.
 TEST(Scanned, IsWhatOctoMapMakesOfTheSameScans) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -115,7 +115,7 @@ TEST(Scanned, BeginsWithTheCertaintyOfAMapThatWasRead) {
   EXPECT_TRUE(before->occupied().contains({5, 0, 0})) << "a map never changes";
 }
 
-/// As above, but the map and the tree begin with what was read, certain of it.
+/// The same, but map and tree begin with a file whose content counts as certain.
 TEST(Scanned, GoesOnFromWhatWasReadAsOctoMapDoes) {
   std::cout << "seed " << kSeed + 1 << '\n';
   std::mt19937_64 random(kSeed + 1);

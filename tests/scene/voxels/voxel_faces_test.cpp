@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 77101;
 
-/// Six times the volume inside, in units of a voxel.
+/// Returns six times the enclosed volume, in units of a voxel.
 long double volume_sixfold(const Mesh& mesh) {
   long double sum = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -53,7 +53,7 @@ TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
       }
     }
     for (const auto& [edge, surplus] : edges) ASSERT_EQ(surplus, 0);
-    // Coordinates are whole numbers below 2^20, so doubles hold the products of a test nearby.
+    // Coordinates are integers below 2^20, so doubles hold the products of a local test.
     if (std::abs(built->bounds().sizes().maxCoeff()) < 1000.0) {
       EXPECT_EQ(volume_sixfold(*built), 6.0L * static_cast<long double>(sample.reference.size()));
     }
@@ -114,7 +114,8 @@ TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
   }
 }
 
-/// After any changes it is what is made anew, and shares all that is equal to what was before.
+/// After any changes the faces equal those made from scratch, and share all equal bricks with those
+/// before.
 TEST(VoxelFaces, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
   std::cout << "seed " << kSeed + 6 << '\n';
   std::mt19937_64 random(kSeed + 6);

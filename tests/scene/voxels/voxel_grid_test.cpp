@@ -28,7 +28,7 @@ std::set<Voxel> touched(const VoxelGrid& grid, const Triangle& triangle) {
   return voxels;
 }
 
-/// Every coordinate goes to the voxel that OctoMap takes it to, also an ulp beside a face.
+/// Every coordinate maps to OctoMap's voxel, also within an ulp of a face.
 TEST(VoxelGrid, MapsCoordinatesAsOctoMapDoes) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -93,7 +93,7 @@ TEST(ForEachVoxelTouched, FaceEdgeAndCornerTouchAllNeighbours) {
   EXPECT_EQ(touched(grid, in_face), (std::set<Voxel>{{3, 4, 6}, {3, 4, 7}}));
 }
 
-/// What exact clipping says, no voxel less, and none that is further away than the stated error.
+/// Finds every voxel of exact clipping, and no voxel beyond the stated error.
 TEST(ForEachVoxelTouched, AgreesWithClippingEveryVoxel) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -110,8 +110,8 @@ TEST(ForEachVoxelTouched, AgreesWithClippingEveryVoxel) {
       ASSERT_TRUE(has || !exact) << "trial " << trial << ": a touched voxel is missing";
       if (has && !exact) {
         ++on_border;
-        // Coordinates are below 20 voxels; the separating-axis test errs by less than the face
-        // does.
+        // Coordinates are below 20 voxels; the separating-axis test has a smaller error than the
+        // face test.
         const double margin_m = 4.0 * grid.face_error_m(20);
         ASSERT_TRUE(oracle::touches(triangle, oracle::voxel_box(voxel, resolution_m, margin_m)))
             << "trial " << trial << ": a voxel that is nowhere near";
@@ -121,7 +121,7 @@ TEST(ForEachVoxelTouched, AgreesWithClippingEveryVoxel) {
   std::cout << on_border << " voxels within the face error only\n";
 }
 
-/// A wall of 50 m across all three axes at 5 cm: 10^9 voxels in its box, 10^6 touched at most.
+/// A wall of 50 m across all three axes at 5 cm: 10^9 voxels in its box, at most 10^6 touched.
 TEST(ForEachVoxelTouched, CostFollowsTheTouchedVoxels) {
   const VoxelGrid grid(0.05);
   const Triangle wall{Vec3(0.01, 0.02, 0.03), Vec3(50.0, 49.0, 48.0), Vec3(0.0, 3.0, 50.0)};

@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 constexpr std::uint64_t kSeed = 77201;
 constexpr double kResolutionM = 0.25;
 
-/// A tree with free and occupied voxels, some of them pruned.
+/// Returns a tree with free and occupied voxels, some of them pruned.
 octomap::OcTree random_tree(std::mt19937_64& random) {
   octomap::OcTree tree(kResolutionM);
   std::uniform_real_distribution<double> anywhere(-2.5, 2.5);
@@ -193,7 +193,7 @@ TEST(VoxelMap, RefusesWhatIsTooLarge) {
   EXPECT_THAT(VoxelMap::build(0.0, far, {}, UnknownSpace::kFree).error, HasSubstr("resolution"));
 }
 
-/// A point is in the solid where OctoMap says that its voxel is occupied, unless rounding hides it.
+/// A point is in the solid exactly if OctoMap calls its voxel occupied, unless rounding hides it.
 TEST(SceneSolids, HoldWhatIsInAnOccupiedVoxelWhereverTheMapIs) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
@@ -246,7 +246,8 @@ TEST(Snapshot, OfAMapHasItsVoxelsInTheMirror) {
     const Vec3 middle = (Vec3(voxel[0], voxel[1], voxel[2]).array() + 0.5).matrix() * kResolutionM;
     const bool is_occupied = in_tree(tree, voxel) == Is::kOccupied;
     ASSERT_EQ(same->occupancy->occupied_at(middle), is_occupied);
-    // The finer one marks what touches a face, so a voxel beside an occupied one may be, too.
+    // The finer map marks voxels that touch a face, so a voxel beside an occupied one may be
+    // marked.
     if (is_occupied) {
       ASSERT_TRUE(finer->occupancy->occupied_at(middle)) << "the inside";
     }
@@ -261,7 +262,7 @@ TEST(VoxelMap, KeepsWithinItsLimits) {
   };
   EXPECT_TRUE(build({.voxels = 8}, UnknownSpace::kFree).map);
   EXPECT_THAT(build({.voxels = 7}, UnknownSpace::kFree).error, HasSubstr("more than 7 occupied"));
-  // With a layer about it, four on each side.
+  // With a layer around it, four on each side.
   EXPECT_TRUE(build({.voxels = 64}, UnknownSpace::kOccupied).map);
   EXPECT_THAT(build({.voxels = 63}, UnknownSpace::kOccupied).error, HasSubstr("more than 63"));
   EXPECT_TRUE(build({.triangles = 48}, UnknownSpace::kFree).map->faces());

@@ -19,7 +19,7 @@ Point add_scaled(const Point& a, const Point& b, Real s) {
 
 Real dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// The part of a convex polygon with sign * coordinate <= sign * bound.
+/// Returns the part of a convex polygon with sign * coordinate <= sign * bound.
 std::vector<Point> clip(const std::vector<Point>& polygon, std::size_t axis, Real sign,
                         Real bound) {
   std::vector<Point> kept;

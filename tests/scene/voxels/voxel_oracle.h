@@ -8,8 +8,8 @@
 #include "daemon/scene/mesh/mesh.h"
 #include "daemon/scene/voxels/voxel_grid.h"
 
-/// Slow, obvious references for the occupancy map, in extended precision (64-bit mantissa), which
-/// share no code with what they check.
+/// Slow and simple oracles for the occupancy map, in extended precision (64-bit mantissa). Share no
+/// code with the map.
 namespace camway::scene::oracle {
 
 using Real = long double;
@@ -21,28 +21,29 @@ struct RealBox {
 };
 RealBox voxel_box(const Voxel& voxel, double resolution_m, Real margin_m);
 
-/// By clipping the triangle against the six planes, one after the other.
+/// Returns whether triangle and box touch, by clipping the triangle against the six planes in turn.
 bool touches(const geometry::Triangle& triangle, const RealBox& box);
 
 Real distance_m(const geometry::Vec3& point, const RealBox& box);
 Real distance_m(const geometry::Vec3& point, const geometry::Triangle& triangle);
 
-/// Parameter in metres where the ray enters, or negative if it misses.
+/// Returns the distance along the ray to its entry into the box; negative if it misses.
 Real ray_entry_m(const geometry::Vec3& origin, const geometry::Vec3& direction, const RealBox& box);
 
-/// Way of the centre of a ball to where it first touches the box, or negative if it never does. The
-/// distance is convex along the way: its least by ternary search, then by bisection.
+/// Returns the distance that the centre of a ball moves until the ball touches the box; negative if
+/// it never does. The distance to the box is convex along the line: a ternary search finds its
+/// minimum, then bisection the first contact.
 Real ball_way_m(const geometry::Vec3& from, const geometry::Vec3& to, Real radius_m,
                 const RealBox& box);
 
-/// All voxels within `margin` voxels of the bounds of `mesh`.
+/// Returns all voxels within `margin` voxels of the bounds of `mesh`.
 std::vector<Voxel> voxels_around(const Mesh& mesh, double resolution_m, int margin);
 
-/// A mesh of few triangles whose sizes are log-uniform between a hundredth of a voxel and ten
-/// voxels, with vertices often exactly on voxel faces, edges and corners.
+/// Returns a mesh of few triangles, with sizes log-uniform between a hundredth of a voxel and ten
+/// voxels, and with vertices often exactly on voxel faces, edges and corners.
 Mesh random_mesh(std::mt19937_64& random, double resolution_m, int triangles);
 
-/// Log-uniform in [low, high].
+/// Returns a log-uniform number in [low, high].
 double log_uniform(std::mt19937_64& random, double low, double high);
 geometry::Vec3 random_direction(std::mt19937_64& random);
 

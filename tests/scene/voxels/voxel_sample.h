@@ -12,7 +12,7 @@ namespace camway::scene {
 
 using VoxelReference = std::set<Voxel>;
 
-/// Voxels near a corner where blocks of all signs meet, or anywhere, some as cubes.
+/// Random voxels near a corner where blocks of all signs meet, or anywhere; some form cubes.
 struct VoxelSample {
   VoxelSet set;
   VoxelReference reference;

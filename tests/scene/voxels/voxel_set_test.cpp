@@ -35,7 +35,7 @@ TEST(VoxelSet, HoldsWhatWasPutIn) {
   EXPECT_FALSE(VoxelSet().contains({0, -VoxelSet::kMostVoxels - 1, 0}));
 }
 
-/// The voxels of `range` that are not in `set`, block by block.
+/// Returns the voxels of `range` that are not in `set`, block by block.
 VoxelSet complement_in(const VoxelSet::Range& range, const VoxelSet& set) {
   VoxelSet result;
   for (std::int32_t x = range[0].first & ~7; x <= range[0].last; x += 8) {
@@ -82,7 +82,7 @@ TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
   }
 }
 
-/// Copies, each changed on its own, are held against sets that share nothing.
+/// Copies that are changed separately are compared with sets that share nothing.
 TEST(VoxelSet, CopiesGoTheirOwnWays) {
   std::cout << "seed " << kSeed + 4 << '\n';
   std::mt19937_64 random(kSeed + 4);

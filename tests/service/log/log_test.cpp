@@ -71,7 +71,7 @@ TEST(Log, NobodyForgesALine) {
   }
 }
 
-/// The text between the quotes of `value="..."`, its escapes undone.
+/// Returns the text between the quotes of `value="..."`, without escapes.
 std::string unescaped(const std::string& line) {
   std::string text;
   const std::size_t begin = line.find("value=\"") + 7;
@@ -112,7 +112,7 @@ TEST(Log, TextBeyondAsciiIsKeptIfItIsTextAndNothingIsLost) {
     }
     const std::string line = line_of(text);
     ASSERT_EQ(unescaped(line), text) << "seed " << kSeed << ", trial " << trial;
-    // It throws where a string is not well-formed UTF-8.
+    // Throws if a string is not well-formed UTF-8.
     ASSERT_NO_THROW((void)nlohmann::json(line).dump()) << "seed " << kSeed << ", trial " << trial;
   }
 }

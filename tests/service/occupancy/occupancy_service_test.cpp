@@ -22,8 +22,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const base::Deadline kNever = base::Deadline::never();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A wall in the plane x = 0.25 that spans 4 x 4 m about the x axis, mirrored at 0.5 m: its voxels
-/// are those with x in [0, 0.5].
+/// Returns a wall in the plane x = 0.25 that spans 4 x 4 m about the x axis, mirrored at 0.5 m: its
+/// voxels are those with x in [0, 0.5].
 std::shared_ptr<const scene::Snapshot> wall_scene() {
   auto snapshot = std::make_shared<scene::Snapshot>();
   snapshot->name = "wall";
@@ -74,7 +74,7 @@ void expect_mixed_answers(const occupancy_response_t& answer) {
   EXPECT_EQ(answer.points_occupied, (std::vector<std::int8_t>{1, 0}));
   EXPECT_EQ(answer.boxes_occupied, (std::vector<std::int8_t>{0, 1}));
   EXPECT_EQ(answer.spheres_occupied, (std::vector<std::int8_t>{0, 1}));
-  // The map's own rounding is tested with the map; here it is about which answer stands where.
+  // Other tests cover the rounding of the map; this one covers the order of the answers.
   constexpr double kMapRounding_m = 1e-9;
   ASSERT_EQ(answer.num_rays, 2);
   EXPECT_NEAR(answer.rays_hit_m[0], 3.0, kMapRounding_m);
@@ -145,7 +145,7 @@ TEST(AnswerBatch, NamesTheQueryThatMakesNoSense) {
   EXPECT_EQ(answer.num_points, 0) << "all or nothing";
 }
 
-/// The one answer that `daemon` gives to `message`.
+/// Returns the only answer of `daemon` to `message`.
 occupancy_response_t ask(RunningService& daemon, Bytes message) {
   const std::string channel = daemon.channels.occupancy_response("tester");
   const std::size_t before = daemon.transport.published_on(channel).size();

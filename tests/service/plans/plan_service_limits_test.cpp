@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the service refuses because of its limits; all else of it is in plan_service_test.cpp.
+// Requests that the service refuses because of its limits; the rest is in plan_service_test.cpp.
 #include <gtest/gtest.h>
 
 #include "daemon/service/plans/plan_service.h"

@@ -29,13 +29,13 @@ using testing::request_with;
 using testing::RunningService;
 using testing::with_workers;
 
-/// The answer without what may differ between two runs.
+/// Returns the answer without the members that may differ between two runs.
 Bytes without_time(plan_response_t answer) {
   answer.utime = 0;
   return wire::encode(answer);
 }
 
-/// What the service should say to `request` if `planner` is the echo.
+/// Returns the expected answer to `request` if `planner` is the echo.
 Bytes expected_echo(const plan_request_t& request, const DeadlineLimits& limits = {}) {
   return without_time(to_wire(echo_result(*from_wire(request, limits).request),
                               {{request.client_id, request.request_id, 0},
@@ -111,7 +111,7 @@ TEST(PlanService, ARequestThatIsBeingPlannedIsNotPlannedTwice) {
   daemon.send(request);
   ASSERT_TRUE(daemon.planner.wait_for_calls(1));
   for (int i = 0; i < 5; ++i) daemon.send(request);
-  // Requests are handled in order, so once this one is planned the five have been looked at.
+  // Requests are handled in order, so once this one is planned, the five before have been handled.
   const plan_request_t next = request_with(2);
   daemon.send(next);
   ASSERT_TRUE(daemon.planner.wait_for_calls(2));
@@ -194,7 +194,8 @@ TEST(PlanService, PassesOnWhatPlanningFoundInvalid) {
   negative.clearance_m = -1.0;
   daemon.send(negative);
   EXPECT_EQ(daemon.answer_to(negative)->message.find("clearance_m: is -1"), 0U)
-      << "the wire has no group of options, and its own names: " << daemon.answer_to(negative)->message;
+      << "the wire has no group of options, and its own names: "
+      << daemon.answer_to(negative)->message;
 }
 
 TEST(PlanService, RefusesWhatMakesNoSenseOfItsHandling) {
@@ -237,7 +238,7 @@ TEST(PlanService, APlannerThatThrowsIsAnInternalError) {
 }
 
 TEST(PlanService, AnAnswerBeyondAllPagesIsAnErrorThatSaysSo) {
-  // One more than all pages can hold: no more than needed, sanitizers are slow with many.
+  // One segment more than all pages can hold, since sanitizers are slow with many.
   const auto size = static_cast<std::size_t>(collision_interval_t{}._getEncodedSizeNoHash());
   const std::size_t count = wire::kMaxResponsePages * wire::kMaxMessageBytes / size + 1;
   RunningService daemon({}, [count](const planning::PlanRequest&) {
@@ -297,7 +298,7 @@ TEST(PlanService, ARequestThatWaitedPastItsDeadlineIsAnsweredThen) {
   plan_request_t late = request_with(2);
   late.deadline_s = 0.05;
   daemon.send(late);
-  // The worker is still busy with the first.
+  // The worker is still busy with the first request.
   const std::optional<plan_response_t> answer = daemon.answer_to(late);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, plan_response_t::STATUS_TIMEOUT);
@@ -328,7 +329,7 @@ TEST(PlanService, ARequestThatIsBeingPlannedIsCancelled) {
   ASSERT_TRUE(daemon.planner.wait_for_calls(1));
   send_cancel(daemon, request);
   send_cancel(daemon, request);
-  // Nobody releases the planner: it stops because it is told to.
+  // The planner is never released: it stops because it is told to.
   const std::optional<plan_response_t> answer = daemon.answer_to(request);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, plan_response_t::STATUS_CANCELLED);
@@ -472,7 +473,7 @@ TEST(PlanService, AClientThatFloodsDoesNotKeepAnotherWaiting) {
   EXPECT_EQ(daemon.transport.published_on(flood).size(), 99U - 40U);
   daemon.planner.release();
   ASSERT_TRUE(daemon.answer_to(request_of("modest", 3)));
-  // One was being planned, and of equals each has his turn: at most one for each of the other's.
+  // One was being planned, and equal clients alternate: at most one for each of the other's.
   std::size_t flood_answers = 0;
   std::size_t modest_answers = 0;
   for (const auto& message : daemon.transport.published()) {

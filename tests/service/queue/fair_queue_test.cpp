@@ -24,14 +24,14 @@ Job job_of(const std::string& client, Priority priority = Priority::kNormal,
 
 FairQueue::Limits wide() { return {.jobs = 100'000, .jobs_of_a_client = 100'000}; }
 
-/// How one client behaves: always `waiting` jobs in the queue, each of which takes `cost`.
+/// The behaviour of a client: always `waiting` jobs in the queue, each of which takes `cost`.
 struct Habit {
   int waiting;
   milliseconds cost;
   Priority priority = Priority::kNormal;
 };
 
-/// Simulates `workers` workers for `length`; how much time each client's jobs got.
+/// Simulates `workers` workers for `length`. Returns the time that each client's jobs got.
 std::map<std::string, milliseconds> served(const std::map<std::string, Habit>& habits, int workers,
                                            milliseconds length) {
   FairQueue queue(wide());
@@ -95,15 +95,15 @@ TEST(FairQueue, ClientsWithEqualJobsTakeTurns) {
   EXPECT_LE(flood_before_modest, 5);
 }
 
-// What a client gets is time, not turns: one with jobs that take a hundred times as long, however
-// many of them wait, gets no more of it.
+// Clients share the time, not the number of jobs: a client whose jobs take a hundred times as long
+// gets no more time, however many of them wait.
 TEST(FairQueue, ClientsGetTheSameTimeWhateverTheirJobsTake) {
   for (const int workers : {1, 2, 5}) {
     const auto got = served({{"flood", {500, milliseconds(10)}},
                              {"long", {20, milliseconds(1000)}},
                              {"modest", {5, milliseconds(10)}}},
                             workers, milliseconds(300'000));
-    // A client with few jobs cannot fill more workers than it has jobs; here each can.
+    // A client cannot use more workers than it has jobs; here each can use all.
     const double fair = 300'000.0 * workers / 3.0;
     for (const auto& [client, time] : got) {
       EXPECT_NEAR(static_cast<double>(time.count()) / fair, 1.0, 0.05)
@@ -112,7 +112,7 @@ TEST(FairQueue, ClientsGetTheSameTimeWhateverTheirJobsTake) {
   }
 }
 
-// It comes back only when its last job is done, so it is never seen waiting beside its own.
+// The client returns only when its last job is done, so it never waits beside its own job.
 TEST(FairQueue, AClientThatAsksOneByOneDoesNotGetRidOfWhatItUsed) {
   const auto got = served({{"long", {1, milliseconds(1000)}}, {"short", {10, milliseconds(10)}}}, 1,
                           milliseconds(300'000));
@@ -136,7 +136,7 @@ TEST(FairQueue, ABreakEarnsNothing) {
     ASSERT_FALSE(queue.push(job_of("busy")));
     queue.finish(queue.pop(), milliseconds(100));
   }
-  // The other had nothing in those 100 seconds; now they take turns from where they are.
+  // The other client had no jobs in those 100 seconds; from now on they alternate.
   for (int i = 0; i < 100; ++i) ASSERT_FALSE(queue.push(job_of("late")));
   int late = 0;
   for (int i = 0; i < 20; ++i) {
@@ -237,9 +237,9 @@ TEST(FairQueue, KnowsHowManyAreAheadIfNoMoreCome) {
   }
 }
 
-/// A client that comes back with a job whenever its last one is done, while so many ids are
-/// invented between two jobs that the queue is always full. How much of the time it gets, and how
-/// often it is refused, of the jobs after the first.
+/// A client that returns with a job whenever its last one is done. Between two jobs so many ids are
+/// invented that the queue is always full. Holds the client's part of the time, and how often it is
+/// refused after its first job.
 struct Siege {
   double share = 0.0;
   int refused = 0;
@@ -259,8 +259,8 @@ Siege besieged(const FairQueue::Limits& limits, int jobs) {
   ask();
   queue.finish(queue.pop(), milliseconds(5));
   waits = false;
-  // Far more than the smallest share that anybody asks for, so that who is never served ends it,
-  // too.
+  // Far more than the smallest expected part, so that the simulation ends even if the client is
+  // never served.
   const int most = 100 * jobs;
   while (of_client < jobs && all < most) {
     for (int i = 0; i < 50; ++i) {
@@ -354,8 +354,8 @@ TEST(FairQueue, AClientHasNoMoreWorkersThanItsPart) {
   EXPECT_EQ(queue.pop().job.client, "flood");
 }
 
-/// Against a plain model: of each strand one at a time, each client's in order, of each client as
-/// many as may; and a worker is idle only if nothing may begin.
+/// Compares with a simple model: one job of each strand at a time, each client's in order, of each
+/// client at most its quota; and a worker is idle only if no job may begin.
 TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   std::mt19937_64 random(kSeed);
@@ -396,7 +396,7 @@ TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
   }
 }
 
-// Against what must hold whatever happens: no job is lost or doubled.
+// Checks invariants: no job is lost or doubled.
 TEST(FairQueue, EveryJobLeavesOnceWhateverHappens) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   std::mt19937_64 random(kSeed);

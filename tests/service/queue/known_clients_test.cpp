@@ -32,7 +32,7 @@ TEST(KnownClients, AFloodOfIdsForgetsOnlyThoseThatCameOnce) {
   }
 }
 
-/// Against two lists that are searched from end to end.
+/// Compares with two lists that are searched linearly.
 TEST(KnownClients, AgreesWithTheRuleWrittenOut) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   std::mt19937_64 random(kSeed);

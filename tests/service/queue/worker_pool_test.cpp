@@ -12,7 +12,7 @@
 namespace camway::service {
 namespace {
 
-/// Keeps a worker busy until it is opened.
+/// A job that keeps a worker busy until it is opened.
 class Gate {
  public:
   Job job() {
@@ -70,7 +70,7 @@ TEST(WorkerPool, RunsEveryJobItTook) {
 }
 
 TEST(WorkerPool, NoWorkerSleepsWhenTheEndOfAJobLetsTwoBegin) {
-  // The first holds up another of its strand and another of its client.
+  // The first job blocks another of its strand and another of its client.
   for (int round = 0; round < 20; ++round) {
     Gate first;
     std::latch both(2);

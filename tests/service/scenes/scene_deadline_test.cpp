@@ -42,12 +42,12 @@ scene_request_t put_box(std::int64_t id, const std::string& scene, double side_m
   return request;
 }
 
-/// In a scene with a mirror so fine that the box takes minutes.
+/// Returns a change in a scene whose mirror is so fine that the box takes minutes.
 scene_request_t put_slow(std::int64_t id, double deadline_s = 0.0) {
   return put_box(id, kSlow, 14.0, deadline_s);
 }
 
-/// A service that has a scene of which changes may take long.
+/// A service with a scene whose changes may take long.
 class SceneDeadline : public ::testing::Test {
  protected:
   explicit SceneDeadline(const ServiceConfig& with = config()) : running_(with) {
@@ -72,7 +72,7 @@ class SceneDeadline : public ::testing::Test {
     running_.send_on(running_.channels.cancel_scene(), wire::encode(cancel));
   }
 
-  /// Nothing if none comes.
+  /// Returns nothing if no answer comes.
   std::optional<scene_response_t> answer_to(const scene_request_t& request) {
     return answer(request.client_id, request.request_id);
   }
@@ -95,15 +95,15 @@ class SceneDeadline : public ::testing::Test {
     EXPECT_EQ(answer->status, status) << answer->message;
   }
 
-  /// The slow scene is just what it was: revision, digest and history.
+  /// Expects the slow scene to be unchanged in revision, digest and history.
   void expect_as_before() {
     const scene::SceneStore::Kept now = running_.scenes.kept(kSlow);
     EXPECT_EQ(now.newest, before_.newest);
     EXPECT_EQ(now.revisions.size(), before_.revisions.size());
   }
 
-  /// The next change of the slow scene waits for nothing that was called off, and is answered after
-  /// all before it, each of which was answered once.
+  /// Expects that the next change of the slow scene waits for no cancelled one, and that its answer
+  /// comes after all before it, each of which came once.
   void expect_next_is_made(std::int64_t id, std::size_t answers_before) {
     const scene_request_t small = put_box(id, kSlow, 0.01);
     send(small);
@@ -127,7 +127,7 @@ TEST_F(SceneDeadline, EndsAChangeThatIsBeingMade) {
   expect_next_is_made(2, 1);
 }
 
-/// One change has the only worker, as whoever hears of it does not return.
+/// One change occupies the only worker, because a listener of it does not return.
 class SceneDeadlineInAQueue : public SceneDeadline {
  protected:
   SceneDeadlineInAQueue() : SceneDeadline(one_worker()) {

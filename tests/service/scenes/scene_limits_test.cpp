@@ -29,7 +29,7 @@ ServiceConfig tight_rules() {
 
 constexpr double kCell_m = 0.5;
 
-/// Of the mirror of a box in the middle.
+/// Returns the size of the mirror of a box at the origin.
 std::uint64_t mirror_bytes(double side_m) {
   const scene::ShapeMesh box = scene::box_mesh(geometry::Vec3::Constant(side_m));
   return scene::OccupancyMap::build(*box.mesh, kCell_m).map->statistics().memory_bytes;
@@ -44,7 +44,7 @@ scene::SceneStoreLimits tight_store() {
   return limits;
 }
 
-/// A scene "s" with a mirror of voxels of `kCell_m`, in a daemon that allows little.
+/// A scene "s" with a mirror of voxels of `kCell_m`, in a daemon with small limits.
 class SceneLimits : public ::testing::Test {
  protected:
   SceneLimits() {
@@ -77,7 +77,7 @@ class SceneLimits : public ::testing::Test {
     return request;
   }
 
-  /// What a sensor at the origin saw.
+  /// Sends the scan of a sensor at the origin.
   scene_request_t scan(const std::string& object, const std::vector<double>& points_m) {
     scene_request_t request = request_for(scene_request_t::SCAN, "s", object);
     Bytes bytes(points_m.size() * sizeof(double));
@@ -86,7 +86,7 @@ class SceneLimits : public ::testing::Test {
     return request;
   }
 
-  /// Uploads all of it, which has to fit a page, and names it in `request`.
+  /// Uploads the bytes, which must fit a page, and names them in `request`.
   void upload(const Bytes& bytes, scene_request_t& request) {
     upload_page_t page{};
     page.client_id = request.client_id;
@@ -143,7 +143,7 @@ TEST_F(SceneLimits, OfTheStoreNameTheirSettings) {
 TEST_F(SceneLimits, OfMirrorsNameTheirSetting) {
   expect_limit(put_box("large", 100.0), "scenes.mirror_voxels");
   expect_ok(put_box("small", 1.0));
-  // The same where a scene with a mirror is loaded at once.
+  // The same if a scene is loaded with a mirror.
   const std::string text = "v 0 0 0\nv 90 0 0\nv 0 90 0\nf 1 2 3\n";
   scene_request_t load = request_for(scene_request_t::LOAD, "s");
   load.occupancy_resolution_m = kCell_m;

@@ -87,7 +87,7 @@ TEST_F(SceneRootsTest, AsksItsRootsInTurn) {
   EXPECT_THAT(error, HasSubstr("not a folder"));
 }
 
-/// What a file holds; nothing if there is none.
+/// Returns the content of a file; nothing if there is none.
 std::optional<std::string> content(const fs::path& file) {
   std::ifstream in(file);
   if (!in) return std::nullopt;

@@ -53,7 +53,7 @@ ServiceConfig with_root(const testing::TemporaryFolder& folder, int scene_worker
   return config;
 }
 
-/// Changes of which nobody waits for the answer.
+/// Sends changes without waiting for their answers.
 class Sender {
  public:
   explicit Sender(RunningService& running) : running_(running) {}
@@ -61,7 +61,7 @@ class Sender {
   void send(const scene_request_t& request) {
     running_.send_on(running_.channels.scene_request(), wire::encode(request));
   }
-  /// The answer to a request, however many others came before it. Nothing if none comes.
+  /// Returns the answer to a request, skipping others before it; nothing if none comes.
   std::optional<scene_response_t> answer_to(const scene_request_t& request) {
     const std::string channel = running_.channels.scene_response(request.client_id);
     for (std::size_t seen = 0;; ++seen) {
@@ -108,7 +108,7 @@ class SceneServiceTest : public ::testing::Test {
                                    running_.channels.upload_status(page.client_id));
   }
 
-  /// Uploads all of it, which has to fit a page, and names it in `request`.
+  /// Uploads the bytes, which must fit a page, and names them in `request`.
   void upload(const Bytes& bytes, scene_request_t& request) {
     upload_page_t page{};
     page.client_id = request.client_id;
@@ -217,7 +217,7 @@ TEST_F(SceneServiceTest, LoadsWhatIsUploaded) {
   EXPECT_EQ(put.objects[0].kind, "point cloud");
 }
 
-/// The pages of an exported map come as often as they are asked for, to whom it belongs.
+/// The pages of an exported map are sent as often as their client asks for them.
 TEST_F(SceneServiceTest, SendsAnExportedMapPageByPage) {
   scene_request_t load = request_for(1, scene_request_t::LOAD, "yard");
   load.occupancy_resolution_m = 0.1;
@@ -362,7 +362,7 @@ TEST_F(SceneServiceTest, ListsAndRestoresRevisions) {
             scene_response_t::STATUS_UNKNOWN_SCENE);
 }
 
-// For its life, whatever changes in it or is restored of it.
+// The bounds of a scene stay through all changes and restorations.
 TEST_F(SceneServiceTest, KeepsTheBoundsOfAScene) {
   scene_request_t load = request_for(1, scene_request_t::LOAD, "s");
   load.body_bounds.has_min[1] = 1;
@@ -424,7 +424,7 @@ TEST(SceneServiceSideBySide, ImportsOfOneClientHoldUpNeitherOtherScenesNorOtherC
     load.file = "slow.obj";
     sender.send(load);
   }
-  // Several, as a worker may take the first of these before it takes an import.
+  // Several changes, because a worker may take the first of them before it takes an import.
   for (int i = 1; i <= 5; ++i) {
     const scene_request_t put = put_box(i, "room", "crate");
     sender.send(put);

@@ -29,7 +29,7 @@ Bytes some_bytes(std::size_t size, unsigned seed) {
   return bytes;
 }
 
-/// Page `number` of `whole`; the question for a negative one.
+/// Returns page `number` of `whole`; the page without bytes for a negative number.
 upload_page_t page_of(const Bytes& whole, int number, const std::string& client = "tester") {
   upload_page_t page{};
   page.client_id = client;
@@ -248,11 +248,11 @@ TEST(Uploads, WhatIsReadCountsThoughItIsForgotten) {
   UploadedBytes first_change = uploads.find(key_of(first));
   static_cast<void>(take(second));
   UploadedBytes second_change = uploads.find(key_of(second));
-  // To forget one that is read makes no room.
+  // Dropping an upload that is being read frees no memory.
   EXPECT_EQ(take(third), upload_status_t::STATUS_LIMIT);
   EXPECT_THAT(uploads.take(page_of(third, 0), now).status.message, HasSubstr("all_uploads_bytes"));
   EXPECT_EQ(uploads.find(key_of(second)), second_change) << "nor is it";
-  // By number it may be forgotten, and still counts.
+  // By number it may be dropped, but it still counts.
   for (unsigned i = 0; i < 20; ++i) static_cast<void>(take(some_bytes(1 + i, 20 + i)));
   EXPECT_FALSE(uploads.find(key_of(first)));
   EXPECT_EQ(take(third), upload_status_t::STATUS_LIMIT);

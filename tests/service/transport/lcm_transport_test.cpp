@@ -59,7 +59,7 @@ TEST(LcmTransport, AWakeBeforeTheWaitCounts) {
   EXPECT_TRUE(transport->poll(1ms)) << "both wakes are used up";
 }
 
-// An exception inside lcm_handle would leave LCM unable to handle anything again.
+// After an exception inside lcm_handle LCM cannot handle any more messages.
 TEST(LcmTransport, SurvivesAHandlerThatThrows) {
   const std::unique_ptr<Transport> transport = in_memory();
   int calls = 0;

@@ -24,7 +24,7 @@ using testing::at;
 using testing::box_source;
 using testing::random_path_request;
 
-/// What a checker told so far.
+/// The verdicts of a checker so far.
 class Told {
  public:
   using Collisions = std::vector<collision::CollisionInterval>;
@@ -40,7 +40,7 @@ class Told {
     };
   }
 
-  /// Waits until all paths of the scene were brought to `revision`, and `paths` have a verdict.
+  /// Waits until all paths of the scene are checked at `revision`, and `paths` have a verdict.
   bool wait_for(std::uint64_t revision, std::size_t paths) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(60),
@@ -111,7 +111,7 @@ TEST_F(WatchCheckerTest, KnowsWhatCheckingFromScratchSaysAfterAnyChanges) {
       const auto said = told_.of(id);
       ASSERT_EQ(said.empty(), truth.empty()) << "path " << id << " in round " << round;
       if (!truth.empty()) {
-        // How closely ends are bracketed is in metres; all paths take some seconds for metres.
+        // The tolerance of interval ends is in metres; each path takes some seconds for metres.
         EXPECT_NEAR(said.front().t_begin_s, truth.front().t_begin_s, 0.01);
         EXPECT_NEAR(said.back().t_end_s, truth.back().t_end_s, 0.01);
       }

@@ -32,7 +32,7 @@ using ::testing::HasSubstr;
 
 constexpr double kLongLease_s = 100.0;
 
-/// A daemon that plans in earnest, in an empty scene "room".
+/// A daemon with real planning, in an empty scene "room".
 class WatchesTest : public ::testing::Test {
  protected:
   void SetUp() override { start({}); }
@@ -59,7 +59,7 @@ class WatchesTest : public ::testing::Test {
     service_.reset();
   }
 
-  /// From (0, 0, 0) to (4, 0, 0).
+  /// Returns a request from (0, 0, 0) to (4, 0, 0).
   static plan_request_t request(std::int64_t id, double lease_s = kLongLease_s) {
     planning::PlanRequest request;
     request.scene = "room";
@@ -99,7 +99,7 @@ class WatchesTest : public ::testing::Test {
     transport_.deliver(channels_.watch(), wire::encode(message));
   }
 
-  /// A crate of `side_m` at a place.
+  /// Puts a crate of `side_m` at a place.
   void put(const Vec3& position, double side_m = 0.5) {
     scene::Mesh mesh = *scene::box_mesh(Vec3::Constant(side_m)).mesh;
     const scene::ImportReport report = scene::report_of(mesh, "box");
@@ -111,8 +111,8 @@ class WatchesTest : public ::testing::Test {
   }
   void take_away() { scenes_.change("room", {SceneChange::Kind::kRemove, "crate", nullptr, {}}); }
 
-  /// The first message of that type on `channel`, from number `from` on, that is as wanted; `from`
-  /// is then the number behind it.
+  /// Returns the first message of this type on `channel`, from number `from` on, that satisfies the
+  /// condition. Sets `from` to the number after it.
   template <class Message, class Wanted>
   std::optional<Message> next(const std::string& channel, std::size_t& from, const Wanted& wanted) {
     while (const auto bytes = transport_.message_on(channel, from++)) {
@@ -132,7 +132,7 @@ class WatchesTest : public ::testing::Test {
     std::vector<broken_interval_t> intervals;
     std::string message;
   };
-  /// The next report that says this of that path.
+  /// Returns the next report with this state of this path.
   State wait_for(std::int64_t id, std::int8_t state) {
     State found{};
     next<watch_report_t>(channels_.watch_report("tester"), report_, [&](const auto& report) {
@@ -146,7 +146,7 @@ class WatchesTest : public ::testing::Test {
     return found;
   }
 
-  /// The report that answers that message.
+  /// Returns the report that answers this message.
   watch_report_t answer_to(std::int64_t message_id) {
     std::size_t from = 0;
     return next<watch_report_t>(channels_.watch_report("tester"), from,
@@ -160,8 +160,8 @@ class WatchesTest : public ::testing::Test {
         .value_or(plan_response_t{});
   }
 
-  /// Watches request 1, and puts a crate in its way. The first answer, and the corrected one, which
-  /// is watched then.
+  /// Watches request 1 and puts a crate in its way. Receives the first answer and the corrected
+  /// one, which is watched then.
   std::pair<plan_response_t, plan_response_t> go_round() {
     send(request(1));
     const plan_response_t first = next_answer();
@@ -176,7 +176,7 @@ class WatchesTest : public ::testing::Test {
     return {first, corrected};
   }
 
-  /// The next report after one of another offer that says this of that path.
+  /// Returns the next report after one of another offer with this state of this path.
   State wait_for_offer(std::int64_t id, std::int64_t revision) {
     State state = wait_for(id, path_state_t::FREE);
     while (state.path.offer_revision != revision) state = wait_for(id, path_state_t::FREE);
@@ -227,7 +227,8 @@ TEST_F(WatchesTest, TellsWhereAChangeBreaksAPathAndSendsACorrectedOne) {
   EXPECT_EQ(broken.path.scene_revision, changed);
   EXPECT_EQ(broken.path.answer_revision, first.scene_revision);
   EXPECT_NE(broken.path.serial, begun.path.serial);
-  // Its surface on the way in and on the way out; half of it and of the camera from its middle.
+  // The crate's surface on the way in and on the way out, half of the crate and of the camera from
+  // its centre.
   ASSERT_EQ(broken.intervals.size(), 2U);
   EXPECT_EQ(broken.intervals[0].request_id, 1);
   EXPECT_NEAR(broken.intervals[0].t_begin_s, 1.65, 0.01);
@@ -261,7 +262,7 @@ TEST_F(WatchesTest, TheCorrectedPathIsWatchedInItsTurn) {
   next_answer();
   const plan_response_t corrected = next_answer();
   ASSERT_EQ(corrected.status, plan_response_t::STATUS_OK) << corrected.message;
-  // Where the corrected path is in its middle now.
+  // Where the corrected path is at its middle now.
   const ConvertedResult result = from_wire(corrected);
   ASSERT_TRUE(result.result) << result.error;
   put(result.result->path.pose(2.0).position, 0.3);
@@ -377,7 +378,7 @@ TEST_F(WatchesTest, ALeaseEndsUnlessItIsRenewed) {
   ASSERT_EQ(answer_to(7).num_paths, 1);
   EXPECT_EQ(answer_to(7).paths[0].state, path_state_t::UNKNOWN);
   next_answer();
-  // The answer is as old as its lease, so it is planned again.
+  // The answer is as old as its lease, so the request is planned again.
   put({2, 0, 0});
   send(request(1, 0.05));
   EXPECT_EQ(next_answer().scene_revision,
@@ -386,7 +387,7 @@ TEST_F(WatchesTest, ALeaseEndsUnlessItIsRenewed) {
 }
 
 TEST_F(WatchesTest, ARenewalLastsAsLongAsItSays) {
-  // Longer leases until one is renewed before it is over, however busy the machine is.
+  // Tries longer leases until one is renewed in time on a busy machine.
   std::int64_t id = 0;
   auto lease = 250ms;
   const auto renewed_state = [&](std::int64_t message_id) {

@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A segment along z that looks along -Z, as JSON.
+/// Returns a segment along z that looks along -Z, as JSON.
 nlohmann::json segment_json(double t0_s, double t1_s, double z0_m, double z1_m,
                             const std::array<double, 7>& w = {1, 1, 1, 1, 1, 1, 1}) {
   nlohmann::json segment{{"t0", t0_s}, {"t1", t1_s}};
@@ -29,7 +29,7 @@ nlohmann::json segment_json(double t0_s, double t1_s, double z0_m, double z1_m,
 
 class CliCheck : public ::testing::Test {
  protected:
-  /// The response of a plan along x, which ends before or beyond the wall.
+  /// Returns the response of a plan along x, which ends before or beyond the wall.
   std::string planned(const std::string& name, double x) {
     request_ = folder_.write(name + ".json",
                              request_json({keyframe_json(x, 0, 1), keyframe_json(x, 0, -1)}));
@@ -55,7 +55,7 @@ TEST_F(CliCheck, ProvesAFreePathWithTheClearanceOfThePlan) {
 }
 
 TEST_F(CliCheck, ListsWhereAndWithWhatAPathCollides) {
-  // The path of one request against a scene that stands in its way.
+  // The path of one request, in a scene that blocks it.
   const std::string response = planned("free", 1);
   scene_ = folder_.write("across.obj", "o barrier\nv -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n");
   const CliRun run = check(response);
@@ -64,7 +64,7 @@ TEST_F(CliCheck, ListsWhereAndWithWhatAPathCollides) {
   EXPECT_THAT(run.out, HasSubstr("barrier"));
 }
 
-// Of the request, or of the response, which tells those of the scene that it was planned in.
+// Bounds of the request, or of the response, which names those of its scene.
 TEST_F(CliCheck, ListsWhereAPathLeavesItsBounds) {
   const std::string file = planned("free", 1);
   auto response = read_plan_response(file);
@@ -101,7 +101,7 @@ TEST_F(CliCheck, RefusesAPathThatJumps) {
   EXPECT_THAT(run.err, HasSubstr("segments[1]"));
 }
 
-// Each of these would be called free by a search that skips or cannot evaluate a segment.
+// A search that skips a segment, or cannot evaluate it, would call each of these free.
 class CliCheckForeign : public CliCheck {
  protected:
   CliRun check_segments(const std::vector<nlohmann::json>& segments) {
@@ -150,7 +150,7 @@ TEST_F(CliCheckForeign, RefusesNumbersThatDoublesCannotSquare) {
 }
 
 TEST_F(CliCheckForeign, CountsAsCollidingWhereAnOrientationThatVanishesMatters) {
-  // The numerator is zero at u = 1/2. On the way through the wall, and where it could touch it.
+  // The numerator is zero at u = 1/2, on the way through the wall and where it could touch it.
   const std::array<double, 7> through_zero{1, 1, 1, 0, -1, -1, -1};
   for (const double end_m : {-1.0, 0.12}) {
     const CliRun run =
@@ -158,12 +158,13 @@ TEST_F(CliCheckForeign, CountsAsCollidingWhereAnOrientationThatVanishesMatters) 
     EXPECT_EQ(run.exit_code, 3) << run.err << run.out;
     EXPECT_THAT(run.out, StartsWith("collides from "));
   }
-  // Far from it the answer does not rest on the orientation, and does not take until the deadline.
+  // Far from it the answer does not depend on the orientation, and does not take until the
+  // deadline.
   EXPECT_EQ(check_segments({segment_json(0, 1, 7, 4, through_zero)}).err, "");
 }
 
 TEST_F(CliCheckForeign, FindsAWallInTheGapOfAJoin) {
-  // Both ends stand still at either side of it, nearer than a join has to agree.
+  // Both ends stand still on either side of the wall, nearer than the tolerance of a join.
   const double far_m = 0.1 + 1e-11;  // the quadrilateral is 0.1 m before the eye
   const double near_m = 0.1 - 1e-11;
   const CliRun run =
@@ -175,7 +176,7 @@ TEST_F(CliCheckForeign, FindsAWallInTheGapOfAJoin) {
 TEST_F(CliCheck, SaysWhichKeyframesThePathMeets) {
   const std::string response = planned("free", 1);
   EXPECT_THAT(check(response).out, HasSubstr("\nkeyframes met: 2 of 2, largest miss "));
-  // The path of one request for another: free all the same, but not where it was wanted.
+  // The path of one request checked for another: it is free, but misses the keyframes.
   request_ = folder_.write("other.json",
                            request_json({keyframe_json(1, 0, 1), keyframe_json(1.5, 0, -1)}));
   const CliRun run = check(response);
@@ -219,11 +220,11 @@ TEST_F(CliCheck, AcceptsABarePathWithRemarks) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, HasSubstr("keyframes met: not known"));
-  // Keyframes of which nothing is said but when.
+  // Keyframes with nothing but a time.
   path["keyframes"] = {{{"time", 0}}, {{"time", 1}}};
   EXPECT_THAT(check(folder_.write("path.json", path.dump())).out,
               HasSubstr("keyframes met: 2 of 2"));
-  // What could change the path is not passed over.
+  // Fields that could change the path are not ignored.
   path["segments"][0]["weights"] = {1, 2, 2, 1};
   const CliRun refused = check(folder_.write("path.json", path.dump()));
   EXPECT_EQ(refused.exit_code, 2);
@@ -255,7 +256,7 @@ TEST_F(CliCheck, WarnsOfAResponseForAnotherScene) {
 
 TEST_F(CliCheck, DoesNotMeetAKeyframeAtATimeThatThePathDoesNotHave) {
   const std::string file = planned("free", 1);
-  // The path stands still in time after its end, and would be where keyframe 1 wants it.
+  // The path stands still after its end, where keyframe 1 is.
   auto request = nlohmann::json::parse(read_all(request_));
   const auto response = nlohmann::json::parse(read_all(file));
   const double end_s = response["keyframes"][1]["time"];
@@ -300,7 +301,7 @@ TEST_F(CliCheck, GivesAVerdictWhenTimeRanOut) {
 }
 
 TEST_F(CliCheck, SaysOnceWhereOnTheBodyAContactIs) {
-  // Only the head of a thin rod is in the quadrilateral: no edge of it is touched.
+  // Only the end of a thin rod is in the quadrilateral, and no edge of it is touched.
   const std::string response = planned("free", 1);
   scene_ = folder_.write("rod.obj", "o rod\nv 1 0 -9\nv 1.001 0 -9\nv 1 0 0\nf 1 2 3\n");
   const CliRun run = check(response);
@@ -313,7 +314,7 @@ TEST_F(CliCheck, TakesTheSceneOfTheRequest) {
   const CliRun run = run_camway({"check", "--request", request_, "--response", response});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, check(response).out);
-  // As the request says to read it: ten times as large the wall is in the way.
+  // With the request's scale the scene is ten times as large, and the wall is in the way.
   std::string text = read_all(request_);
   text.replace(text.find("\"camera\""), 0, R"("scale": 10, )");
   const std::string larger = folder_.write("larger.json", text);

@@ -49,6 +49,15 @@ TEST_F(CliDraw, DrawsWhatThePictureIsNamedFor) {
   EXPECT_THAT(read(png), StartsWith("\x89PNG"));
 }
 
+TEST_F(CliDraw, DrawsTwoPlansSideBySide) {
+  plan(0.5);
+  const std::string svg = folder_.file("two.svg");
+  const CliRun run = run_camway({"draw", "--scene", scene_, "--request", request_, "--response",
+                                 response_, "--side-by-side", "--picture", svg});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(read(svg), HasSubstr(R"(width="920pt")"));
+}
+
 TEST_F(CliDraw, RefusesOtherPicturesAndAnswersWithoutAPath) {
   plan(0.5);
   const CliRun other = draw(folder_.file("answer.jpg"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the importer keeps, rounds and leaves out, as far as the answers of plan and check.
+// Elements that the importer keeps, rounds and leaves out, as the answers of plan and check show.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,15 +19,15 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// Single precision knows 1000000.0 and 1000000.0625, and nothing between.
+/// A coordinate between the adjacent floats 1000000.0 and 1000000.0625.
 constexpr double kWall_m = 1000000.03;
 
-/// Half the width of the near quadrilateral of `request_json`.
+/// Returns half of the width of the near quadrilateral of `request_json`.
 double half_width_m() { return 0.1 * std::tan(35.0 * std::acos(-1.0) / 180.0); }
 
 class CliImport : public ::testing::Test {
  protected:
-  /// The response to a request that leads straight along -Z at `x`, planned where nothing is near.
+  /// Returns the response to a request straight along -Z at `x`, planned in empty space.
   std::string path_at(double x) {
     request_ = folder_.write("request.json",
                              request_json({keyframe_json(x, 0, 1), keyframe_json(x, 0, -1)}));
@@ -46,7 +46,7 @@ class CliImport : public ::testing::Test {
   std::string request_;
 };
 
-/// The wall across y and z.
+/// Returns the wall across y and z.
 std::string wall_in(std::string_view extension) {
   const std::string x = fmt::format("{}", kWall_m);
   if (extension == ".obj") {
@@ -72,7 +72,7 @@ TEST_F(CliImport, JudgesAPathACentimetreFromAWallFarAway) {
   for (const std::string extension : {".obj", ".off", ".ply", ".stl"}) {
     SCOPED_TRACE(extension);
     const std::string scene = folder_.write("far" + extension, wall_in(extension));
-    // Free by a centimetre; a wall rounded to a million would be hit.
+    // Free by a centimetre; it would collide with a wall rounded to a million.
     CliRun run = check(scene, path_at(kWall_m - 0.01 - half_width_m()));
     EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
     const auto json = nlohmann::json::parse(run.out, nullptr, false);
@@ -80,14 +80,14 @@ TEST_F(CliImport, JudgesAPathACentimetreFromAWallFarAway) {
     EXPECT_EQ(json["certified"], true);
     EXPECT_LE(json["clearance_lower_bound"], 0.01 + 1e-9);
     EXPECT_GE(json["clearance_lower_bound"], 0.8 * 0.01);
-    // In it by a centimetre; a wall rounded to a million would be passed.
+    // Colliding by a centimetre; it would miss a wall rounded to a million.
     run = check(scene, path_at(kWall_m - 0.01 + half_width_m()));
     EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
     EXPECT_THAT(run.err, Not(HasSubstr("may be off")));
   }
 }
 
-/// A wall at a million, in a format that assimp reads.
+/// Returns a wall at a million, in a format that assimp reads.
 std::string collada_wall() {
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

@@ -39,7 +39,8 @@ TEST_F(CliPlan, WritesTheResponseToStandardOutput) {
   EXPECT_EQ(response.value->status, Status::kOk);
   EXPECT_EQ(response.value->keyframes.size(), 2U);
   EXPECT_GT(response.value->timing.load_scene_ms, 0.0);
-  EXPECT_THAT(run.err, HasSubstr("free.json: ok: no collision to correct; the path is proved free"));
+  EXPECT_THAT(run.err,
+              HasSubstr("free.json: ok: no collision to correct; the path is proved free"));
 }
 
 TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
@@ -59,7 +60,7 @@ TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
 }
 
 TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {
-  // A wall without end: no way round can be found.
+  // A wall without end: there is no way around.
   folder_.write("wide.obj",
                 "v -1e4 -1e4 0\nv 1e4 -1e4 0\nv 1e4 1e4 0\nv -1e4 1e4 0\nf 1 2 3\nf 1 3 4\n");
   const std::string request = folder_.write(
@@ -132,8 +133,8 @@ TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
 }
 
 TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
-  // The wall ends at x = 0.2 and the fin begins at x = 2: in between there is room for 1.8 m. The
-  // seed's method corrects cameras alone, so others are answered as they are interpolated.
+  // The wall ends at x = 0.2 and the fin begins at x = 2: between them is a gap of 1.8 m. The
+  // paper's method corrects cameras only, so other bodies get the interpolated path.
   const auto planned = [&](const std::string& body, double clearance) {
     std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
     const std::string camera = R"("camera": {"fov_x_deg": 70, "fov_y_deg": 50, "near": 0.1},)";
@@ -193,7 +194,7 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
   EXPECT_THAT(run.err, HasSubstr(" s: collides with fin; moved up to "));
 }
 
-// The response says what it kept to, and `check` proves that again.
+// The response names its bounds, and `check` proves the path within them again.
 TEST_F(CliPlan, KeepsWithinBounds) {
   std::string text = request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)});
   text.replace(text.find("\"camera\""), 0,
@@ -256,7 +257,8 @@ TEST_F(CliPlan, NamesTheAngleAsItWasWritten) {
   EXPECT_THAT(run.err, HasSubstr("R.json: camera.fov_x_deg: is 180 degrees"));
 }
 
-// Upright cameras, written x, y, z, w: read w, x, y, z they hang upside down.
+// Upright cameras whose quaternions are written x, y, z, w: read as w, x, y, z they hang upside
+// down.
 TEST_F(CliPlan, WarnsOfQuaternionsThatLookXyzw) {
   const auto keyframe = [](double z, const char* orientation) {
     return "{\"position\": [1, 0, " + std::to_string(z) + "], " + orientation + "}";
@@ -278,7 +280,7 @@ TEST_F(CliPlan, WarnsOfQuaternionsThatLookXyzw) {
   EXPECT_THAT(meant.err, Not(HasSubstr("warning"))) << "the order was said";
 }
 
-// What was planned for nothing would be lost.
+// Otherwise the result of planning would be lost.
 TEST_F(CliPlan, NoticesBeforePlanningThatTheResponseCannotBeWritten) {
   for (const std::vector<std::string>& flags :
        {std::vector<std::string>{"--response", "/nonexistent/P.json"},
@@ -327,7 +329,7 @@ TEST_F(CliPlan, SaysWhichFilesCannotBeUsed) {
 }
 
 TEST_F(CliPlan, ScalesAndTurnsTheScene) {
-  // At 10 m per unit the wall ends at x = 2 m and is in the way; turned to Y up it lies flat.
+  // At 10 m per unit the wall ends at x = 2 m and is in the way; rotated to Y up it is horizontal.
   CliRun run = run_camway({"plan", "--request", free_, "--scale", "10", "--deadline-s", "5"});
   ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
   EXPECT_FALSE(parse_plan_response(run.out, "stdout").value->collisions.empty());

@@ -8,21 +8,20 @@
 
 namespace camway::tools {
 
-/// How a run of the built `camway` ended.
+/// The result of a run of the built `camway`.
 struct CliRun {
-  int exit_code = -1;  ///< -1 if it did not end by itself
+  int exit_code = -1;  ///< -1 if a signal ended it
   std::string out;
   std::string err;
 };
 
-/// Runs `camway` with `arguments` as they are, no shell between; standard input is empty unless
-/// `input_file` names a file.
+/// Runs `camway` with these arguments, without a shell. Standard input is `input_file`, or empty.
 CliRun run_camway(const std::vector<std::string>& arguments, const std::string& input_file = {});
 
-/// A request as a person would write it: keyframes are objects in JSON.
+/// Returns a request file as a person would write it; keyframes are JSON objects.
 std::string request_json(const std::vector<std::string>& keyframes,
                          const std::string& scene = "wall.obj");
-/// A keyframe that looks along -Z from there.
+/// Returns a keyframe at this position that looks along -Z.
 std::string keyframe_json(double x, double y, double z);
 
 }  // namespace camway::tools

@@ -21,7 +21,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// With the exit codes beside 0, 1 and 2 that the table in README.md names for them.
+/// The commands, each with its exit codes beside 0, 1 and 2.
 const std::vector<std::pair<std::string, std::string>> kCommands{
     {"plan", "3"},   {"check", "3"},  {"info", ""},    {"occupancy", "34"},
     {"load", "34"},  {"draw", ""},    {"replay", "3"}, {"scene", "34"},
@@ -44,12 +44,12 @@ TEST(Cli, HelpsWithUnitsExitCodesAndAnExample) {
   }
 }
 
-/// What the shell sees of `camway` with that behind it.
+/// Returns the exit code of `camway` followed by `rest`, as the shell sees it.
 int exit_code_of_shell(const std::string& rest) {
   return WEXITSTATUS(std::system(("'" CAMWAY_BINARY "' " + rest).c_str()));
 }
 
-// A script must not take an empty file for an answer, nor a full disk for a crash.
+// A script must not take an empty file for an answer, or a full disk for a crash.
 TEST(Cli, OutputThatCannotBeWrittenIsSaid) {
   const TemporaryFolder folder;
   const std::string said = folder.file("said");
@@ -77,7 +77,7 @@ TEST(Cli, HelpOfWhatIsNoCommandSaysSo) {
   }
 }
 
-// Of those that need no daemon; those of the others are tested where there is one.
+// The commands without a daemon; other tests cover the others.
 TEST(Cli, ANetworkThatLcmCannotUseIsInvalidInput) {
   const TemporaryFolder folder;
   const std::string request = folder.write("r.json", R"({"camera": {"fov_x_deg": 80,
@@ -213,7 +213,7 @@ TEST_F(CliScene, OccupancyNamesTheQueryAtFault) {
 
 class CliReplay : public CliScene {
  protected:
-  /// A log with the answers of planning in this process; `changed`: with one of them altered.
+  /// Returns a log with the answers of planning in this process; `changed` alters one of them.
   LogBuilder recorded(bool changed) const {
     const auto loaded = scene::load_snapshot("wall", scene_, {});
     EXPECT_TRUE(loaded.snapshot) << loaded.error;

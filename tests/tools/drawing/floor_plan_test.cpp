@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "tools/drawing/side_by_side.h"
 
 namespace camway::draw {
 namespace {
@@ -36,7 +37,7 @@ void add_box(scene::Mesh& mesh, const Vec3& low, const Vec3& high) {
   mesh.objects.push_back({"box", first_triangle, 12});
 }
 
-/// Two storeys of 6 x 4 m: floors at 0 and 3 m, a wall, a table.
+/// Returns two storeys of 6 x 4 m: floors at 0 and 3 m, a wall, a table.
 scene::Mesh small_house() {
   scene::Mesh mesh;
   add_box(mesh, {0, -0.2, 0}, {6, 0, 4});
@@ -70,11 +71,12 @@ TEST(FloorSection, CutsWallsAndKeepsWhatIsLower) {
   EXPECT_NEAR(area_of(section.cut[0][0]), 0.2 * 2.5, 1e-12);
   EXPECT_EQ(section.tops.size(), 2U) << "the table's top; its underside is on the floor";
   // A box without the edges of its underside, which borders on the floor and is left out: four
-  // edges of the top, the four upright ones are points on paper, and four at the bottom's borders.
+  // edges of the top, four vertical ones that are points on paper, and four at the borders of the
+  // bottom.
   EXPECT_EQ(section.outlines.size(), 8U);
 }
 
-/// The same picture whichever axis is up, if the scene is turned accordingly.
+/// The picture is the same for either axis if the scene is rotated accordingly.
 TEST(FloorSection, UpAxisIsOnlyAMatterOfNames) {
   const FloorSection y = cut_floor(small_house(), SceneUp::kY, 1.5);
   const FloorSection z = cut_floor(turned_to_z_up(small_house()), SceneUp::kZ, 1.5);
@@ -162,7 +164,7 @@ TEST(FloorPlan, WritesBothFiles) {
   EXPECT_THAT(svg, testing::HasSubstr("</svg>"));
 }
 
-/// How often the SVG draws a stroke in the collision colour.
+/// Returns the number of strokes in the collision colour in the SVG.
 std::size_t collision_strokes(const FloorPlan& plan) {
   const fs::path file = fs::path(testing::TempDir()) / "floor_plan_count.svg";
   EXPECT_EQ(draw_floor_plan(plan, {file, {}}), "");
@@ -173,7 +175,7 @@ std::size_t collision_strokes(const FloorPlan& plan) {
   return count;
 }
 
-/// Each interval adds a bold stretch, two quadrilaterals and a mark.
+/// Each interval adds a bold line, two quadrilaterals and a mark.
 TEST(FloorPlan, ShowsEveryCollision) {
   FloorPlan plan = through_the_wall();
   plan.collisions.clear();
@@ -194,6 +196,16 @@ TEST(FloorPlan, SurvivesAlmostNothing) {
   only_keyframe.keyframes = {keyframe(0, {0, 0, 0}, motion::KeyframeOrigin::kGiven)};
   only_keyframe.collisions = {{0.0, 1.0}};  // without a path to show them on
   EXPECT_EQ(draw_floor_plan(only_keyframe, files), "");
+}
+
+/// Collisions are drawn on the left, and without a path there is nothing to draw.
+TEST(FloorPlan, TwoPlansSideBySide) {
+  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_two.svg",
+                           fs::path(testing::TempDir()) / "floor_plan_two.png"};
+  ASSERT_EQ(draw_side_by_side(through_the_wall(), files), "");
+  EXPECT_EQ(big_endian(contents(files.png), 16), 920U);
+  EXPECT_THAT(contents(files.svg), testing::HasSubstr("rgb(83.5%,36.9%,0%)"));
+  EXPECT_EQ(draw_side_by_side({}, files), "");
 }
 
 TEST(FloorPlan, FailureNamesTheFile) {

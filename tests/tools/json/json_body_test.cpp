@@ -12,7 +12,7 @@ namespace {
 using geometry::Vec3;
 using ::testing::StartsWith;
 
-/// A request with this body, and a camera if asked for.
+/// Returns a request with this body, and a camera if asked for.
 std::string request_with(const std::string& body, bool with_camera = false) {
   return R"({"keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
                            {"position": [0, 0, 1], "orientation": [1, 0, 0, 0]}],)" +

@@ -52,7 +52,7 @@ TEST(JsonDocument, RefusesDeepNestingAndTakesWhatIsJustNotTooDeep) {
   const auto deeper = parse_document("[" + closed + "]", "R.json");
   EXPECT_FALSE(deeper.value);
   EXPECT_THAT(deeper.error, HasSubstr("nested deeper than 32"));
-  // Deep enough to exhaust the stack of a reader that recurses.
+  // Deep enough to exhaust the stack of a recursive reader.
   EXPECT_FALSE(parse_document(std::string(5'000'000, '['), "R.json").value);
 }
 

@@ -35,7 +35,7 @@ constexpr const char* kGoodRequest = R"({
   "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "clearance": 0.25, "chord_error_m": 0.01,
               "interval_tolerance_m": 0.001, "max_inserted_keyframes": 7}})";
 
-/// The good request with `from` replaced by `to`.
+/// Returns the valid request with `from` replaced by `to`.
 std::string edited(const std::string& from, const std::string& to) {
   std::string text = kGoodRequest;
   const std::size_t at = text.find(from);
@@ -162,7 +162,7 @@ TEST(JsonRequest, LeavesRangesToValidationWhoseMessagesNameTheField) {
               HasSubstr("options.deadline_s"));
 }
 
-// Every field that validation names is one that the request has: it is there, as written.
+// Every field that validation names is in the request with that name.
 TEST(JsonRequest, ValidationNamesFieldsAsTheFileDoes) {
   const std::pair<const char*, const char*> kFaults[] = {
       {R"("fov_y_deg": 60)", R"("fov_y_deg": 0)"},
@@ -246,7 +246,7 @@ TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
   }
 }
 
-/// Any finite double, every exponent equally likely.
+/// Returns any finite double, with every exponent equally likely.
 double any_double(std::mt19937_64& random) {
   for (;;) {
     const double value = std::bit_cast<double>(random());
@@ -254,7 +254,7 @@ double any_double(std::mt19937_64& random) {
   }
 }
 
-/// An angle that reads back as the same bits from degrees.
+/// Returns an angle that reads back as the same bits from degrees.
 double any_angle(std::mt19937_64& random) {
   return radians(std::uniform_real_distribution<double>(0, 180)(random));
 }
@@ -265,7 +265,7 @@ motion::PathMeasures any_measures(std::mt19937_64& random) {
           number(), any_angle(random), any_angle(random), number()};
 }
 
-/// All that a response may say of correction, each of it there or not.
+/// Adds a random subset of the fields about correction.
 void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
   const auto number = [&] { return any_double(random); };
   result.corrections.resize(random() % 4);
@@ -572,9 +572,8 @@ TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
 
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
-  for (const char* key :
-       {"measures", "near_scale", "time_scale", "deadline_reached", "slowed", "keyframe_faults",
-        "infeasibility"}) {
+  for (const char* key : {"measures", "near_scale", "time_scale", "deadline_reached", "slowed",
+                          "keyframe_faults", "infeasibility"}) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
   }
 }
@@ -597,8 +596,8 @@ TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
   EXPECT_EQ(error_of("\"length_m\"", "\"length\""), "P.json: measures.after.length_m: is missing");
 }
 
-// What is written for an angle is read as the same bits where degrees can say so, within a rounding
-// of each of the two factors otherwise, and in any case written as the same text again.
+// A written angle reads back as the same bits if degrees can express it, and otherwise within a
+// rounding of each of the two factors. In any case it is written as the same text again.
 TEST(JsonAngle, DegreesReadBack) {
   constexpr unsigned kSeed = 11;
   RecordProperty("seed", kSeed);

@@ -125,7 +125,7 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
   }
 }
 
-/// The text of options with every field, as a client might write it.
+/// Returns the text of options with every field, as a client might write it.
 std::string text_of(const PlanOptions& options) {
   const correction::OrientationPolicy& orientation = options.orientation;
   std::string policy = R"("policy": "free")";

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Contents by relative name of all files below `folder`.
+/// Returns the contents of all files below `folder` by relative name.
 std::map<std::string, std::string> files_below(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -89,7 +89,7 @@ motion::Corners corners_of(const Request& request) {
                                  static_cast<double>(request.lens.near) / 1e6});
 }
 
-/// `free` requests are free, all others collide: each tests what its name says.
+/// `free` requests are free and all others collide, as their names say.
 TEST(MakeScenes, RequestsDoWhatTheirNamesSay) {
   for (const Entry& entry : make_catalogue()) {
     const scene::SceneIndex index = scene::SceneIndex::build(mesh_of(entry.scene));
@@ -113,7 +113,7 @@ TEST(MakeScenes, RequestsDoWhatTheirNamesSay) {
   }
 }
 
-/// The generator's own check of its keyframes finds what is wrong with these.
+/// The generator's own check finds the faults of these keyframes.
 TEST(MakeScenes, ClearanceIsMeasuredFromTheFilledQuadrilateral) {
   Scene scene;
   scene.begin_object("spike");

@@ -13,7 +13,7 @@
 namespace camway::tools {
 namespace {
 
-// From memory through the client's structs onto the wire, and from there as the daemon reads it.
+// Converts from memory to the client's structs and the wire, and back as the daemon reads it.
 TEST(ClientRequest, EveryOptionReachesTheDaemon) {
   testing::Random random(testing::kSeed);
   for (int trial = 0; trial < 200; ++trial) {

@@ -32,7 +32,7 @@ std::size_t files_in(const fs::path& folder) {
       std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-/// While it lives, files of this process can be no longer than so many bytes: as on a full disk.
+/// Limits the length of this process's files while it exists, like a full disk.
 class LengthLimit {
  public:
   explicit LengthLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

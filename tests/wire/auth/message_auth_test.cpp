@@ -124,7 +124,7 @@ TEST_F(MessageAuthTest, KeysAreChangedOneAfterTheOther) {
     return daemon.open(kChannel, client.seal(kChannel, kMessage)).message &&
            client.open(kChannel, daemon.seal(kChannel, kMessage)).message;
   };
-  // The new key is known everywhere before anyone signs with it, and the old one until nobody does.
+  // The new key is known everywhere before the first use, and the old one until after the last.
   for (const std::string& text : {kOld + kNew, kNew + kOld, kNew}) {
     daemon.set_keys(keys(text));
     EXPECT_TRUE(understand_each_other()) << "the daemon has:\n" << text;

@@ -50,7 +50,7 @@ TEST(MessageKeys, NamesTheLineThatIsWrongAndNeverTheSecret) {
   EXPECT_EQ(error_of(many), "keys:65: more than 64 keys");
 }
 
-/// The rights of another user for as long as it lives, but still in the group of root.
+/// Gives the process the rights of another user during its lifetime, who is still in root's group.
 class AsSomebody {
  public:
   static constexpr uid_t kUser = 65534;
@@ -60,7 +60,7 @@ class AsSomebody {
   AsSomebody& operator=(const AsSomebody&) = delete;
 };
 
-/// A key file of that owner, in the group of root, with that mode.
+/// A key file with this owner and mode, in root's group.
 class OwnedFile {
  public:
   OwnedFile() : name_(folder_.write("keys", "1 " + kOne + "\n")) {
@@ -117,7 +117,7 @@ TEST(MessageKeys, WhatIsNoFileIsRefusedWithoutWaiting) {
   EXPECT_THAT(MessageKeys::from_file(large).error, HasSubstr("longer than any key file"));
 }
 
-/// The tag is keyed BLAKE2b of what README.md says, put together here anew.
+/// The tag is keyed BLAKE2b of the bytes that README.md lists, assembled independently here.
 TEST(MessageKeys, TheTagIsWhatIsDocumented) {
   const MessageKeys::Read read = MessageKeys::from_text("258 " + kOne, "keys");
   ASSERT_TRUE(read.keys) << read.error;

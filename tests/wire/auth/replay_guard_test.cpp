@@ -37,7 +37,7 @@ TEST(ReplayGuard, NothingIsNewTwiceHoweverMessagesOvertakeEachOther) {
   std::int64_t front = 0;
   for (int trial = 0; trial < 200'000; ++trial) {
     front += static_cast<std::int64_t>(random() % 3);
-    // Mostly near the front; now and then far ahead or behind.
+    // Mostly near the highest counter; sometimes far ahead or behind.
     const auto back = static_cast<std::int64_t>(random() % 2000);
     const std::int64_t counter = front - back;
     const Verdict verdict = guard.take(message(counter), kNow);
@@ -92,7 +92,7 @@ TEST(ReplayGuard, RemembersABoundedNumberOfSendersAndForgetsTheSilentOnly) {
   }
   EXPECT_EQ(guard.take(message(1, kNow, 10), kNow), Verdict::kCrowded);
   EXPECT_EQ(guard.senders(), 10U);
-  // Then the first three have been silent for longer than any message of theirs is accepted.
+  // Then the first three have been silent for longer than their messages are accepted.
   const std::int64_t later = kNow + kWindow + 3;
   EXPECT_EQ(guard.take(message(1, later, 10), later), Verdict::kNew);
   EXPECT_EQ(guard.senders(), 8U);

@@ -26,9 +26,8 @@ struct CheckFlags {
 
 Parsed<CheckInput> failed(std::string error) { return {std::nullopt, std::move(error)}; }
 
-/// The request's keyframes with the times at which they are to be met: its own or, if it leaves
-/// them open, those that the response gives, if they increase: wrong ones cannot hide a miss, only
-/// make one.
+/// Returns the request's keyframes with their times: those of the request, or else those of the
+/// response if they increase. Wrong times cannot hide a missed keyframe, only cause one.
 std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& request,
                                               const std::vector<double>& times_s) {
   std::vector<motion::Keyframe> keyframes = request.keyframes;
@@ -41,7 +40,7 @@ std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& reque
   return keyframes;
 }
 
-/// Request and response, each judged by itself.
+/// Reads request and response and checks each on its own.
 Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>& request) {
   if (!request.value) return failed(request.error);
   if (const auto fault = planning::validate(*request.value)) {
@@ -54,7 +53,7 @@ Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>
   std::string fault;
   auto body = motion::Body::make(request.value->body.value_or(camera), fault);
   if (!body) return failed(flags.request + ": body: " + fault);
-  // Those of the scene that it was planned in are told by the response alone.
+  // Only the response has the bounds of the scene that it was planned in.
   const geometry::Bounds bounds = request.value->options.bounds.within(response.value->bounds);
   return {
       CheckInput{*request.value, response.value->path, flags.response,

@@ -18,15 +18,14 @@ namespace {
 
 using collision::CollisionInterval;
 
-/// Beyond these, a list of missed keyframes is only counted.
+/// Largest number of missed keyframes to list; further ones are counted.
 constexpr std::size_t kListedMisses = 10;
 
-/// A body that is less than so many tolerances large can be called colliding where a person would
-/// call it free, and its intervals end visibly late.
+/// Size in tolerances below which a body may count as colliding where a person sees it free, and
+/// its collision intervals end visibly late.
 constexpr double kToleranceFits = 10.0;
 
-/// A keyframe is met if the path passes it within what the request calls fine: the motion of a
-/// corner to which it wants collisions bracketed.
+/// Largest distance at which the path meets a keyframe: the interval tolerance of the request.
 double met_within_m(const planning::PlanRequest& request) {
   return request.options.interval_tolerance_m;
 }
@@ -35,7 +34,7 @@ planning::WitnessNames names_of(const CheckInput& input, const collision::Witnes
   return planning::describe_witness(input.snapshot->mesh, *input.body, witness);
 }
 
-/// What an interval collides with, in words.
+/// Returns the object that an interval collides with, in words.
 std::string culprit(const CheckInput& input, const CollisionInterval& interval) {
   if (!interval.witness) return "what could not be told apart";
   const collision::Witness& witness = *interval.witness;
@@ -69,14 +68,15 @@ struct Miss {
   std::optional<double> by_m;  ///< nothing: the path does not exist at its time
 };
 
-/// Which keyframes the path meets.
+/// The keyframes that the path meets and misses.
 struct KeyframeReport {
   std::vector<Miss> missed;
-  std::size_t outside = 0;  ///< of those: at times that the path does not have
+  std::size_t outside = 0;  ///< missed ones whose time is outside of the path
   double largest_miss_m = 0.0;
 };
 
-/// Times agree as well as poses at a join have to: files of other programs hold few digits.
+/// Returns whether times agree as closely as poses at a join must: files of other programs have few
+/// digits.
 bool is_outside(const motion::Path& path, double time_s) {
   const double agreement_s = planning::kJoinAgreement * (path.end_s() - path.begin_s());
   return !(time_s >= path.begin_s() - agreement_s && time_s <= path.end_s() + agreement_s);
@@ -144,7 +144,7 @@ std::string_view verdict(const PathSearch& search) {
   return search.certificate.certified ? "free" : "collides";
 }
 
-/// The longest side of the box about the body.
+/// Returns the longest side of the body's bounding box.
 double size_m(const motion::Body& body) {
   geometry::Box box;
   for (const geometry::Triangle& triangle : body.triangles_C())

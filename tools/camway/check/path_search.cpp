@@ -13,11 +13,11 @@ namespace {
 
 using collision::CollisionInterval;
 
-/// So many parts are searched one after the other. A few looks at the scene more than a search of
-/// the whole needs, and what is lost to the deadline is at most one part.
+/// Number of parts that are searched in turn. They cost a few probes more than one search of the
+/// whole path, and a deadline discards the result of at most one part.
 constexpr int kParts = 100;
 
-/// Puts the intervals in order and makes one of those that touch, with the deepest witness.
+/// Sorts the intervals and merges those that touch, with the deepest witness.
 void merge_touching(std::vector<CollisionInterval>& intervals) {
   std::ranges::stable_sort(intervals, {}, &CollisionInterval::t_begin_s);
   std::vector<CollisionInterval> merged;
@@ -69,7 +69,7 @@ class Searcher {
     return std::min(path_.begin_s() + share * (path_.end_s() - path_.begin_s()), path_.end_s());
   }
 
-  // False if the deadline struck.
+  // Returns false if the deadline came first.
   bool search_part(double begin_s, double end_s, std::vector<CollisionInterval>& found) const {
     const auto intervals =
         collision::detect_collisions(obstacles_, path_, body_, begin_s, end_s, options_, deadline_);
@@ -77,7 +77,8 @@ class Searcher {
     return intervals.has_value();
   }
 
-  // All up to `end_s` that were not searched before; false if the deadline struck.
+  // Searches the bridges up to `end_s` that were not searched yet; false if the deadline came
+  // first.
   bool search_bridges(double end_s, std::vector<CollisionInterval>& found) {
     for (; next_bridge_ < bridges_.size(); ++next_bridge_) {
       const planning::Bridge& bridge = bridges_[next_bridge_];

@@ -11,24 +11,25 @@
 
 namespace camway::tools {
 
-/// What is known of a path that somebody made.
+/// The result of the search of a path for collisions.
 struct PathSearch {
-  /// False if the deadline struck before the end.
+  /// Whether the search reached the end of the path before the deadline.
   bool complete = false;
-  /// Up to here all is known: what `collisions` does not list is proved free, joins included.
+  /// Time up to which the search came. Until then, every instant outside of `collisions` is proved
+  /// free, joins of segments included.
   double searched_until_s = 0.0;
-  /// In order, maximal as far as the search came; none overlaps or touches the next.
+  /// Collision intervals in order, merged where they touch.
   std::vector<collision::CollisionInterval> collisions;
-  /// Certified exactly if complete and without collisions.
+  /// Certified exactly if the search is complete and found no collision.
   planning::Certificate certificate;
 };
 
-/// Searches a path and the straight motions that close its gaps (`planning::bridges`) for
-/// collisions, from the beginning to the end, so that a deadline does not take what was found
-/// before it; where nothing collides, bounds the clearance. A scene that stands in a gap is a
-/// collision at that instant. Two intervals on both sides of a multiple of a hundredth of the path
-/// are not joined over a gap that nobody could use (`collision::DetectOptions::gap_m`).
-/// Precondition: `planning::find_fault` and `find_jump` find nothing.
+/// Searches a path for collisions, and the straight motions across joins whose ends differ
+/// (`planning::bridges`); a collision of such a motion counts at the instant of the join. Bounds
+/// the clearance if nothing collides. The path is searched in a hundred parts in order of time, so
+/// that a deadline keeps the results before it. Intervals on both sides of a border of two parts
+/// are not joined over the joining distance (`collision::DetectOptions::gap_m`). Requires a path in
+/// which `planning::find_fault` and `find_jump` find nothing.
 PathSearch search_path(const collision::Obstacles& obstacles, const motion::Path& path,
                        const motion::Body& body, const collision::DetectOptions& options,
                        const base::Deadline& deadline);

@@ -18,7 +18,7 @@ ExitCode worse(ExitCode a, ExitCode b) {
 
 void print_error(std::string_view message) {
   const std::string line = fmt::format("camway: {}\n", message);
-  // Not fmt::print, which throws where nothing can be written: there is nobody left to tell.
+  // Not fmt::print, which throws if nothing can be written; that could not be reported anywhere.
   std::fputs(line.c_str(), stderr);
 }
 

@@ -8,21 +8,21 @@
 
 namespace camway::tools {
 
-/// What the shell sees. The same numbers for every subcommand.
+/// Exit codes of the process, the same for every subcommand.
 enum class ExitCode : int {
   kSuccess = 0,
   kOurFault = 1,
   kInvalidInput = 2,
-  kNegative = 3,  ///< the answer is no; what that means each command's help says
+  kNegative = 3,  ///< a negative result; the help of each command defines it
   kNoDaemon = 4,  ///< no daemon was heard, or it did not answer
 };
 
-/// The worse of two outcomes of a set: our fault before no daemon, invalid input and a
-/// negative answer, in this order.
+/// Returns the worse of two exit codes. From worst to best: our fault, no daemon, invalid input,
+/// negative result, success.
 ExitCode worse(ExitCode a, ExitCode b);
 
-/// Each adds its subcommand to `app`. When it is the one that was called it runs inside `app.parse`
-/// and leaves its outcome in `exit_code`, which must outlive `app`.
+/// Each of these adds a subcommand to `app`. The subcommand that the user called runs inside
+/// `app.parse` and sets `exit_code`, which must outlive `app`.
 void add_plan_command(CLI::App& app, ExitCode& exit_code);
 void add_check_command(CLI::App& app, ExitCode& exit_code);
 void add_info_command(CLI::App& app, ExitCode& exit_code);
@@ -35,11 +35,11 @@ void add_status_command(CLI::App& app, ExitCode& exit_code);
 void add_doctor_command(CLI::App& app, ExitCode& exit_code);
 void add_watch_command(CLI::App& app, ExitCode& exit_code);
 
-/// `camway: message` on standard error.
+/// Prints `camway: message` on standard error.
 void print_error(std::string_view message);
 
-/// The paragraph on exit codes that ends the help of every subcommand. `negative` says what 3
-/// means; empty: it does not occur. 4 does where a daemon is asked.
+/// Returns the paragraph on exit codes at the end of a subcommand's help. `negative` defines code
+/// 3; if it is empty, code 3 is left out. `asks_daemon` includes code 4.
 std::string exit_code_help(std::string_view negative, bool asks_daemon = false);
 
 }  // namespace camway::tools

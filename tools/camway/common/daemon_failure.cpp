@@ -10,8 +10,8 @@
 namespace camway::tools {
 namespace {
 
-/// A wrong request or network is the caller's; that nobody answers is neither his fault nor an
-/// answer.
+/// Returns the exit code of a status. A wrong request or network is invalid input; a missing answer
+/// is neither invalid input nor a negative result.
 ExitCode exit_code_of(Status status) {
   switch (status) {
     case Status::kInvalid:

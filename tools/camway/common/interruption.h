@@ -6,8 +6,8 @@
 
 namespace camway::tools {
 
-/// Keeps SIGINT and SIGTERM from ending this process at once, so that the daemon can be told first.
-/// To be made before the client, whose thread takes it over.
+/// Blocks SIGINT and SIGTERM, so that a command can cancel its request at the daemon before it
+/// ends. Make it before the client, whose thread inherits the signal mask.
 class Interruption {
  public:
   Interruption() {
@@ -15,14 +15,14 @@ class Interruption {
     for (const int signal : {SIGINT, SIGTERM}) sigaddset(&signals_, signal);
     pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
-  /// Whether one came since the last time.
+  /// Returns whether a signal came since the last call.
   [[nodiscard]] bool came() const { return came_within(0); }
-  /// Whether one comes within so many milliseconds [Limit: 0 <= value < 1000].
+  /// Returns whether a signal comes within this time. [Limit: 0 <= value < 1000]
   [[nodiscard]] bool came_within(long milliseconds) const {
     const timespec wait{.tv_sec = 0, .tv_nsec = milliseconds * 1'000'000};
     return sigtimedwait(&signals_, nullptr, &wait) > 0;
   }
-  /// Ends this process as if none were kept from that.
+  /// Ends this process by SIGINT, as if it had not been blocked.
   void end_process() const {
     pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
     raise(SIGINT);

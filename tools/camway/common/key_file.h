@@ -12,8 +12,8 @@ namespace camway::tools {
 /// Declares `--key-file` of a command that talks to a daemon.
 CLI::Option* add_key_file(CLI::App& command, std::string& file);
 
-/// Makes the clients of these options sign and check by the keys of `file`, unless that is empty.
-/// Returns what is wrong with it.
+/// Makes the clients of these options sign and check messages with the keys of `file`. Does nothing
+/// if `file` is empty. Returns the fault of the file; empty on success.
 std::string use_key_file(const std::string& file, ClientOptions& options);
 
 }  // namespace camway::tools

@@ -11,7 +11,7 @@
 namespace camway::tools {
 namespace {
 
-/// Help for the scene, and what holds where a flag is not given, before the usual.
+/// Adds the flags, with the help of --scene and a text about the defaults.
 CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& first) {
   command
       .add_option(

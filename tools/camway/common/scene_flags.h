@@ -13,45 +13,45 @@
 
 namespace camway::tools {
 
-/// The flags about reading a scene that several subcommands share.
+/// The flags for reading a scene, which several subcommands share.
 struct SceneFlags {
   std::string file;
   SceneReading reading;
 
-  /// How to read the scene: as the flags say, else as the request does, else as usual.
+  /// Returns the options of the import: from the flags, else from the request, else the defaults.
   [[nodiscard]] scene::ImportOptions import_options(const SceneReading& of_request = {}) const;
 
-  /// The file of --scene, or the request's own, which is relative to the folder of the request;
-  /// empty if there is neither.
+  /// Returns the file of --scene, else the file that the request names, relative to the request's
+  /// folder; empty if there is neither.
   [[nodiscard]] std::string file_for(const std::string& request_file,
                                      const planning::PlanRequest& request) const;
 };
 
-/// Adds --scene, --scale, --up and --unknown. Returns the option of --scene, for the caller to say
-/// whether it is required.
+/// Adds --scene, --scale, --up and --unknown. Returns the option --scene, which the caller may make
+/// a required one.
 CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags);
 
-/// The same for a command that reads a request: its scene, and how to read it, hold where a flag is
-/// not given.
+/// Adds these flags to a command that reads a request, whose scene and reading options are the
+/// defaults of the flags.
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags);
 
-/// Warns of `scale`, `up` and `unknown` in a request for a scene that is not read for it: it is the
-/// daemon's, or --scene says how to read it.
+/// Warns that `scale`, `up` and `unknown` of a request have no effect, because the command uses
+/// another scene: the daemon's, or that of --scene.
 void warn_of_reading(const std::string& request_file, const RequestFile& request);
 
-/// `as-in-file`, `z-to-y` or `y-to-z`, as on the command line.
+/// Returns the name of an axis conversion on the command line: as-in-file, z-to-y or y-to-z.
 std::string_view to_string(scene::UpAxis up);
 
-/// A scene with what loading it took, or the reason why it could not be loaded.
+/// A scene, or the reason why it could not be loaded, and the time of loading.
 struct LoadedScene {
   scene::SnapshotResult result;
   double load_ms = 0.0;
 };
 
-/// Loads each file once for each way of reading it.
+/// Loads each file once for each set of import options. Not thread-safe.
 class SceneCache {
  public:
-  /// The reference lives as long as the cache.
+  /// Returns the scene. The reference is valid as long as the cache.
   const LoadedScene& load(const std::string& file, const scene::ImportOptions& import);
 
  private:

@@ -12,16 +12,16 @@
 
 #include "daemon/service/transport/lcm_url.h"
 
-/// What keeps Camway from working on a machine: facts, gathered in one place, and what they mean,
-/// judged in another, so that machines that nobody has at hand can be judged too.
+/// The diagnosis of a machine on which Camway does not work. `gather_facts` collects facts and
+/// `diagnose` judges them, so that tests can judge machines that are not at hand.
 namespace camway::tools {
 
 using service::LcmNetwork;
 
-/// The device by which a machine would send to the group.
+/// The network device of the route to the multicast group.
 struct MulticastRoute {
   std::string device;
-  bool multicast = true;  ///< the device's flag
+  bool multicast = true;  ///< whether the device has the flag MULTICAST
 };
 
 /// A scene file that the configuration names.
@@ -32,43 +32,43 @@ struct SceneFileFact {
   bool readable = false;
 };
 
-/// How a daemon's messages and our keys go together.
+/// The match of a daemon's signatures and the keys of this command.
 enum class Signature {
-  kNone,       ///< not signed, and we have no keys
-  kUnchecked,  ///< signed, and we have no keys; the daemon takes unsigned messages, too
-  kNeeded,     ///< the same, but it drops what is not signed
-  kOurs,       ///< signed with one of ours
-  kDistrusted  ///< we have keys, and clients with them drop it
+  kNone,       ///< the daemon does not sign, and there are no keys here
+  kUnchecked,  ///< the daemon signs but accepts unsigned messages, and there are no keys here
+  kNeeded,     ///< the daemon signs and drops unsigned messages, and there are no keys here
+  kOurs,       ///< the daemon signs with a key that is known here
+  kDistrusted  ///< there are keys here, and the daemon's messages do not pass their check
 };
 
-/// The daemon's last status.
+/// Facts from the status of a daemon.
 struct DaemonFact {
   std::string version;
-  double clock_ahead_s = 0.0;  ///< of ours, transport included
-  bool is_alone = true;        ///< until its next status nothing was heard of another one
+  double clock_ahead_s = 0.0;  ///< daemon's clock minus the local clock, transmission included
+  bool is_alone = true;        ///< whether no other daemon was heard until its next status
   Signature signature = Signature::kNone;
 };
 
 struct HostFacts {
   LcmNetwork network;
-  bool other_hosts = false;  ///< daemon and clients are to be on several hosts
+  bool other_hosts = false;  ///< whether daemon and clients shall be on several hosts
   std::string own_version;
-  std::optional<MulticastRoute> route;               ///< nothing: the group cannot be reached
-  std::optional<std::int64_t> receive_buffer_bytes;  ///< net.core.rmem_default
+  std::optional<MulticastRoute> route;                       ///< unset: the group cannot be reached
+  std::optional<std::int64_t> receive_buffer_bytes;          ///< net.core.rmem_default
   std::optional<std::int64_t> largest_receive_buffer_bytes;  ///< net.core.rmem_max
-  std::int64_t dropped_datagrams = 0;  ///< since boot, for want of room in receive buffers
-  std::string lcm_error;               ///< why LCM cannot be opened; empty when it can
-  std::string unguarded;               ///< why other hosts are heard though ttl is 0; else empty
-  std::optional<DaemonFact> daemon;    ///< nothing: none was heard
-  std::string config_file;             ///< empty: none was named
-  std::vector<std::string> config_faults;
-  std::vector<SceneFileFact> scene_files;
+  std::int64_t dropped_datagrams = 0;  ///< dropped since boot because receive buffers were full
+  std::string lcm_error;               ///< reason why LCM cannot be opened; empty if it can
+  std::string unguarded;             ///< reason why other hosts are heard though ttl is 0, or empty
+  std::optional<DaemonFact> daemon;  ///< unset: none was heard
+  std::string config_file;           ///< empty: none was given
+  std::vector<std::string> config_faults;  ///< faults of that file
+  std::vector<SceneFileFact> scene_files;  ///< scenes that it names
 };
 
 enum class Severity {
   kGood,
-  kNote,     ///< works, but somebody may want to know
-  kWarning,  ///< works now, may not always
+  kNote,     ///< works; a remark
+  kWarning,  ///< works now, but may fail
   kProblem,  ///< does not work
 };
 std::string_view to_string(Severity severity);
@@ -77,11 +77,11 @@ struct Finding {
   std::string_view check;
   Severity severity = Severity::kGood;
   std::string text;
-  std::string mend = {};  ///< a command, or what to change; empty where there is nothing to mend
+  std::string mend = {};  ///< remedy: a command, or what to change; empty if none is needed
 };
 
-/// What `facts` mean, a finding for each check at least, in the order of the checks. Safe from any
-/// thread.
+/// Returns the findings from `facts`, at least one for each check, in the order of the checks.
+/// Thread-safe.
 std::vector<Finding> diagnose(const HostFacts& facts);
 
 struct DoctorQuestions {
@@ -89,11 +89,11 @@ struct DoctorQuestions {
   std::string prefix = "CAMWAY";
   std::string config_file;
   bool other_hosts = false;
-  double timeout_s = 3.0;                                ///< how long to listen for a daemon
-  std::shared_ptr<const Authentication> authentication;  ///< null: we have no keys
+  double timeout_s = 3.0;                                ///< time to listen for a daemon
+  std::shared_ptr<const Authentication> authentication;  ///< null: no keys
 };
 
-/// Looks at this machine. Changes nothing.
+/// Collects the facts about this machine. Changes nothing.
 HostFacts gather_facts(const DoctorQuestions& questions);
 
 }  // namespace camway::tools

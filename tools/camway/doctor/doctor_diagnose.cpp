@@ -10,12 +10,12 @@
 namespace camway::tools {
 namespace {
 
-/// Debian's default, which the sizes of our bursts are made for: three messages of full size with
-/// what the kernel needs beside them.
+/// Debian's default, for which Camway's bursts are made: room for three messages of full size with
+/// the kernel's overhead.
 constexpr std::int64_t kNeededBuffer = 212'992;
 /// Room for the bursts of a dozen clients at a time.
 constexpr std::int64_t kAmpleBuffer = std::int64_t{4} << 20;
-/// What people see in logs of two machines side by side.
+/// Clock difference that people notice in the logs of two machines.
 constexpr double kClockTolerance_s = 1.0;
 
 std::string url_with_ttl(const LcmNetwork& network, int ttl) {

@@ -39,9 +39,9 @@ std::optional<std::int64_t> number_in_file(const char* file) {
   return stream >> value ? std::optional(value) : std::nullopt;
 }
 
-/// The device of the longest prefix that holds `group`, by the kernel's main table. A line of it:
-/// device, destination, gateway, flags, three counts, mask, ...; addresses are hexadecimal, in the
-/// order of bytes that `in_addr` has.
+/// Returns the device of the longest prefix that contains `group`, from the kernel's main routing
+/// table. A line has device, destination, gateway, flags, three counts, mask, ...; addresses are
+/// hexadecimal, in the byte order of `in_addr`.
 std::string device_towards(const in_addr& group) {
   std::ifstream stream("/proc/net/route");
   std::string best;
@@ -73,7 +73,7 @@ bool does_multicast(const std::string& device, int fd) {
   return (request.ifr_flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
 }
 
-/// Asks the kernel whether it would send, and by what; nothing is sent.
+/// Asks the kernel whether it can send to the group, and by which device. Sends nothing.
 std::optional<MulticastRoute> route_to(const LcmNetwork& network) {
   sockaddr_in group{};
   group.sin_family = AF_INET;
@@ -91,7 +91,8 @@ std::optional<MulticastRoute> route_to(const LcmNetwork& network) {
   return route;
 }
 
-/// "RcvbufErrors" of /proc/net/snmp: a line of names, then one of numbers, both begin with "Udp:".
+/// Returns "RcvbufErrors" of /proc/net/snmp: a line of names, then one of numbers, each beginning
+/// with "Udp:".
 std::int64_t dropped_datagrams() {
   std::ifstream stream("/proc/net/snmp");
   std::string names;
@@ -112,8 +113,7 @@ std::int64_t dropped_datagrams() {
   return 0;
 }
 
-/// Takes the first status that can be read, and those after it until the same daemon is heard
-/// again.
+/// Listens for the first status that can be read, and on until the same daemon is heard again.
 class StatusListener {
  public:
   /// `authentication` may be null.
@@ -123,7 +123,7 @@ class StatusListener {
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     const std::span<const std::uint8_t> bytes(static_cast<const std::uint8_t*>(buffer->data),
                                               buffer->data_size);
-    // It is heard whoever signed it; who believes it is another question.
+    // The status counts as heard whoever signed it; its signature is judged separately.
     const auto message = wire::payload_unchecked(bytes);
     if (!message) return;
     const wire::Decoded<status_t> decoded = wire::decode<status_t>(*message);
@@ -146,7 +146,7 @@ class StatusListener {
   }
 
   void note(const status_t& status, Signature signature) {
-    // Daemons are told apart by when they were started, which each computes anew for each status.
+    // Daemons are distinguished by the time of their start, which follows from each status.
     constexpr double kSameStart_s = 0.05;
     const double utime_s = static_cast<double>(status.utime) * 1e-6;
     const double started_s = utime_s - status.uptime_s;
@@ -168,7 +168,7 @@ class StatusListener {
   bool is_done_ = false;
 };
 
-/// Opens LCM and listens for a status; both outcomes go into `facts`.
+/// Opens LCM and listens for a status. Writes both outcomes into `facts`.
 void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
   const wire::OpenedLcm opened = wire::open_lcm(questions.url);
   StatusListener listener(questions.authentication);

@@ -31,7 +31,7 @@ using OrderedJson = nlohmann::ordered_json;
 struct LoadFlags {
   std::string scene;
   std::vector<std::string> requests;
-  std::size_t occupancy_queries = 0;  ///< of a batch; 0: plan requests are asked
+  std::size_t occupancy_queries = 0;  ///< queries of a batch; 0: plan requests
   LoadOptions run;
   std::string key_file;
   double warm_up_s = 0.0;
@@ -44,20 +44,21 @@ ExitCode invalid_input(std::string_view message) {
   return ExitCode::kInvalidInput;
 }
 
-/// What is asked, and of which scene.
+/// The questions and their scene.
 struct LoadPlan {
   LoadScene scene;
   std::vector<LoadQuestion> questions;
 };
 
-/// The questions of the command line with their answers; on an error says so, and there are none.
+/// Returns the questions of the command line with their local answers. On an error, prints it and
+/// returns none.
 LoadPlan make_questions(const LoadFlags& flags) {
   const auto parsed = service::parse_scene_argument(flags.scene);
   if (!parsed.scene) {
     print_error("--scene " + flags.scene + ": " + parsed.error);
     return {};
   }
-  // The map answers other questions; it would only cost time here.
+  // Planning does not use the occupancy map, so none is made.
   scene::SnapshotOptions options = parsed.scene->options;
   options.occupancy_resolution_m.reset();
   const LoadedScene scene = load_timed(parsed.scene->name, parsed.scene->file.string(), options);

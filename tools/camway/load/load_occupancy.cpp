@@ -17,10 +17,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kKinds = 6;
-/// Batches that are asked in turn: enough that no cache of a processor holds all they touch.
+/// Number of different batches: so many that no processor cache holds all the data that they use.
 constexpr std::uint64_t kBatches = 8;
 
-/// Questions within the box, of lengths up to a fifth of it.
+/// Makes queries in the box, with lengths up to a fifth of its size.
 class Questions {
  public:
   Questions(const geometry::Box& bounds_W, std::uint64_t seed)
@@ -93,7 +93,7 @@ bool same(const OccupancyAnswer& a, const OccupancyAnswer& b) {
          a.distances_m == b.distances_m && a.sphere_paths_hit_m == b.sphere_paths_hit_m;
 }
 
-/// A batch and what the map here says.
+/// A batch and the answer of the local map.
 struct Asked {
   OccupancyBatch batch;
   OccupancyAnswer expected;

@@ -11,21 +11,21 @@
 
 namespace camway::tools {
 
-/// What came of many batches of occupancy queries.
+/// The result of many batches of occupancy queries.
 struct OccupancyLoad {
   std::int64_t batches = 0;
-  std::int64_t queries = 0;  ///< that were answered as the map here does
-  std::int64_t wrong = 0;    ///< batches with another answer
+  std::int64_t queries = 0;  ///< queries with the same answer as the local map
+  std::int64_t wrong = 0;    ///< batches with another answer than the local map
   std::int64_t lost = 0;     ///< batches without an answer
   double elapsed_s = 0.0;
-  std::vector<float> latency_ms;     ///< of batches
-  std::string error;                 ///< why there was no run, or the first failure
-  Status status = Status::kInvalid;  ///< of why there was no run
+  std::vector<float> latency_ms;     ///< latencies of the batches
+  std::string error;                 ///< reason why there was no run, or the first failure
+  Status status = Status::kInvalid;  ///< status of the failure if there was no run
 };
 
-/// Lets clients ask the daemon's map of `scene`, batch after batch, for as long as the options say,
-/// and compares all answers with those of `map`, which is of that scene. A batch has as many
-/// questions of each kind, of `queries` in all, about the box of the scene, the same in each run.
+/// Runs clients that query the daemon's map of `scene`, batch after batch, and compares all answers
+/// with those of `map`, which is made of the same scene. A batch has `queries` queries, equally
+/// many of each kind, in the box of the scene. They are the same in every run.
 OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geometry::Box& bounds_W,
                                  const LoadScene& scene, std::size_t queries,
                                  const LoadOptions& options);

@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Watches a process's memory on a thread of its own for as long as it lives.
+/// Samples a process's memory on a thread of its own during the object's lifetime.
 class MemoryWatch {
  public:
   MemoryWatch(int pid, double period_s) {
@@ -45,7 +45,8 @@ class MemoryWatch {
   std::jthread thread_;
 };
 
-/// Short runs are sampled often enough to judge them, long ones not so often that it costs.
+/// Returns the sampling period: short enough for short runs, and long enough to be cheap in long
+/// ones.
 double memory_period_s(double seconds) { return std::clamp(seconds / 200.0, 0.05, 5.0); }
 
 }  // namespace

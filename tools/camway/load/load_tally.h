@@ -12,29 +12,29 @@
 
 namespace camway::tools {
 
-/// A request that is sent again and again, and what planning it here gives.
+/// A request that is sent repeatedly, and the result of planning it locally.
 struct LoadQuestion {
   std::string name;
   PlanRequest request;
   planning::PlanResult expected;
 };
 
-/// Whether the daemon's answer is what planning here gave, bit for bit: status, path, keyframes,
-/// collisions and certificate.
+/// Returns whether the daemon's answer has the same bits as the local result in status, path,
+/// keyframes, collisions and certificate.
 bool is_expected(const planning::PlanResult& expected, const PlanResponse& answer);
 
-/// What came of many requests. For one thread at a time.
+/// The results of many requests. Not thread-safe.
 struct LoadTally {
   std::int64_t asked = 0;
-  std::int64_t answered = 0;  ///< as planning here did
-  std::int64_t refused = 0;   ///< overloaded or timeout: the daemon said that it had no time
-  std::int64_t wrong = 0;     ///< another answer than planning here gave
-  std::int64_t lost = 0;      ///< no answer at all
+  std::int64_t answered = 0;  ///< answers equal to the local result
+  std::int64_t refused = 0;   ///< answers overloaded or timeout: the daemon had no time
+  std::int64_t wrong = 0;     ///< answers that differ from the local result
+  std::int64_t lost = 0;      ///< requests without an answer
   std::int64_t retries = 0;   ///< repetitions of requests
   std::map<std::string, std::int64_t> by_status;
-  std::vector<float> latency_ms;        ///< of what was answered, from the call to its return
-  std::vector<float> overhead_ms;       ///< the same without planning: travel, queue, conversions
-  std::vector<std::string> complaints;  ///< about the first that were wrong or lost
+  std::vector<float> latency_ms;        ///< time from call to return, of answered requests
+  std::vector<float> overhead_ms;       ///< latency minus planning: transport, queue, conversions
+  std::vector<std::string> complaints;  ///< texts about the first wrong or lost answers
 
   void add(const LoadQuestion& question, const PlanResponse& answer);
   void add(const LoadTally& other);
@@ -48,21 +48,22 @@ struct MemorySample {
   double resident_mb = 0.0;
 };
 
-/// Resident memory in units of 1e6 bytes; 0 if there is no such process.
+/// Returns the resident memory of a process; 0 if there is no such process. [Units: 1e6 bytes]
 double resident_mb(int pid);
 
-/// By how much memory grew after the warm-up: the median of the last tenth of the samples over that
-/// of the first, less 1. 0 where fewer than ten samples are left.
+/// Returns the relative growth of memory after the warm-up: the median of the last tenth of the
+/// samples, divided by the median of the first tenth, minus 1. Returns 0 for fewer than ten
+/// samples.
 double memory_growth(const std::vector<MemorySample>& samples, double warm_up_s);
 
-/// Times of a run in order.
+/// Percentiles of the times of a run.
 struct Percentiles {
   double p50 = 0.0;
   double p99 = 0.0;
   double p999 = 0.0;
   double max = 0.0;
 };
-/// By nearest rank; all 0 of nothing.
+/// Returns percentiles by nearest rank; all 0 for no values.
 Percentiles percentiles(std::vector<float> values);
 
 }  // namespace camway::tools

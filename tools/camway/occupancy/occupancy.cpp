@@ -92,7 +92,7 @@ ExitCode run_occupancy(const OccupancyFlags& flags) {
                                     : ask_daemon(flags, parsed.batch);
 }
 
-/// Adds a query that may stand several times, each time with one text.
+/// Adds an option for a query. It may be repeated, each time with one text.
 void add_query(CLI::App& command, const char* name, std::vector<std::string>& texts,
                const char* type_name, const char* help) {
   command.add_option(name, texts, help)

@@ -12,7 +12,7 @@
 namespace camway::tools {
 namespace {
 
-/// Exactly `kCount` finite numbers with commas between them.
+/// Reads exactly `kCount` finite numbers separated by commas.
 template <std::size_t kCount>
 std::optional<std::array<double, kCount>> parse_numbers(std::string_view text) {
   std::array<double, kCount> numbers{};

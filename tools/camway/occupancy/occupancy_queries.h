@@ -10,7 +10,7 @@
 
 namespace camway::tools {
 
-/// Queries as they stand on the command line: numbers with commas between them.
+/// Queries as written on the command line: numbers separated by commas.
 struct OccupancyTexts {
   std::vector<std::string> points;        ///< x,y,z
   std::vector<std::string> boxes;         ///< xmin,ymin,zmin,xmax,ymax,zmax
@@ -20,19 +20,19 @@ struct OccupancyTexts {
   std::vector<std::string> sphere_paths;  ///< x,y,z,x,y,z,radius
 };
 
-/// The batch that `texts` ask for, in their order. Otherwise `error` names the option and the text:
-/// wrong count, not a finite number, a box turned inside out, a negative radius, range or distance,
-/// a ray without direction.
+/// A batch, or an error that names the option and the text: wrong count, not a finite number, a box
+/// with min above max, a negative radius, range or distance, or a ray of zero length.
 struct ParsedBatch {
   OccupancyBatch batch;
-  std::string error;  ///< empty if all is well
+  std::string error;  ///< empty on success
 };
+/// Returns the queries of `texts` in their order.
 ParsedBatch parse_batch(const OccupancyTexts& texts);
 
-/// What a daemon would answer, from a map in this process.
+/// Returns the answer to a batch from a map in this process, the same as a daemon's.
 OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch);
 
-/// One line per query, in the words of the command line.
+/// Returns a line for each query, with its text from the command line.
 std::string describe(const OccupancyTexts& texts, const OccupancyAnswer& answer);
 
 }  // namespace camway::tools

@@ -51,14 +51,14 @@ struct PlanFlags {
   bool no_timing = false;
 };
 
-/// The answer to one request file, whatever went wrong.
+/// Returns the answer to a request file; for a failure, an answer with its status.
 struct Answer {
   PlanResult result;
   std::string scene_file;
   std::string scene_digest;
-  std::vector<std::string> scene_warnings;    ///< of its import
+  std::vector<std::string> scene_warnings;    ///< warnings of the scene's import
   std::vector<std::string> request_warnings;  ///< a sentence each
-  std::shared_ptr<const scene::Mesh> mesh;  ///< of the scene; null if it was not loaded
+  std::shared_ptr<const scene::Mesh> mesh;    ///< mesh of the scene; null if it was not loaded
 };
 
 PlanResult invalid(std::string message) {
@@ -85,7 +85,7 @@ ExitCode exit_code_of(Status status) {
   return ExitCode::kOurFault;
 }
 
-/// Names the flag where it was a flag that said it.
+/// Returns the spelling of a member: the flag if a flag set it.
 planning::FieldSpelling spelling_with(std::map<std::string, std::string, std::less<>> flags,
                                       planning::FieldSpelling otherwise) {
   return [flags = std::move(flags), otherwise = std::move(otherwise)](std::string_view path) {
@@ -94,7 +94,7 @@ planning::FieldSpelling spelling_with(std::map<std::string, std::string, std::le
   };
 }
 
-/// What the command line says goes before what the request says.
+/// Applies the options of the command line, which override those of the request.
 void apply(const PlanFlags& flags, planning::PlanRequest& request) {
   planning::PlanOptions& options = request.options;
   std::map<std::string, std::string, std::less<>> said;
@@ -117,7 +117,7 @@ void apply(const PlanFlags& flags, planning::PlanRequest& request) {
   request.spelling = spelling_with(std::move(said), std::move(request.spelling));
 }
 
-/// What the user should know of the request, a sentence each.
+/// Returns warnings about the request, a sentence each.
 std::vector<std::string> warnings_of(const RequestFile& request) {
   if (request.says_xyzw) return {};
   const auto order = planning::quaternion_order_warning(request);
@@ -199,11 +199,11 @@ ExitCode write_response(const Answer& answer, const std::string& file, bool no_t
 
 void print_summary(const std::string& request, const Answer& answer) {
   const std::string text = plan_summary(answer.result, answer.mesh.get());
-  // An invalid request's message names the file already.
+  // The message of an invalid request names the file already.
   print_error(answer.result.status == Status::kInvalid ? text : request + ": " + text);
 }
 
-/// Why a response could not go to `file`, or to standard output if it is empty.
+/// Returns why a response could not be written to `file`, or to standard output if it is empty.
 std::string why_unwritable_response(const std::string& file) {
   if (!file.empty()) return why_unwritable(file);
   const int flags = ::fcntl(STDOUT_FILENO, F_GETFL);
@@ -227,8 +227,8 @@ ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
   return worse(outcome, write_response(answer, flags.response, flags.no_timing));
 }
 
-/// Where the response to each request goes; an error if one
-/// cannot be written, or two would go to one file or onto a request.
+/// Returns the file of each response. An error if one cannot be written, if two would go to one
+/// file, or if one would overwrite a request.
 Parsed<std::vector<std::string>> response_files(const PlanFlags& flags) {
   std::vector<std::string> files;
   std::set<std::string> taken;
@@ -276,7 +276,7 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
                result.remaining_collisions.size(), flags.requests[i]);
     std::fflush(stdout);
     const ExitCode code = exit_code_of(result.status);
-    // Of the others the table says all.
+    // The table has everything about the others.
     if (code == ExitCode::kInvalidInput || code == ExitCode::kOurFault) {
       print_summary(flags.requests[i], answer);
     }
@@ -295,7 +295,7 @@ ExitCode run_plan(const PlanFlags& flags) {
   return ExitCode::kInvalidInput;
 }
 
-/// Flags that go before the request's own options.
+/// Adds the flags that override options of the request.
 void add_option_flags(CLI::App& command, PlanFlags& flags) {
   static constexpr std::array<std::pair<std::string_view, planning::Method>, 2> kMethods{
       {{"ladder", planning::Method::kLadder},

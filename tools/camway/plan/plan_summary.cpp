@@ -18,21 +18,21 @@ using correction::Rung;
 using planning::PlanResult;
 using planning::Status;
 
-/// Of each kind; the response has them all.
+/// Most lines of each kind; the response has all of them.
 constexpr std::size_t kMostLines = 20;
 constexpr std::size_t kMostObjects = 3;
 constexpr std::size_t kMostStretches = 5;
 
-/// Less than this is rounding, or nothing that a person would see.
+/// Smaller changes are rounding, or too small to see.
 constexpr double kLeastMove_m = 1e-4;
 constexpr double kLeastTurn_deg = 0.01;
 
-/// Two digits, none behind the point from 10 on.
+/// Formats a number with two digits, without decimals from 10 on.
 std::string two_digits(double value) {
   return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
-/// ", moved up to 0.12 m, turned up to 3 degrees", or what of that there is to see.
+/// Returns ", moved up to 0.12 m, turned up to 3 degrees", without the part that is too small.
 std::string extent(const Correction& correction) {
   std::string text;
   if (correction.moved_m >= kLeastMove_m)
@@ -59,14 +59,14 @@ std::string deed(const Correction& correction) {
   return "not corrected";
 }
 
-/// "2.31-2.65", or "2.31" where that is all to a hundredth.
+/// Returns "2.31-2.65", or "2.31" if both ends are equal to a hundredth.
 std::string span(double begin_s, double end_s) {
   const std::string begin = fmt::format("{:.2f}", begin_s);
   const std::string end = fmt::format("{:.2f}", end_s);
   return begin == end ? begin : begin + "-" + end;
 }
 
-/// "2.31-2.65, 2.80 s"; of many only from when to when, and how many.
+/// Returns "2.31-2.65, 2.80 s"; for many intervals only their range and number.
 std::string spans(const PlanResult& result, const std::vector<std::size_t>& change) {
   const auto interval = [&](std::size_t i) { return result.corrections[change[i]].interval; };
   if (change.size() > kMostStretches) {
@@ -80,7 +80,7 @@ std::string spans(const PlanResult& result, const std::vector<std::size_t>& chan
   return text + " s";
 }
 
-/// "collides with sofa_04, lamp"; which part of the body does is in the response.
+/// Returns "collides with sofa_04, lamp". The response has the part of the body.
 std::string meetings(const PlanResult& result, const std::vector<std::size_t>& change) {
   std::vector<std::string> names;
   for (const std::size_t i : change) {
@@ -97,13 +97,13 @@ std::string meetings(const PlanResult& result, const std::vector<std::size_t>& c
   return names.size() > kMostObjects ? text + ", ..." : text;
 }
 
-/// Whether one change of the path is what became of both.
+/// Returns whether one change of the path corrected both collisions.
 bool is_same_change(const Correction& a, const Correction& b) {
   return a.rung != Rung::kNone && a.rung == b.rung && a.t_begin_s == b.t_begin_s &&
          a.t_end_s == b.t_end_s && a.moved_m == b.moved_m && a.turned_rad == b.turned_rad;
 }
 
-/// The collisions that each change of the path was for, in order.
+/// Groups the collisions by the change of the path that corrected them, in order.
 std::vector<std::vector<std::size_t>> changes(const std::vector<Correction>& corrections) {
   std::vector<std::vector<std::size_t>> changes;
   for (std::size_t i = 0; i < corrections.size(); ++i) {
@@ -119,7 +119,8 @@ std::vector<std::vector<std::size_t>> changes(const std::vector<Correction>& cor
   return changes;
 }
 
-/// "2.31-2.65, 2.80-2.91 s: collides with sofa_04, lamp; goes another way, moved up to 1.3 m".
+/// Returns "2.31-2.65, 2.80-2.91 s: collides with sofa_04, lamp; goes another way, moved up to 1.3
+/// m".
 std::string change_line(const PlanResult& result, const std::vector<std::size_t>& change) {
   const Correction& correction = result.corrections[change.front()];
   std::string line =
@@ -142,7 +143,8 @@ void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lin
   const std::size_t shown = std::min(result.keyframe_faults.size(), kMostLines);
   for (std::size_t i = 0; i < shown; ++i) {
     const planning::KeyframeFault& fault = result.keyframe_faults[i];
-    std::string line = fmt::format("keyframe {}: collides", fault.keyframe);
+    std::string line = fmt::format("keyframe {}: {}", fault.keyframe,
+                                   fault.leaves_bounds ? "leaves the bounds" : "collides");
     if (fault.depth_m > 0.0) line += fmt::format(" by {:.2g} m", fault.depth_m);
     if (fault.free_pose) {
       const geometry::Vec3& p = fault.free_pose->position;
@@ -158,7 +160,7 @@ void add_keyframe_faults(const PlanResult& result, std::vector<std::string>& lin
   }
 }
 
-/// The names of the objects that the triangles belong to, each once, in the order of the mesh.
+/// Returns the names of the triangles' objects, each once, in the order of the mesh.
 std::vector<std::string> objects_of(const std::vector<std::uint32_t>& triangles,
                                     const scene::Mesh& mesh) {
   std::vector<std::string> names;
@@ -174,7 +176,7 @@ std::vector<std::string> objects_of(const std::vector<std::uint32_t>& triangles,
   return names;
 }
 
-/// The objects that the proof is made of; the message says the rest.
+/// Returns the line with the objects of the proof; the message has the rest.
 void add_proof(const PlanResult& result, const scene::Mesh* mesh, std::vector<std::string>& lines) {
   if (!result.infeasibility || mesh == nullptr) return;
   const std::vector<std::string> names = objects_of(result.infeasibility->triangles, *mesh);
@@ -187,7 +189,7 @@ void add_proof(const PlanResult& result, const scene::Mesh* mesh, std::vector<st
   lines.push_back(std::move(line));
 }
 
-/// Where the path is slower than asked for; the message says how much longer it takes.
+/// Returns the lines with the slowed parts; the message has the total duration.
 void add_slowed(const PlanResult& result, std::vector<std::string>& lines) {
   if (result.slowed.empty()) return;
   std::string line = "slowed at ";
@@ -199,7 +201,7 @@ void add_slowed(const PlanResult& result, std::vector<std::string>& lines) {
   lines.push_back(shown < result.slowed.size() ? line + ", ..." : line);
 }
 
-/// "0.9 ms", "1.23 s".
+/// Formats a duration: "0.9 ms", "1.23 s".
 std::string duration(double ms) {
   return ms < 1000.0 ? fmt::format("{:.1f} ms", ms) : fmt::format("{:.2f} s", ms / 1000.0);
 }

@@ -8,17 +8,17 @@
 
 namespace camway::tools {
 
-/// The outcome of planning for a person: status, message and times in one line, then, indented, a
-/// line for each change of the path ("2.31-2.65 s: collides with sofa_04; moved up to 0.12 m"), each
-/// keyframe that collides where there are several, where the path was slowed, and the objects that
-/// prove that there is no path. No newline ends the text. Witnesses have their names already
-/// (`planning::name_witnesses`); `mesh`, if there is one, names the objects of the proof.
+/// Returns the result of planning as text: a line with status, message and times, then indented
+/// lines for each correction ("2.31-2.65 s: collides with sofa_04; moved up to 0.12 m"), for each
+/// keyframe that collides if there are several, for the slowed parts, and for the objects that
+/// prove that there is no path. The text has no final newline. Requires named witnesses
+/// (`planning::name_witnesses`). `mesh` names the objects of the proof; it may be null.
 std::string plan_summary(const planning::PlanResult& result, const scene::Mesh* mesh);
 
-/// "1 keyframe", "2 keyframes".
+/// Returns a count with its noun: "1 keyframe", "2 keyframes".
 std::string plural(std::size_t count, std::string_view noun);
 
-/// How many keyframes were put in.
+/// Returns the number of inserted keyframes.
 std::size_t inserted_count(const planning::PlanResult& result);
 
 }  // namespace camway::tools

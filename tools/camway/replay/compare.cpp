@@ -16,7 +16,7 @@ namespace {
 using motion::Path;
 using motion::Segment;
 
-/// Between two joins a path is a smooth curve of low degree; so many samples show its shape.
+/// Samples between two joins, where a path is a smooth curve of low degree.
 constexpr int kSamplesPerPiece = 32;
 
 bool same(double a, double b) {
@@ -45,7 +45,7 @@ bool same_keyframe(const motion::Keyframe& a, const motion::Keyframe& b) {
          same_vector(geometry::wxyz(a.pose.orientation), geometry::wxyz(b.pose.orientation));
 }
 
-/// But for the number of the feature: answers hold its name.
+/// Compares witnesses except for the number of the feature: answers have its name.
 bool same_witness(const std::optional<collision::Witness>& a,
                   const std::optional<collision::Witness>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
@@ -58,7 +58,7 @@ bool same_interval(const collision::CollisionInterval& a, const collision::Colli
          same_witness(a.witness, b.witness);
 }
 
-/// Witnesses that nobody named have empty names.
+/// Returns the names of a witness; empty ones if it has none.
 bool same_names(std::vector<planning::WitnessNames> a, std::vector<planning::WitnessNames> b) {
   const std::size_t count = std::max(a.size(), b.size());
   a.resize(count);
@@ -66,7 +66,7 @@ bool same_names(std::vector<planning::WitnessNames> a, std::vector<planning::Wit
   return a == b;
 }
 
-/// But for the witness, which stands with the collision.
+/// Compares corrections except for the witness, which is part of the collision.
 bool same_correction(const correction::Correction& a, const correction::Correction& b) {
   return same(a.interval.t_begin_s, b.interval.t_begin_s) &&
          same(a.interval.t_end_s, b.interval.t_end_s) && a.rung == b.rung &&
@@ -150,15 +150,15 @@ double path_distance_m(const Path& a, const Path& b, const motion::Body& body) {
     for (int k = 0; k <= kSamplesPerPiece; ++k) {
       const double time_s = joins[i - 1] + (joins[i] - joins[i - 1]) * k / kSamplesPerPiece;
       const double distance_m = pose_distance_m(body, a.pose(time_s), b.pose(time_s));
-      // A pose that is no number must not pass for no difference.
+      // A pose with NaN must not count as no difference.
       largest = distance_m >= 0.0 ? std::max(largest, distance_m) : kInfinity;
     }
   }
-  // Different bits can round to the same samples; the documented 0 is for equal bits alone.
+  // Different bits can round to the same samples, but only equal bits may give 0.
   return std::max(largest, std::numeric_limits<double>::denorm_min());
 }
 
-/// Of what the answers say of correction.
+/// Returns the first difference of the answers' fields about correction.
 std::string report_difference(const planning::PlanResult& a, const planning::PlanResult& b) {
   std::string text = differing("corrections", a.corrections, b.corrections, same_correction);
   if (text.empty()) {

@@ -8,24 +8,24 @@
 
 namespace camway::tools {
 
-/// How two answers to one request differ.
+/// The difference of two answers to one request.
 struct Difference {
-  /// Largest distance, over dense times, between where the two paths have the eye or a corner of
-  /// the body's triangles; so it measures position and orientation at once. Sampled, hence a
-  /// lower bound, but 0 exactly when the paths are the same bits. Infinite if one path is empty and
-  /// the other is not, and if their time spans differ. [Units: metres]
+  /// Largest distance between the two paths' positions of the eye, or of a corner of the body's
+  /// triangles, at densely sampled times. It covers position and orientation. Sampling makes it a
+  /// lower bound, but it is 0 exactly if the paths have the same bits. Infinite if only one path is
+  /// empty or if the time spans differ. [Units: metres]
   double path_m = 0.0;
-  /// First thing that differs, in words; empty when every number of the answers (timing apart) has
-  /// the same bits.
+  /// Description of the first difference; empty if all numbers except for timing have the same
+  /// bits.
   std::string what;
 };
 
-/// Compares all that the two answers say but timing and message: wording may change between
+/// Compares two answers except for timing, and for the message, whose wording may change between
 /// versions.
 Difference compare(const planning::PlanResult& recorded, const planning::PlanResult& now,
                    const motion::Body& body);
 
-/// Whether two paths have the same bits in every number.
+/// Returns whether two paths have the same bits in every number.
 bool same_bits(const motion::Path& a, const motion::Path& b);
 
 }  // namespace camway::tools

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
 constexpr std::size_t kHeaderBytes = 28;
-/// Generous: LCM itself cuts channel names at 63 characters.
+/// Longest channel name to accept. LCM itself cuts names at 63 characters.
 constexpr std::uint64_t kMaxChannelBytes = 1024;
 
 std::uint64_t big_endian(const unsigned char* bytes, int count) {
@@ -26,14 +26,14 @@ class LogReader {
  public:
   LogReader(std::ifstream& stream, std::uint64_t size) : stream_(stream), left_(size) {}
 
-  /// The next event, or nothing at the end and at damage (see `damage`).
+  /// Returns the next event, or nothing at the end and at damage (see `damage`).
   std::optional<LogEvent> next() {
     if (left_ == 0) return std::nullopt;
     if (left_ < kHeaderBytes) return damaged("the log breaks off inside the head of the event");
     std::array<unsigned char, kHeaderBytes> head{};
     if (!read(head.data(), head.size())) return damaged("the file cannot be read");
     if (big_endian(head.data(), 4) != kSyncWord) return damaged("there is no event here");
-    // Negative lengths become huge ones and fail the same tests.
+    // A negative length becomes a huge one and fails the same checks.
     const std::uint64_t channel_bytes = big_endian(&head[20], 4);
     const std::uint64_t data_bytes = big_endian(&head[24], 4);
     if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxLogDataBytes) {

@@ -61,7 +61,7 @@ class Publisher {
     return auth_ != nullptr ? publish(auth_->seal(event.channel, event.data)) : publish(event.data);
   }
 
-  /// Takes in answers until `time`, or until all requests are answered if `stop_early`.
+  /// Receives answers until `time`, or until all requests are answered if `stop_early`.
   void listen_until(Clock::time_point time, bool stop_early) {
     while (Clock::now() < time && !(stop_early && answered_count() == asked_.size())) {
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - Clock::now());
@@ -71,7 +71,7 @@ class Publisher {
 
   [[nodiscard]] std::size_t asked_count() const { return asked_.size(); }
   [[nodiscard]] std::size_t answered_count() const { return answered_.size(); }
-  /// Planning requests that were sent although no daemon of this version can read them.
+  /// Number of planning requests sent that a daemon of this version cannot read.
   [[nodiscard]] std::size_t other_version_count() const { return other_version_; }
 
  private:
@@ -101,8 +101,8 @@ Clock::duration seconds(double value) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
 }
 
-/// How long after `first` the event is to be sent. The times of a log are anybody's: as doubles
-/// their difference cannot overflow, and a wait is cut to what a clock can hold.
+/// Returns the time from `first` to the sending of the event. The times of a log are not trusted:
+/// as doubles their difference cannot overflow, and the wait is limited to what a clock can hold.
 Clock::duration due_after(const LogEvent& first, const LogEvent& event, double speed) {
   constexpr double kLongest_s = 1e8;
   const double recorded_us = static_cast<double>(event.utime) - static_cast<double>(first.utime);

@@ -11,17 +11,16 @@
 namespace camway::tools {
 
 struct PublishOptions {
-  std::string
-      url;  ///< of the LCM network; empty: the environment's LCM_DEFAULT_URL, else LCM's own
+  std::string url;  ///< LCM network; empty: LCM_DEFAULT_URL of the environment, else LCM's default
   std::string prefix = "CAMWAY";
-  double speed = 1.0;   ///< of the recording; 0: as fast as the daemon's socket takes it
-  double wait_s = 5.0;  ///< how long to wait for answers after the last request
+  double speed = 1.0;   ///< relative to the recording; 0: as fast as the daemon's socket accepts
+  double wait_s = 5.0;  ///< time to wait for answers after the last request
 };
 
-/// Sends the requests of `log` (planning and occupancy) to a running daemon, byte for byte and in
-/// the rhythm in which they came, and counts how many planning requests are answered. A negative
-/// exit code if not all are. Signed ones are stale by now: they are taken out of their envelopes,
-/// and, with `keys`, checked and signed anew; nothing else is sent then.
+/// Sends the planning and occupancy requests of `log` to a running daemon, with the same bytes and
+/// the recorded pauses, and counts the planning requests that are answered. Returns kNegative
+/// unless all are. Recorded signatures are stale, so requests are taken out of their envelopes.
+/// With `keys`, only requests with a valid signature are sent, signed anew.
 ExitCode publish_log(const std::filesystem::path& log, const PublishOptions& options,
                      std::shared_ptr<const wire::MessageKeys> keys);
 

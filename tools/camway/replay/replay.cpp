@@ -36,7 +36,7 @@ ExitCode invalid_input(std::string_view message) {
   return ExitCode::kInvalidInput;
 }
 
-/// Loads the scenes of `--scene`; on an error says so, and there is no value.
+/// Loads the scenes of `--scene`. On an error, prints it and returns nothing.
 std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
   Scenes scenes;
   for (const std::string& argument : arguments) {
@@ -45,7 +45,7 @@ std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
       print_error("--scene " + argument + ": " + parsed.error);
       return std::nullopt;
     }
-    // The map answers other questions than the replay's; it would only cost time here.
+    // Planning does not use the occupancy map, so none is made.
     scene::SnapshotOptions options = parsed.scene->options;
     options.occupancy_resolution_m.reset();
     LoadedScene loaded = load_timed(parsed.scene->name, parsed.scene->file.string(), options);
@@ -61,8 +61,8 @@ std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
   return scenes;
 }
 
-/// Writes the response to each request as a file; an error text, empty on success. Client ids are
-/// of letters, digits, '-' and '_', so they make file names.
+/// Writes the response to each request as a file. Returns an error text, empty on success. Client
+/// ids consist of letters, digits, '-' and '_', so they are valid file names.
 std::string write_responses(const ReplayFlags& flags, const Session& session, const Scenes& scenes,
                             const std::vector<ReplayedRequest>& replayed) {
   for (std::size_t i = 0; i < replayed.size(); ++i) {
@@ -82,7 +82,8 @@ std::string write_responses(const ReplayFlags& flags, const Session& session, co
   return {};
 }
 
-/// The exit code of a replay that ran to its end. Only a log that is whole and agrees is a success.
+/// Returns the exit code of a complete replay. It is a success only if the log is undamaged and
+/// agrees.
 ExitCode verdict_code(const Session& session, const std::vector<ReplayedRequest>& replayed) {
   if (count(replayed, Verdict::kDiffers) > 0) return ExitCode::kNegative;
   if (!session.log.damage.empty() || count(replayed, Verdict::kAgrees) == 0) {
@@ -91,7 +92,7 @@ ExitCode verdict_code(const Session& session, const std::vector<ReplayedRequest>
   return ExitCode::kSuccess;
 }
 
-/// Makes the folder for responses; an error text if none can be written there.
+/// Makes the folder for responses. Returns an error text if no file can be written there.
 std::string make_responses_dir(const std::string& folder) {
   if (folder.empty()) return {};
   std::error_code error;

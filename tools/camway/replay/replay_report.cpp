@@ -28,7 +28,7 @@ std::string verdict_text(const ReplayedRequest& item) {
   return "not compared: " + item.note;
 }
 
-/// Recorded and new value as one cell, e.g. "2 -> 3"; one of them where they are the same.
+/// Returns recorded and new value as one cell, such as "2 -> 3", or one value if they are equal.
 std::string change(const std::string& then, const std::string& now) {
   return then == now ? now : then + " -> " + now;
 }

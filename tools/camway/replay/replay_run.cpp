@@ -37,7 +37,7 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
     return result;
   }
   planning::PlanRequest request = *recorded.request;
-  // Those of the scene then are told by the answer alone.
+  // Only the answer has the bounds of the recorded scene.
   if (recorded.answer && recorded.answer->result)
     request.options.bounds = request.options.bounds.within(recorded.answer->result->bounds);
   result = planning::plan(*scene->second, request);
@@ -45,14 +45,15 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
   return result;
 }
 
-/// Why the recorded answer cannot be held against the new one; empty if it can.
+/// Returns why the recorded answer cannot be compared with the new one; empty if it can.
 std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& now) {
   if (!recorded.answer) return "no answer in the log";
   if (!recorded.answer->result) return "recorded: " + recorded.answer->status;
   const Status then = recorded.answer->result->status;
   if (then == Status::kTimeout || recorded.answer->result->deadline_reached) {
-    return fmt::format("recorded: {}, cut short by its deadline, which hangs on the machine's speed",
-                       planning::to_string(then));
+    return fmt::format(
+        "recorded: {}, cut short by its deadline, which hangs on the machine's speed",
+        planning::to_string(then));
   }
   if (then == Status::kUnknownScene && now.status != Status::kUnknownScene) {
     return "recorded: unknown_scene";
@@ -60,7 +61,7 @@ std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& 
   return {};
 }
 
-/// What moved; for a request that names nothing that can move, a point.
+/// Returns the body of the request; a point if its body is not valid.
 motion::Body body_of(const RecordedRequest& recorded) {
   if (recorded.request) {
     std::string fault;
@@ -102,7 +103,7 @@ std::vector<ReplayedRequest> replay(const Session& session, const Scenes& scenes
                                     const ReplayOptions& options) {
   std::vector<ReplayedRequest> replayed(session.requests.size());
   std::atomic<std::size_t> next{0};
-  // Threads share the counter alone: each writes the elements that it drew.
+  // Threads share the counter only: each writes the elements whose indices it took.
   const auto work = [&] {
     for (std::size_t i = next++; i < replayed.size(); i = next++) {
       const RecordedRequest& recorded = session.requests[i];

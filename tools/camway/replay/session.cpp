@@ -63,7 +63,7 @@ class SessionBuilder {
   }
 
   void add_request(plan_request_t whole) {
-    // No daemon answers another id; and ids become names of files here.
+    // A daemon answers no other ids, and ids become file names here.
     if (!wire::is_client_id(whole.client_id)) {
       ++session_.malformed;
       return;

@@ -8,9 +8,9 @@
 
 namespace camway::tools {
 
-/// Puts the message that a recorded envelope holds in its place. With `keys` an event whose
-/// signature is not good, or that has none, is left as it is, and why is returned; without them
-/// only an envelope that is broken. Its age does not count: recordings are old.
+/// Replaces a recorded envelope by its payload. Returns nothing on success; otherwise leaves the
+/// event as it is and returns the reason. With `keys`, the signature must be valid; without, only
+/// an envelope that cannot be read is refused. The age of a recording does not matter.
 std::optional<wire::Distrust> open_event(const wire::MessageKeys* keys, LogEvent& event);
 
 }  // namespace camway::tools

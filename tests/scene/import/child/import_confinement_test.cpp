@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kOutputFd = 3;
 constexpr int kNotConfined = 100;
-/// What a child says of something that it tried.
+/// Results of a child for something that it tried.
 constexpr int kWorked = 0;
 constexpr int kDenied = 1;
 
@@ -54,7 +54,7 @@ class ImportConfinement : public ::testing::Test {
     return (folder_.path() / name).string();
   }
 
-  /// What became of a confined child that does `what`, as waitpid says it.
+  /// Returns the wait status of a confined child that runs `what`.
   int after(const std::function<int()>& what) const {
     const pid_t child = fork();
     if (child == 0) {

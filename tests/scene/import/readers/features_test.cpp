@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the formats allow beside plain triangles, and what is counted instead of read.
+// Features of the formats beyond plain triangles, and elements that are counted instead of read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(ObjReader, NamesObjectsAsAssimpDoes) {
   EXPECT_THAT(names_of(read(".obj", obj("f 1 2 3\n"))), ElementsAre("defaultobject:1"));
   EXPECT_THAT(names_of(read(".obj", obj("o one two\nf 1 2 3\ng  left  side \nf 1 2 3 4\n"))),
               ElementsAre("one:1", "left  side:2"));
-  // A material parts an object only where the one before has faces in it.
+  // A material divides an object only if the material before has faces in it.
   EXPECT_THAT(names_of(read(".obj", obj("o a\nusemtl red\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl "
                                         "blue\nf 1 2 3\nf 1 2 4\nusemtl red\no b\nf 1 2 3\n"))),
               ElementsAre("a:2", "a/blue:2", "b:1"));
@@ -52,7 +52,7 @@ TEST(ObjReader, NamesObjectsAsAssimpDoes) {
 }
 
 TEST(ObjReader, ResolvesIndicesFromEitherEnd) {
-  // Relative to the vertices so far; an absolute one may lie ahead.
+  // An index relative to the vertices so far; an absolute one may lie ahead.
   const Record record = read(".obj",
                              "v 0 0 0\nv 1 0 0\nv 2 0 0\nf -3 -2 -1\nf 1 2 4\nv 3 0 0\nf -1 "
                              "-2 -4\n");
@@ -89,7 +89,7 @@ TEST(ObjReader, CountsWhatNoReaderKnows) {
   EXPECT_EQ(record.header.dropped_freeform, 1U);
 }
 
-// More faces than announced would be lost without a word, and a path through them certified.
+// Faces beyond the announced number would be lost silently, and a path through them certified.
 TEST(Headers, MustNotPromiseLessThanThereIs) {
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   EXPECT_EQ(read_mesh(".off", off + " # the end\n\n").refusal, "");

@@ -36,7 +36,7 @@ double random_number(Random& random, Numbers numbers) {
   return static_cast<double>(below(random, 128));
 }
 
-/// One of `choices`, each as likely as it is often there.
+/// Returns one of `choices`; a choice that is listed twice is twice as likely.
 std::string_view one_of(Random& random, std::initializer_list<std::string_view> choices) {
   return *(choices.begin() + below(random, choices.size()));
 }
@@ -45,7 +45,7 @@ std::string coordinates(const std::array<double, 3>& v, std::string_view blank) 
   return decimal(v[0]) + std::string(blank) + decimal(v[1]) + std::string(blank) + decimal(v[2]);
 }
 
-/// A number as bytes, or as a word of text.
+/// Writes numbers as bytes or as words of text.
 class Values {
  public:
   explicit Values(PlyEncoding encoding) : encoding_(encoding) {}

@@ -13,7 +13,7 @@ namespace {
 
 using testing::Random;
 
-/// Lattice points of up to 100 a side: every product is exact in 64 bits.
+/// Lattice points with coordinates up to 100, so that every product is exact in 64 bits.
 using Lattice = std::array<std::int64_t, 2>;
 
 std::int64_t turn(const Lattice& a, const Lattice& b, const Lattice& c) {
@@ -33,8 +33,8 @@ bool segments_meet(const Lattice& a, const Lattice& b, const Lattice& c, const L
   return cross || is_on(c, a, b) || is_on(d, a, b) || is_on(a, c, d) || is_on(b, c, d);
 }
 
-/// Whether the edge between corner `at - 1` and a new one at `p`, and that from there to corner
-/// `at`, meet the outline nowhere but where they begin.
+/// Returns whether the edges from corner `at - 1` to a new corner at `p`, and from there to corner
+/// `at`, meet the outline at their ends only.
 bool fits(const std::vector<Lattice>& outline, std::size_t at, const Lattice& p) {
   const std::size_t count = outline.size();
   const Lattice& a = outline[(at + count - 1) % count];
@@ -52,8 +52,8 @@ bool fits(const std::vector<Lattice>& outline, std::size_t at, const Lattice& p)
   return true;
 }
 
-/// A random outline that does not meet itself, grown from a triangle a corner at a time; corners
-/// on the line between their neighbours among them.
+/// Returns a random outline without self-intersections, grown from a triangle corner by corner.
+/// Some corners are on the line between their neighbours.
 std::vector<Lattice> random_outline(Random& random, std::size_t corners) {
   const auto any = [&] {
     return Lattice{static_cast<std::int64_t>(testing::below(random, 41)),
@@ -82,7 +82,7 @@ std::int64_t doubled_area(const std::vector<Lattice>& outline) {
   return sum;
 }
 
-/// Onto a plane in space, some of them nearly upright, without rounding.
+/// Maps a lattice point onto a plane in space, which may be nearly vertical, without rounding.
 Point in_space(const Lattice& p, int plane) {
   const auto x = static_cast<double>(p[0]);
   const auto y = static_cast<double>(p[1]);
@@ -110,8 +110,8 @@ bool touches(const std::array<Lattice, 3>& triangle, const Lattice& p) {
          turn(triangle[2], triangle[0], p) >= 0;
 }
 
-/// All triangles turn as the outline does, none overlaps another, and together they have its area:
-/// then they are its inside, no more and no less.
+/// Expects that all triangles have the outline's orientation, that none overlaps another, and that
+/// together they have its area: then they are exactly its inside.
 void expect_cover(const std::vector<Lattice>& outline, int plane) {
   std::vector<Point> corners;
   for (const Lattice& p : outline) corners.push_back(in_space(p, plane));
@@ -157,7 +157,7 @@ TEST(PolygonCutter, CoversAnyOutlineExactly) {
 }
 
 TEST(PolygonCutter, CutsQuadrilateralsAtTheirReflexCorner) {
-  // An arrow head, begun at each of its corners in turn.
+  // An arrow head, beginning at each of its corners in turn.
   std::vector<Lattice> arrow = {{0, 0}, {20, 10}, {0, 20}, {10, 10}};
   for (int begin = 0; begin < 4; ++begin) {
     for (int plane = 0; plane < 5; ++plane) {
@@ -169,7 +169,7 @@ TEST(PolygonCutter, CutsQuadrilateralsAtTheirReflexCorner) {
 }
 
 TEST(PolygonCutter, CutsAroundAHoleWithASeam) {
-  // A square with a square hole, led to and back from it along the same line.
+  // A square with a square hole, connected by a line in both directions.
   expect_cover({{0, 0},
                 {40, 0},
                 {40, 40},
@@ -185,7 +185,7 @@ TEST(PolygonCutter, CutsAroundAHoleWithASeam) {
 
 TEST(PolygonCutter, LeavesNothingOutWhereThereIsNoInside) {
   PolygonCutter cutter;
-  // A star drawn in one line, a segment there and back, one point five times.
+  // A star drawn in one line, a segment in both directions, one point five times.
   EXPECT_EQ(
       cutter.cut(std::vector<Point>{{0, 3, 0}, {2, -3, 0}, {-3, 1, 0}, {3, 1, 0}, {-2, -3, 0}})
           .size(),
@@ -208,7 +208,7 @@ TEST(PolygonCutter, CutsConvexPolygonsOfManyCornersInLinearTime) {
 }
 
 TEST(Orientation, IsExactWhereDoublesAreNot) {
-  // Points of the line y = x, one off by the last bit, in either order.
+  // Points on the line y = x, one off by the last bit, in either order.
   const double step = 0x1p-53;
   for (int i = 0; i < 1000; ++i) {
     const double x = 0.5 + step * 2 * i;

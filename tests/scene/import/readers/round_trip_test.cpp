@@ -16,7 +16,7 @@ std::array<std::uint64_t, 3> bits_of(const std::array<double, 3>& v) {
           std::bit_cast<std::uint64_t>(v[2])};
 }
 
-/// Every triangle is there, in order, and every coordinate to the bit.
+/// Expects every triangle, in order, with the same bits in every coordinate.
 void expect_same(const TriangleSoup& soup, std::string_view extension, const std::string& file) {
   const mesh_readers::ReadResult read = mesh_readers::read_mesh(extension, file);
   ASSERT_EQ(read.refusal, "") << file;

@@ -15,7 +15,7 @@ namespace {
 namespace format = import_format;
 using geometry::Vec3;
 
-/// A record as the import process writes it, with every part free to be wrong.
+/// A record as the import process writes it, in which every part may be wrong.
 struct Forged {
   format::Header header;
   std::string text = "test format";
@@ -76,7 +76,7 @@ TEST(ImportRecord, EveryTruncationIsBroken) {
 }
 
 TEST(ImportRecord, NoCountIsBelieved) {
-  // 2^60 elements of 12 or 16 bytes wrap a product of 64 bits.
+  // 2^60 elements of 12 or 16 bytes overflow a product of 64 bits.
   for (const std::uint64_t count :
        {std::uint64_t{5}, std::uint64_t{1} << 32, std::uint64_t{1} << 60,
         std::numeric_limits<std::uint64_t>::max()}) {
@@ -117,7 +117,7 @@ TEST(ImportRecord, BadIndicesAreDroppedAndCounted) {
       ASSERT_TRUE(result.mesh);
       EXPECT_EQ(result.mesh->triangles.size(), 1U);
       EXPECT_EQ(report.dropped_bad_index, 1U);
-      // The object that lost its triangle is gone, the other one has moved up.
+      // The object that lost its triangle is gone, and the other one has its index.
       ASSERT_EQ(result.mesh->objects.size(), 1U);
       EXPECT_EQ(result.mesh->objects[0].name, "two");
       EXPECT_EQ(result.mesh->objects[0].first_triangle, 0U);
@@ -137,7 +137,7 @@ TEST(ImportRecord, CoordinatesThatAreNoNumberAreDroppedAndCounted) {
     EXPECT_EQ(result.mesh->vertices.size(), 3U);
     EXPECT_EQ(report.dropped_nonfinite, 1U);
   }
-  // Finite in the file, too large once scaled.
+  // Finite in the file, but too large after scaling.
   Forged forged;
   forged.vertices[3][2] = 1e38;
   ImportReport report;

@@ -21,11 +21,11 @@ using collision::DetectOptions;
 
 constexpr unsigned kSeed = 20260914;
 
-/// What the bracketing of an interval's end to a millimetre takes on these paths, which are never
-/// slower than 5 cm/s for long.
+/// Time to bracket the end of an interval to a millimetre on these paths, which are never slower
+/// than 5 cm/s for long.
 constexpr double kEnds_s = 0.02;
 
-/// Of a time up to 100 s that goes to a parameter of a segment and back.
+/// Rounding of a time up to 100 s that is converted to a parameter of a segment and back.
 constexpr double kRounding_s = 1e-12;
 
 scene::Mesh dust_mesh(std::mt19937_64& random) {
@@ -64,7 +64,8 @@ bool covered(const CollisionInterval& inner, const std::vector<CollisionInterval
   });
 }
 
-/// Instants of the path at which the near quadrilateral touches the scene, exactly.
+/// Returns instants of the path at which the near quadrilateral touches the scene, by exact
+/// predicates.
 std::vector<double> touching_times_s(const scene::Mesh& mesh, const motion::Path& path,
                                      const motion::Camera& camera) {
   constexpr int kSamples = 1000;
@@ -84,7 +85,7 @@ std::vector<double> touching_times_s(const scene::Mesh& mesh, const motion::Path
   return times_s;
 }
 
-// A search in parts misses nothing, and lists nothing but what a search of the whole lists.
+// A search in parts misses no collision, and finds only those of a search of the whole path.
 TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
   RecordProperty("seed", kSeed);
   std::mt19937_64 random(kSeed);
@@ -120,8 +121,8 @@ TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
   EXPECT_GT(longest_s, 0.1) << "no interval reaches over several parts of 0.04 s";
 }
 
-// Found before the deadline, found all the same. No machine is told how fast to be: the deadline is
-// sought that strikes in between.
+// Collisions found before the deadline are kept. The test does not depend on the machine's speed:
+// it searches for a deadline between two of them.
 TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
   RecordProperty("seed", kSeed);
   std::mt19937_64 random(kSeed);

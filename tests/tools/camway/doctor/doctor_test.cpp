@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A machine on which all is well.
+/// Returns the facts of a machine without problems.
 HostFacts healthy() {
   HostFacts facts;
   facts.network = service::parse_lcm_url("udpm://239.255.76.67:7667?ttl=0");
@@ -128,7 +128,7 @@ TEST(Doctor, FindsEveryIllnessAndHowToMendIt) {
     EXPECT_EQ(to_string(found->severity), to_string(illness.severity)) << found->text;
     EXPECT_THAT(found->text, HasSubstr(illness.text));
     EXPECT_THAT(found->mend, HasSubstr(illness.mend));
-    // One illness is not taken for another; some networks that are no multicast hide other checks.
+    // One problem is not taken for another; some networks without multicast hide other checks.
     for (const Finding& finding : findings) {
       if (finding.check != illness.check && finding.check != "ttl") {
         EXPECT_EQ(to_string(finding.severity), "good") << finding.check << ": " << finding.text;

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 constexpr std::uint32_t kSeed = 2006;
 
-/// The daemon's answer as the client would read it.
+/// Returns the daemon's answer as the client reads it.
 PlanResponse answer_of(const planning::PlanResult& result) {
   PlanResponse answer;
   answer.status = Status::kOk;

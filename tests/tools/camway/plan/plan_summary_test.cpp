@@ -78,7 +78,7 @@ TEST(PlanSummary, BeginsWithStatusMessageAndTimes) {
               StartsWith("ok: all is well (scene read in 1.23 s, planned in 1.2 ms)\n"));
 }
 
-// A way round replaces all between two keyframes, whatever that collided with.
+// A detour replaces the whole path between two keyframes, for all collisions in it.
 TEST(PlanSummary, HasALineForEachChangeOfThePath) {
   PlanResult result = result_with(
       {corrected(1, 2, Rung::kGoRound, 0.5, 0.0), corrected(2.5, 2.75, Rung::kMove, 0.1, 0.0),

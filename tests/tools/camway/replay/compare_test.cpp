@@ -48,7 +48,8 @@ TEST(Compare, MeasuresAShiftedPath) {
   std::vector<motion::Keyframe> shifted = three_keyframes();
   for (motion::Keyframe& keyframe : shifted) keyframe.pose.position.z() += 0.25;
   const Difference difference = compare(a, result_through(shifted), body());
-  // Interpolation is affine: the whole path moves by as much, up to rounding at metre scale.
+  // Interpolation is affine: the whole path moves by the same vector, up to rounding at metre
+  // scale.
   EXPECT_NEAR(difference.path_m, 0.25, 1e-14);
   EXPECT_EQ(difference.what, "keyframes");
 }
@@ -60,7 +61,7 @@ TEST(Compare, MeasuresATurnByTheCorners) {
   for (motion::Keyframe& keyframe : turned) {
     keyframe.pose.orientation = Eigen::AngleAxisd(angle_rad, geometry::Vec3::UnitZ());
   }
-  // About the viewing axis a corner moves on a circle through the corners of the near
+  // In a rotation about the viewing axis a corner moves on a circle through the corners of the near
   // quadrilateral.
   const motion::Corners corners = motion::near_corners_C(kCamera);
   const double expected_m = 2 * corners[0].head<2>().norm() * std::sin(angle_rad / 2);

@@ -29,7 +29,7 @@ LogBuilder any_log(std::mt19937& random, int count) {
   return log;
 }
 
-/// What is read of a file with these bytes.
+/// Returns the events that are read from a file with these bytes.
 std::vector<LogEvent> read(const TemporaryFolder& folder, const std::string& bytes,
                            LogSummary& summary) {
   std::vector<LogEvent> events;

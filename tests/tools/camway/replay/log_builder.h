@@ -14,20 +14,20 @@
 
 namespace camway::tools {
 
-/// Writes the bytes of an event log as lcm-logger does, from its description in LCM's manual and
-/// not with the code under test.
+/// Writes an event log like lcm-logger, by the description in LCM's manual. Shares no code with the
+/// reader.
 class LogBuilder {
  public:
   void add_event(const std::string& channel, const std::vector<std::uint8_t>& data);
 
-  /// As many pages as the request takes.
+  /// Adds all pages of a request.
   void add_request(const planning::PlanRequest& request, const service::RequestIds& ids,
                    const std::string& prefix = "CAMWAY");
   void add_answer(const planning::PlanResult& result, const service::AnswerHeader& header,
                   const std::string& prefix = "CAMWAY");
 
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
-  /// Length of the log before each event.
+  /// Returns the length of the log before each event.
   [[nodiscard]] const std::vector<std::size_t>& offsets() const { return offsets_; }
 
  private:
@@ -35,7 +35,7 @@ class LogBuilder {
   std::vector<std::size_t> offsets_;
 };
 
-/// A folder of its own that vanishes with the object.
+/// A new folder, which the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -44,7 +44,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] std::string file(std::string_view name) const { return (path_ / name).string(); }
-  /// Writes a file into it and returns its path.
+  /// Writes a file into the folder and returns its path.
   std::string write(std::string_view name, std::string_view content) const;
 
  private:
@@ -53,13 +53,14 @@ class TemporaryFolder {
 
 std::string read_all(const std::string& file);
 
-/// A request that a person would write: camera along -Z, keyframes at `positions_m`.
+/// Returns a request with a camera that looks along -Z, with keyframes at `positions_m`.
 planning::PlanRequest simple_request(const std::vector<geometry::Vec3>& positions_m);
 
-/// A wall in the plane z = 0, 0.4 m wide and 2 m high, to run into head on; and a fin in the plane
-/// x = 2, from z = -0.2 to 0.2, to clip with a side: what the seed's method can correct.
+/// Returns two obstacles that the paper's method can correct: a wall in the plane z = 0, 0.4 m wide
+/// and 2 m high, to hit head on; and a fin in the plane x = 2, from z = -0.2 to 0.2, to hit with a
+/// side.
 scene::Mesh wall_mesh();
-/// The same as an OBJ file.
+/// Returns these obstacles as an OBJ file.
 std::string wall_obj();
 
 }  // namespace camway::tools

@@ -18,13 +18,13 @@ namespace {
 using ::testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-/// Stands where a daemon would: keeps every request that comes, and answers planning if told to.
+/// A stand-in for a daemon: keeps every request, and answers planning requests if told to.
 class Listener {
  public:
   enum class Manner { kAnswers, kIsSilent };
 
   explicit Listener(Manner manner) : manner_(manner) {
-    // The whole proof: without a network that carries multicast these tests prove nothing.
+    // The tests prove nothing on a network without multicast.
     EXPECT_TRUE(lcm_.good()) << "LCM cannot use the network";
     if (!lcm_.good()) return;
     lcm_.subscribe("CAMWAY_.*_REQUEST", &Listener::on_request, this)->setQueueCapacity(1000);
@@ -38,7 +38,7 @@ class Listener {
     std::vector<std::uint8_t> data;
     Clock::time_point time;
   };
-  /// What came so far, as soon as that is `count` messages, at the latest after 10 s.
+  /// Returns the messages so far, as soon as there are `count`, or after 10 s.
   std::vector<Received> received(std::size_t count) {
     const Clock::time_point limit = Clock::now() + std::chrono::seconds(10);
     for (;;) {
@@ -113,7 +113,8 @@ TEST_F(Publish, KeepsTheRecordedRhythm) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto received = listener.received(8);
   ASSERT_EQ(received.size(), 8U);
-  // Only a lower limit: a busy machine may be late, never early. Half, for the first may be late.
+  // Only a lower limit: a busy machine may be late, never early. Half, because the first may be
+  // late.
   EXPECT_GE(received.back().time - received.front().time, std::chrono::milliseconds(300));
 }
 

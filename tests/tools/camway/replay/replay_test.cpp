@@ -20,7 +20,7 @@ using planning::Status;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Times in an answer that the process under test can not have measured itself.
+/// A time in an answer that the process under test cannot have measured itself.
 constexpr double kRecordedMs = 12345.0;
 
 class ReplayTest : public ::testing::Test {
@@ -42,13 +42,13 @@ class ReplayTest : public ::testing::Test {
     return {{"client", id, 0}, "wall", 1, scenes_.at("wall")->digest};
   }
 
-  /// Request `id` with the answer that planning gives.
+  /// Adds request `id` with the answer of planning.
   void record(const PlanRequest& request, std::int64_t id) {
     log_.add_request(request, {"client", id, 0});
     log_.add_answer(planned(request), header(id));
   }
 
-  /// A session with paths that are free, that collide and that cannot be planned.
+  /// A session with paths that are free, that collide, and that cannot be planned.
   void record_session() {
     record(simple_request({{1, 0, 1}, {1, 0, -1}}), 1);
     record(simple_request({{0.1, 0, 1}, {0.1, 0, -1}}), 2);
@@ -76,7 +76,7 @@ class ReplayTest : public ::testing::Test {
   LogBuilder log_;
 };
 
-/// All that a replay gives, as bytes, times apart.
+/// Returns all output of a replay as bytes, without times.
 std::string bytes_of(const Session& session, const std::vector<ReplayedRequest>& replayed) {
   std::string bytes = report(session, replayed, Times::kHidden);
   ResponseFormat format;
@@ -179,7 +179,7 @@ TEST_F(ReplayTest, CountsWhatItCannotUse) {
   log_.add_event("CAMWAY_PLAN_REQUEST", {1, 2, 3});
   log_.add_event("CAMWAY_PLAN_RESPONSE_client", std::vector<std::uint8_t>(76, 0xFF));
   log_.add_event("SOMETHING_ELSE", {4, 5});
-  // An id that would name a file outside the folder of responses.
+  // An id that would name a file outside of the folder of responses.
   plan_request_t request = service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0});
   request.client_id = "../c";
   log_.add_event("CAMWAY_PLAN_REQUEST", wire::encode(request));
@@ -284,7 +284,7 @@ TEST_F(ReplayTest, CarriesBodiesAndClearance) {
   EXPECT_EQ(run(recorded)[0].verdict, Verdict::kAgrees);
 }
 
-// The daemon's scene had bounds, which no digest and no request tells.
+// The daemon's scene had bounds, which neither digest nor request contains.
 TEST_F(ReplayTest, PlansWithinTheBoundsOfTheAnswer) {
   const auto without = scenes_["wall"];
   auto bounded = std::make_shared<scene::Snapshot>(*without);

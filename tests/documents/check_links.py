@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Follows every link of the documents to a file or a heading of this repository, and fails for those that
+lead nowhere.
+
+    tests/documents/check_links.py [--source DIR]
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+from check_documents import documents_of
+
+_LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+_FENCE = re.compile(r"^ *```.*?^ *```", re.MULTILINE | re.DOTALL)
+
+
+def anchors_of(text):
+    """The names under which the headings of a document can be linked."""
+    names = set()
+    for heading in re.findall(r"^#+ +(.*)$", _FENCE.sub("", text), re.MULTILINE):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "")
+        name = re.sub(r"[^\w\- ]", "", plain.lower()).replace(" ", "-")
+        count = 1
+        while name in names:
+            name = f"{name.removesuffix(f'-{count - 1}')}-{count}"
+            count += 1
+        names.add(name)
+    return names
+
+
+def faults_of(source, document):
+    text = (source / document).read_text()
+    for link in _LINK.findall(_FENCE.sub("", text)):
+        if re.match(r"[a-z]+:", link):
+            continue
+        target, _, anchor = link.partition("#")
+        file = (source / document).parent / target if target else source / document
+        if not file.exists():
+            yield f"{document}: {link}: there is no such file"
+        elif anchor and anchor not in anchors_of(file.read_text()):
+            yield f"{document}: {link}: there is no such heading"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--source", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
+    source = parser.parse_args().source
+    faults = [fault for document in documents_of(source) for fault in faults_of(source, document)]
+    for fault in faults:
+        print(f"FAULT {fault}")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cairo.h>
+
+#include <functional>
+#include <string>
+
+#include "tools/drawing/floor_plan.h"
+
+namespace camway::draw {
+
+/// Size of a picture. [Units: pixels]
+struct PictureSize {
+  double width_px;
+  double height_px;
+};
+
+/// Writes the same drawing to each of `files` that has a name. `draw` is called once for each file,
+/// with a white ground. Returns an error text that names the file, empty on success.
+std::string write_pictures(const PictureFiles& files, const PictureSize& size,
+                           const std::function<void(cairo_t*)>& draw);
+
+}  // namespace camway::draw
