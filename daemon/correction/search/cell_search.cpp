@@ -358,7 +358,7 @@ class CellSearch {
   }
 
   [[nodiscard]] double step_cost_m(std::uint32_t a, std::uint32_t b) const {
-    const double gap_m = std::min(tree_[a].gap_m, tree_[b].gap_m);
+    const double gap_m = static_cast<double>(std::min(tree_[a].gap_m, tree_[b].gap_m));
     const double near = std::clamp(1.0 - gap_m / options_.comfort_m, 0.0, 1.0);
     const double length_m = (tree_.center_W(tree_[a]) - tree_.center_W(tree_[b])).norm();
     return length_m * (1.0 + kMostNear * near);

@@ -17,8 +17,6 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
 /// The limits at one given time.
 struct Knot {
   double t_s;

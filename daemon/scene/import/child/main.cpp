@@ -121,7 +121,8 @@ void append_mesh(const aiNode& node, const aiMesh& mesh, format::Record& record)
   const auto base = static_cast<std::uint32_t>(record.vertices.size());
   const std::size_t first_triangle = record.triangles.size();
   for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
-    record.vertices.push_back({v.x, v.y, v.z});
+    record.vertices.push_back(
+        {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
   }
   for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
     if (face.mNumIndices != 3) {
@@ -154,7 +155,7 @@ void append_nodes(const aiNode& node, const aiScene& scene, format::Record& reco
 /// Error of a number that assimp only reads: it makes a decimal of whole part and fraction, each
 /// rounded, and their sum, and multiplies by a power of ten, rounded too.
 constexpr double kReadingRoundoffs = 8.0;
-constexpr double kRoundoff = double{std::numeric_limits<ai_real>::epsilon()} / 2.0;
+constexpr double kRoundoff = static_cast<double>(std::numeric_limits<ai_real>::epsilon()) / 2.0;
 
 /// A 4 × 4 matrix of magnitudes, for bounds.
 using Magnitudes = std::array<std::array<double, 4>, 4>;
@@ -163,7 +164,8 @@ Magnitudes product_of_magnitudes(const Magnitudes& a, const aiMatrix4x4& b) {
   Magnitudes product{};
   for (unsigned i = 0; i < 4; ++i) {
     for (unsigned j = 0; j < 4; ++j) {
-      for (unsigned k = 0; k < 4; ++k) product[i][j] += a[i][k] * std::abs(double{b[k][j]});
+      for (unsigned k = 0; k < 4; ++k)
+        product[i][j] += a[i][k] * std::abs(static_cast<double>(b[k][j]));
     }
   }
   return product;
@@ -202,7 +204,8 @@ class TransformRounding {
     std::array<double, 4> largest = {0.0, 0.0, 0.0, 1.0};
     for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
       for (unsigned k = 0; k < 3; ++k) {
-        if (std::isfinite(v[k])) largest[k] = std::max(largest[k], std::abs(double{v[k]}));
+        if (std::isfinite(v[k]))
+          largest[k] = std::max(largest[k], std::abs(static_cast<double>(v[k])));
       }
     }
     for (std::size_t i = 0; i < 3; ++i) {

@@ -70,7 +70,7 @@ class BinaryValues {
       case PlyType::kUint32:
         return static_cast<std::uint32_t>(bits);
       case PlyType::kFloat:
-        return double{std::bit_cast<float>(static_cast<std::uint32_t>(bits))};
+        return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
       case PlyType::kDouble:
         break;
     }

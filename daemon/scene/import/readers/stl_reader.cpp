@@ -48,7 +48,7 @@ std::string read_binary(std::string_view bytes, MeshCollector& mesh) {
     for (std::uint32_t& corner : corners) {
       Point point{};
       for (double& x : point) {
-        x = double{std::bit_cast<float>(little_endian_word(at))};
+        x = static_cast<double>(std::bit_cast<float>(little_endian_word(at)));
         at.remove_prefix(4);
       }
       corner = mesh.add_vertex(point);
