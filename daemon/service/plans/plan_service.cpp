@@ -79,48 +79,24 @@ struct PlanService::Replanned {
   std::shared_ptr<const scene::Snapshot> snapshot;
 };
 
-template <class Message>
-std::optional<Message> PlanService::read(const std::string& channel,
-                                         std::span<const std::uint8_t> message) {
-  wire::Decoded<Message> decoded = wire::decode<Message>(message);
-  if (!decoded.message) {
-    on_malformed<Message>(channel, message, decoded.fault.text(Message::getTypeName()));
-    return std::nullopt;
-  }
-  if (!wire::is_client_id(decoded.message->client_id)) {
-    on_malformed<Message>(
-        channel, message,
-        std::string(Message::getTypeName()) + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
-    return std::nullopt;
-  }
-  return std::move(decoded.message);
-}
-
-template <class Message>
-void PlanService::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
-                               std::string_view reason) {
-  if (!core_.note_malformed(channel, message.size(), reason)) return;
-  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
-  if (!sender) {
-    core_.report_unanswerable(channel, message, reason);
-    return;
-  }
+void PlanService::refuse_malformed(const wire::Sender& sender, std::string_view reason) {
   plan_request_t request{};
-  request.client_id = sender->client_id;
-  request.request_id = sender->request_id;
+  request.client_id = sender.client_id;
+  request.request_id = sender.request_id;
   answer_uncached(request, plan_response_t::STATUS_MALFORMED, reason);
 }
 
 void PlanService::on_request(std::span<const std::uint8_t> message) {
   const std::string channel = core_.channels.plan_request();
-  std::optional<plan_request_t> page = read<plan_request_t>(channel, message);
+  auto page = core_.read<plan_request_t>(channel, message, refusing());
   if (!page) return;
   // No scene or method of ours has a name with control characters, so nothing is lost.
   page->scene = wire::printable(page->scene);
   page->method = wire::printable(page->method);
   PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
   if (!outcome.error.empty()) {
-    on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error);
+    core_.on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error,
+                                       refusing());
   }
   if (outcome.given_up > 0) {
     core_.limited_log.refused.write(
@@ -131,7 +107,7 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::on_cancel(std::span<const std::uint8_t> message) {
-  const std::optional<cancel_t> cancel = read<cancel_t>(core_.channels.cancel(), message);
+  const auto cancel = core_.read<cancel_t>(core_.channels.cancel(), message, refusing());
   if (!cancel) return;
   const RequestKey key{cancel->client_id, cancel->request_id};
   if (in_flight_.cancel(key)) {
@@ -150,7 +126,8 @@ void PlanService::on_cancel(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
-  const auto asked = read<missing_pages_t>(core_.channels.missing_pages(), message);
+  const auto asked =
+      core_.read<missing_pages_t>(core_.channels.missing_pages(), message, refusing());
   if (!asked) return;
   const RequestKey key{asked->client_id, asked->request_id};
   Pages answer = cache_.find(key);

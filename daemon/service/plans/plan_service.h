@@ -53,11 +53,13 @@ class PlanService {
   struct Replan;
   struct Replanned;
 
-  template <class Message>
-  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
-  template <class Message>
-  void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
-                    std::string_view reason);
+  void refuse_malformed(const wire::Sender& sender, std::string_view reason);
+  /// `refuse_malformed`, for `Core::read`.
+  auto refusing() {
+    return [this](const wire::Sender& sender, std::string_view reason) {
+      refuse_malformed(sender, reason);
+    };
+  }
   void take(plan_request_t request);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
   void run(const Pending& pending);
