@@ -20,16 +20,17 @@ namespace camway::service {
 /// `snapshot` may be null: the answer is about no scene then.
 AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
 
-/// The answer of `planner`, whatever happens: a planner that throws is an internal error.
-plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                          const plan_request_t& wire, const DeadlineLimits& limits,
-                          const collision::Deadline& deadline);
+/// An answer, and what of it can be watched: null unless its request asks for that and the answer
+/// proves a path.
+struct Answered {
+  plan_response_t wire;
+  std::shared_ptr<const planning::WatchedPath> path;
+};
 
-/// What of an answer can be watched: null unless the request asks for that and the answer proves a
-/// path.
-std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
-                                                            const plan_response_t& answer,
-                                                            const DeadlineLimits& limits);
+/// The answer of `planner`, whatever happens: a planner that throws is an internal error.
+Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                   const plan_request_t& wire, const DeadlineLimits& limits,
+                   const collision::Deadline& deadline);
 
 /// Encodes `answer`, or what takes its place: an answer that says that it has more than
 /// `most_pages`.

@@ -73,9 +73,8 @@ struct PlanService::Replan {
 
 /// What came of it.
 struct PlanService::Replanned {
-  plan_response_t answer;
+  Answered answered;
   Pages pages;
-  std::shared_ptr<const planning::WatchedPath> path;  ///< null if the answer proves none
   std::shared_ptr<const scene::Snapshot> snapshot;
 };
 
@@ -253,21 +252,20 @@ void PlanService::run(const Pending& pending) {
     return;
   }
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
-  auto answer = std::make_shared<plan_response_t>(answer_of(
-      planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
-  auto path = watchable_path(*pending.request, *answer, config_.deadline);
-  Pages pages = encode_answer(*answer, config_.answer_pages);
-  core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
-                      path = std::move(path)] {
-    core_.counters.waiting.add(waited_s);
-    core_.counters.planning.add(answer->total_ms / kMillisecondsPerSecond);
-    if (in_flight_.cancelled(pending.key)) {
-      abandon(pending, Refusal::kCancelled);
-    } else {
-      finish(pending, *answer, pages);
-      if (path) watch(pending, path, *answer);
-    }
-  });
+  auto answered = std::make_shared<Answered>(
+      answer_of(planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
+  Pages pages = encode_answer(answered->wire, config_.answer_pages);
+  core_.mailbox.post(
+      [this, pending, waited_s, answered = std::move(answered), pages = std::move(pages)] {
+        core_.counters.waiting.add(waited_s);
+        core_.counters.planning.add(answered->wire.total_ms / kMillisecondsPerSecond);
+        if (in_flight_.cancelled(pending.key)) {
+          abandon(pending, Refusal::kCancelled);
+        } else {
+          finish(pending, answered->wire, pages);
+          if (answered->path) watch(pending, *answered);
+        }
+      });
 }
 
 void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
@@ -291,10 +289,9 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
   send(pending.key, std::move(pages));
 }
 
-void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
-                        const plan_response_t& answer) {
-  const WatchableAnswer watched{pending.key, pending.request, std::move(path), pending.snapshot,
-                                AnswerQuality::of(answer)};
+void PlanService::watch(const Pending& pending, const Answered& answered) {
+  const WatchableAnswer watched{pending.key, pending.request, answered.path, pending.snapshot,
+                                AnswerQuality::of(answered.wire)};
   if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
 }
 
@@ -335,19 +332,19 @@ void PlanService::run_again(const Replan& replan) {
     core_.mailbox.post([this, replan] { give_up(replan); });
     return;
   }
-  done->answer =
+  done->answered =
       answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
-  done->path = watchable_path(*replan.request, done->answer, config_.deadline);
-  done->pages = encode_answer(done->answer, config_.answer_pages);
+  done->pages = encode_answer(done->answered.wire, config_.answer_pages);
   core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
 }
 
 void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   const Clock::time_point now = Clock::now();
-  const WatchableAnswer watched{replan.key, replan.request, done.path, done.snapshot,
-                                AnswerQuality::of(done.answer)};
+  const plan_response_t& answer = done.answered.wire;
+  const WatchableAnswer watched{replan.key, replan.request, done.answered.path, done.snapshot,
+                                AnswerQuality::of(answer)};
   if (replan.for_offer) {
-    if (done.path) {
+    if (watched.path) {
       watches_.offer(watched, done.pages, now);
     } else {
       watches_.no_offer(replan.key, now);
@@ -358,16 +355,16 @@ void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   if (!watches_.ended(replan.key)) return;
   core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
                                                      {"request", replan.key.request_id},
-                                                     {"scene", done.answer.scene},
-                                                     {"revision", done.answer.scene_revision},
-                                                     {"status", status_name(done.answer.status)},
-                                                     {"message", done.answer.message}});
+                                                     {"scene", answer.scene},
+                                                     {"revision", answer.scene_revision},
+                                                     {"status", status_name(answer.status)},
+                                                     {"message", answer.message}});
   cache_.replace(replan.key, digest_of(*replan.request), done.pages);
   send(replan.key, done.pages);
-  if (done.path) {
+  if (watched.path) {
     watches_.begin(watched, now);
   } else {
-    watches_.answered(replan.key, done.answer.scene_revision, now);
+    watches_.answered(replan.key, answer.scene_revision, now);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "daemon/service/core/answer_cache.h"
 #include "daemon/service/core/core.h"
 #include "daemon/service/plans/in_flight.h"
+#include "daemon/service/plans/plan_answer.h"
 #include "daemon/service/plans/plan_config.h"
 #include "daemon/service/watches/watches.h"
 
@@ -72,8 +73,7 @@ class PlanService {
                        std::string_view message);
   void send(const RequestKey& key, Pages pages, Outbox::Kind kind = Outbox::Kind::kAnswer);
 
-  void watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
-             const plan_response_t& answer);
+  void watch(const Pending& pending, const Answered& answered);
   void plan_broken(Clock::time_point now);
   void plan_improvable(Clock::time_point now);
   void put_in_force(Watches::Taken taken, Clock::time_point now);
