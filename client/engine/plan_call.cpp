@@ -10,6 +10,7 @@
 #include <camway/missing_pages_t.hpp>
 #include <camway/plan_progress_t.hpp>
 
+#include "client/messages/plan_fields.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 
@@ -87,7 +88,9 @@ void PlanCall::take_progress(std::span<const std::uint8_t> bytes) {
   const auto decoded = wire::decode<plan_progress_t>(bytes);
   if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
   retry().note_life();
-  call_handler(handlers_.on_progress, from_wire(*decoded.message));
+  PlanProgress progress;
+  read(*decoded.message, progress);
+  call_handler(handlers_.on_progress, progress);
 }
 
 std::vector<Outgoing> PlanCall::missing() const {

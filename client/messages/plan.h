@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <camway/plan_progress_t.hpp>
 #include <camway/plan_response_t.hpp>
 
 #include "client/messages/bytes.h"
@@ -25,9 +24,6 @@ std::optional<std::string> fault_in_form(const PlanRequest& request);
 /// Precondition: no `fault_in_form`.
 std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
                             std::int64_t request_id);
-
-/// What the message says. Stages that are unknown here count as waiting.
-PlanProgress from_wire(const plan_progress_t& wire);
 
 /// Puts the pages of the answer to one request together, in whatever order and however often they
 /// come. Pages of another answer to the same request (the daemon was restarted) replace it.

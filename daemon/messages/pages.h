@@ -12,21 +12,14 @@
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
+#include "lcmtypes/wire/pages.h"
+
 namespace camway::service {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Encodes `whole` as messages of at most `wire::kMaxMessageBytes`: as many list elements on each
-/// page as fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The
-/// same message gives the same bytes. A request's body goes on page 0.
-/// Precondition: its counts agree with its lists; a body is within the limits of `wire_layout.h`;
-/// the whole encodes to less than 2 GB, as LCM counts bytes in an int.
-std::vector<Bytes> encode_pages(const plan_request_t& whole);
-std::vector<Bytes> encode_pages(const plan_response_t& whole);
-
-/// How many pages `encode_pages` makes, without making or copying anything: an answer that is too
-/// long costs no memory of its own. The same preconditions.
-std::size_t count_pages(const plan_response_t& whole);
+using wire::count_pages;
+using wire::encode_pages;
 
 /// Puts pages together again, in whatever order and however often they come. Holds a bounded number
 /// of bytes of half-received messages; where a new page does not fit, the message that waited
