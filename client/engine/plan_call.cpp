@@ -11,6 +11,7 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "client/engine/handler.h"
+#include "client/messages/plan_fields.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 
@@ -77,7 +78,9 @@ void PlanCall::take_progress(std::span<const std::uint8_t> bytes) {
   const auto decoded = wire::decode<plan_progress_t>(bytes);
   if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
   retry().note_life();
-  call_handler(handlers_.on_progress, from_wire(*decoded.message));
+  PlanProgress progress;
+  read(*decoded.message, progress);
+  call_handler(handlers_.on_progress, progress);
 }
 
 std::vector<Outgoing> PlanCall::missing() const {

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <camway/plan_progress_t.hpp>
 #include <camway/plan_response_t.hpp>
 
 #include "client/messages/bytes.h"
@@ -25,9 +24,6 @@ std::optional<std::string> fault_in_form(const PlanRequest& request);
 /// without `fault_in_form`.
 std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
                             std::int64_t request_id);
-
-/// Returns the progress in a message. An unknown stage becomes kWaiting.
-PlanProgress from_wire(const plan_progress_t& wire);
 
 /// Collects the pages of the answer to one request, which may come in any order and repeatedly.
 /// Pages of a new answer to the same request, after a restart of the daemon, replace the old ones.

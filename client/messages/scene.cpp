@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
 
-#include "client/messages/constraints.h"
+#include "client/messages/fields.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
 
@@ -13,16 +12,6 @@ namespace camway {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-template <std::size_t N>
-void copy(const double (&from)[N], std::array<double, N>& to) {
-  std::copy(std::begin(from), std::end(from), to.begin());
-}
-
-template <std::size_t N>
-void copy(const std::array<double, N>& from, double (&to)[N]) {
-  std::copy(from.begin(), from.end(), std::begin(to));
-}
 
 void name_upload(const Bytes& bytes, scene_request_t& request) {
   request.upload_bytes = static_cast<std::int64_t>(bytes.size());
@@ -55,7 +44,7 @@ struct ShapeWriter {
   }
   Bytes operator()(const SceneBox& box) const {
     request.kind = scene_request_t::BOX;
-    copy(box.size_m, request.size_m);
+    put(box.size_m, request.size_m);
     return {};
   }
   Bytes operator()(const SceneSphere& sphere) const {
@@ -93,33 +82,22 @@ struct ShapeWriter {
 
 SceneInfo from_wire(const scene_info_t& wire) {
   SceneInfo scene;
-  scene.name = wire.name;
-  scene.revision = wire.revision;
-  scene.digest = wire.digest;
-  scene.num_triangles = wire.num_triangles;
-  copy(wire.bounds_min_m, scene.bounds_min_m);
-  copy(wire.bounds_max_m, scene.bounds_max_m);
-  scene.body_bounds = from_wire(wire.body_bounds);
-  scene.occupancy_resolution_m = wire.occupancy_resolution_m;
+  read(wire, scene);
   return scene;
 }
 
 SceneObject from_wire(const scene_object_t& wire) {
+  static_assert(wire::lacks_only<scene_object_t, SceneObject>({"position_m", "orientation_wxyz"}));
   SceneObject object;
-  object.name = wire.name;
-  object.kind = wire.kind;
-  object.digest = wire.digest;
-  object.num_triangles = wire.num_triangles;
-  copy(wire.position_m, object.pose.position_m);
-  copy(wire.orientation_wxyz, object.pose.orientation_wxyz);
-  copy(wire.bounds_min_m, object.bounds_min_m);
-  copy(wire.bounds_max_m, object.bounds_max_m);
+  read_common(wire, object);
+  read_common(wire, object.pose);
   return object;
 }
 
 SceneRevision from_wire(const scene_change_t& wire) {
-  return {wire.revision, wire.utime,     wire.operation,
-          wire.object,   wire.client_id, wire.restored_revision};
+  SceneRevision revision;
+  read(wire, revision);
+  return revision;
 }
 
 Bytes put_mesh(const SceneMesh& mesh, scene_request_t& request) {
@@ -144,8 +122,8 @@ Bytes put_points(const std::vector<std::array<double, 3>>& points, scene_request
 }
 
 void put_pose(const Pose& pose, scene_request_t& request) {
-  copy(pose.position_m, request.position_m);
-  copy(pose.orientation_wxyz, request.orientation_wxyz);
+  put(pose.position_m, request.position_m);
+  put(pose.orientation_wxyz, request.orientation_wxyz);
 }
 
 upload_page_t page_of(const Bytes& bytes, std::int64_t checksum, std::int32_t page) {

@@ -3,186 +3,17 @@
 
 #include <algorithm>
 #include <iterator>
-#include <tuple>
 #include <utility>
 
-#include "lcmtypes/wire/check.h"
-
 namespace camway::service {
-namespace {
-
-/// The lists of a message that are spread over its pages, in wire order, each with its count.
-template <class Message>
-struct Lists;
-template <>
-struct Lists<plan_request_t> {
-  static constexpr auto kMembers =
-      std::make_tuple(std::pair{&plan_request_t::keyframes, &plan_request_t::num_keyframes});
-  static constexpr std::int32_t kMaxPages = wire::kMaxRequestPages;
-};
-template <>
-struct Lists<plan_response_t> {
-  static constexpr auto kMembers = std::make_tuple(
-      std::pair{&plan_response_t::segments, &plan_response_t::num_segments},
-      std::pair{&plan_response_t::keyframes, &plan_response_t::num_keyframes},
-      std::pair{&plan_response_t::collisions, &plan_response_t::num_collisions},
-      std::pair{&plan_response_t::remaining, &plan_response_t::num_remaining},
-      std::pair{&plan_response_t::corrections, &plan_response_t::num_corrections},
-      std::pair{&plan_response_t::slowed, &plan_response_t::num_slowed},
-      std::pair{&plan_response_t::keyframe_faults, &plan_response_t::num_keyframe_faults},
-      std::pair{&plan_response_t::proof_triangles, &plan_response_t::num_proof_triangles});
-  static constexpr std::int32_t kMaxPages = wire::kMaxResponsePages;
-};
-
-/// Calls `visit(pointer to the list, pointer to its count)` for each.
-template <class Message, class Visit>
-void for_each_list(const Visit& visit) {
-  std::apply([&](const auto&... member) { (visit(member.first, member.second), ...); },
-             Lists<Message>::kMembers);
-}
-
-void clear_body(plan_request_t& request) { request.body = body_t{}; }
-void clear_body(plan_response_t&) {}
-
-/// Returns the bytes that later pages save by having no body.
-std::size_t body_bytes(const plan_request_t& request) {
-  return static_cast<std::size_t>(request.body._getEncodedSizeNoHash() -
-                                  body_t{}._getEncodedSizeNoHash());
-}
-std::size_t body_bytes(const plan_response_t&) { return 0; }
-
-std::size_t bytes_of(std::int32_t number) { return sizeof(number); }
-
-template <class Element>
-std::size_t bytes_of(const Element& element) {
-  return static_cast<std::size_t>(element._getEncodedSizeNoHash());
-}
-
-template <class Message>
-Message without_lists(Message message) {
-  for_each_list<Message>([&](auto list, auto count) {
-    (message.*list).clear();
-    message.*count = 0;
-  });
-  return message;
-}
-
-/// Returns the members that all pages of a message have in common.
-template <class Message>
-Message blank_page(const Message& message) {
-  Message blank = without_lists(message);
-  clear_body(blank);
-  return blank;
-}
-
-/// Returns the size of a message without the elements of its lists.
-template <class Message>
-std::size_t header_bytes(const Message& whole) {
-  auto bytes = static_cast<std::size_t>(whole.getEncodedSize());
-  for_each_list<Message>([&](auto list, auto) {
-    for (const auto& element : whole.*list) bytes -= bytes_of(element);
-  });
-  return bytes;
-}
-
-std::size_t room_beside(std::size_t bytes) {
-  return bytes < wire::kMaxMessageBytes ? wire::kMaxMessageBytes - bytes : 0;
-}
-
-template <class Message>
-void append_lists(Message& whole, const Message& page) {
-  for_each_list<Message>([&](auto list, auto count) {
-    (whole.*list).insert((whole.*list).end(), (page.*list).begin(), (page.*list).end());
-    whole.*count = static_cast<std::int32_t>((whole.*list).size());
-  });
-}
-
-/// Distributes the elements over pages, each list from where it stopped on the page before: calls
-/// `turn_page()` before each page but the first and `put(list, count, element)` in between.
-template <class Message, class TurnPage, class Put>
-void deal(const Message& whole, const TurnPage& turn_page, const Put& put) {
-  const std::size_t first_header = header_bytes(whole);
-  const std::size_t later_room = room_beside(first_header - body_bytes(whole));
-  std::size_t left = room_beside(first_header);
-  for_each_list<Message>([&](auto list, auto count) {
-    for (const auto& element : whole.*list) {
-      const std::size_t size = bytes_of(element);
-      if (left < size) {
-        turn_page();
-        left = later_room;
-      }
-      put(list, count, element);
-      left -= size;
-    }
-  });
-}
-
-template <class Message>
-std::vector<Message> split(const Message& whole) {
-  const Message blank = blank_page(whole);
-  std::vector<Message> pages{without_lists(whole)};
-  deal(
-      whole, [&] { pages.push_back(blank); },
-      [&](auto list, auto count, const auto& element) {
-        (pages.back().*list).push_back(element);
-        ++(pages.back().*count);
-      });
-  return pages;
-}
-
-template <class Message>
-std::vector<Bytes> encode_pages_of(const Message& whole) {
-  std::vector<Message> pages = split(whole);
-  std::vector<Bytes> encoded;
-  encoded.reserve(pages.size());
-  for (Message& page : pages) {
-    page.page = static_cast<std::int32_t>(encoded.size());
-    page.num_pages = static_cast<std::int32_t>(pages.size());
-    encoded.push_back(wire::encode(page));
-  }
-  return encoded;
-}
-
-template <class Message>
-Bytes header_of(const Message& page) {
-  Message header = blank_page(page);
-  header.page = 0;
-  header.utime = 0;
-  return wire::encode(header);
-}
-
-template <class Message>
-std::string page_fault(const Message& page) {
-  if (page.num_pages < 1 || page.num_pages > Lists<Message>::kMaxPages) {
-    return "num_pages: " + std::to_string(page.num_pages) + " is not within 1 to " +
-           std::to_string(Lists<Message>::kMaxPages);
-  }
-  if (page.page < 0 || page.page >= page.num_pages) {
-    return "page: " + std::to_string(page.page) + " is not within 0 to " +
-           std::to_string(page.num_pages - 1);
-  }
-  return {};
-}
-
-}  // namespace
-
-std::vector<Bytes> encode_pages(const plan_request_t& whole) { return encode_pages_of(whole); }
-std::vector<Bytes> encode_pages(const plan_response_t& whole) { return encode_pages_of(whole); }
-
-std::size_t count_pages(const plan_response_t& whole) {
-  std::size_t pages = 1;
-  deal(
-      whole, [&] { ++pages; }, [](auto, auto, const auto&) {});
-  return pages;
-}
 
 template <class Message>
 typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
                                                                    Clock::time_point now) {
-  if (std::string fault = page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
+  if (std::string fault = wire::page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
   if (page.num_pages == 1) return {std::move(page), {}, 0};
 
-  const Position position = find_or_begin(page, header_of(page));
+  const Position position = find_or_begin(page, wire::page_head(page));
   std::optional<Message>& place = position->pages[static_cast<std::size_t>(page.page)];
   if (!place) {
     const auto size = static_cast<std::size_t>(page.getEncodedSize());
@@ -275,10 +106,8 @@ std::size_t PageAssembly<Message>::make_room(Position keep) {
 
 template <class Message>
 Message PageAssembly<Message>::join(Partial partial) {
-  Message whole = without_lists(*partial.pages.front());
-  for (const std::optional<Message>& page : partial.pages) append_lists(whole, *page);
-  whole.page = 0;
-  whole.num_pages = 1;
+  Message whole = wire::begin_whole(*partial.pages.front());
+  for (const std::optional<Message>& page : partial.pages) wire::append_page(whole, *page);
   return whole;
 }
 

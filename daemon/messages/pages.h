@@ -12,21 +12,14 @@
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
+#include "lcmtypes/wire/pages.h"
+
 namespace camway::service {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Encodes `whole` as messages of at most `wire::kMaxMessageBytes`, with as many list elements on
-/// each page as fit, in order. Sets `page` and `num_pages`, whatever their values in `whole`. Equal
-/// messages give equal bytes. The body of a request goes on page 0. Requires counts that agree with
-/// their lists; a body within the limits of `lcmtypes/wire/layout.h`; and less than 2 GB in all,
-/// since LCM counts bytes in an int.
-std::vector<Bytes> encode_pages(const plan_request_t& whole);
-std::vector<Bytes> encode_pages(const plan_response_t& whole);
-
-/// Returns the number of pages that `encode_pages` makes, without making or copying them, so that
-/// an answer that is too long needs no memory. Same requirements.
-std::size_t count_pages(const plan_response_t& whole);
+using wire::count_pages;
+using wire::encode_pages;
 
 /// Joins pages to messages, in whatever order and however often they arrive. Holds a bounded number
 /// of bytes of incomplete messages; where a new page does not fit, drops the message that waited

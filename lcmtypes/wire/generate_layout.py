@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Writes how every message with a channel is laid out on the wire, from the .lcm files alone.
 
-  generate_layout.py --source LAYOUT.cpp --limits LIMITS.h --types TYPE... --files FILE.lcm...
+  generate_layout.py --source LAYOUT.cpp --limits LIMITS.h --members MEMBERS.h --types TYPE... --files FILE.lcm...
 
 LAYOUT.cpp defines `layout_of` for each TYPE. LIMITS.h holds the limit of each string as a constant, for the code that
-has to keep it. A string member has its limit beside it, in bytes without the final NUL, as a remark of this form:
+has to keep it. MEMBERS.h lists the members of every struct, for code that treats all of them alike (members.h). A string member has its limit beside it, in bytes without the final NUL, as a remark of this form:
 
   string scene;   // name of a scene [max 128]
 
@@ -158,6 +158,31 @@ class Generator:
         return HEADER.format(lines=lines)
 
 
+def members_header(structs):
+    """The members of every struct, as lcmtypes/wire/members.h describes them."""
+    tables = []
+    for name, members in sorted(structs.items()):
+        counts = {m.sizes[0] for m in members if m.sizes}
+        listed = [m for m in members if m.name not in counts]
+        tables.append(MEMBERS.format(
+            name=name, all=",\n      ".join(described(name, m) for m in listed),
+            has=",\n      ".join(f"requires(Other& other) {{ other.{m.name}; }}" for m in listed),
+            common="\n    ".join(f"if constexpr (requires {{ other.{m.name}; }}) visit(message.{m.name}, other.{m.name});"
+                                 for m in listed)))
+    includes = "\n".join(f"#include <camway/{name}.hpp>" for name in sorted(structs))
+    return MEMBERS_HEADER.format(includes=includes, tables="\n".join(tables))
+
+
+def described(struct, member):
+    pointer = f'"{member.name}", &{struct}::{member.name}'
+    if member.type == "string":
+        return f"Text{{{pointer}, {member.limit}}}"
+    if member.sizes and not member.sizes[0].isdigit():
+        columns = member.sizes[1] if len(member.sizes) > 1 else 0
+        return f"List{{{pointer}, &{struct}::{member.sizes[0]}, {columns}}}"
+    return f"Plain{{{pointer}}}"
+
+
 SOURCE = """// Generated from the .lcm files by lcmtypes/wire/generate_layout.py. Do not edit.
 #include "lcmtypes/wire/layout.h"
 
@@ -205,16 +230,46 @@ namespace camway::wire::max_bytes {{
 """
 
 
+MEMBERS_HEADER = """// Generated from the .lcm files by lcmtypes/wire/generate_layout.py. Do not edit.
+#pragma once
+
+#include "lcmtypes/wire/member.h"
+
+{includes}
+
+namespace camway::wire {{
+
+{tables}
+}}  // namespace camway::wire
+"""
+
+MEMBERS = """template <>
+struct Members<{name}> {{
+  static constexpr auto kAll = std::make_tuple(
+      {all});
+  template <class Other>
+  static constexpr std::array<bool, std::tuple_size_v<decltype(kAll)>> kHas{{
+      {has}}};
+  template <class Message, class Other, class Visit>
+  static void common(Message& message, Other& other, const Visit& visit) {{
+    {common}
+  }}
+}};
+"""
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--source", type=Path, required=True)
     parser.add_argument("--limits", type=Path, required=True)
+    parser.add_argument("--members", type=Path, required=True)
     parser.add_argument("--types", nargs="+", required=True)
     parser.add_argument("--files", nargs="+", type=Path, required=True)
     words = parser.parse_args()
     try:
-        generator = Generator(dict(read_struct(path) for path in words.files))
-        missing = [t for t in words.types if t not in generator._structs]
+        structs = dict(read_struct(path) for path in words.files)
+        generator = Generator(structs)
+        missing = [t for t in words.types if t not in structs]
         if missing:
             raise Mistake(f"no file holds these types: {', '.join(missing)}")
         source = generator.source(words.types)
@@ -223,6 +278,7 @@ def main():
         return 1
     words.source.write_text(source)
     words.limits.write_text(generator.limits_header())
+    words.members.write_text(members_header(structs))
     return 0
 
 

@@ -12,22 +12,22 @@ GENERATOR = sys.argv.pop(1)
 
 
 def generate(**files):
-    """Runs the generator for a_t on files named after their struct; returns exit code, errors and both outputs."""
+    """Runs the generator for a_t on files named after their struct; returns exit code, errors and all outputs."""
     with tempfile.TemporaryDirectory() as folder:
         paths = []
         for name, members in files.items():
             path = Path(folder) / f"{name}.lcm"
             path.write_text(f"package camway;\n\nstruct {name}\n{{\n{members}\n}}\n")
             paths.append(str(path))
-        outputs = Path(folder) / "layout.cpp", Path(folder) / "limits.h"
+        outputs = Path(folder) / "layout.cpp", Path(folder) / "limits.h", Path(folder) / "members.h"
         run = subprocess.run([sys.executable, GENERATOR, "--source", outputs[0], "--limits", outputs[1],
-                              "--types", "a_t", "--files", *paths], capture_output=True, text=True)
+                              "--members", outputs[2], "--types", "a_t", "--files", *paths], capture_output=True, text=True)
         return run.returncode, run.stderr, *(o.read_text() if o.exists() else "" for o in outputs)
 
 
 class GenerateLayout(unittest.TestCase):
     def fields_of(self, **files):
-        code, errors, source, _ = generate(**files)
+        code, errors, source, *_ = generate(**files)
         self.assertEqual((code, errors), (0, ""))
         body = source[source.index("kA[] = {") + len("kA[] = {"):]
         return body[:body.index("};")].split("\n")[1:-1]
@@ -55,6 +55,14 @@ class GenerateLayout(unittest.TestCase):
     def test_limits_are_constants(self):
         self.assertIn("a_s = 7;", generate(a_t="  string s;  // [max 7] a word")[3])
 
+    def test_members_have_their_limits_counts_and_columns(self):
+        members = generate(a_t="  int8_t x;\n  string s;  // [max 7]\n  int32_t n;\n  double p[n][3];\n  b_t all[n];",
+                           b_t="  double y[3];")[4]
+        for expected in ('Plain{"x", &a_t::x}', 'Text{"s", &a_t::s, 7}', 'List{"p", &a_t::p, &a_t::n, 3}',
+                         'List{"all", &a_t::all, &a_t::n, 0}', 'Plain{"y", &b_t::y}'):
+            self.assertIn(expected, members)
+        self.assertNotIn('"n"', members)
+
     def test_refuses_with_file_and_line(self):
         for members, reason in (("  string s;", "the string s needs a limit"),
                                 ("  double p[n];\n  int32_t n;", "the count of p"),
@@ -63,7 +71,7 @@ class GenerateLayout(unittest.TestCase):
                                 ("  unknown_t x;", "there is no type unknown_t"),
                                 ("  double;", "this is no member")):
             with self.subTest(members):
-                code, errors, source, _ = generate(a_t=members)
+                code, errors, source, *_ = generate(a_t=members)
                 self.assertEqual((code, source), (1, ""))
                 self.assertIn(reason, errors)
                 self.assertRegex(errors, r"a_t\.lcm:\d+: ")

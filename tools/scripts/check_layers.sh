@@ -77,7 +77,7 @@ LC_ALL=C exec awk '
     file = $0
     sub(/^[^<"]*[<"]/, "", file)
     sub(/[>"].*$/, "", file)
-    if (file ~ /^(lcm\/|camway\/([a-z_]+_t\.hpp|max_bytes\.h)$)/ && !speaks_lcm(here)) {
+    if (file ~ /^(lcm\/|camway\/([a-z_]+_t\.hpp|(max_bytes|members)\.h)$)/ && !speaks_lcm(here)) {
       fault("LCM is for daemon/messages, daemon/service, daemon/process, client and tools")
     } else if (file ~ /^assimp\// && here !~ /^(daemon\/scene\/import\/child|tests)$/) {
       fault("assimp is for daemon/scene/import/child")
@@ -94,7 +94,7 @@ LC_ALL=C exec awk '
       fault("spdlog is for daemon/service/log/log.cpp")
     } else {
       # The headers of the client are included as users do.
-      if (file ~ /^camway\// && file !~ /(_t\.hpp|\/max_bytes\.h)$/) file = "client/include/" file
+      if (file ~ /^camway\// && file !~ /(_t\.hpp|\/(max_bytes|members)\.h)$/) file = "client/include/" file
       there = layer_of(file)
       if (file ~ /^(daemon|client|lcmtypes|tools|tests)\// && there == "") {
         fault("that folder is not in the map of " map)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,23 @@ struct Core {
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
                            std::string_view reason);
 
+  /// Decodes `message`, which came in on `channel`. Returns nothing where it cannot be read, and
+  /// for a client id that is none: then `refuse` is called as by `on_malformed`. Requires that the
+  /// type begins with client_id and request_id.
+  template <class Message, class Refuse>
+  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message,
+                              const Refuse& refuse);
+  /// The same for messages whose senders get no answer: CAMWAY_ERROR says what is wrong with them.
+  template <class Message>
+  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
+
+  /// Counts and logs a message that cannot be read. Calls `refuse(sender, reason)` where it names
+  /// its sender, a `wire::Sender`; publishes CAMWAY_ERROR where it does not. Does neither where
+  /// there were too many such messages lately.
+  template <class Message, class Refuse>
+  void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                    std::string_view reason, const Refuse& refuse);
+
   /// Queues `job`. Abandons, before it returns, the job that the queue refused or dropped.
   void submit(Job job);
 
@@ -66,5 +84,41 @@ struct Core {
   Mailbox mailbox;
   WorkerPool workers;
 };
+
+template <class Message, class Refuse>
+std::optional<Message> Core::read(const std::string& channel, std::span<const std::uint8_t> message,
+                                  const Refuse& refuse) {
+  wire::Decoded<Message> decoded = wire::decode<Message>(message);
+  const std::string type = Message::getTypeName();
+  if (!decoded.message) {
+    on_malformed<Message>(channel, message, decoded.fault.text(type), refuse);
+    return std::nullopt;
+  }
+  if (!wire::is_client_id(decoded.message->client_id)) {
+    on_malformed<Message>(channel, message, type + ".client_id: is not of [A-Za-z0-9_-]{1,32}",
+                          refuse);
+    return std::nullopt;
+  }
+  return std::move(decoded.message);
+}
+
+template <class Message>
+std::optional<Message> Core::read(const std::string& channel,
+                                  std::span<const std::uint8_t> message) {
+  return read<Message>(channel, message, [&](const wire::Sender&, std::string_view reason) {
+    report_unanswerable(channel, message, reason);
+  });
+}
+
+template <class Message, class Refuse>
+void Core::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
+                        std::string_view reason, const Refuse& refuse) {
+  if (!note_malformed(channel, message.size(), reason)) return;
+  if (const auto sender = wire::peek_sender(wire::layout_of<Message>(), message)) {
+    refuse(*sender, reason);
+  } else {
+    report_unanswerable(channel, message, reason);
+  }
+}
 
 }  // namespace camway::service

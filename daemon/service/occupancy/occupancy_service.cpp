@@ -40,40 +40,16 @@ bool same(const occupancy_request_t& a, const occupancy_request_t& b) {
 
 }  // namespace
 
-template <class Message>
-std::optional<Message> OccupancyService::read(const std::string& channel,
-                                              std::span<const std::uint8_t> message) {
-  wire::Decoded<Message> decoded = wire::decode<Message>(message);
-  const std::string type = Message::getTypeName();
-  if (!decoded.message) {
-    on_malformed<Message>(channel, message, decoded.fault.text(type));
-    return std::nullopt;
-  }
-  if (!wire::is_client_id(decoded.message->client_id)) {
-    on_malformed<Message>(channel, message, type + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
-    return std::nullopt;
-  }
-  return std::move(decoded.message);
-}
-
-template <class Message>
-void OccupancyService::on_malformed(const std::string& channel,
-                                    std::span<const std::uint8_t> message,
-                                    std::string_view reason) {
-  if (!core_.note_malformed(channel, message.size(), reason)) return;
-  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
-  if (!sender) {
-    core_.report_unanswerable(channel, message, reason);
-    return;
-  }
+void OccupancyService::refuse_malformed(const wire::Sender& sender, std::string_view reason) {
   occupancy_request_t request{};
-  request.client_id = sender->client_id;
-  request.request_id = sender->request_id;
+  request.client_id = sender.client_id;
+  request.request_id = sender.request_id;
   send(plain_occupancy_answer(request, Response::STATUS_MALFORMED, reason));
 }
 
 void OccupancyService::on_message(std::span<const std::uint8_t> message) {
-  auto request = read<occupancy_request_t>(core_.channels.occupancy_request(), message);
+  auto request =
+      core_.read<occupancy_request_t>(core_.channels.occupancy_request(), message, refusing());
   if (!request) return;
   // No scene has a name with control characters, so nothing is lost.
   request->scene = wire::printable(request->scene);
@@ -81,7 +57,7 @@ void OccupancyService::on_message(std::span<const std::uint8_t> message) {
 }
 
 void OccupancyService::on_cancel(std::span<const std::uint8_t> message) {
-  const auto cancel = read<cancel_t>(core_.channels.cancel_occupancy(), message);
+  const auto cancel = core_.read<cancel_t>(core_.channels.cancel_occupancy(), message, refusing());
   if (!cancel) return;
   const auto flight = flights_.find({cancel->client_id, cancel->request_id});
   if (flight == flights_.end()) {

@@ -40,11 +40,13 @@ class OccupancyService {
     std::stop_source stop;
   };
 
-  template <class Message>
-  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
-  template <class Message>
-  void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
-                    std::string_view reason);
+  void refuse_malformed(const wire::Sender& sender, std::string_view reason);
+  /// `refuse_malformed`, for `Core::read`.
+  auto refusing() {
+    return [this](const wire::Sender& sender, std::string_view reason) {
+      refuse_malformed(sender, reason);
+    };
+  }
   void on_request(const Request& request);
   void begin(const Request& request, std::shared_ptr<const scene::Snapshot> snapshot);
   void abandon(const Request& request, Refusal why);

@@ -32,6 +32,13 @@ void append_warnings(const scene::ImportReport& report, const planning::PlanRequ
   for (const std::string& warning : scene::import_warnings(report, resolution_m)) append(warning);
 }
 
+/// Null if the result proves no path.
+std::shared_ptr<const planning::WatchedPath> watchable_path(const planning::PlanRequest& request,
+                                                            const planning::PlanResult& result) {
+  std::optional<planning::WatchedPath> path = planning::WatchedPath::of(request, result);
+  return path ? std::make_shared<const planning::WatchedPath>(std::move(*path)) : nullptr;
+}
+
 }  // namespace
 
 AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
@@ -45,39 +52,30 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
   return header;
 }
 
-plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                          const plan_request_t& wire, const DeadlineLimits& limits,
-                          const base::Deadline& deadline) {
+Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                   const plan_request_t& wire, const DeadlineLimits& limits,
+                   const base::Deadline& deadline) {
   std::string error;
   try {
     const ConvertedRequest converted = from_wire(wire, limits);
     if (!converted.request) {
-      return plain_answer(plan_response_t::STATUS_INVALID, converted.error,
-                          header_of(wire, &snapshot));
+      return {plain_answer(plan_response_t::STATUS_INVALID, converted.error,
+                           header_of(wire, &snapshot)),
+              nullptr};
     }
     planning::PlanResult result = planner(snapshot, *converted.request, deadline);
     planning::name_witnesses(snapshot.mesh, *converted.request, result);
     append_warnings(snapshot.report, *converted.request, result);
-    return to_wire(result, header_of(wire, &snapshot));
+    return {to_wire(result, header_of(wire, &snapshot)),
+            wire.watch_lease_s > 0.0 ? watchable_path(*converted.request, result) : nullptr};
   } catch (const std::exception& exception) {
     error = exception.what();
   } catch (...) {
     error = "unknown exception";
   }
-  return plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
-                      header_of(wire, &snapshot));
-}
-
-std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
-                                                            const plan_response_t& answer,
-                                                            const DeadlineLimits& limits) {
-  if (!(request.watch_lease_s > 0.0) || !answer.certified) return nullptr;
-  const ConvertedRequest asked = from_wire(request, limits);
-  const ConvertedResult result = from_wire(answer);
-  if (!asked.request || !result.result) return nullptr;
-  std::optional<planning::WatchedPath> path =
-      planning::WatchedPath::of(*asked.request, *result.result);
-  return path ? std::make_shared<const planning::WatchedPath>(std::move(*path)) : nullptr;
+  return {plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
+                       header_of(wire, &snapshot)),
+          nullptr};
 }
 
 Pages encode_answer(plan_response_t& answer, int most_pages) {

@@ -20,17 +20,18 @@ namespace camway::service {
 /// Returns the header of an answer; with a null `snapshot`, of one that concerns no scene.
 AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
 
+/// An answer, and its path for watching: null unless the request asks for that and the answer
+/// proves a path.
+struct Answered {
+  plan_response_t wire;
+  std::shared_ptr<const planning::WatchedPath> path;
+};
+
 /// Returns the answer of `planner`. Does not throw: an exception of the planner is an internal
 /// error.
-plan_response_t answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                          const plan_request_t& wire, const DeadlineLimits& limits,
-                          const base::Deadline& deadline);
-
-/// Returns the path of an answer for watching; null unless the request asks for that and the answer
-/// proves a path.
-std::shared_ptr<const planning::WatchedPath> watchable_path(const plan_request_t& request,
-                                                            const plan_response_t& answer,
-                                                            const DeadlineLimits& limits);
+Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
+                   const plan_request_t& wire, const DeadlineLimits& limits,
+                   const base::Deadline& deadline);
 
 /// Encodes `answer`. If it has more than `most_pages`, replaces it by an answer that says so.
 Pages encode_answer(plan_response_t& answer, int most_pages);

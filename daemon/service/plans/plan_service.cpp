@@ -74,54 +74,29 @@ struct PlanService::Replan {
 
 /// Result of planning it again.
 struct PlanService::Replanned {
-  plan_response_t answer;
+  Answered answered;
   Pages pages;
-  std::shared_ptr<const planning::WatchedPath> path;  ///< null if the answer proves none
   std::shared_ptr<const scene::Snapshot> snapshot;
 };
 
-template <class Message>
-std::optional<Message> PlanService::read(const std::string& channel,
-                                         std::span<const std::uint8_t> message) {
-  wire::Decoded<Message> decoded = wire::decode<Message>(message);
-  if (!decoded.message) {
-    on_malformed<Message>(channel, message, decoded.fault.text(Message::getTypeName()));
-    return std::nullopt;
-  }
-  if (!wire::is_client_id(decoded.message->client_id)) {
-    on_malformed<Message>(
-        channel, message,
-        std::string(Message::getTypeName()) + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
-    return std::nullopt;
-  }
-  return std::move(decoded.message);
-}
-
-template <class Message>
-void PlanService::on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
-                               std::string_view reason) {
-  if (!core_.note_malformed(channel, message.size(), reason)) return;
-  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
-  if (!sender) {
-    core_.report_unanswerable(channel, message, reason);
-    return;
-  }
+void PlanService::refuse_malformed(const wire::Sender& sender, std::string_view reason) {
   plan_request_t request{};
-  request.client_id = sender->client_id;
-  request.request_id = sender->request_id;
+  request.client_id = sender.client_id;
+  request.request_id = sender.request_id;
   answer_uncached(request, plan_response_t::STATUS_MALFORMED, reason);
 }
 
 void PlanService::on_request(std::span<const std::uint8_t> message) {
   const std::string channel = core_.channels.plan_request();
-  std::optional<plan_request_t> page = read<plan_request_t>(channel, message);
+  auto page = core_.read<plan_request_t>(channel, message, refusing());
   if (!page) return;
   // No scene or method has a name with control characters, so nothing is lost.
   page->scene = wire::printable(page->scene);
   page->method = wire::printable(page->method);
   PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
   if (!outcome.error.empty()) {
-    on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error);
+    core_.on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error,
+                                       refusing());
   }
   if (outcome.given_up > 0) {
     core_.limited_log.refused.write(
@@ -132,7 +107,7 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::on_cancel(std::span<const std::uint8_t> message) {
-  const std::optional<cancel_t> cancel = read<cancel_t>(core_.channels.cancel(), message);
+  const auto cancel = core_.read<cancel_t>(core_.channels.cancel(), message, refusing());
   if (!cancel) return;
   const RequestKey key{cancel->client_id, cancel->request_id};
   if (in_flight_.cancel(key)) {
@@ -151,7 +126,8 @@ void PlanService::on_cancel(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
-  const auto asked = read<missing_pages_t>(core_.channels.missing_pages(), message);
+  const auto asked =
+      core_.read<missing_pages_t>(core_.channels.missing_pages(), message, refusing());
   if (!asked) return;
   const RequestKey key{asked->client_id, asked->request_id};
   Pages answer = cache_.find(key);
@@ -277,21 +253,20 @@ void PlanService::run(const Pending& pending) {
     return;
   }
   const double waited_s = pending.deadline.elapsed_ms() / kMillisecondsPerSecond;
-  auto answer = std::make_shared<plan_response_t>(
+  auto answered = std::make_shared<Answered>(
       answer_of(planner_, *pending.snapshot, *pending.request, config_.deadline, pending.deadline));
-  auto path = watchable_path(*pending.request, *answer, config_.deadline);
-  Pages pages = encode_answer(*answer, config_.answer_pages);
-  core_.mailbox.post([this, pending, waited_s, answer = std::move(answer), pages = std::move(pages),
-                      path = std::move(path)] {
-    core_.counters.waiting.add(waited_s);
-    core_.counters.planning.add(answer->total_ms / kMillisecondsPerSecond);
-    if (in_flight_.cancelled(pending.key)) {
-      abandon(pending, Refusal::kCancelled);
-    } else {
-      finish(pending, *answer, pages);
-      if (path) watch(pending, path, *answer);
-    }
-  });
+  Pages pages = encode_answer(answered->wire, config_.answer_pages);
+  core_.mailbox.post(
+      [this, pending, waited_s, answered = std::move(answered), pages = std::move(pages)] {
+        core_.counters.waiting.add(waited_s);
+        core_.counters.planning.add(answered->wire.total_ms / kMillisecondsPerSecond);
+        if (in_flight_.cancelled(pending.key)) {
+          abandon(pending, Refusal::kCancelled);
+        } else {
+          finish(pending, answered->wire, pages);
+          if (answered->path) watch(pending, *answered);
+        }
+      });
 }
 
 void PlanService::finish(const Pending& pending, const plan_response_t& answer, Pages pages) {
@@ -315,10 +290,9 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
   send(pending.key, std::move(pages));
 }
 
-void PlanService::watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
-                        const plan_response_t& answer) {
-  const WatchableAnswer watched{pending.key, pending.request, std::move(path), pending.snapshot,
-                                AnswerQuality::of(answer)};
+void PlanService::watch(const Pending& pending, const Answered& answered) {
+  const WatchableAnswer watched{pending.key, pending.request, answered.path, pending.snapshot,
+                                AnswerQuality::of(answered.wire)};
   if (watches_.begin(watched, Clock::now())) cache_.mark_watched(pending.key);
 }
 
@@ -358,19 +332,19 @@ void PlanService::run_again(const Replan& replan) {
     core_.mailbox.post([this, replan] { give_up(replan); });
     return;
   }
-  done->answer =
+  done->answered =
       answer_of(planner_, *done->snapshot, *replan.request, config_.deadline, replan.deadline);
-  done->path = watchable_path(*replan.request, done->answer, config_.deadline);
-  done->pages = encode_answer(done->answer, config_.answer_pages);
+  done->pages = encode_answer(done->answered.wire, config_.answer_pages);
   core_.mailbox.post([this, replan, done] { finish_again(replan, *done); });
 }
 
 void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   const Clock::time_point now = Clock::now();
-  const WatchableAnswer watched{replan.key, replan.request, done.path, done.snapshot,
-                                AnswerQuality::of(done.answer)};
+  const plan_response_t& answer = done.answered.wire;
+  const WatchableAnswer watched{replan.key, replan.request, done.answered.path, done.snapshot,
+                                AnswerQuality::of(answer)};
   if (replan.for_offer) {
-    if (done.path) {
+    if (watched.path) {
       watches_.offer(watched, done.pages, now);
     } else {
       watches_.no_offer(replan.key, now);
@@ -381,16 +355,16 @@ void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   if (!watches_.ended(replan.key)) return;
   core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
                                                      {"request", replan.key.request_id},
-                                                     {"scene", done.answer.scene},
-                                                     {"revision", done.answer.scene_revision},
-                                                     {"status", status_name(done.answer.status)},
-                                                     {"message", done.answer.message}});
+                                                     {"scene", answer.scene},
+                                                     {"revision", answer.scene_revision},
+                                                     {"status", status_name(answer.status)},
+                                                     {"message", answer.message}});
   cache_.replace(replan.key, digest_of(*replan.request), done.pages);
   send(replan.key, done.pages);
-  if (done.path) {
+  if (watched.path) {
     watches_.begin(watched, now);
   } else {
-    watches_.answered(replan.key, done.answer.scene_revision, now);
+    watches_.answered(replan.key, answer.scene_revision, now);
   }
 }
 

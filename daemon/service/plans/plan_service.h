@@ -11,6 +11,7 @@
 #include "daemon/service/core/answer_cache.h"
 #include "daemon/service/core/core.h"
 #include "daemon/service/plans/in_flight.h"
+#include "daemon/service/plans/plan_answer.h"
 #include "daemon/service/plans/plan_config.h"
 #include "daemon/service/watches/watches.h"
 
@@ -54,11 +55,13 @@ class PlanService {
   struct Replan;
   struct Replanned;
 
-  template <class Message>
-  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
-  template <class Message>
-  void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
-                    std::string_view reason);
+  void refuse_malformed(const wire::Sender& sender, std::string_view reason);
+  /// `refuse_malformed`, for `Core::read`.
+  auto refusing() {
+    return [this](const wire::Sender& sender, std::string_view reason) {
+      refuse_malformed(sender, reason);
+    };
+  }
   void take(plan_request_t request);
   void begin(std::shared_ptr<const plan_request_t> request, const RequestKey& key);
   void run(const Pending& pending);
@@ -71,8 +74,7 @@ class PlanService {
                        std::string_view message);
   void send(const RequestKey& key, Pages pages, Outbox::Kind kind = Outbox::Kind::kAnswer);
 
-  void watch(const Pending& pending, std::shared_ptr<const planning::WatchedPath> path,
-             const plan_response_t& answer);
+  void watch(const Pending& pending, const Answered& answered);
   void plan_broken(Clock::time_point now);
   void plan_improvable(Clock::time_point now);
   void put_in_force(Watches::Taken taken, Clock::time_point now);

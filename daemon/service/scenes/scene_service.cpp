@@ -68,38 +68,13 @@ SceneService::SceneService(Core& core, scene::SceneStore& scenes, const SceneCon
       cache_(core.config.cache),
       workers_(config.scene_workers, with_room_for_others(config.changes, config.scene_workers)) {}
 
-template <class Message>
-std::optional<Message> SceneService::read(const std::string& channel,
-                                          std::span<const std::uint8_t> message) {
-  wire::Decoded<Message> decoded = wire::decode<Message>(message);
-  const std::string type = Message::getTypeName();
-  if (!decoded.message) {
-    refuse_malformed<Message>(channel, message, decoded.fault.text(type));
-    return std::nullopt;
-  }
-  if (!wire::is_client_id(decoded.message->client_id)) {
-    refuse_malformed<Message>(channel, message, type + ".client_id: is not of [A-Za-z0-9_-]{1,32}");
-    return std::nullopt;
-  }
-  return std::move(decoded.message);
-}
-
-template <class Message>
-void SceneService::refuse_malformed(const std::string& channel,
-                                    std::span<const std::uint8_t> message,
-                                    std::string_view reason) {
-  if (!core_.note_malformed(channel, message.size(), reason)) return;
-  const std::optional<wire::Sender> sender = wire::peek_sender(wire::layout_of<Message>(), message);
-  if (!sender) {
-    core_.report_unanswerable(channel, message, reason);
-    return;
-  }
-  send(plain_scene_answer(request_of({sender->client_id, sender->request_id}),
+void SceneService::refuse_malformed(const wire::Sender& sender, std::string_view reason) {
+  send(plain_scene_answer(request_of({sender.client_id, sender.request_id}),
                           scene_response_t::STATUS_MALFORMED, reason));
 }
 
 void SceneService::on_request(std::span<const std::uint8_t> message) {
-  auto decoded = read<scene_request_t>(core_.channels.scene_request(), message);
+  auto decoded = core_.read<scene_request_t>(core_.channels.scene_request(), message, refusing());
   if (!decoded) return;
   // No scene or object has a name with control characters, so nothing is lost.
   decoded->scene = wire::printable(decoded->scene);
@@ -184,7 +159,7 @@ void SceneService::take_done(const Request& request, SceneReply done, const Page
 }
 
 void SceneService::on_cancel(std::span<const std::uint8_t> message) {
-  const auto cancel = read<cancel_t>(core_.channels.cancel_scene(), message);
+  const auto cancel = core_.read<cancel_t>(core_.channels.cancel_scene(), message, refusing());
   if (!cancel) return;
   const RequestKey key{cancel->client_id, cancel->request_id};
   if (const auto found = unanswered_.find(key); found != unanswered_.end()) {
@@ -282,20 +257,9 @@ void SceneService::refuse(const scene_request_t& request, Refusal why) {
 }
 
 void SceneService::on_upload(std::span<const std::uint8_t> message) {
-  const wire::Decoded<upload_page_t> decoded = wire::decode<upload_page_t>(message);
-  std::string reason;
-  if (!decoded.message) {
-    reason = decoded.fault.text("upload_page_t");
-  } else if (!wire::is_client_id(decoded.message->client_id)) {
-    reason = "upload_page_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
-  }
-  if (!reason.empty()) {
-    if (core_.note_malformed(core_.channels.upload(), message.size(), reason)) {
-      core_.report_unanswerable(core_.channels.upload(), message, reason);
-    }
-    return;
-  }
-  Uploads::Taken taken = uploads_.take(*decoded.message, Uploads::Clock::now());
+  const auto page = core_.read<upload_page_t>(core_.channels.upload(), message);
+  if (!page) return;
+  Uploads::Taken taken = uploads_.take(*page, Uploads::Clock::now());
   if (!taken.answer) return;
   taken.status.utime = utime_now();
   taken.status.message = clipped(taken.status.message, wire::kMaxTextBytes);
@@ -304,20 +268,9 @@ void SceneService::on_upload(std::span<const std::uint8_t> message) {
 }
 
 void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
-  const wire::Decoded<missing_pages_t> decoded = wire::decode<missing_pages_t>(message);
-  std::string reason;
-  if (!decoded.message) {
-    reason = decoded.fault.text("missing_pages_t");
-  } else if (!wire::is_client_id(decoded.message->client_id)) {
-    reason = "missing_pages_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
-  }
-  if (!reason.empty()) {
-    if (core_.note_malformed(core_.channels.missing_map_pages(), message.size(), reason)) {
-      core_.report_unanswerable(core_.channels.missing_map_pages(), message, reason);
-    }
-    return;
-  }
-  const RequestKey key{decoded.message->client_id, decoded.message->request_id};
+  const auto asked = core_.read<missing_pages_t>(core_.channels.missing_map_pages(), message);
+  if (!asked) return;
+  const RequestKey key{asked->client_id, asked->request_id};
   const std::string channel = core_.channels.map_page(key.client_id);
   const Pages pages = exports_.find(key, MapExports::Clock::now());
   if (!pages) {
@@ -326,7 +279,7 @@ void SceneService::on_missing_map_pages(std::span<const std::uint8_t> message) {
     return;
   }
   std::set<std::size_t> which;
-  for (const std::int32_t page : decoded.message->missing) {
+  for (const std::int32_t page : asked->missing) {
     if (page >= 0 && static_cast<std::size_t>(page) < pages->size()) {
       which.insert(static_cast<std::size_t>(page));
     }

@@ -77,11 +77,13 @@ class SceneService {
     Clock::time_point deadline;
   };
 
-  template <class Message>
-  std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
-  template <class Message>
-  void refuse_malformed(const std::string& channel, std::span<const std::uint8_t> message,
-                        std::string_view reason);
+  void refuse_malformed(const wire::Sender& sender, std::string_view reason);
+  /// `refuse_malformed`, for `Core::read`.
+  auto refusing() {
+    return [this](const wire::Sender& sender, std::string_view reason) {
+      refuse_malformed(sender, reason);
+    };
+  }
   void take_change(const Request& request);
   void begin(const Request& request);
   /// Handles the result of a worker.

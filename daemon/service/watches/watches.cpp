@@ -141,22 +141,17 @@ bool Watches::renew(const RequestKey& key, Clock::time_point now) {
 }
 
 void Watches::on_message(std::span<const std::uint8_t> bytes) {
-  const wire::Decoded<watch_t> decoded = wire::decode<watch_t>(bytes);
-  std::string reason;
-  if (!decoded.message) {
-    reason = decoded.fault.text("watch_t");
-  } else if (!wire::is_client_id(decoded.message->client_id)) {
-    reason = "watch_t.client_id: is not of [A-Za-z0-9_-]{1,32}";
-  } else if (std::isnan(decoded.message->lease_s)) {
-    reason = "watch_t.lease_s: is not a number";
-  }
-  if (!reason.empty()) {
-    if (core_.note_malformed(core_.channels.watch(), bytes.size(), reason)) {
-      core_.report_unanswerable(core_.channels.watch(), bytes, reason);
+  const std::string channel = core_.channels.watch();
+  const auto message = core_.read<watch_t>(channel, bytes);
+  if (!message) return;
+  if (std::isnan(message->lease_s)) {
+    constexpr std::string_view kReason = "watch_t.lease_s: is not a number";
+    if (core_.note_malformed(channel, bytes.size(), kReason)) {
+      core_.report_unanswerable(channel, bytes, kReason);
     }
     return;
   }
-  apply(*decoded.message, Clock::now());
+  apply(*message, Clock::now());
 }
 
 void Watches::apply(const watch_t& message, Clock::time_point now) {

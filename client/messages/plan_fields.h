@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/plan.h>
+
+#include <camway/plan_progress_t.hpp>
+#include <camway/plan_request_t.hpp>
+#include <camway/plan_response_t.hpp>
+
+namespace camway {
+
+/// Writes a request but for its ids and its time of sending.
+void put(const PlanRequest& mine, plan_request_t& wire);
+
+/// Reads a whole answer but for its path.
+void read(const plan_response_t& wire, PlanResponse& mine);
+
+/// Stages that are unknown here count as waiting.
+void read(const plan_progress_t& wire, PlanProgress& mine);
+
+}  // namespace camway
