@@ -64,7 +64,7 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
       double highest = -std::numeric_limits<double>::infinity();
       for (const Vec3& point : set.points) highest = std::max(highest, face.normal.dot(point));
       EXPECT_LE(face.offset_m - highest,
-                11.0 * 0.5 * test::kEpsilon * size + std::numeric_limits<double>::min());
+                11.0 * 0.5 * motion::test::kEpsilon * size + std::numeric_limits<double>::min());
     }
     // Means of points are inside, up to the rounding of the mean (one unit for each coordinate and
     // summand) and of the evaluation of the face.
@@ -78,7 +78,7 @@ TEST(ConvexHull, FacesHoldEveryPointWithoutRounding) {
       }
       mean /= sum;
       const double rounding =
-          (2.0 * static_cast<double>(set.points.size()) + 8.0) * test::kEpsilon * size;
+          (2.0 * static_cast<double>(set.points.size()) + 8.0) * motion::test::kEpsilon * size;
       for (const HalfSpace& face : hull.faces)
         ASSERT_LE(face.normal.dot(mean), face.offset_m + rounding);
     }
