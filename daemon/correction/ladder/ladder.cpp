@@ -36,6 +36,7 @@ class Ladder {
         original_(path) {
     for (std::size_t i = 0; i < keyframes.size(); ++i) {
       keyframes_s_.push_back(keyframes[i].time_s);
+      poses_.push_back(keyframes[i].pose);
       if (keyframes[i].is_repaired) continue;
       as_asked_.push_back(i);
       poses_as_asked_.push_back(keyframes[i].pose);
@@ -74,7 +75,7 @@ class Ladder {
     if (any_without_way() && !deadline_.passed()) {
       prove_infeasible();
       if (result_.separation || result_.cage) return false;
-      if (space_.may_turn() && !is_caged_at_this_size_) correct_all(Search::kTurning);
+      if (space_.may_turn()) correct_all(Search::kTurning);
     }
     result_.timed_out = any_open() && deadline_.passed();
     return true;
@@ -156,10 +157,21 @@ class Ladder {
 
   void prove_infeasible() {
     if (is_separated() || deadline_.passed() || !space_.body().is_camera()) return;
-    result_.cage = cage_of_camera(*surfaces_, smallest_share());
+    result_.cage = cage_of_camera(*surfaces_, smallest_share(), poses_as_asked_);
     if (result_.cage) name_keyframes(*result_.cage);
-    is_caged_at_this_size_ =
-        result_.cage || (options_.max_shrink > 0.0 && cage_of_camera(*surfaces_, 1.0));
+    // It proves nothing of the request, but spares a search that finds no way.
+    const bool is_same = options_.max_shrink == 0.0 && poses_as_asked_.size() == poses_.size();
+    if (!result_.cage && !is_same) cage_at_this_size_ = cage_of_camera(*surfaces_, 1.0, poses_);
+  }
+
+  // Whether a cage is proved to separate the two keyframes of an interval, for this camera.
+  [[nodiscard]] bool is_caged_off(std::size_t gap) const {
+    if (!cage_at_this_size_) return false;
+    const CageBox& cage = cage_at_this_size_->box;
+    const auto is_inside = [&](std::size_t keyframe) {
+      return cage.box.contains(cage.orientation.conjugate() * middle_W(keyframe));
+    };
+    return is_inside(gap) != is_inside(gap + 1);
   }
 
   [[nodiscard]] double smallest_share() const { return 1.0 - options_.max_shrink; }
@@ -178,7 +190,7 @@ class Ladder {
     const geometry::Triangle& part = space_.body().triangles_C().front();
     const geometry::Vec3 point_C = (part[0] + part[1] + part[2]) / 3.0;
     result_.separation =
-        find_separation(*mesh_, surfaces, at_keyframes_W(point_C), kPointRounding_m);
+        find_separation(*mesh_, surfaces, points_W(poses_as_asked_, point_C), kPointRounding_m);
     if (result_.separation && smallest < 1.0) {
       const auto way_W = [&](std::size_t keyframe) {
         const motion::Pose& pose = poses_as_asked_[keyframe];
@@ -200,21 +212,22 @@ class Ladder {
   }
 
   // The near quadrilateral is a rectangle parallel to two axes of the camera frame.
-  [[nodiscard]] std::optional<Cage> cage_of_camera(const ClosedSurfaces& surfaces,
-                                                   double smallest) const {
+  [[nodiscard]] std::optional<Cage> cage_of_camera(const ClosedSurfaces& surfaces, double smallest,
+                                                   const std::vector<motion::Pose>& poses) const {
     geometry::Box rectangle_C;
     for (const geometry::Triangle& part : space_.body().triangles_C()) {
       rectangle_C.extend(geometry::bounds(part));
     }
     const geometry::Vec3 center_C = rectangle_C.center();
     const double side_m = rectangle_C.sizes().head<2>().minCoeff();
-    return find_cage(*mesh_, surfaces, at_keyframes_W(center_C), smallest * side_m,
+    return find_cage(*mesh_, surfaces, points_W(poses, center_C), smallest * side_m,
                      kPointRounding_m + (1.0 - smallest) * center_C.norm());
   }
 
-  [[nodiscard]] std::vector<geometry::Vec3> at_keyframes_W(const geometry::Vec3& point_C) const {
+  static std::vector<geometry::Vec3> points_W(const std::vector<motion::Pose>& poses,
+                                              const geometry::Vec3& point_C) {
     std::vector<geometry::Vec3> points_W;
-    for (const motion::Pose& pose : poses_as_asked_) points_W.push_back(placed(pose, point_C));
+    for (const motion::Pose& pose : poses) points_W.push_back(placed(pose, point_C));
     return points_W;
   }
 
@@ -244,7 +257,7 @@ class Ladder {
       if (search == Search::kWithRoom && (nudge_away(i) || is_beyond_limit_[i])) continue;
       const std::size_t gap = gaps_[i];
       // A detour replaces the whole interval between keyframes: do not search it twice.
-      if (is_shut_off(gap)) has_no_way[gap] = true;
+      if (is_shut_off(gap) || is_caged_off(gap)) has_no_way[gap] = true;
       if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
     }
   }
@@ -540,6 +553,7 @@ class Ladder {
   /// Indices of the keyframes that proofs use: repaired keyframes prove nothing about the request.
   std::vector<std::size_t> as_asked_;
   std::vector<motion::Pose> poses_as_asked_;  ///< poses of these keyframes
+  std::vector<motion::Pose> poses_;           ///< poses of all keyframes, repaired ones included
   std::vector<CollisionInterval> open_;       ///< one per `result_.corrections`, in order of time
   std::vector<std::size_t> gaps_;             ///< the interval between keyframes of each
   /// Whether the correction found for a collision exceeds the limit of keyframes, and the times of
@@ -551,7 +565,8 @@ class Ladder {
   Improvement pull_{Objective::kClosest, kPullSteps, true, kPullSpread};
   Improvement pursuit_;                     ///< budget for an objective other than the closest path
   std::optional<ClosedSurfaces> surfaces_;  ///< closed surfaces of the scene, once computed
-  bool is_caged_at_this_size_ = false;      ///< proved: no path but for a smaller camera
+  /// Proof that there is no path but for a smaller camera, or other keyframes.
+  std::optional<Cage> cage_at_this_size_;
   LadderResult result_;
 };
 
