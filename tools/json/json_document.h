@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,7 +69,7 @@ class Field {
   /// An error for the first member whose key is none of `known`, so that a word that is spelled
   /// wrongly or that only a later version knows is not taken for a wish that was heeded. Keys that
   /// begin with '_' and the key "comment" are for the writer of the document alone, and pass.
-  void allow_only(std::initializer_list<std::string_view> known) const;
+  void allow_only(const std::vector<std::string_view>& known) const;
 
   /// Records an error about this value, unless there is one already.
   void fail(std::string_view message) const;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 
 #include "daemon/geometry/types.h"
 #include "daemon/motion/timing/rate_limits.h"
@@ -16,6 +18,9 @@ enum class Objective : std::uint8_t {
   kSmoothest,  ///< bending energy
   kSafest,     ///< least distance to the scene
 };
+constexpr std::array<std::string_view, 4> names_of(Objective) {
+  return {"closest", "shortest", "smoothest", "safest"};
+}
 
 /// What corrections may do to orientations; `orientation_rule.h` says what exactly. What they
 /// change meets the rule at every time, compared with the interpolated path at the same time.
@@ -25,6 +30,9 @@ enum class OrientationRule : std::uint8_t {
   kLevel,   ///< turn it, but nowhere tilt the horizon, the line across `up_W`, more than it was
   kTarget,  ///< turn it, but nowhere look further away from a point than a cone allows, or it did
 };
+constexpr std::array<std::string_view, 4> names_of(OrientationRule) {
+  return {"free", "keep", "level", "target"};
+}
 
 /// Given keyframes are kept in any case; the rule is for what the ladder's corrections change.
 struct OrientationPolicy {

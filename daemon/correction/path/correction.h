@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/collision/interval.h"
 
 namespace camway::correction {
@@ -17,16 +19,19 @@ enum class Rung : std::uint8_t {
   kShrink,   ///< its near distance was made smaller
 };
 
+constexpr std::array<std::string_view, 5> names_of(Rung) {
+  return {"none", "move", "turn", "go_round", "shrink"};
+}
 /// "none", "move", "turn", "go_round", "shrink".
-std::string_view to_string(Rung rung);
+inline std::string_view to_string(Rung rung) { return base::name_of(rung); }
 
 /// How hard a correction was looked for. 0 where that was not tried at all.
 struct Effort {
-  std::int32_t directions = 0;      ///< to one side or about an axis, to move or turn the camera
-  std::int32_t paths = 0;           ///< changed paths that were checked for collisions
+  std::int32_t directions = 0;  ///< to one side or about an axis, to move or turn the camera
+  std::int32_t paths = 0;       ///< changed paths that were checked for collisions
   /// Of lattices and cells, at which there might have been room on a way round.
   std::int32_t lattice_points = 0;
-  std::int32_t tree_samples = 0;    ///< poses towards which ways round were looked for that turn
+  std::int32_t tree_samples = 0;  ///< poses towards which ways round were looked for that turn
 
   Effort& operator+=(const Effort& other);
   bool operator==(const Effort&) const = default;
