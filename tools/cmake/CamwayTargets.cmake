@@ -69,14 +69,19 @@ function(camway_test name)
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   string(REPLACE ";" ":" slow "${arg_SLOW}")
-  set(labels ${folder})
-  if(arg_QUICK)
-    list(APPEND labels quick)
-  endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${slow}"
-                       PROPERTIES TIMEOUT 300 LABELS "${labels}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "-${slow}" TEST_LIST ${name}_fast
+                       PROPERTIES TIMEOUT 300 LABELS "${folder}")
   if(slow)
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${slow}"
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${slow}" TEST_LIST ${name}_slow
                          PROPERTIES TIMEOUT 300 LABELS "${folder}")
+  endif()
+  if(arg_QUICK)
+    # gtest_discover_tests takes no list of labels, so CTest adds the second one when it has the tests.
+    set(script ${CMAKE_CURRENT_BINARY_DIR}/${name}_quick.cmake)
+    file(WRITE ${script} "foreach(test IN LISTS ${name}_fast)
+  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${folder};quick\")
+endforeach()
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
   endif()
 endfunction()
