@@ -260,18 +260,16 @@ Clock::time_point Engine::next_wake() const {
   for (const auto& [key, call] : calls_) {
     next = std::min(next, call->answered() ? Clock::time_point{} : call->retry().wake());
   }
-  for (const PendingStatus& pending_one : pending_statuses_)
-    next = std::min(next, pending_one.until);
+  for (const PendingStatus& call : pending_statuses_) next = std::min(next, call.until);
   for (const PendingUnwatch& pending : pending_unwatches_) next = std::min(next, pending.until);
   return next;
 }
 
 void Engine::end_waiters(Clock::time_point now) {
-  const auto over =
-      std::partition(pending_statuses_.begin(), pending_statuses_.end(),
-                     [now](const PendingStatus& pending_one) { return now < pending_one.until; });
-  for (auto pending_one = over; pending_one != pending_statuses_.end(); ++pending_one) {
-    pending_one->promise.set_value(std::nullopt);
+  const auto over = std::partition(pending_statuses_.begin(), pending_statuses_.end(),
+                                   [now](const PendingStatus& call) { return now < call.until; });
+  for (auto call = over; call != pending_statuses_.end(); ++call) {
+    call->promise.set_value(std::nullopt);
   }
   pending_statuses_.erase(over, pending_statuses_.end());
 }
@@ -334,7 +332,7 @@ void Engine::take_heartbeat(std::span<const std::uint8_t> bytes) {
   watches_.take_heartbeat(status->uptime_s, now);
   std::vector<PendingStatus> pending;
   pending.swap(pending_statuses_);
-  for (PendingStatus& pending_one : pending) pending_one.promise.set_value(status);
+  for (PendingStatus& call : pending) call.promise.set_value(status);
 }
 
 }  // namespace camway

@@ -14,10 +14,10 @@
 #include <type_traits>
 #include <vector>
 
-/// Between the client's structs and the messages: `put(mine, wire)` writes, `read(wire, mine)`
-/// reads. Members of the same name go one to one, whatever struct they stand in, so a struct needs
-/// a function of its own only for what it says otherwise than the wire. `put` expects `wire` to be
-/// value-initialised; `read` appends to lists.
+/// Converts between the client's structs and the messages: `put(mine, wire)` writes a message,
+/// `read(wire, mine)` reads one. Members of the same name go one to one, whatever struct they stand
+/// in, so a struct needs a function of its own only for what it says otherwise than the wire. `put`
+/// expects `wire` to be value-initialised; `read` appends to lists.
 namespace camway {
 
 template <class T>
@@ -34,7 +34,7 @@ template <class T, std::size_t N>
 void put(const std::array<T, N>& mine, T (&wire)[N]) {
   std::copy(mine.begin(), mine.end(), wire);
 }
-/// What is not set is 0 on the wire.
+/// An empty optional is 0 on the wire.
 template <class Mine, class Wire>
 void put(const std::optional<Mine>& mine, Wire& wire) {
   if (mine) put(*mine, wire);

@@ -45,7 +45,7 @@ bool same_answer(const plan_response_t& a, const plan_response_t& b) {
   return a.utime == b.utime && wire::page_head(a) == wire::page_head(b);
 }
 
-/// Whether plan requests are answered with this status.
+/// Returns whether plan requests are answered with this status.
 bool is_known(std::int32_t status) {
   return (status >= 0 && status <= plan_response_t::STATUS_MALFORMED) ||
          status == plan_response_t::STATUS_CANCELLED || status == plan_response_t::STATUS_LIMIT;
@@ -79,7 +79,7 @@ std::optional<std::string> fault_in_count(const std::string& field, std::size_t 
          " are allowed";
 }
 
-/// Too many points or triangles. Values are for the daemon to judge.
+/// Returns the fault of a body with too many points or triangles. The daemon judges the values.
 std::optional<std::string> fault_in_form(const Body& body) {
   if (body.shape == Body::Shape::kConvex) {
     // An empty piece has a size on the wire all the same.

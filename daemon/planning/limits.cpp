@@ -36,7 +36,7 @@ constexpr double kFewestKnots = 4.0;
 constexpr double kMostKnots = 256.0;
 constexpr std::size_t kMostPieces = 80'000;
 
-// What a law takes at the least for each of its knots, without a look at the deadline; measured.
+// Least time that a law takes for each of its knots, without a look at the deadline; measured.
 constexpr double kLeast_s_per_knot = 2e-6;
 
 constexpr int kSamples = 32;  // of a segment, for breaches

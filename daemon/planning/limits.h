@@ -30,7 +30,7 @@ struct LimitBreach {
 /// Whether the path is shown to meet the limits at every instant, to a millionth.
 bool meets_limits(const motion::Path& path, const motion::RateLimits& limits);
 
-/// Nothing if it does.
+/// Returns where `path` is faster than `limits` allow, or nothing if it never is.
 std::optional<LimitBreach> find_limit_breach(const motion::Path& path,
                                              const motion::RateLimits& limits);
 
@@ -53,8 +53,8 @@ struct Retimed {
   motion::TimeLaw law;
   motion::CubicPath path;
   motion::CubicPath interpolated;  ///< the path before correction, by the same law
-  /// Of `path`. Nothing where its control points are as they were: then what was proved still
-  /// holds, for proofs are of segments' parameters.
+  /// The check of `path`; empty if its control points did not change. Then the earlier proof still
+  /// holds, as proofs are about the parameters of segments and not about times.
   std::optional<PathCheck> check;
 };
 

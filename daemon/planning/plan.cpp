@@ -361,8 +361,8 @@ class Planner {
            note_of_method(request_);
   }
 
-  // What the tolerance cannot tell from a collision counts as one. For a tiny body that can be
-  // every opening that it fits through.
+  // A gap that the tolerance cannot tell from a collision counts as one. For a tiny body that can
+  // be every opening that it fits through.
   [[nodiscard]] std::string note_of_tolerance() const {
     const double size_m = 2.0 * correction::FreeSpace(obstacles_, *body_, detect_).ball_radius_m();
     if (!(size_m < kLeastTolerances * detect_.tolerance_m)) return {};

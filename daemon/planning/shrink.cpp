@@ -75,7 +75,7 @@ class Shrinking {
       }
       return;
     }
-    // What has no way out at the smallest has none at any size.
+    // A keyframe without a way out at the smallest size has none at any size.
     if (is_shut_in_) return;
     for (std::size_t i = 0; i < least; ++i) {
       if (is_free(i, 1.0 / static_cast<double>(least - i))) return;
@@ -101,7 +101,7 @@ class Shrinking {
     return true;
   }
 
-  /// What `full` found of the camera that was asked for.
+  /// Adds the findings of `full`, which are about the camera that was asked for.
   void add_answer(PlanResult full) {
     PlanResult& result = best_->result;
     result.message = fmt::format("with a near distance of {:.3g} m instead of {:.3g} m: {}",

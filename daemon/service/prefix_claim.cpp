@@ -14,7 +14,7 @@ namespace {
 
 /// Largest number of answers per second; a daemon that starts asks five times.
 constexpr double kAnswersPerS = 100.0;
-/// Of two daemons that serve, one counts as older if it began this much earlier.
+/// A daemon counts as older than another if it began to serve this much earlier.
 constexpr double kSameTime_s = 2.0;
 /// How long after it began to serve a daemon still yields to an older one, whose answer may be
 /// late.

@@ -5,7 +5,7 @@
 
 namespace camway::service {
 
-/// What this program was made of, for `--version` and the log, e.g.
+/// Describes the build of this program, for `--version` and the log, e.g.
 /// "0.1.0 (commit 1a2b3c4d5e6f, GNU 12.2.0, RelWithDebInfo, sanitizer address,undefined)". The
 /// commit ends in "-dirty" where files were changed after it, and is "unknown" without a
 /// repository.

@@ -46,9 +46,10 @@ template <class Message, class Element>
 List(const char*, std::vector<Element> Message::*, std::int32_t Message::*, int)
     -> List<Message, Element>;
 
-/// Of a wire type:
+/// The members of a wire type. The generated header specialises it:
 ///  - `kAll`: a tuple of `Plain`, `Text` and `List`, in wire order, counts left out;
-///  - `kHas<Other>`: of each of these, whether the struct `Other` has a member of that name;
+///  - `kHas<Other>`: for each element of `kAll`, whether the struct `Other` has a member of that
+///  name;
 ///  - `common(message, other, visit)`: calls `visit` with both members for each name in common.
 template <class Message>
 struct Members;

@@ -15,7 +15,7 @@ std::int32_t most_pages(const plan_response_t&) { return kMaxResponsePages; }
 void clear_body(plan_request_t& request) { request.body = body_t{}; }
 void clear_body(plan_response_t&) {}
 
-/// What pages after the first save by having no body.
+/// Returns the bytes that later pages save by having no body.
 std::size_t body_bytes(const plan_request_t& request) {
   return static_cast<std::size_t>(request.body._getEncodedSizeNoHash() -
                                   body_t{}._getEncodedSizeNoHash());
@@ -36,7 +36,7 @@ Message without_lists(Message message) {
   return message;
 }
 
-/// What all pages of a message have in common.
+/// Returns the members that all pages of a message have in common.
 template <class Message>
 Message blank_page(const Message& message) {
   Message blank = without_lists(message);
@@ -44,7 +44,7 @@ Message blank_page(const Message& message) {
   return blank;
 }
 
-/// Of a message without the elements of its lists.
+/// Returns the size of a message without the elements of its lists.
 template <class Message>
 std::size_t header_bytes(const Message& whole) {
   auto bytes = static_cast<std::size_t>(whole.getEncodedSize());
@@ -58,10 +58,10 @@ std::size_t room_beside(std::size_t bytes) {
   return bytes < kMaxMessageBytes ? kMaxMessageBytes - bytes : 0;
 }
 
-/// Deals the elements to pages, each list from where it stopped on the page before: calls
+/// Distributes the elements over pages, each list from where it stopped on the page before: calls
 /// `turn_page()` before each page but the first and `put(list, element)` in between.
 template <class Message, class TurnPage, class Put>
-void deal(const Message& whole, const TurnPage& turn_page, const Put& put) {
+void distribute(const Message& whole, const TurnPage& turn_page, const Put& put) {
   const std::size_t first_header = header_bytes(whole);
   const std::size_t later_room = room_beside(first_header - body_bytes(whole));
   std::size_t left = room_beside(first_header);
@@ -84,7 +84,7 @@ template <class Message>
 std::vector<std::vector<std::uint8_t>> encode_pages(const Message& whole) {
   const Message blank = blank_page(whole);
   std::vector<Message> pages{without_lists(whole)};
-  deal(
+  distribute(
       whole, [&] { pages.push_back(blank); },
       [&](auto list, const auto& element) { (pages.back().*list).push_back(element); });
   std::vector<std::vector<std::uint8_t>> encoded;
@@ -101,7 +101,7 @@ std::vector<std::vector<std::uint8_t>> encode_pages(const Message& whole) {
 template <class Message>
 std::size_t count_pages(const Message& whole) {
   std::size_t pages = 1;
-  deal(
+  distribute(
       whole, [&] { ++pages; }, [](auto, const auto&) {});
   return pages;
 }

@@ -16,14 +16,13 @@ namespace camway::wire {
 
 /// Encodes `whole` as messages of at most `kMaxMessageBytes`: as many list elements on each page as
 /// fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The same
-/// message gives the same bytes.
-/// Precondition: its counts agree with its lists; a body is within the limits of `layout.h`; the
-/// whole encodes to less than 2 GB, as LCM counts bytes in an int.
+/// message gives the same bytes. Requires counts that agree with their lists, a body within the
+/// limits of `layout.h`, and less than 2 GB in all, since LCM counts bytes in an int.
 template <class Message>
 std::vector<std::vector<std::uint8_t>> encode_pages(const Message& whole);
 
-/// Returns how many pages `encode_pages` makes, without making or copying anything: an answer that
-/// is too long costs no memory of its own. The same preconditions.
+/// Returns the number of pages that `encode_pages` makes, without making or copying them, so that
+/// an answer that is too long needs no memory. Same requirements.
 template <class Message>
 std::size_t count_pages(const Message& whole);
 
@@ -31,7 +30,8 @@ std::size_t count_pages(const Message& whole);
 template <class Message>
 std::string page_fault(const Message& page);
 
-/// Returns what all pages of a message agree on, encoded: all but `page`, `utime`, body and lists.
+/// Returns the members that all pages of a message have in common, encoded: all but `page`,
+/// `utime`, body and lists.
 template <class Message>
 std::vector<std::uint8_t> page_head(const Message& page);
 

@@ -113,8 +113,8 @@ TEST(PlanWithShrinking, TriesNoMoreWhereTheSmallestIsShutIn) {
   EXPECT_EQ(result.status, Status::kPartial);
 }
 
-// Of the camera that was asked for, whichever of the two had to be slowed, at the times of the path
-// that is answered.
+// The collisions are those of the camera that was asked for, at the times of the answered path,
+// whichever of the two paths had to be slowed.
 TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
   PlanRequest request;
   request.camera.near_m = 1.0;

@@ -68,8 +68,8 @@ class CellTree {
     return cell.level < kFinestLevel && side_m(cell.level + 1) >= options_.smallest_m;
   }
 
-  /// The corner that a cell stands in, if one can see it from the middle of a cell beside it that
-  /// is as large, and there is room in front for others of that size.
+  /// Returns the closed corner that a cell stands in, as seen from the middle of the cell beside
+  /// it, with room for further cells of that size in front. Returns nothing if there is none.
   [[nodiscard]] std::optional<ClosedCorner> corner_at(const Cell& cell, const Cell& beside) const {
     const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
     const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
@@ -138,7 +138,7 @@ class CellTree {
     return index;
   }
 
-  /// What is undivided within a cell, at the face that one sees who steps into it.
+  /// Visits the undivided cells within a cell at the face through which a step enters it.
   template <class Visit>
   void visit_face(std::uint32_t index, std::size_t axis, std::int32_t step,
                   const Visit& visit) const {
@@ -215,7 +215,7 @@ class CellSearch {
     box.extend(from_W).extend(to_W);
     const double margin_m =
         kMarginAround * (options.comfort_m + options.ball_radius_m + space.detect().clearance_m);
-    // What is beyond the bounds need not be looked at.
+    // The ball cannot be beyond the bounds.
     const geometry::Bounds& bounds = space.obstacles().bounds;
     return {(box.min().array() - margin_m).max(bounds.min_W.array()),
             (box.max().array() + margin_m).min(bounds.max_W.array())};
@@ -259,10 +259,11 @@ class CellSearch {
     return std::nullopt;
   }
 
-  /// Whether a cell need not be divided for that end: it stands in a closed corner, and each cell
-  /// beside it that was reached is in front of the walls, as is one that is as large. All that is
-  /// in front of the walls there is convex. So cells of that size lead past this one, further from
-  /// the walls, wherever it leads itself. Smaller ones alone would not reach as far.
+  /// Returns whether a cell need not be divided for that end. It need not if it stands in a closed
+  /// corner, and each neighbour that was reached is in front of the walls together with one that is
+  /// at least as large as the cell. The space in front of the walls is convex, so cells of that
+  /// size lead past this cell, further from the walls, to every place that it leads to. Smaller
+  /// neighbours alone prove nothing: other cells on their way may not be divided either.
   [[nodiscard]] bool leads_nowhere(std::uint32_t index, std::size_t end) const {
     std::vector<std::uint32_t> reached;
     tree_.for_each_neighbour(index, [&](std::uint32_t next) {

@@ -25,7 +25,7 @@ constexpr std::size_t kMostTriangles = 24;
 constexpr double kParallel = 0.966;  // cosine between normals, of 15 degrees
 constexpr double kRounding = 1e-6;   // of the box
 
-/// What of a segment is left when half-spaces are cut off.
+/// The part of a segment that is left when half-spaces are cut off.
 class Part {
  public:
   explicit Part(const LineSegment& whole) : whole_(whole) {}

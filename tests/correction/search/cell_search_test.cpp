@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/correction/search_scene.h"
 
@@ -16,7 +17,7 @@ using geometry::Bounds;
 
 constexpr double kBall_m = 0.02;
 constexpr std::size_t kEnough = 400'000;  // cells
-// Of the ball's radius: more than distances of a few metres are rounded by.
+// A part of the ball's radius that is larger than the rounding of distances of a few metres.
 constexpr double kRounding = 1e-9;
 
 struct Hole {
@@ -190,16 +191,19 @@ TEST(CellWay, IsExhaustedOnlyWhereThereIsNoWay) {
   std::mt19937_64 random = testing::seeded(5203);
   std::uniform_int_distribution<std::size_t> any;
   constexpr double kSpacing_m = 0.05;
-  constexpr double kSmallest_m = 0.25 * kSpacing_m;
-  // Half of a diagonal of the smallest cells on either side.
-  constexpr double kToSpare_m = 2.0 * kSmallest_m;
+  constexpr double kSmallest_m = 0.125 * kSpacing_m;
+  // A smallest cell about a point of the way is free if its middle, up to half of its diagonal from
+  // the point, has the distance that the search takes for room for the ball and that half. Its side
+  // is less than twice `kSmallest_m`, as halves of it would be too small.
+  const double half_m = 0.5 * std::numbers::sqrt3 * 2.0 * kSmallest_m;
+  const double to_spare_m = (kBall_m + half_m) / FreeSpace::kBallShare + half_m - kBall_m;
   int ways = 0;
   int without = 0;
   for (int run = 0; run < 12; ++run) {
     SCOPED_TRACE(run);
     const SearchScene scene(plates_with_slits(random));
     Bounds bounds{Vec3::Constant(-0.6), Vec3::Constant(0.6)};
-    const GridOfRoom grid(scene, {bounds.min_W, bounds.max_W}, kSpacing_m, kBall_m + kToSpare_m);
+    const GridOfRoom grid(scene, {bounds.min_W, bounds.max_W}, kSpacing_m, kBall_m + to_spare_m);
     bounds = bounds.shrunk_by(-2.0 * kBall_m);
     const FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body,
                           scene.detect);

@@ -15,7 +15,7 @@ using namespace testing_search;  // NOLINT: the fixture of this file
 using base::Deadline;
 using Cell = std::array<int, 3>;
 
-// Of the ball's radius: more than distances of a few metres are rounded by.
+// A part of the ball's radius that is larger than the rounding of distances of a few metres.
 constexpr double kRounding = 1e-9;
 
 double length_m(const std::vector<Vec3>& way_W) {

@@ -38,7 +38,7 @@ std::vector<Vec3> turned(std::vector<Vec3> way_W, const Quat& turn_W) {
   return way_W;
 }
 
-// What is asked for: a motion that is free, from one side of every plate to the other.
+// Expects a free motion from one side of every plate to the other.
 void expect_passed(const SearchScene& scene, const std::vector<NarrowPassage>& passages,
                    const std::vector<double>& plates_m, const Quat& turn_W) {
   ASSERT_EQ(passages.size(), plates_m.size());

@@ -116,7 +116,7 @@ TEST(TreeWay, GivesUpWithinItsBounds) {
   EXPECT_TRUE(tree_way(open, slot.from, slot.to, options, Deadline::after_s(0.0)).empty());
 }
 
-// What is further from the way than the reach is not tried: the gap is 3 m beside it.
+// Places further from the way than the reach are not tried: the gap is 3 m beside it.
 TEST(TreeWay, LooksAlongTheWayThatItIsGiven) {
   const SearchScene scene(wall_with_gap(3.0, 4.0));
   const SignedPose from = at({0, 0, 1});

@@ -48,7 +48,7 @@ class ExactSum {
     add(std::fma(a, b, -product));
     add(product);
   }
-  /// Of the same sign as the sum: the largest term decides it.
+  /// Returns a number with the sign of the sum: the largest term decides it.
   [[nodiscard]] double leading() const {
     for (std::size_t i = size_; i > 0; --i) {
       if (parts_[i - 1] != 0.0) return parts_[i - 1];

@@ -1,0 +1,28 @@
+# The headers that are parsed once: of the standard library and of dependencies that most files include,
+# none of our own, which change.
+
+set(precompiled_headers
+  <algorithm> <array> <atomic> <bit> <cassert> <cerrno> <charconv> <chrono> <cmath> <condition_variable>
+  <cstddef> <cstdint> <cstdio> <cstdlib> <cstring> <deque> <filesystem> <fstream> <functional> <iostream>
+  <iterator> <limits> <map> <memory> <mutex> <numbers> <numeric> <optional> <random> <set> <span> <sstream>
+  <stdexcept> <stop_token> <string> <string_view> <system_error> <thread> <tuple> <type_traits>
+  <unordered_map> <utility> <variant> <vector>
+  <Eigen/Core> <Eigen/Geometry>)
+
+# add_precompiled(NAME HEADER...)
+function(add_precompiled name)
+  set(source ${PROJECT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "")
+  add_library(${name} OBJECT ${source})
+  target_link_libraries(${name} PRIVATE camway_flags camway_warnings Eigen3::Eigen)
+  target_precompile_headers(${name} PRIVATE ${ARGN})
+endfunction()
+
+add_precompiled(camway_precompiled_library ${precompiled_headers})
+set_target_properties(camway_precompiled_library PROPERTIES POSITION_INDEPENDENT_CODE ON)
+
+if(CAMWAY_TESTS)
+  find_package(GTest REQUIRED)
+  add_precompiled(camway_precompiled_test ${precompiled_headers} <gmock/gmock.h> <gtest/gtest.h>)
+  target_link_libraries(camway_precompiled_test PRIVATE GTest::gtest GTest::gmock)
+endif()
