@@ -17,8 +17,10 @@ int write_as_it_comes(const fs::path& file, std::string_view bytes, bool to_disk
   errno = 0;
   std::FILE* const out = std::fopen(file.c_str(), "wb");
   if (out == nullptr) return errno;
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() &&
-                       std::fflush(out) == 0 && (!to_disk || ::fsync(::fileno(out)) == 0);
+  // The view of nothing has no data, which fwrite requires even where it writes none.
+  const std::size_t wrote = bytes.empty() ? 0 : std::fwrite(bytes.data(), 1, bytes.size(), out);
+  const bool written =
+      wrote == bytes.size() && std::fflush(out) == 0 && (!to_disk || ::fsync(::fileno(out)) == 0);
   const int why = written ? 0 : errno;
   if (std::fclose(out) != 0 && why == 0) return errno;
   return why;
