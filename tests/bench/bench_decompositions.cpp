@@ -14,7 +14,7 @@
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
 #include "tests/bench/tiled_scene.h"
-#include "tests/collision/crossing_random.h"
+#include "tests/support/random.h"
 
 namespace camway::bench {
 namespace {
@@ -56,7 +56,7 @@ std::vector<BenchRequest> random_paths(const scene::Mesh& mesh, std::uint64_t se
   const geometry::Box box = mesh.bounds();
   std::vector<BenchRequest> requests;
   for (int i = 0; i < kPaths; ++i) {
-    testing::CaseRandom random(seed, static_cast<std::uint64_t>(i));
+    testing::Random random = testing::Random::of_case(seed, static_cast<std::uint64_t>(i));
     // The size of a room, with steps of at most a few metres.
     const double step_m = std::min(2.0, 0.2 * box.diagonal().norm());
     geometry::Vec3 position;

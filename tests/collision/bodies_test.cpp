@@ -10,6 +10,7 @@
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -67,7 +68,7 @@ void expect_crossing(const std::vector<CollisionInterval>& found, double lowest_
 }
 
 TEST(Bodies, CrossAPlateFromTheirLowestToTheirHighestPoint) {
-  std::mt19937_64 random = testing::seeded(51);
+  testing::Random random(51);
   const SceneIndex index = plate_at_z0();
   const motion::BoxShape box{{0.1, -0.2, 0.05}, {0.3, 0.2, 0.6}};
   const motion::SphereShape ball{{0.1, 0.2, -0.3}, 0.25};
@@ -75,7 +76,7 @@ TEST(Bodies, CrossAPlateFromTheirLowestToTheirHighestPoint) {
       {{{0, 0, 0}, {0.2, 0.1, -0.4}, {-0.2, 0.1, -0.4}, {-0.2, -0.1, -0.4}, {0.2, -0.1, -0.4}}}};
   const motion::MeshShape fin{pyramid.pieces_C[0], {{0, 1, 2}, {0, 3, 4}}};
   for (int run = 0; run < 25; ++run) {
-    const Quat orientation = testing::random_rotation(random);
+    const Quat orientation = random.rotation();
     const Path path = descent(orientation);
     const double center_m = (orientation * ball.center_C).z();
     expect_crossing(detect(index, path, make(ball)), center_m - ball.radius_m,

@@ -6,6 +6,7 @@
 #include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -49,7 +50,7 @@ TEST(PathClearance, OfAPassBesideAWallIsKnown) {
 
 // The oracle is dense sampling, with the distance by brute force over all triangles.
 TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
-  std::mt19937_64 random = testing::seeded(77);
+  testing::Random random(77);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   int positive = 0;
@@ -57,9 +58,8 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
     const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 12, 0.1));
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 3; ++i) {
-      keyframes.push_back(
-          {static_cast<double>(i),
-           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+      keyframes.push_back({static_cast<double>(i),
+                           {{place(random), place(random), place(random)}, random.rotation()}});
     }
     const Path path = motion::interpolate(keyframes);
     const PathClearance found = clearance(index, path, corners_C);
@@ -75,7 +75,7 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
     if (!free) continue;
     ++positive;
     // Between two samples the body moves by at most a few millimetres.
-    EXPECT_GE(found.lower_bound_m, 0.85 * (sampled_m - 0.01)) << "run " << run;
+    EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceGap) * (sampled_m - 0.01)) << "run " << run;
   }
   EXPECT_GT(positive, 3);
 }

@@ -9,6 +9,7 @@
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -46,9 +47,9 @@ Mesh plate_at_z0() {
 TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  std::mt19937_64 random = testing::seeded(11);
+  testing::Random random(11);
   for (int run = 0; run < 200; ++run) {
-    const Quat orientation = testing::random_rotation(random);
+    const Quat orientation = random.rotation();
     double lowest_m = 1.0;
     double highest_m = -1.0;
     for (const Vec3& corner_C : corners_C) {
@@ -155,7 +156,7 @@ TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
 
 // The oracle is dense sampling, which may miss a collision but never invents one.
 TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const DetectOptions options;
@@ -164,9 +165,8 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
     const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 60, 0.15));
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 5; ++i) {
-      keyframes.push_back(
-          {static_cast<double>(i),
-           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+      keyframes.push_back({static_cast<double>(i),
+                           {{place(random), place(random), place(random)}, random.rotation()}});
     }
     const Path path = motion::interpolate(keyframes);
     const std::vector<CollisionInterval> found = detect(index, path, corners_C, options);

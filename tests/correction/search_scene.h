@@ -9,6 +9,7 @@
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/geometry/triangle_distance.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 /// A small scene for tests of searches, with oracles that test every triangle.
@@ -70,7 +71,7 @@ inline scene::Mesh wall_with_gap(double from_m, double to_m) {
 }
 
 /// Returns `count` cuboids of up to `size_m` in a cube of side 2 m about the origin.
-inline scene::Mesh scattered_cuboids(std::mt19937_64& random, int count, double size_m) {
+inline scene::Mesh scattered_cuboids(testing::Random& random, int count, double size_m) {
   std::uniform_real_distribution<double> share(0.2, 1.0);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   scene::Mesh mesh;

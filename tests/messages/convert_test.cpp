@@ -9,6 +9,7 @@
 
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/support/random.h"
 
 namespace camway::service {
 namespace {
@@ -45,7 +46,7 @@ TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
 TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
   Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
     const planning::PlanRequest request = sample_request(2, random);
     const ConvertedRequest back = from_wire(to_wire(request, kIds));
     ASSERT_TRUE(back.request) << back.error;

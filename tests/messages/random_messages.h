@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 
 #include <camway/cancel_t.hpp>
 #include <camway/claim_t.hpp>
@@ -23,11 +22,11 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
+#include "tests/support/random.h"
+
 /// Random messages that are valid on the wire: strings and lists have any length within the limits,
 /// numbers have any bits, NaN included.
 namespace camway::testing {
-
-using Random = std::mt19937_64;
 
 /// The random seed of all tests in this folder. A failing test prints it with the number of its
 /// trial.

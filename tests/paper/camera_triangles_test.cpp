@@ -16,7 +16,7 @@ using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
 
-class CameraTrianglesTest : public testing::Test {
+class CameraTrianglesTest : public ::testing::Test {
  protected:
   CameraTrianglesTest() : random_(601) {
     std::vector<Triangle> scene;

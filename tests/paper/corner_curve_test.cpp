@@ -9,9 +9,9 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 Vec3 corner_at(const Segment& segment, const Vec3& corner_C, double u) {
   const Pose pose = pose_at(segment, u);
@@ -22,7 +22,7 @@ TEST(CornerCurve, IsTheMotionOfTheCorner) {
   Random random(101);
   for (int i = 0; i < 300; ++i) {
     const Segment segment = test::random_segment(random, 0.6);
-    const Vec3 corner_C = random.vector(0.5);
+    const Vec3 corner_C = random.normal_vector(0.5);
     const RationalCurve curve = corner_curve(segment, corner_C);
     for (int k = 0; k <= 20; ++k) {
       const double u = k / 20.0;
@@ -80,7 +80,7 @@ TEST(CornerCurve, DegreeTwelveWouldMissByACentimetre) {
   double largest_m = 0.0;
   for (int repeat = 0; repeat < 200; ++repeat) {
     const std::vector<Keyframe> keyframes = test::with_times(
-        {{Vec3::Zero(), random.rotation()}, {random.vector(1.0), random.rotation()}});
+        {{Vec3::Zero(), random.rotation()}, {random.normal_vector(1.0), random.rotation()}});
     const Path path = interpolate(keyframes);
     for (const Segment& segment : path.segments()) {
       for (int k = 0; k <= 20; ++k)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -42,7 +43,7 @@ TEST(SweepDetection, BracketsACuboidInTheWay) {
 }
 
 TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
-  std::mt19937_64 random = testing::seeded(21);
+  testing::Random random(21);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   int compared = 0;

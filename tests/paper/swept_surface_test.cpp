@@ -10,8 +10,8 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
 const Corners kCorners = near_corners_C({1.5, 1.0, 0.2});
 

@@ -14,6 +14,7 @@
 #include "daemon/planning/way_beyond.h"
 #include "daemon/planning/witness_names.h"
 #include "daemon/scene/snapshot/scene_difference.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -208,7 +209,7 @@ TEST(PlanWithinBounds, ThatAreFarAwayLeaveFreePathsAsTheyAre) {
 
 // Every ok path is inside its bounds at every sample, and is proved so again.
 TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
-  std::mt19937_64 random = testing::seeded(19);
+  testing::Random random(19);
   std::uniform_real_distribution<double> place(-0.75, 0.75);
   const Bounds bounds{Vec3(-0.86, -0.86, -0.86), Vec3(0.86, 0.86, 0.86)};
   int proved = 0;
@@ -224,7 +225,7 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
     for (int i = 0; i < 5; ++i) {
       request.keyframes.push_back(
           {static_cast<double>(i),
-           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+           {{place(random), place(random), place(random)}, random.rotation()}});
     }
     const PlanResult result = planned(*snapshot, request);
     if (result.status != Status::kOk) continue;

@@ -8,6 +8,8 @@
 #include <random>
 #include <string>
 
+#include "tests/support/random.h"
+
 namespace camway::planning {
 namespace {
 
@@ -21,7 +23,7 @@ TEST(EffortText, LowerBoundsAreRoundedDown) {
   EXPECT_EQ(rounded_down(100.0), "100");
   EXPECT_EQ(rounded_down(0.0), "0");
   EXPECT_EQ(rounded_down(-1.0), "0");
-  std::mt19937_64 random(11);
+  testing::Random random(11);
   std::uniform_real_distribution<double> exponent(-9.0, 2.0);
   for (int i = 0; i < 10'000; ++i) {
     const double value = std::pow(10.0, exponent(random));

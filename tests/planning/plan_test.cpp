@@ -11,6 +11,7 @@
 
 #include "daemon/collision/near_quad.h"
 #include "tests/planning/plan_fixture.h"
+#include "tests/support/random.h"
 
 namespace camway::planning {
 namespace {
@@ -90,7 +91,7 @@ double colliding_s(const std::vector<collision::CollisionInterval>& intervals) {
 }
 
 TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
-  std::mt19937_64 random = testing::seeded(4);
+  testing::Random random(4);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   int partial = 0;
   for (int run = 0; run < 40; ++run) {
@@ -99,8 +100,7 @@ TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
     request.has_times = false;
     request.options.method = Method::kKeyframeInsertion;
     for (motion::Keyframe& keyframe : request.keyframes) {
-      keyframe.pose = {{place(random), place(random), place(random)},
-                       testing::random_rotation(random)};
+      keyframe.pose = {{place(random), place(random), place(random)}, random.rotation()};
     }
     const PlanResult result = planned(*snapshot, request);
     if (result.status != Status::kPartial) continue;

@@ -121,7 +121,7 @@ TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
   request.options.max_shrink = 0.1;
   for (const double full_factor : {1.0, 5.0}) {
     for (const double small_factor : {1.0, 3.0}) {
-      SCOPED_TRACE(testing::Message() << full_factor << " " << small_factor);
+      SCOPED_TRACE(::testing::Message() << full_factor << " " << small_factor);
       const auto plan_at_size = [&](const PlanRequest& asked, const Deadline&) {
         const bool is_full = asked.camera.near_m == 1.0;
         UnsentResult ends = ended(is_full ? Status::kPartial : Status::kOk);

@@ -6,6 +6,7 @@
 #include "daemon/correction/path/guide.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
@@ -43,7 +44,7 @@ BumpRow single(const Vec3& height) {
 }
 
 /// Returns random coefficients within the interval, with rotation.
-BumpRow any_row(std::mt19937_64& random) {
+BumpRow any_row(testing::Random& random) {
   std::uniform_real_distribution<double> off(-0.5, 0.5);
   BumpRow row{{2.0, 4.0, 8}, 2, {}};
   for (int k = 2; k <= 6; ++k) {
@@ -93,7 +94,7 @@ TEST(Attempt, TakesWhatIsFreeAndNothingElse) {
 }
 
 TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   const Problem problem = middle_problem();
   int taken = 0;
   int refused = 0;
@@ -126,7 +127,7 @@ TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
 // Pieces beyond the row keep their bits. Of a piece that the row cuts, the part beyond differs by
 // the rounding of cutting only.
 TEST(Attempt, KeepsKeyframesAndWhatIsBeyond) {
-  std::mt19937_64 random = testing::seeded(2);
+  testing::Random random(2);
   const SearchScene scene({});
   const FreeSpace space = scene.space();
   const Problem problem = middle_problem();

@@ -49,9 +49,9 @@ TEST(ObjectiveCost, IsWhatMeasuresSay) {
   Draw draw(6101);
   for (int run = 0; run < 50; ++run) {
     std::vector<motion::Keyframe> keyframes;
-    for (int i = 0; i < 4; ++i) keyframes.push_back({1.7 * i, {draw.vector(3.0), draw.turn(1.0)}});
+    for (int i = 0; i < 4; ++i) keyframes.push_back({1.7 * i, {draw.in_cube(3.0), draw.turn(1.0)}});
     const CubicPath path = testing::problem_of_gap(keyframes, 1).path;
-    keyframes[1].pose.position += draw.vector(1.0);
+    keyframes[1].pose.position += draw.in_cube(1.0);
     const CubicPath original = testing::problem_of_gap(keyframes, 1).path;
     const motion::PathMeasures measures = motion::measure(path.path(), original.path());
     const auto value = [&](Objective objective) { return c.cost(objective, path, original).value; };

@@ -122,10 +122,10 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
   swing.c.policy.max_turn_rad = max_turn_rad;
   while (!swing.free) {
     Case& c = swing.c;
-    c.mesh = testing::scattered_triangles(draw.generator(), 25, 0.4);
+    c.mesh = testing::scattered_triangles(draw, 25, 0.4);
     c.build();
     std::vector<Keyframe> keyframes;
-    for (int i = 0; i < 4; ++i) keyframes.push_back(at(1.5 * i, draw.vector(1.3), draw.turn(1.0)));
+    for (int i = 0; i < 4; ++i) keyframes.push_back(at(1.5 * i, draw.in_cube(1.3), draw.turn(1.0)));
     c.problem = testing::problem_of_gap(keyframes, static_cast<std::size_t>(draw.integer(0, 2)));
     c.detect.clearance_m = draw.integer(0, 1) * 0.01;
     swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
@@ -139,7 +139,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
       return other.t_end_s > c.problem.gap_begin_s() && other.t_begin_s < c.problem.gap_end_s();
     });
     const int count = 8 << draw.integer(0, 2);
-    Offsets offsets = lifted(c.problem, count, draw.vector(1.5));
+    Offsets offsets = lifted(c.problem, count, draw.in_cube(1.5));
     for (motion::CubicPoint& point : offsets.at)
       point.image = draw.image(0.1 * std::min(1.0, max_turn_rad));
     swing.free = correction_with(c, offsets, swing.ends);

@@ -18,7 +18,7 @@ using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
 
-class IndexBounds : public testing::TestWithParam<Decomposition> {
+class IndexBounds : public ::testing::TestWithParam<Decomposition> {
  protected:
   /// Shared vertices, as in the files of real scenes.
   static SceneIndex build(Mesh mesh) {
@@ -163,12 +163,13 @@ TEST_P(IndexBounds, SliversAndPointsAreFoundLikeOthers) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<Decomposition>& instance) {
+std::string name_of(const ::testing::TestParamInfo<Decomposition>& instance) {
   constexpr std::array kNames = {"Octree", "KdTree", "Bvh"};
   return kNames[static_cast<std::size_t>(instance.param)];
 }
 
-INSTANTIATE_TEST_SUITE_P(Decompositions, IndexBounds, testing::ValuesIn(kDecompositions), name_of);
+INSTANTIATE_TEST_SUITE_P(Decompositions, IndexBounds, ::testing::ValuesIn(kDecompositions),
+                         name_of);
 
 }  // namespace
 }  // namespace camway::scene

@@ -56,7 +56,7 @@ double brute_nearest_of(const SceneIndex& tree, std::span<const Triangle> body,
   return least_m;
 }
 
-class IndexQueries : public testing::TestWithParam<Case> {
+class IndexQueries : public ::testing::TestWithParam<Case> {
  protected:
   IndexQueries() : random_(GetParam().seed) {
     const std::vector<Triangle> triangles =
@@ -285,15 +285,15 @@ TEST_P(IndexQueries, VisitsWhatTouchesABox) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, IndexQueries,
-    testing::Values(Case{"Soup", 501, false, 8}, Case{"SoupDeep", 502, false, 1},
-                    Case{"Grid", 503, true, 8}, Case{"GridDeep", 504, true, 2},
-                    Case{"KdTreeSoup", 511, false, 8, Decomposition::kKdTree},
-                    Case{"KdTreeGrid", 512, true, 2, Decomposition::kKdTree},
-                    Case{"BvhSoup", 513, false, 8, Decomposition::kBvh},
-                    Case{"BvhGrid", 514, true, 2, Decomposition::kBvh},
-                    Case{"TwoMeshes", 521, false, 8, Decomposition::kOctree, 2},
-                    Case{"ManyMeshes", 522, false, 2, Decomposition::kBvh, 97},
-                    Case{"MeshEach", 523, true, 4, Decomposition::kOctree, 500}),
+    ::testing::Values(Case{"Soup", 501, false, 8}, Case{"SoupDeep", 502, false, 1},
+                      Case{"Grid", 503, true, 8}, Case{"GridDeep", 504, true, 2},
+                      Case{"KdTreeSoup", 511, false, 8, Decomposition::kKdTree},
+                      Case{"KdTreeGrid", 512, true, 2, Decomposition::kKdTree},
+                      Case{"BvhSoup", 513, false, 8, Decomposition::kBvh},
+                      Case{"BvhGrid", 514, true, 2, Decomposition::kBvh},
+                      Case{"TwoMeshes", 521, false, 8, Decomposition::kOctree, 2},
+                      Case{"ManyMeshes", 522, false, 2, Decomposition::kBvh, 97},
+                      Case{"MeshEach", 523, true, 4, Decomposition::kOctree, 500}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(SceneIndex, ThresholdAndDepthAreObeyed) {
@@ -347,7 +347,7 @@ TEST(SceneIndex, NearestIsTheSameForAllDecompositions) {
       if (i < 50) expect_equal(nearest, brute_nearest(octree, body, kInfinity));
       expect_equal(kd.nearest(body, kInfinity), nearest);
       expect_equal(bvh.nearest(body, kInfinity), nearest);
-      if (testing::Test::HasFailure()) return;
+      if (::testing::Test::HasFailure()) return;
     }
   }
 }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <random>
 #include <thread>
 #include <vector>
 
 #include "daemon/scene/voxels/voxel_faces.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -47,7 +47,7 @@ struct PlacedMap {
 
 constexpr std::uint64_t kMany = 1'000'000'000'000;
 
-Placement random_placement(std::mt19937_64& random) {
+Placement random_placement(testing::Random& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::string fault;
   return Placement::make(10.0 * Vec3(unit(random), unit(random), unit(random)),
@@ -55,7 +55,7 @@ Placement random_placement(std::mt19937_64& random) {
 }
 
 /// Returns single voxels, and cubes of which some fill blocks and some cross them.
-VoxelSet random_voxels(std::mt19937_64& random) {
+VoxelSet random_voxels(testing::Random& random) {
   std::uniform_int_distribution<std::int32_t> anywhere(-14, 14);
   VoxelSet voxels;
   for (int i = 0; i < 12; ++i) {
@@ -97,8 +97,7 @@ VoxelSet by_asking_all(const PlacedMap& map, double resolution_m) {
 }
 
 TEST(MirrorVoxels, AreThoseThatFacesTouchAndThoseInside) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int run = 0; run < 6; ++run) {
     const Placement placement = run % 3 == 0 ? Placement() : random_placement(random);
     const PlacedMap map(kCellM, random_voxels(random), placement);
@@ -112,7 +111,7 @@ TEST(MirrorVoxels, AreThoseThatFacesTouchAndThoseInside) {
 }
 
 TEST(MirrorVoxels, RefusesWhatPassesTheLimitAndNothingElse) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int run = 0; run < 12; ++run) {
     const PlacedMap map(kCellM, random_voxels(random), random_placement(random));
     for (const double resolution_m : {0.1 * kCellM, 0.5 * kCellM, kCellM}) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -16,6 +15,7 @@
 #include "daemon/scene/occupancy/box_costs.h"
 #include "daemon/scene/occupancy/occupancy_mirror.h"
 #include "tests/scene/voxels/voxel_oracle.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -24,7 +24,7 @@ using geometry::Box;
 using geometry::Triangle;
 using geometry::Vec3;
 using oracle::Real;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::uint64_t kSeed = 77003;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -60,8 +60,8 @@ struct Sample {
   std::vector<Voxel> occupied;
   double face_error_m = 0.0;  ///< an upper bound for all faces
 
-  explicit Sample(std::mt19937_64& random) {
-    resolution_m = oracle::log_uniform(random, 1e-3, 10.0);
+  explicit Sample(testing::Random& random) {
+    resolution_m = random.log_uniform(1e-3, 10.0);
     mesh = oracle::random_mesh(random, resolution_m, 1 + static_cast<int>(random() % 4));
     map = build(mesh, resolution_m);
     for (const Voxel& voxel : oracle::voxels_around(mesh, resolution_m, 1)) {
@@ -75,9 +75,9 @@ struct Sample {
   }
 
   /// Returns a point inside, beside or far from the mesh, often on a face.
-  [[nodiscard]] Vec3 point(std::mt19937_64& random) const {
-    const double reach_m = resolution_m * oracle::log_uniform(random, 1.0, 100.0);
-    Vec3 p = reach_m * oracle::random_direction(random);
+  [[nodiscard]] Vec3 point(testing::Random& random) const {
+    const double reach_m = resolution_m * random.log_uniform(1.0, 100.0);
+    Vec3 p = reach_m * random.direction();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (random() % 4 == 0) p[axis] = std::round(p[axis] / resolution_m) * resolution_m;
     }
@@ -86,8 +86,7 @@ struct Sample {
 };
 
 TEST(OccupancyMap, OccupiesWhatTheTrianglesTouch) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
     std::set<Voxel> expected;
@@ -105,8 +104,7 @@ TEST(OccupancyMap, OccupiesWhatTheTrianglesTouch) {
 
 /// The promise of the map: no point of the scene is in free space.
 TEST(OccupancyMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
     const Sample sample(random);
@@ -134,8 +132,7 @@ TEST(OccupancyMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
 }
 
 TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
     for (int i = 0; i < 30; ++i) {
@@ -174,8 +171,7 @@ TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
 
 /// The searches skip nothing of relevance: their answers equal those of a test of every cube.
 TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
     const VoxelGrid grid(sample.resolution_m);
@@ -193,7 +189,7 @@ TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
     for (int i = 0; i < 30; ++i) {
       const Vec3 p = sample.point(random);
       const Vec3 to = sample.point(random);
-      const double limit = sample.resolution_m * oracle::log_uniform(random, 0.1, 100.0);
+      const double limit = sample.resolution_m * random.log_uniform(0.1, 100.0);
       ASSERT_EQ(sample.map->distance_m(p, limit).value_or(kInfinity),
                 least(PointDistance(p), limit));
       ASSERT_EQ(sample.map->occupied_in_sphere(p, limit), least(PointDistance(p), limit) <= limit);
@@ -207,8 +203,7 @@ TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
 /// The answer is between the entries into the voxels grown by the face error and into the exact
 /// ones.
 TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   int hits = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
@@ -246,8 +241,7 @@ TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
 /// The answer is between the first contact with the voxels and with larger ones beyond all
 /// rounding.
 TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   int hits = 0;
   int misses = 0;
   for (int trial = 0; trial < 100; ++trial) {
@@ -259,7 +253,7 @@ TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
         if (random() % 3 == 0) to[axis] = from[axis];
       }
       const double radius_m =
-          random() % 4 == 0 ? 0.0 : sample.resolution_m * oracle::log_uniform(random, 1e-3, 10.0);
+          random() % 4 == 0 ? 0.0 : sample.resolution_m * random.log_uniform(1e-3, 10.0);
       // The size of a million roundings of the largest number here.
       const Real more_m = 1e6L * 0x1p-53L * (from.lpNorm<1>() + to.lpNorm<1>());
       Real exact = HUGE_VALL;
@@ -284,7 +278,7 @@ TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
 }
 
 /// One occupied voxel, [2, 3] x [2, 3] x [2, 3] m.
-class OneVoxel : public testing::Test {
+class OneVoxel : public ::testing::Test {
  protected:
   // No coordinate or distance below exceeds 12 m; a ray across a corner meets three moved faces.
   const double entry_error_m =
@@ -408,7 +402,7 @@ TEST(OccupancyMap, RefusesWhatItCannotHold) {
 
 // Filling the last one would take hours.
 TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> place(-2.0, 2.0);
   for (int run = 0; run < 30; ++run) {
     std::array<Vec3, 3> corners;
@@ -429,7 +423,7 @@ TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
 TEST(OccupancyMap, IsNotMadeAfterAStop) {
   std::stop_source stop;
   stop.request_stop();
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   VoxelSet voxels;
   voxels.insert(Voxel{1, 2, 3});
@@ -444,7 +438,7 @@ TEST(OccupancyMap, IsNotMadeAfterAStop) {
 }
 
 TEST(OccupancyMap, TheVoxelLimitIsExact) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   const std::uint64_t voxels = build(mesh, 0.1)->statistics().occupied_voxels;
   EXPECT_TRUE(OccupancyMap::build(mesh, 0.1, std::nullopt, voxels).map);
@@ -465,14 +459,14 @@ std::vector<std::array<int, 4>> occupied_leaves(const octomap::OcTree& tree) {
 }
 
 std::string written(const std::shared_ptr<const OccupancyMap>& map, const std::string& name) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / name;
   EXPECT_EQ(OccupancyMirror(map).write_bt(file), "");
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 TEST(OccupancyMap, OctoMapReadsBackWhatIsWritten) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 0.123456789}) {
     Mesh mesh = oracle::random_mesh(random, resolution_m, 6);
     // A point at the centre of an aligned block of eight voxels: it touches all, and they are
@@ -481,7 +475,8 @@ TEST(OccupancyMap, OctoMapReadsBackWhatIsWritten) {
     mesh.vertices.push_back(Vec3::Constant(101 * resolution_m));
     mesh.triangles.push_back({first, first, first});
     const std::shared_ptr<const OccupancyMap> map = build(mesh, resolution_m);
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "round_trip.bt";
+    const std::filesystem::path file =
+        std::filesystem::path(::testing::TempDir()) / "round_trip.bt";
     ASSERT_EQ(OccupancyMirror(map).write_bt(file), "");
 
     octomap::OcTree tree(1.0);
@@ -511,7 +506,7 @@ TEST(OccupancyMap, FailureToWriteNamesTheFile) {
 
 /// The map depends on the set of triangles only.
 TEST(OccupancyMap, TheSameSceneGivesTheSameBytes) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   Mesh mesh = oracle::random_mesh(random, 0.1, 20);
   const std::string bytes = written(build(mesh, 0.1), "first.bt");
   EXPECT_EQ(written(build(mesh, 0.1), "again.bt"), bytes);

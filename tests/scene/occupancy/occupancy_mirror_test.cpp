@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
-#include <random>
 #include <sstream>
 
 #include "daemon/scene/mesh/mesh.h"
 #include "tests/geometry/random_triangles.h"
 #include "tests/scene/voxels/voxel_oracle.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -27,7 +27,7 @@ std::shared_ptr<const OccupancyMap> map_of(const Mesh& mesh) {
 /// Several meshes mirrored one by one, and as one mesh.
 struct Sample {
   explicit Sample(std::uint64_t seed, int count) {
-    std::mt19937_64 random(seed);
+    testing::Random random(seed);
     Mesh whole;
     std::vector<std::shared_ptr<const OccupancyMap>> maps;
     for (int i = 0; i < count; ++i) {

@@ -5,9 +5,10 @@
 #include <octomap/OcTree.h>
 
 #include <algorithm>
-#include <iostream>
 #include <random>
 #include <set>
+
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -18,7 +19,7 @@ using Cubes = std::vector<std::array<std::int32_t, 4>>;  ///< lowest voxel and s
 
 /// Returns voxels and complete cubes about a place: the origin, where all octants of the root meet,
 /// or another place, up to the ends of the keys.
-VoxelSet random_voxels(std::mt19937_64& random) {
+VoxelSet random_voxels(testing::Random& random) {
   VoxelSet set;
   const auto pick = [&](std::int32_t low, std::int32_t high) {
     return std::uniform_int_distribution<std::int32_t>(low, high)(random);
@@ -73,8 +74,7 @@ Cubes octomaps_cubes(const VoxelSet& set) {
 }
 
 TEST(VoxelTree, ConsistsOfOctoMapsCubes) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   int large = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const VoxelSet set = random_voxels(random);
@@ -89,7 +89,7 @@ TEST(VoxelTree, ConsistsOfOctoMapsCubes) {
 }
 
 TEST(VoxelTree, ContainsItsVoxelsAndNoOthers) {
-  std::mt19937_64 random(kSeed + 1);
+  testing::Random random(kSeed + 1);
   for (int trial = 0; trial < 300; ++trial) {
     const VoxelSet set = random_voxels(random);
     const VoxelTree tree(set);
@@ -109,7 +109,7 @@ TEST(VoxelTree, ContainsItsVoxelsAndNoOthers) {
 
 /// Full cubes come and go, so that branches fill up, vanish and appear.
 TEST(VoxelTree, UpdatedIsTheTreeThatIsMadeAnew) {
-  std::mt19937_64 random(kSeed + 2);
+  testing::Random random(kSeed + 2);
   for (int trial = 0; trial < 60; ++trial) {
     VoxelSet set = random_voxels(random);
     VoxelTree tree(set);

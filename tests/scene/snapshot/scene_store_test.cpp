@@ -19,7 +19,7 @@
 namespace camway::scene {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::shared_ptr<const Snapshot> revision_of(std::string name, std::uint64_t revision) {
   auto snapshot = std::make_shared<Snapshot>();

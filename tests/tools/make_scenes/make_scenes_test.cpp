@@ -33,7 +33,7 @@ std::map<std::string, std::string> files_below(const fs::path& folder) {
 }
 
 TEST(MakeScenes, WritesTheCommittedBytes) {
-  const fs::path folder = fs::path(testing::TempDir()) / "make_scenes_test";
+  const fs::path folder = fs::path(::testing::TempDir()) / "make_scenes_test";
   fs::remove_all(folder);
   const std::string command =
       std::string(CAMWAY_MAKE_SCENES_BINARY) + " --out '" + folder.string() + "' > /dev/null";
