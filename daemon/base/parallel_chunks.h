@@ -12,7 +12,8 @@
 
 namespace camway::scene {
 
-/// Largest useful number of threads: passes over a scene are then limited by memory bandwidth.
+/// Largest number of threads that `chunk_threads` returns. With more, loops over large arrays are
+/// limited by memory bandwidth.
 inline constexpr unsigned kMaxChunkThreads = 8;
 
 /// Number of threads to use if the caller asks for `asked`, where 0 means one per processor.

@@ -12,15 +12,19 @@
 
 namespace camway::collision {
 
-/// Defines collisions, and the resolution of their intervals in terms of the motion of the body.
+/// Defines what counts as a collision, and how exactly the ends of its interval are known. That
+/// resolution is a distance: the motion of the body (`ProbeResult::motion_m`) within a stretch.
 struct DetectOptions {
-  /// Resolution of the ends of intervals. A stretch that is not seen colliding but cannot be proved
-  /// free at a tenth of this either counts as colliding. [Limit: 0 < value] [Units: metres]
+  /// Resolution of the ends of intervals. A stretch that cannot be proved free is divided. It
+  /// counts as colliding once its motion is at most this value, if the body collides at its middle,
+  /// or at most a tenth of it, if not. [Limit: 0 < value] [Units: metres]
   double tolerance_m = 1e-3;
-  /// Joining distance. A free range within a collision that is shorter than this may count as
-  /// colliding, so that a long collision is not resolved at `tolerance_m` throughout. Intervals are
-  /// joined if they are closer in time than the body takes for this distance on average over the
-  /// path. [Limit: tolerance_m <= value] [Units: metres]
+  /// Joining distance. Within a collision, a stretch whose motion is at most this value counts as
+  /// colliding if the body collides at its middle, although parts of it may be free: otherwise a
+  /// long collision would be divided down to `tolerance_m` everywhere. Two intervals are joined if
+  /// the time between them is less than gap_m / v. There v is an upper bound of the body's travel
+  /// over the whole path, divided by the duration of the path. [Limit: tolerance_m <= value]
+  /// [Units: metres]
   double gap_m = 5e-3;
   /// Required clearance: a smaller distance to the scene is a collision. [Limit: 0 <= value]
   /// [Units: metres]
@@ -39,22 +43,25 @@ std::optional<std::vector<CollisionInterval>> detect_collisions(
 
 /// Result of a search that the deadline may have ended.
 struct Search {
-  bool complete = false;                      ///< false if the deadline struck before the end
-  std::vector<CollisionInterval> collisions;  ///< all up to `until_s`, as `detect_collisions`
-  double until_s = 0.0;                       ///< end of the time that was searched
+  bool complete = false;  ///< false if the deadline struck before the end
+  /// Collision intervals that end by `until_s`; defined as for `detect_collisions`.
+  std::vector<CollisionInterval> collisions;
+  double until_s = 0.0;  ///< end of the time that was searched
 };
 
-/// As `detect_collisions`, but returns the collisions up to `until_s` if the deadline struck before
-/// the end.
+/// Returns the intervals that `detect_collisions` returns. If the deadline strikes before the end,
+/// returns the intervals before `until_s`.
 Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
                          const motion::Body& body, double t_begin_s, double t_end_s,
                          const DetectOptions& options, const base::Deadline& deadline);
 
-/// The first collision interval, with its end but without a witness.
+/// Result of `first_collision`.
 struct FirstCollision {
   bool decided = true;  ///< false if the deadline struck first
+  /// Begin and end of the interval, without a witness; nothing if there is no collision.
   std::optional<CollisionInterval> interval;
 };
+/// Finds the first collision interval in [t_begin_s, t_end_s]: its begin and its end.
 FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,
                                const motion::Body& body, double t_begin_s, double t_end_s,
                                const DetectOptions& options, const base::Deadline& deadline);

@@ -35,7 +35,7 @@ class WatchedPath {
   WatchedPath(motion::Path path, motion::Body body, const collision::DetectOptions& detect,
               const geometry::Bounds& bounds = {});
 
-  /// Returns the path that `result` proves free for `request`; nothing if it proves nothing.
+  /// Returns the path that `result` proves free for `request`; nothing if it has no proved path.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
 
   [[nodiscard]] const motion::Path& path() const { return path_; }
