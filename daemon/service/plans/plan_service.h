@@ -77,7 +77,7 @@ class PlanService {
   void watch(const Pending& pending, const Answered& answered);
   void plan_broken(Clock::time_point now);
   void plan_improvable(Clock::time_point now);
-  void put_in_force(Watches::Taken taken, Clock::time_point now);
+  void put_in_force(Watches::Accepted accepted, Clock::time_point now);
   void plan_again(const Watches::Request& watched, bool for_offer);
   void run_again(const Replan& replan);
   void finish_again(const Replan& replan, const Replanned& done);
