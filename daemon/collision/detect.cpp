@@ -125,7 +125,7 @@ class Detector {
     }
     if (seen.contains) {
       extend(piece, seen.gap_m, /*surely=*/true);
-      target_reach_m_ = kLargestGrowth * seen.reach_m;
+      target_reach_m_ = kGrowthInCollision * seen.reach_m;
       return true;
     }
     const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.gap_m;
@@ -162,7 +162,7 @@ class Detector {
     const bool is_short = motion_m <= options_.gap_m || !piece.splittable();
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
-      target_reach_m_ = kLargestGrowth * reach_m;
+      target_reach_m_ = kGrowthInCollision * reach_m;
       return Verdict::kSettled;
     }
     if (!is_short) {
@@ -179,7 +179,7 @@ class Detector {
       checks_left_ = backoff_;
     }
     extend(piece, 0.0, hit_.has_value());
-    target_reach_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
+    target_reach_m_ = hit_ ? kGrowthInCollision * reach_m : kBelow * options_.gap_m;
     return Verdict::kSettled;
   }
 
@@ -274,11 +274,11 @@ class Detector {
   }
 
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
-  static constexpr double kWorthACheck = 1.5;    // share of the reach aimed at
-  static constexpr double kFinestShare = 0.1;    // share of the tolerance
-  static constexpr double kBelow = 0.9;          // keeps rounding from exceeding a limit
-  static constexpr double kLargestGrowth = 2.0;  // growth after a stretch proved to collide
-  static constexpr double kLargestStep = 8.0;    // largest growth of a width
+  static constexpr double kWorthACheck = 1.5;        // share of the reach aimed at
+  static constexpr double kFinestShare = 0.1;        // share of the tolerance
+  static constexpr double kBelow = 0.9;              // keeps rounding from exceeding a limit
+  static constexpr double kGrowthInCollision = 2.0;  // after a stretch proved to collide
+  static constexpr double kLargestStep = 8.0;        // largest growth of a width
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
   static constexpr int kMostBackoff = 15;  // checks between attempts to prove a collision
