@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace camway::scene {
+namespace camway::base {
 
 /// Largest number of threads that `chunk_threads` returns. With more, loops over large arrays are
 /// limited by memory bandwidth.
@@ -57,4 +57,4 @@ void for_each_chunk(unsigned workers, std::size_t chunks, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace camway::scene
+}  // namespace camway::base

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace camway::service {
+namespace camway::base {
 
 /// Opens /dev/null on those of the descriptors 0, 1 and 2 that are closed, so that no file or
 /// socket that the program opens later gets one of these numbers and receives output meant for
@@ -12,4 +12,4 @@ namespace camway::service {
 /// closed.
 [[nodiscard]] bool occupy_closed_standard_streams();
 
-}  // namespace camway::service
+}  // namespace camway::base

@@ -65,7 +65,7 @@ int no_output() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!camway::service::occupy_closed_standard_streams()) {
+  if (!camway::base::occupy_closed_standard_streams()) {
     return static_cast<int>(camway::tools::ExitCode::kOurFault);
   }
   try {

@@ -84,10 +84,11 @@ std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& 
   }
   IndexOptions of_one = options;
   of_one.threads = 1;
-  for_each_chunk(chunk_threads(options.threads), missing.size(), [&](unsigned, std::size_t i) {
-    if (stop.stop_requested()) return;
-    parts[missing[i]] = placed(source.parts_O[missing[i]], placement, of_one);
-  });
+  base::for_each_chunk(base::chunk_threads(options.threads), missing.size(),
+                       [&](unsigned, std::size_t i) {
+                         if (stop.stop_requested()) return;
+                         parts[missing[i]] = placed(source.parts_O[missing[i]], placement, of_one);
+                       });
   return parts;
 }
 
