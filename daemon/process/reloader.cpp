@@ -116,7 +116,7 @@ void Reloader::reload(const std::stop_token& stop) {
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
     if (stop.stop_requested()) {
-      log_->info("reload called off, all stays as it was");
+      log_->info("reload cancelled, all stays as it was");
       return;
     }
     log_->error("reload failed, not all scenes could be taken over, so no setting is",

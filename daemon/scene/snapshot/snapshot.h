@@ -16,7 +16,7 @@
 #include "daemon/scene/index/scene_index.h"
 #include "daemon/scene/mesh/resource_limit.h"
 #include "daemon/scene/mesh/whole_mesh.h"
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "daemon/scene/snapshot/scene_object.h"
 
 namespace camway::scene {

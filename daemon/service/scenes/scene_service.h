@@ -106,8 +106,8 @@ class SceneService {
   std::map<RequestKey, Pending> unanswered_;
   std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< unanswered changes by time
   /// Changes that were cancelled and answered while a worker is still at them.
-  std::set<Request> left_behind_;  ///< called off and answered, but a worker is still at it
-  std::mutex writing_;             ///< see `SceneContext`
+  std::set<Request> left_behind_;
+  std::mutex writing_;  ///< see `SceneContext`
   WorkerPool workers_;
 };
 

@@ -8,20 +8,20 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/occupancy/occupancy_map.h"
+#include "daemon/scene/mirror/mirror_map.h"
 
 namespace camway::scene {
 
-/// The OctoMap mirror of a scene of several objects: an occupancy map for each, all of one
-/// resolution. So a change of an object leaves the other maps as they are, and removing it frees
-/// the voxels that no other object touches. A voxel is occupied if any map occupies it. Queries are
-/// those of `OccupancyMap` over all maps. Immutable. Thread-safe.
+/// The OctoMap mirror of a scene of several objects: a `MirrorMap` for each, all of one resolution.
+/// So a change of an object leaves the other maps as they are, and removing it frees the voxels
+/// that no other object touches. A voxel is occupied if any map occupies it. Queries are those of
+/// `MirrorMap` over all maps. Immutable. Thread-safe.
 class OccupancyMirror {
  public:
-  /// The mirror of one map.
-  explicit OccupancyMirror(std::shared_ptr<const OccupancyMap> map);
+  /// Makes the mirror of a scene with one object.
+  explicit OccupancyMirror(std::shared_ptr<const MirrorMap> map);
   /// Requires that no map is null and that all have this resolution.
-  OccupancyMirror(double resolution_m, std::vector<std::shared_ptr<const OccupancyMap>> maps);
+  OccupancyMirror(double resolution_m, std::vector<std::shared_ptr<const MirrorMap>> maps);
 
   [[nodiscard]] double resolution_m() const { return statistics_.resolution_m; }
   /// Sums over the maps: a voxel that two objects touch counts twice.
@@ -45,7 +45,7 @@ class OccupancyMirror {
   void write_bt(std::ostream& out) const;
 
  private:
-  std::vector<std::shared_ptr<const OccupancyMap>> maps_;
+  std::vector<std::shared_ptr<const MirrorMap>> maps_;
   OccupancyStatistics statistics_;
 };
 

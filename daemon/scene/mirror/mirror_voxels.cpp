@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/occupancy/mirror_voxels.h"
+#include "daemon/scene/mirror/mirror_voxels.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/occupancy/voxel_tree.h"
+#include "daemon/scene/mirror/voxel_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 
 #include <octomap/OcTree.h>
 
@@ -17,7 +17,7 @@ using geometry::Vec3;
 using octomap::OcTree;
 using octomap::OcTreeKey;
 
-using Maps = std::vector<std::shared_ptr<const OccupancyMap>>;
+using Maps = std::vector<std::shared_ptr<const MirrorMap>>;
 
 /// Marks in `whole` every voxel of an occupied cube.
 void mark(const VoxelCube& cube, OcTree& whole) {
@@ -39,7 +39,7 @@ void mark(const VoxelCube& cube, OcTree& whole) {
 /// The union of all maps as one OctoMap.
 OcTree united(const Maps& maps, double resolution_m) {
   OcTree whole(resolution_m);
-  for (const std::shared_ptr<const OccupancyMap>& map : maps) {
+  for (const std::shared_ptr<const MirrorMap>& map : maps) {
     map->tree().for_each_cube([&](const VoxelCube& cube) { mark(cube, whole); });
   }
   whole.updateInnerOccupancy();
@@ -49,12 +49,12 @@ OcTree united(const Maps& maps, double resolution_m) {
 
 }  // namespace
 
-OccupancyMirror::OccupancyMirror(std::shared_ptr<const OccupancyMap> map)
+OccupancyMirror::OccupancyMirror(std::shared_ptr<const MirrorMap> map)
     : OccupancyMirror(map->resolution_m(), Maps{map}) {}
 
 OccupancyMirror::OccupancyMirror(double resolution_m, Maps maps) : maps_(std::move(maps)) {
   statistics_.resolution_m = resolution_m;
-  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+  for (const std::shared_ptr<const MirrorMap>& map : maps_) {
     assert(map && map->resolution_m() == resolution_m);
     statistics_.occupied_voxels += map->statistics().occupied_voxels;
     statistics_.nodes += map->statistics().nodes;
@@ -78,7 +78,7 @@ bool OccupancyMirror::occupied_in_sphere(const Vec3& center_W, double radius_m) 
 std::optional<double> OccupancyMirror::ray_hit_m(const Vec3& origin_W, const Vec3& direction_W,
                                                  double max_range_m) const {
   std::optional<double> nearest;
-  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+  for (const std::shared_ptr<const MirrorMap>& map : maps_) {
     const std::optional<double> hit =
         map->ray_hit_m(origin_W, direction_W, nearest.value_or(max_range_m));
     if (hit) nearest = hit;
@@ -89,7 +89,7 @@ std::optional<double> OccupancyMirror::ray_hit_m(const Vec3& origin_W, const Vec
 std::optional<double> OccupancyMirror::distance_m(const Vec3& point_W,
                                                   double max_distance_m) const {
   std::optional<double> nearest;
-  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+  for (const std::shared_ptr<const MirrorMap>& map : maps_) {
     const std::optional<double> distance =
         map->distance_m(point_W, nearest.value_or(max_distance_m));
     if (distance) nearest = distance;
@@ -100,7 +100,7 @@ std::optional<double> OccupancyMirror::distance_m(const Vec3& point_W,
 std::optional<double> OccupancyMirror::sphere_path_hit_m(const Vec3& from_W, const Vec3& to_W,
                                                          double radius_m) const {
   std::optional<double> nearest;
-  for (const std::shared_ptr<const OccupancyMap>& map : maps_) {
+  for (const std::shared_ptr<const MirrorMap>& map : maps_) {
     const std::optional<double> hit = map->sphere_path_hit_m(from_W, to_W, radius_m);
     if (hit && (!nearest || *hit < *nearest)) nearest = hit;
   }

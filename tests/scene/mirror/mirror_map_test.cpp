@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/occupancy/occupancy_map.h"
+#include "daemon/scene/mirror/mirror_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include <limits>
 #include <set>
 
-#include "daemon/scene/occupancy/box_costs.h"
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/box_costs.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "tests/scene/voxels/voxel_oracle.h"
 
 namespace camway::scene {
@@ -41,8 +41,8 @@ Mesh mesh_of(const std::vector<Triangle>& triangles) {
   return mesh;
 }
 
-std::shared_ptr<const OccupancyMap> build(const Mesh& mesh, double resolution_m) {
-  OccupancyMap::BuildResult result = OccupancyMap::build(mesh, resolution_m);
+std::shared_ptr<const MirrorMap> build(const Mesh& mesh, double resolution_m) {
+  MirrorMap::BuildResult result = MirrorMap::build(mesh, resolution_m);
   EXPECT_TRUE(result.map) << result.error;
   EXPECT_TRUE(result.error.empty());
   return result.map;
@@ -56,7 +56,7 @@ Vec3 voxel_center(const Voxel& voxel, double resolution_m) {
 struct Sample {
   double resolution_m = 0.0;
   Mesh mesh;
-  std::shared_ptr<const OccupancyMap> map;
+  std::shared_ptr<const MirrorMap> map;
   std::vector<Voxel> occupied;
   double face_error_m = 0.0;  ///< an upper bound for all faces
 
@@ -85,7 +85,7 @@ struct Sample {
   }
 };
 
-TEST(OccupancyMap, OccupiesWhatTheTrianglesTouch) {
+TEST(MirrorMap, OccupiesWhatTheTrianglesTouch) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
@@ -104,7 +104,7 @@ TEST(OccupancyMap, OccupiesWhatTheTrianglesTouch) {
 }
 
 /// The promise of the map: no point of the scene is in free space.
-TEST(OccupancyMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
+TEST(MirrorMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -133,7 +133,7 @@ TEST(OccupancyMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
   }
 }
 
-TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
+TEST(MirrorMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
@@ -158,7 +158,7 @@ TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
       }
       const double distance = sample.map->distance_m(p, kInfinity).value();
       ASSERT_LE(distance, nearest);
-      ASSERT_GE(distance, nearest * (1 - static_cast<Real>(OccupancyMap::kDistanceRelativeError)) -
+      ASSERT_GE(distance, nearest * (1 - static_cast<Real>(MirrorMap::kDistanceRelativeError)) -
                               2 * static_cast<Real>(sample.face_error_m));
       EXPECT_TRUE(sample.map->occupied_in_sphere(p, distance));
       EXPECT_EQ(sample.map->distance_m(p, distance), distance);
@@ -173,7 +173,7 @@ TEST(OccupancyMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
 }
 
 /// The searches skip nothing of relevance: their answers equal those of a test of every cube.
-TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
+TEST(MirrorMap, SearchesAnswerAsAskingEveryCubeDoes) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
@@ -206,7 +206,7 @@ TEST(OccupancyMap, SearchesAnswerAsAskingEveryCubeDoes) {
 
 /// The answer is between the entries into the voxels grown by the face error and into the exact
 /// ones.
-TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
+TEST(MirrorMap, RayAgreesWithEveryVoxel) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   int hits = 0;
@@ -230,7 +230,7 @@ TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
       }
       const double hit = sample.map->ray_hit_m(origin, direction, kInfinity).value_or(kInfinity);
       ASSERT_LE(hit, exact) << "trial " << trial << ": passed through an occupied voxel";
-      ASSERT_GE(hit, grown * (1 - static_cast<Real>(OccupancyMap::kDistanceRelativeError)))
+      ASSERT_GE(hit, grown * (1 - static_cast<Real>(MirrorMap::kDistanceRelativeError)))
           << "trial " << trial;
       if (hit == kInfinity) continue;
       ++hits;
@@ -245,7 +245,7 @@ TEST(OccupancyMap, RayAgreesWithEveryVoxel) {
 
 /// The answer is between the first contact with the voxels and with larger ones beyond all
 /// rounding.
-TEST(OccupancyMap, SpherePathAgreesWithEveryVoxel) {
+TEST(MirrorMap, SpherePathAgreesWithEveryVoxel) {
   std::cout << "seed " << kSeed << '\n';
   std::mt19937_64 random(kSeed);
   int hits = 0;
@@ -288,8 +288,8 @@ class OneVoxel : public testing::Test {
  protected:
   // No coordinate or distance below exceeds 12 m; a ray across a corner meets three moved faces.
   const double entry_error_m =
-      12.0 * OccupancyMap::kDistanceRelativeError + 2.0 * VoxelGrid(1.0).face_error_m(3);
-  const std::shared_ptr<const OccupancyMap> map =
+      12.0 * MirrorMap::kDistanceRelativeError + 2.0 * VoxelGrid(1.0).face_error_m(3);
+  const std::shared_ptr<const MirrorMap> map =
       build(mesh_of({{Vec3(2.4, 2.5, 2.6), Vec3(2.5, 2.5, 2.6), Vec3(2.5, 2.6, 2.6)}}), 1.0);
   static constexpr double kFar = 1e9;
 };
@@ -315,7 +315,7 @@ TEST_F(OneVoxel, RayFromOutsideTheKeysAndRanges) {
   const double away_m = 1e7;  // the keys of 1 m voxels end at 32768 m
   const double expected_m = away_m + 2.0;
   EXPECT_NEAR(map->ray_hit_m({-away_m, 2.5, 2.5}, {1, 0, 0}, kFar).value(), expected_m,
-              expected_m * OccupancyMap::kDistanceRelativeError);
+              expected_m * MirrorMap::kDistanceRelativeError);
   EXPECT_FALSE(map->ray_hit_m({0, 2.5, 2.5}, {1, 0, 0}, 1.999));
   EXPECT_TRUE(map->ray_hit_m({0, 2.5, 2.5}, {1, 0, 0}, 2.0));
   EXPECT_FALSE(map->ray_hit_m({0, 2.5, 2.5}, {1, 0, 0}, -1.0));
@@ -377,37 +377,37 @@ TEST_F(OneVoxel, NonsenseIsAnsweredAsDocumented) {
   EXPECT_TRUE(map->occupied_in_box(Box(Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity))));
 }
 
-TEST(OccupancyMap, AnEmptySceneIsFreeEverywhere) {
-  const std::shared_ptr<const OccupancyMap> map = build(Mesh{}, 0.1);
+TEST(MirrorMap, AnEmptySceneIsFreeEverywhere) {
+  const std::shared_ptr<const MirrorMap> map = build(Mesh{}, 0.1);
   EXPECT_FALSE(map->occupied_at({0, 0, 0}));
   EXPECT_FALSE(map->distance_m({0, 0, 0}, kInfinity));
   EXPECT_FALSE(map->ray_hit_m({0, 0, 0}, {1, 0, 0}, kInfinity));
   EXPECT_EQ(map->statistics().occupied_voxels, 0U);
 }
 
-TEST(OccupancyMap, RefusesWhatItCannotHold) {
+TEST(MirrorMap, RefusesWhatItCannotHold) {
   const Mesh far = mesh_of({{Vec3(0, 0, 0), Vec3(0, 1700, 0), Vec3(1, 0, 0)}});
-  const OccupancyMap::BuildResult beyond = OccupancyMap::build(far, 0.05);
+  const MirrorMap::BuildResult beyond = MirrorMap::build(far, 0.05);
   EXPECT_EQ(beyond.map, nullptr);
   EXPECT_THAT(beyond.error, HasSubstr("1700"));
   EXPECT_THAT(beyond.error, HasSubstr("0.05"));
   EXPECT_THAT(beyond.error, HasSubstr("1638.4 m"));
-  EXPECT_TRUE(OccupancyMap::build(far, 0.1).map);
+  EXPECT_TRUE(MirrorMap::build(far, 0.1).map);
 
-  const OccupancyMap::BuildResult many = OccupancyMap::build(far, 0.1, std::nullopt, 1000);
+  const MirrorMap::BuildResult many = MirrorMap::build(far, 0.1, std::nullopt, 1000);
   EXPECT_EQ(many.map, nullptr);
   EXPECT_THAT(many.error, HasSubstr("more than 1000 voxels"));
   EXPECT_THAT(many.error, HasSubstr("1700"));
 
   for (const double resolution_m : {0.0, -0.1, kNaN, kInfinity, 1e-300, 1e300}) {
-    const OccupancyMap::BuildResult bad = OccupancyMap::build(far, resolution_m);
+    const MirrorMap::BuildResult bad = MirrorMap::build(far, resolution_m);
     EXPECT_EQ(bad.map, nullptr);
     EXPECT_THAT(bad.error, HasSubstr("resolution"));
   }
 }
 
 // Filling the last one would take hours.
-TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
+TEST(MirrorMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> place(-2.0, 2.0);
   for (int run = 0; run < 30; ++run) {
@@ -417,16 +417,15 @@ TEST(OccupancyMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
     }
     const Mesh mesh = mesh_of({{corners[0], corners[1], corners[2]}});
     const std::uint64_t voxels = build(mesh, 0.05)->statistics().occupied_voxels;
-    EXPECT_TRUE(OccupancyMap::build(mesh, 0.05, std::nullopt, voxels).map) << "never too early";
+    EXPECT_TRUE(MirrorMap::build(mesh, 0.05, std::nullopt, voxels).map) << "never too early";
   }
   const Mesh floor = mesh_of({{Vec3(0, 0, 0), Vec3(30, 0, 0), Vec3(0, 30, 0)}});
-  const OccupancyMap::BuildResult result =
-      OccupancyMap::build(floor, 0.001, std::nullopt, 300'000'000);
+  const MirrorMap::BuildResult result = MirrorMap::build(floor, 0.001, std::nullopt, 300'000'000);
   EXPECT_FALSE(result.map);
   EXPECT_THAT(result.error, HasSubstr("more than 300000000 voxels"));
 }
 
-TEST(OccupancyMap, IsNotMadeAfterAStop) {
+TEST(MirrorMap, IsNotMadeAfterAStop) {
   std::stop_source stop;
   stop.request_stop();
   std::mt19937_64 random(kSeed);
@@ -434,21 +433,21 @@ TEST(OccupancyMap, IsNotMadeAfterAStop) {
   VoxelSet voxels;
   voxels.insert(Voxel{1, 2, 3});
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  for (const OccupancyMap::BuildResult& result :
-       {OccupancyMap::build(mesh, 0.1, std::nullopt, 1000, stop.get_token()),
-        OccupancyMap::of_map(*map, {}, 1000, nullptr, nullptr, stop.get_token())}) {
+  for (const MirrorMap::BuildResult& result :
+       {MirrorMap::build(mesh, 0.1, std::nullopt, 1000, stop.get_token()),
+        MirrorMap::of_map(*map, {}, 1000, nullptr, nullptr, stop.get_token())}) {
     EXPECT_EQ(result.map, nullptr);
-    EXPECT_THAT(result.error, HasSubstr("called off"));
+    EXPECT_THAT(result.error, HasSubstr("cancelled"));
     EXPECT_EQ(result.limit, Limit::kNone);
   }
 }
 
-TEST(OccupancyMap, TheVoxelLimitIsExact) {
+TEST(MirrorMap, TheVoxelLimitIsExact) {
   std::mt19937_64 random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   const std::uint64_t voxels = build(mesh, 0.1)->statistics().occupied_voxels;
-  EXPECT_TRUE(OccupancyMap::build(mesh, 0.1, std::nullopt, voxels).map);
-  EXPECT_FALSE(OccupancyMap::build(mesh, 0.1, std::nullopt, voxels - 1).map);
+  EXPECT_TRUE(MirrorMap::build(mesh, 0.1, std::nullopt, voxels).map);
+  EXPECT_FALSE(MirrorMap::build(mesh, 0.1, std::nullopt, voxels - 1).map);
 }
 
 /// Returns the leaves of a tree as OctoMap has them: key of the lowest voxel and depth.
@@ -464,14 +463,14 @@ std::vector<std::array<int, 4>> occupied_leaves(const octomap::OcTree& tree) {
   return leaves;
 }
 
-std::string written(const std::shared_ptr<const OccupancyMap>& map, const std::string& name) {
+std::string written(const std::shared_ptr<const MirrorMap>& map, const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
   EXPECT_EQ(OccupancyMirror(map).write_bt(file), "");
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-TEST(OccupancyMap, OctoMapReadsBackWhatIsWritten) {
+TEST(MirrorMap, OctoMapReadsBackWhatIsWritten) {
   std::mt19937_64 random(kSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 0.123456789}) {
     Mesh mesh = oracle::random_mesh(random, resolution_m, 6);
@@ -480,7 +479,7 @@ TEST(OccupancyMap, OctoMapReadsBackWhatIsWritten) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.push_back(Vec3::Constant(101 * resolution_m));
     mesh.triangles.push_back({first, first, first});
-    const std::shared_ptr<const OccupancyMap> map = build(mesh, resolution_m);
+    const std::shared_ptr<const MirrorMap> map = build(mesh, resolution_m);
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "round_trip.bt";
     ASSERT_EQ(OccupancyMirror(map).write_bt(file), "");
 
@@ -503,14 +502,14 @@ TEST(OccupancyMap, OctoMapReadsBackWhatIsWritten) {
   }
 }
 
-TEST(OccupancyMap, FailureToWriteNamesTheFile) {
-  const std::shared_ptr<const OccupancyMap> map = build(Mesh{}, 0.1);
+TEST(MirrorMap, FailureToWriteNamesTheFile) {
+  const std::shared_ptr<const MirrorMap> map = build(Mesh{}, 0.1);
   EXPECT_THAT(OccupancyMirror(map).write_bt("/nonexistent/folder/map.bt"),
               HasSubstr("/nonexistent/folder/map.bt"));
 }
 
 /// The map depends on the set of triangles only.
-TEST(OccupancyMap, TheSameSceneGivesTheSameBytes) {
+TEST(MirrorMap, TheSameSceneGivesTheSameBytes) {
   std::mt19937_64 random(kSeed);
   Mesh mesh = oracle::random_mesh(random, 0.1, 20);
   const std::string bytes = written(build(mesh, 0.1), "first.bt");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/occupancy/box_costs.h"
+#include "daemon/scene/mirror/box_costs.h"
 
 #include <gtest/gtest.h>
 

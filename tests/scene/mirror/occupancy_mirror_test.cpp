@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -20,8 +20,8 @@ using geometry::Vec3;
 
 constexpr double kResolutionM = 0.25;
 
-std::shared_ptr<const OccupancyMap> map_of(const Mesh& mesh) {
-  return OccupancyMap::build(mesh, kResolutionM).map;
+std::shared_ptr<const MirrorMap> map_of(const Mesh& mesh) {
+  return MirrorMap::build(mesh, kResolutionM).map;
 }
 
 /// Several meshes mirrored one by one, and as one mesh.
@@ -29,7 +29,7 @@ struct Sample {
   explicit Sample(std::uint64_t seed, int count) {
     std::mt19937_64 random(seed);
     Mesh whole;
-    std::vector<std::shared_ptr<const OccupancyMap>> maps;
+    std::vector<std::shared_ptr<const MirrorMap>> maps;
     for (int i = 0; i < count; ++i) {
       const Mesh mesh = oracle::random_mesh(random, kResolutionM, 4);
       const auto first = static_cast<std::uint32_t>(whole.vertices.size());
@@ -43,7 +43,7 @@ struct Sample {
     several = std::make_unique<OccupancyMirror>(kResolutionM, maps);
   }
 
-  std::shared_ptr<const OccupancyMap> one;
+  std::shared_ptr<const MirrorMap> one;
   std::unique_ptr<OccupancyMirror> several;
 };
 
