@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/quaternion_order.h"
 #include "daemon/planning/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
@@ -300,7 +300,7 @@ void add_option_flags(CLI::App& command, PlanFlags& flags) {
   static constexpr std::array<std::pair<std::string_view, planning::Method>, 2> kMethods{
       {{"ladder", planning::Method::kLadder},
        {"keyframe_insertion", planning::Method::kKeyframeInsertion}}};
-  service::add_choice(
+  cli_support::add_choice(
       command, "--method", flags.method, kMethods,
       "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
       "keyframe_insertion (the paper's); these flags go before the request's options")
@@ -308,23 +308,23 @@ void add_option_flags(CLI::App& command, PlanFlags& flags) {
   command
       .add_option("--deadline-s", flags.deadline_s,
                   "Seconds after which planning stops with what it has")
-      ->check(service::above_0());
+      ->check(cli_support::above_0());
   command
       .add_option("--clearance", flags.clearance_m, "Distance to keep from the scene, in metres")
-      ->check(service::at_least_0());
-  service::add_choice(command, "--objective", flags.objective, kObjectives,
-                      "What a corrected path is improved for")
+      ->check(cli_support::at_least_0());
+  cli_support::add_choice(command, "--objective", flags.objective, kObjectives,
+                          "What a corrected path is improved for")
       ->type_name("OBJECTIVE");
   command
       .add_option("--max-turn-deg", flags.max_turn_deg,
                   "Most degrees that corrections may turn the camera")
-      ->check(service::between(0.0, 180.0));
+      ->check(cli_support::between(0.0, 180.0));
   command
       .add_option("--max-shrink", flags.max_shrink,
                   "By what share the near distance may be made smaller where nothing else helps")
-      ->check(service::at_least_0());  // below 1: planning::validate
+      ->check(cli_support::at_least_0());  // below 1: planning::validate
   command.add_option("--seed", flags.seed, "Of the searches for ways round")
-      ->check(service::whole_number(1));
+      ->check(cli_support::whole_number(1));
   command.add_flag("--repair-keyframes", flags.repair_keyframes,
                    "Move given keyframes that collide to the nearest free pose instead of refusing "
                    "the request");

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 /// Parts that the command lines of `camway` and `camwayd` share: the wording of their errors.
-namespace camway::service {
+namespace camway::cli_support {
 
 /// Returns the one of `words` that `word` was probably meant to be: the one that needs the fewest
 /// letters left out, added, changed or swapped, at most 2 or, if that is more, a third of its
@@ -50,4 +50,4 @@ CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& valu
   return command.add_option_function<std::string>(flag, set, description)->check(one_of(words));
 }
 
-}  // namespace camway::service
+}  // namespace camway::cli_support

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <optional>
 
-namespace camway::service {
+namespace camway::cli_support {
 namespace {
 
 constexpr std::size_t kMostChanges = 2;
@@ -174,4 +174,4 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return CLI::Validator(check, fmt::format("{}", fmt::join(words, "|")));
 }
 
-}  // namespace camway::service
+}  // namespace camway::cli_support

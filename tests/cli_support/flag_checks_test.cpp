@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace camway::service {
+namespace camway::cli_support {
 namespace {
 
 using ::testing::HasSubstr;
@@ -117,4 +117,4 @@ TEST(CommandLine, RangesHaveTheirEnds) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::cli_support
