@@ -7,7 +7,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/paper/push_out.h"
 
-namespace camway::correction {
+namespace camway::paper {
 
 namespace {
 
@@ -80,8 +80,8 @@ class Corrector {
   // The first collision in the window: of the sides of the swept tube by the paper's sweep, and of
   // enclosed objects by the distance-based check of everything before.
   std::optional<CollisionInterval> next_collision(double t_begin_s, double t_end_s) {
-    const FirstCollision side = collision::first_sweep_collision(
-        index_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
+    const FirstCollision side = first_sweep_collision(index_, path_, corners_C_, t_begin_s, t_end_s,
+                                                      options_.sweep, deadline_);
     const double before_s = side.interval ? side.interval->t_begin_s : t_end_s;
     const FirstCollision enclosed =
         collision::first_collision(index_, path_, motion::Body(corners_C_), t_begin_s, before_s,
@@ -171,4 +171,4 @@ KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
   return Corrector(index, keyframes, corners_C, options, deadline).run();
 }
 
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -198,11 +198,11 @@ class Planner {
   }
 
   void insert_keyframes() {
-    correction::KeyframeInsertionOptions options;
+    paper::KeyframeInsertionOptions options;
     options.sweep = {request_.options.chord_error_m, detect_};
     options.origin = origin_;
     options.max_inserted_keyframes = request_.options.max_inserted_keyframes;
-    correction::KeyframeInsertionResult corrected = correction::insert_keyframes(
+    paper::KeyframeInsertionResult corrected = paper::insert_keyframes(
         obstacles_.index, result_.keyframes, motion::near_corners_C(request_.camera), options,
         deadline_.share_of_rest(kShareOfCorrection).sooner_by_s(rest_s()));
     is_as_interpolated_ = false;

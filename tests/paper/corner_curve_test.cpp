@@ -5,9 +5,16 @@
 #include "daemon/motion/path/bezier.h"
 #include "tests/motion/random_motion.h"
 
-namespace camway::motion {
+namespace camway::paper {
 namespace {
 
+using motion::Corners;
+using motion::Keyframe;
+using motion::Path;
+using motion::Pose;
+using motion::Segment;
+namespace bezier = motion::bezier;
+namespace test = motion::test;
 using test::kEpsilon;
 using test::Random;
 using test::Vec3;
@@ -36,7 +43,7 @@ TEST(CornerCurve, IsTheMotionOfTheCorner) {
 TEST(CornerCurve, OfAnInterpolatedPathIsTheMotionOfTheCorner) {
   Random random(102);
   const Path path = interpolate(test::with_times(test::random_poses(random, 200)));
-  const Corners corners_C = near_corners_C({1.3, 1.0, 0.1});
+  const Corners corners_C = motion::near_corners_C({1.3, 1.0, 0.1});
   for (const Segment& segment : path.segments()) {
     for (const Vec3& corner_C : corners_C) {
       const RationalCurve curve = corner_curve(segment, corner_C);
@@ -94,4 +101,4 @@ TEST(CornerCurve, DegreeTwelveWouldMissByACentimetre) {
 }
 
 }  // namespace
-}  // namespace camway::motion
+}  // namespace camway::paper

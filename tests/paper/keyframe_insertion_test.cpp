@@ -8,7 +8,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
-namespace camway::correction {
+namespace camway::paper {
 namespace {
 
 using base::Deadline;
@@ -123,4 +123,4 @@ TEST(KeyframeInsertion, StopsAtTheDeadline) {
 }
 
 }  // namespace
-}  // namespace camway::correction
+}  // namespace camway::paper

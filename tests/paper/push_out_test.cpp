@@ -6,7 +6,7 @@
 #include "daemon/collision/near_quad.h"
 #include "tests/support/scenes.h"
 
-namespace camway::correction {
+namespace camway::paper {
 namespace {
 
 using geometry::Quat;
@@ -126,4 +126,4 @@ TEST(PushOut, IsCutOffBetweenTwoWallsCloserThanTheCamera) {
 }
 
 }  // namespace
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -6,9 +6,10 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
-namespace camway::collision {
+namespace camway::paper {
 namespace {
 
+using collision::FirstCollision;
 using geometry::Quat;
 using geometry::Vec3;
 using motion::Corners;
@@ -113,4 +114,4 @@ TEST(SweepDetection, WorksOnNegativeTimesAndFromTheMiddle) {
 }
 
 }  // namespace
-}  // namespace camway::collision
+}  // namespace camway::paper
