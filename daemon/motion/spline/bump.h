@@ -25,7 +25,8 @@ struct BumpRow {
   }
 };
 
-/// Peak of a bump with coefficient 1 on equidistant knots, and its value one knot further.
+/// The next two constants: peak of a bump with coefficient 1 on equidistant knots, and its value
+/// one knot further.
 inline constexpr double kBumpPeak = 2.0 / 3.0;
 inline constexpr double kBumpShoulder = 1.0 / 6.0;
 
