@@ -20,8 +20,8 @@ struct PathCheck {
   Certificate certificate;  ///< certified exactly if complete and without collisions
 };
 
-/// Searches the whole path for collisions and, where there are none, bounds its clearance. The
-/// search is the proof: all that it does not list is free, at every instant and rounding included
+/// Searches the whole path for collisions and, if there are none, bounds its clearance. The search
+/// is the proof: all time that it does not list is free, at every instant and rounding included
 /// (`collision/probe.h`). If `clearance_deadline` strikes, the certificate has the required
 /// clearance.
 PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,

@@ -54,8 +54,8 @@ class FreeSpace {
                                                 const motion::SignedPose& to, double margin_m);
 
   /// Gap of a ball about `point_W`, at most `up_to_m`; 0 or less where the ball collides. The sign
-  /// is exact; the true distance of the centre may be as little as `kBallShare` of the one used,
-  /// which saves time. A ball of radius `ball_radius_m()` holds the body in every orientation.
+  /// is exact. To save time, the true distance of the centre may be as little as `kBallShare` times
+  /// the computed one. A ball of radius `ball_radius_m()` holds the body in every orientation.
   [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double radius_m,
                                   double up_to_m) const;
 
