@@ -440,7 +440,7 @@ void Watches::apply_offers(Watch& watch, const watched_path_t& path) {
 std::vector<Watches::Accepted> Watches::take_accepted() {
   // A watch may have ended since.
   std::erase_if(accepted_,
-                [this](const Accepted& offer) { return !watches_.contains(offer.answer.key); });
+                [this](const Accepted& taken) { return !watches_.contains(taken.answer.key); });
   return std::exchange(accepted_, {});
 }
 
