@@ -22,9 +22,9 @@ struct KeyframeFaults {
 };
 
 /// Returns the given keyframes at which the body collides, is nearer to the scene than required, or
-/// is beyond the bounds of `obstacles`, in order. Returns at most `kMostKeyframeFaults`, each with
-/// the nearest free pose, if one was found. Requires the obstacles of `snapshot`. Once the deadline
-/// has passed, neither checks further keyframes nor looks for further free poses.
+/// is beyond the bounds of `obstacles`, in order, at most `kMostKeyframeFaults`; each with the
+/// nearest free pose, if one was found. Requires the obstacles of `snapshot`. Once the deadline has
+/// passed, neither checks further keyframes nor looks for further free poses.
 ///
 /// A free pose lies on that side of every closed surface of the scene on which the path has to be:
 /// the side of the nearest free keyframes before and after it, if these two agree. If they
