@@ -73,7 +73,7 @@ class FaceGrid {
   using BorderIsBlocked = std::function<bool(int, bool, std::size_t)>;
 
   /// Returns a bound of the distance of two points in one connected unblocked part of the face.
-  /// Nothing if such a part reaches an unblocked piece of the border. [Units: metres]
+  /// Returns nothing if such a part reaches an unblocked piece of the border. [Units: metres]
   [[nodiscard]] std::optional<double> widest_hole_m(const BorderIsBlocked& border) const;
 
  private:

@@ -48,9 +48,9 @@ class TimeLaw {
 
   /// Returns the law with new times at knots that are exact as sender's times, with `origin`. The
   /// shifts of the times at `kept_s` are spread over the knots between them. There the given time
-  /// shifts with the new one, so the path by the law is as smooth as before. Nothing if times are
-  /// not fine enough for the knots. Requires those of `kept_s` within the law's span to be knots
-  /// and to increase.
+  /// shifts with the new one, so the path by the law is as smooth as before. Returns nothing if
+  /// times are not fine enough for the knots. Requires those of `kept_s` within the law's span to
+  /// be knots and to increase.
   [[nodiscard]] std::optional<TimeLaw> sendable(const TimeOrigin& origin,
                                                 std::span<const double> kept_s) const;
 
