@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/planning/effort_text.h"
+#include "daemon/planning/message.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {

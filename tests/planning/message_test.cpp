@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/effort_text.h"
+#include "daemon/planning/message.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

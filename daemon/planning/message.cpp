@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/effort_text.h"
+#include "daemon/planning/message.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "daemon/planning/keyframe_faults.h"
+#include "daemon/planning/keyframe_times.h"
 
 namespace camway::planning {
 
@@ -22,6 +24,14 @@ constexpr std::size_t kMostNamed = 5;  // keyframes
 
 // Cameras are seldom rolled by so much: 30 degrees.
 constexpr double kNotableTilt_rad = 0.5236;
+
+// A body of fewer interval tolerances gets a note.
+constexpr double kLeastTolerances = 10.0;
+
+std::size_t inserted_keyframes(const PlanResult& result) {
+  return static_cast<std::size_t>(std::ranges::count(
+      result.keyframes, motion::KeyframeOrigin::kInserted, &motion::Keyframe::origin));
+}
 
 void add(std::string& list, std::string_view item) {
   if (!list.empty()) list += ", ";
@@ -38,6 +48,17 @@ std::string rounded_down(double value) {
   if (!(value > 0.0)) return "0";
   const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
   return fmt::format("{:.3g}", std::floor(value * scale) / scale);
+}
+
+std::string what_was_done(const PlanResult& result) {
+  std::string text = result.collisions.empty()
+                         ? "no collision to correct"
+                         : counted(result.collisions.size(), "collision") + " at first";
+  const std::size_t inserted = inserted_keyframes(result);
+  if (inserted > 0) text += fmt::format(", {} inserted", counted(inserted, "keyframe"));
+  const std::size_t repaired = result.keyframe_faults.size();
+  if (repaired > 0) text += fmt::format(", {} repaired", counted(repaired, "keyframe"));
+  return text;
 }
 
 std::string effort_text(const Effort& effort) {
@@ -109,6 +130,54 @@ std::string note_of_tilt(const PlanRequest& request) {
                        request.name_of("options.orientation.up"));
   }
   return {};
+}
+
+std::string note_of_tolerance(const PlanRequest& request, double body_size_m) {
+  const double tolerance_m = request.options.interval_tolerance_m;
+  if (!(body_size_m < kLeastTolerances * tolerance_m)) return {};
+  return fmt::format("; note: the body is {:.2g} m large, and {} of {:.2g} m is coarse for that",
+                     body_size_m, request.name_of("options.interval_tolerance_m"), tolerance_m);
+}
+
+std::string note_of_scale(const PlanResult& result, const geometry::Box& scene_W) {
+  const bool inside = std::ranges::any_of(result.keyframes, [&](const motion::Keyframe& keyframe) {
+    return scene_W.contains(keyframe.pose.position);
+  });
+  if (inside || scene_W.isEmpty()) return {};
+  return "; note: no keyframe lies within the bounds of the scene, check its scale and axes";
+}
+
+std::string note_of_keyframe_limit(const PlanRequest& request, const PlanResult& result,
+                                   std::optional<std::size_t> needed) {
+  const std::int32_t most = request.options.max_inserted_keyframes;
+  if (result.collisions.empty()) return {};
+  const std::string field = request.name_of("options.max_inserted_keyframes");
+  if (most == 0) return fmt::format("; nothing was corrected, as {} asks for", field);
+  // Keyframe insertion does not report how many keyframes it needs.
+  const bool is_used_up = std::cmp_greater_equal(inserted_keyframes(result), most);
+  if (!needed && !is_used_up) return {};
+  if (!needed) return fmt::format("; {} allows {}", field, most);
+  return fmt::format("; {} allows {}, the corrections that were found need {}", field, most,
+                     *needed);
+}
+
+std::string note_of_times(const PlanResult& result, bool slowed_everywhere) {
+  if (result.time_scale == 1.0) return {};
+  return fmt::format("; slowed {} to meet the limits, {:.4g} times as long",
+                     slowed_everywhere ? "all the way" : "in part", result.time_scale);
+}
+
+std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
+                         const motion::TimeOrigin& origin) {
+  const std::string others =
+      breach.stretches > 1 ? fmt::format(" and at {}", counted(breach.stretches - 1, "other time"))
+                           : "";
+  return fmt::format(
+      "{}: the path is free, but too fast from {} s to {} s{}: {}; allow {}, or give later "
+      "times",
+      request.name_of("options.limits"), time_text(origin.sent_s(breach.t_begin_s)),
+      time_text(origin.sent_s(breach.t_end_s)), others, breach.rate,
+      request.name_of("options.limits.retime"));
 }
 
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
