@@ -10,30 +10,32 @@ namespace camway::service {
 namespace {
 
 using correction::Correction;
-using correction::Rung;
+using correction::CorrectionKind;
 using motion::PathMeasures;
 using planning::KeyframeFault;
 using planning::PlanResult;
 
-std::int8_t wire_method(Rung rung) {
-  switch (rung) {
-    case Rung::kNone:
+std::int8_t wire_method(CorrectionKind kind) {
+  switch (kind) {
+    case CorrectionKind::kNone:
       return correction_t::NONE;
-    case Rung::kMove:
+    case CorrectionKind::kMove:
       return correction_t::MOVE;
-    case Rung::kTurn:
+    case CorrectionKind::kTurn:
       return correction_t::TURN;
-    case Rung::kGoRound:
+    case CorrectionKind::kGoRound:
       return correction_t::GO_ROUND;
-    case Rung::kShrink:
+    case CorrectionKind::kShrink:
       return correction_t::SHRINK;
   }
   return correction_t::NONE;
 }
 
-std::optional<Rung> rung_of(std::int8_t wire) {
-  for (const Rung rung : {Rung::kNone, Rung::kMove, Rung::kTurn, Rung::kGoRound, Rung::kShrink}) {
-    if (wire_method(rung) == wire) return rung;
+std::optional<CorrectionKind> kind_of(std::int8_t wire) {
+  for (const CorrectionKind kind :
+       {CorrectionKind::kNone, CorrectionKind::kMove, CorrectionKind::kTurn,
+        CorrectionKind::kGoRound, CorrectionKind::kShrink}) {
+    if (wire_method(kind) == wire) return kind;
   }
   return std::nullopt;
 }
@@ -42,7 +44,7 @@ correction_t wire_correction(const Correction& correction) {
   correction_t wire{};
   wire.t_begin_s = correction.interval.t_begin_s;
   wire.t_end_s = correction.interval.t_end_s;
-  wire.method = wire_method(correction.rung);
+  wire.method = wire_method(correction.kind);
   wire.changed_t_begin_s = correction.t_begin_s;
   wire.changed_t_end_s = correction.t_end_s;
   wire.moved_m = correction.moved_m;
@@ -54,10 +56,10 @@ correction_t wire_correction(const Correction& correction) {
   return wire;
 }
 
-Correction correction_of(const correction_t& wire, Rung rung) {
+Correction correction_of(const correction_t& wire, CorrectionKind kind) {
   Correction correction;
   correction.interval = {wire.t_begin_s, wire.t_end_s};
-  correction.rung = rung;
+  correction.kind = kind;
   correction.t_begin_s = wire.changed_t_begin_s;
   correction.t_end_s = wire.changed_t_end_s;
   correction.moved_m = wire.moved_m;
@@ -163,12 +165,12 @@ void put_infeasibility(const planning::Infeasibility& proof, plan_response_t& wi
 std::string read_corrections(const plan_response_t& wire, PlanResult& result) {
   for (std::size_t i = 0; i < wire.corrections.size(); ++i) {
     const correction_t& correction = wire.corrections[i];
-    const std::optional<Rung> rung = rung_of(correction.method);
-    if (!rung) {
+    const std::optional<CorrectionKind> kind = kind_of(correction.method);
+    if (!kind) {
       return "corrections[" + std::to_string(i) + "].method: " + std::to_string(correction.method) +
              " is unknown";
     }
-    result.corrections.push_back(correction_of(correction, *rung));
+    result.corrections.push_back(correction_of(correction, *kind));
   }
   return {};
 }

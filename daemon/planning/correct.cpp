@@ -57,7 +57,7 @@ CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot,
   result.infeasibility = infeasibility_of(corrected);
   // Corrections of less than the tolerance insert no keyframes, and are corrections.
   const bool any = std::ranges::any_of(result.corrections, [](const auto& correction) {
-    return correction.rung != correction::Rung::kNone;
+    return correction.kind != correction::CorrectionKind::kNone;
   });
   if (!any) return plan;
   plan.is_as_interpolated = false;

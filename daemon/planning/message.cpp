@@ -77,7 +77,7 @@ std::string effort_text(const Effort& effort) {
 std::string note_of_effort(const std::vector<Correction>& corrections) {
   Effort sum;
   for (const Correction& correction : corrections) {
-    if (correction.rung == correction::Rung::kNone) sum += correction.tried;
+    if (correction.kind == correction::CorrectionKind::kNone) sum += correction.tried;
   }
   const std::string text = effort_text(sum);
   return text.empty() ? text : "; tried without success: " + text;

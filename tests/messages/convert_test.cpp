@@ -358,7 +358,7 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   planning::PlanResult result;
   correction::Correction correction;
   correction.interval = {1.0, 2.0, collision::Witness{}};
-  correction.rung = correction::Rung::kGoRound;
+  correction.kind = correction::CorrectionKind::kGoRound;
   correction.t_begin_s = 0.5;
   correction.t_end_s = 2.5;
   correction.moved_m = 0.25;

@@ -70,7 +70,7 @@ motion::PathMeasures measures(Random& random) {
 correction::Correction corrected(const collision::CollisionInterval& interval, Random& random) {
   correction::Correction correction;
   correction.interval = {interval.t_begin_s, interval.t_end_s};
-  correction.rung = static_cast<correction::Rung>(below(random, 5));
+  correction.kind = static_cast<correction::CorrectionKind>(below(random, 5));
   correction.t_begin_s = number(random);
   correction.t_end_s = number(random);
   correction.moved_m = number(random);

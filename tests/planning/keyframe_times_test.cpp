@@ -102,7 +102,7 @@ void expect_times_within(const PlanResult& result) {
   }
   for (const correction::Correction& correction : result.corrections) {
     EXPECT_TRUE(within(correction.interval.t_begin_s) && within(correction.interval.t_end_s));
-    if (correction.rung == correction::Rung::kNone) continue;
+    if (correction.kind == correction::CorrectionKind::kNone) continue;
     EXPECT_TRUE(within(correction.t_begin_s) && within(correction.t_end_s));
   }
   for (const SlowedStretch& stretch : result.slowed)

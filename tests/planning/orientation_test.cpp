@@ -73,7 +73,7 @@ TEST(PlanOrientation, RollsThroughASlitWithinTheLimit) {
   EXPECT_GT(turned_deg, 20.0);
   ASSERT_FALSE(result.corrections.empty());
   for (const correction::Correction& correction : result.corrections) {
-    EXPECT_NE(correction.rung, correction::Rung::kNone);
+    EXPECT_NE(correction.kind, correction::CorrectionKind::kNone);
     EXPECT_NEAR(correction.turned_rad / kDegree, turned_deg, 1.0) << "of what is reported";
   }
 }

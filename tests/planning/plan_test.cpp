@@ -181,7 +181,7 @@ TEST(Plan, KeepsCorrectionsOfLessThanTheTolerance) {
   request.options.interval_tolerance_m = 1.0;
   const PlanResult result = planned(*column_scene(), request);
   ASSERT_FALSE(result.corrections.empty());
-  const bool is_corrected = result.corrections[0].rung != correction::Rung::kNone;
+  const bool is_corrected = result.corrections[0].kind != correction::CorrectionKind::kNone;
   EXPECT_EQ(is_corrected, result.measures->largest_deviation_m > 0.0);
   EXPECT_EQ(is_corrected, result.status == Status::kOk) << result.message;
 }
@@ -371,7 +371,7 @@ TEST(Plan, SaysHowFarItIs) {
   ASSERT_FALSE(result.corrections.empty());
   const auto corrected =
       std::ranges::count_if(result.corrections, [](const correction::Correction& correction) {
-        return correction.rung != correction::Rung::kNone;
+        return correction.kind != correction::CorrectionKind::kNone;
       });
   EXPECT_EQ(progress->stage, base::Progress::Stage::kCertifying);
   EXPECT_EQ(progress->collisions, static_cast<int>(result.corrections.size()));

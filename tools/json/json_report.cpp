@@ -13,16 +13,18 @@ namespace camway::tools {
 namespace {
 
 using correction::Correction;
-using correction::Rung;
+using correction::CorrectionKind;
 using motion::PathMeasures;
 
-Rung read_method(const Field& field) {
+CorrectionKind read_method(const Field& field) {
   const std::string name = field.text();
-  for (const Rung rung : {Rung::kNone, Rung::kMove, Rung::kTurn, Rung::kGoRound, Rung::kShrink}) {
-    if (correction::to_string(rung) == name) return rung;
+  for (const CorrectionKind kind :
+       {CorrectionKind::kNone, CorrectionKind::kMove, CorrectionKind::kTurn,
+        CorrectionKind::kGoRound, CorrectionKind::kShrink}) {
+    if (correction::to_string(kind) == name) return kind;
   }
   field.fail("'" + name + "' is unknown");
-  return Rung::kNone;
+  return CorrectionKind::kNone;
 }
 
 correction::Effort read_effort(const Field& field) {
@@ -36,7 +38,7 @@ correction::Effort read_effort(const Field& field) {
 Correction read_correction(const Field& field) {
   Correction correction;
   correction.interval = {field.member("t_begin").number(), field.member("t_end").number()};
-  correction.rung = read_method(field.member("method"));
+  correction.kind = read_method(field.member("method"));
   double changed_s[2];
   field.member("changed").numbers(changed_s, 2);
   correction.t_begin_s = changed_s[0];

@@ -167,7 +167,7 @@ void write_correction(Writer& w, const correction::Correction& correction) {
   w.raw(", \"t_end\": ");
   w.number(correction.interval.t_end_s, kWhat);
   w.raw(", \"method\": ");
-  w.text(correction::to_string(correction.rung));
+  w.text(correction::to_string(correction.kind));
   w.raw(", \"changed\": [");
   w.number(correction.t_begin_s, kWhat);
   w.raw(", ");
@@ -176,7 +176,7 @@ void write_correction(Writer& w, const correction::Correction& correction) {
   w.number(correction.moved_m, kWhat);
   w.raw(", \"turned_deg\": ");
   w.number(degrees(correction.turned_rad), kWhat);
-  if (correction.rung == correction::Rung::kNone) write_effort(w, correction.tried);
+  if (correction.kind == correction::CorrectionKind::kNone) write_effort(w, correction.tried);
   w.raw("}");
 }
 

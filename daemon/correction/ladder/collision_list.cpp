@@ -124,7 +124,7 @@ void measure_corrections(const CubicPath& path, const CubicPath& interpolated,
   // Corrections of one interval between keyframes often have the same time range.
   std::map<std::pair<double, double>, const Correction*> measured;
   for (Correction& correction : corrections) {
-    if (correction.rung == Rung::kNone) continue;
+    if (correction.kind == CorrectionKind::kNone) continue;
     const auto [same, is_new] =
         measured.try_emplace({correction.t_begin_s, correction.t_end_s}, &correction);
     if (is_new) measure(path, interpolated, correction);

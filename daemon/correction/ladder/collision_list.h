@@ -18,7 +18,7 @@ struct ListedCollision {
   /// Whether a correction was found that would exceed the limit of inserted keyframes.
   bool is_beyond_limit = false;
 
-  [[nodiscard]] bool is_open() const { return correction.rung == Rung::kNone; }
+  [[nodiscard]] bool is_open() const { return correction.kind == CorrectionKind::kNone; }
 };
 
 /// The collisions of a path, divided at its keyframes, in order of time. A value type.

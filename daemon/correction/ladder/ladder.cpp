@@ -103,11 +103,13 @@ class Ladder {
 
   bool nudge_away(std::size_t index) {
     const Problem problem = this->problem(index);
-    if (accept(index, Rung::kMove, nudge(problem, NudgeKind::kMove, space_, deadline()))) {
+    if (accept(index, CorrectionKind::kMove,
+               nudge(problem, NudgeKind::kMove, space_, deadline()))) {
       return true;
     }
     if (!space_.may_turn() || collisions_[index].is_beyond_limit) return false;
-    return accept(index, Rung::kTurn, nudge(problem, NudgeKind::kTurn, space_, deadline()));
+    return accept(index, CorrectionKind::kTurn,
+                  nudge(problem, NudgeKind::kTurn, space_, deadline()));
   }
 
   // A detour replaces everything between the two keyframes.
@@ -128,7 +130,7 @@ class Ladder {
         [this] { return prover_.is_separated(); }, deadline());
     if (pocket) add_shut_in(gap + (pocket->is_at_end ? 1 : 0), *pocket);
     for (const std::size_t i : same_gap) collisions_[i].correction.tried += effort;
-    const bool is_accepted = accept(index, Rung::kGoRound, found);
+    const bool is_accepted = accept(index, CorrectionKind::kGoRound, found);
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = collisions_[i].correction.interval;
       if (is_accepted) collisions_[i].correction = collisions_[index].correction;
@@ -139,7 +141,7 @@ class Ladder {
   }
 
   // Takes a correction, unless that would exceed the limit of keyframes.
-  bool accept(std::size_t index, Rung rung, const std::optional<Candidate>& candidate) {
+  bool accept(std::size_t index, CorrectionKind kind, const std::optional<Candidate>& candidate) {
     if (!candidate) return false;
     ListedCollision& collision = collisions_[index];
     if (!corrected_.take(*candidate)) {
@@ -147,7 +149,7 @@ class Ladder {
       corrected_.count_refused(*candidate);
       return false;
     }
-    collision.correction.rung = rung;
+    collision.correction.kind = kind;
     collision.correction.tried = {};
     const auto [begin_s, end_s] = corrected_.range_of(*candidate);
     collision.correction.t_begin_s = begin_s;

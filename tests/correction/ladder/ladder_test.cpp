@@ -78,19 +78,19 @@ void expect_keyframes_kept(const Case& c, const CubicPath& path) {
   }
 }
 
-void expect_corrected(const Case& c, const std::vector<Rung>& rungs) {
+void expect_corrected(const Case& c, const std::vector<CorrectionKind>& kinds) {
   const LadderResult result = c.corrected();
   EXPECT_TRUE(c.collisions(result.path).empty());
   expect_keyframes_kept(c, result.path);
   ASSERT_FALSE(result.corrections.empty());
   for (const Correction& correction : result.corrections) {
-    EXPECT_TRUE(std::ranges::count(rungs, correction.rung) == 1) << to_string(correction.rung);
+    EXPECT_TRUE(std::ranges::count(kinds, correction.kind) == 1) << to_string(correction.kind);
   }
 }
 
-TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {Rung::kMove}); }
+TEST(Ladder, MovesPastAColumn) { expect_corrected(column(), {CorrectionKind::kMove}); }
 
-TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {Rung::kGoRound}); }
+TEST(Ladder, GoesThroughADoor) { expect_corrected(wall_with_door(), {CorrectionKind::kGoRound}); }
 
 // The near quadrilateral is 0.4 wide and 0.3 high; the gap is 0.34 wide and endless in y.
 TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
@@ -100,7 +100,7 @@ TEST(Ladder, TurnsToPassAGapNarrowerThanTheCamera) {
   Case c = case_with(mesh, {at(0, {0, 0, 1.5}), at(4, {0, 0, -1.5})});
   c.body =
       motion::Body(motion::Camera{2.0 * std::atan(0.2 / 0.2), 2.0 * std::atan(0.15 / 0.2), 0.2});
-  expect_corrected(c, {Rung::kTurn, Rung::kGoRound});
+  expect_corrected(c, {CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 
 // Returns a closed room of 2.4 x 2.4 x 3.6 m.
@@ -135,7 +135,7 @@ TEST(Ladder, ThreadsAHoleLittleWiderThanTheShortSide) {
   add_wall(mesh, 0.0, {-0.127, -0.127, 0}, {0.127, 0.127, 0});
   Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.1}), at(4, {0.3, 0.1, -0.8})});
   c.body = wide_camera();
-  expect_corrected(c, {Rung::kGoRound});
+  expect_corrected(c, {CorrectionKind::kGoRound});
 }
 
 // A slit, and behind it a hole that is displaced and needs another roll.
@@ -145,7 +145,7 @@ TEST(Ladder, ThreadsTwoHolesInARow) {
   add_wall(mesh, -0.6, {0.3, -0.6, 0}, {0.45, -0.2, 0});
   Case c = case_with(mesh, {at(0, {-0.4, 0.2, 1.4}), at(4, {0.3, 0.1, -1.4})});
   c.body = wide_camera();
-  expect_corrected(c, {Rung::kGoRound});
+  expect_corrected(c, {CorrectionKind::kGoRound});
 }
 
 // Less than a metre apart, and 28 m along the only way: around the end of a wall in a closed room.
@@ -158,7 +158,8 @@ TEST(Ladder, FindsWaysMuchLongerThanTheirEndsAreApart) {
   testing::add_cuboid(mesh, {-8.2, -1.2, -2}, {-8, 1.2, 2});
   testing::add_cuboid(mesh, {8, -1.2, -2}, {8.2, 1.2, 2});
   testing::add_cuboid(mesh, {-8, -1.2, -0.1}, {7, 1.2, 0.1});
-  expect_corrected(case_with(mesh, {at(0, {-7, 0, 0.4}), at(5, {-7, 0, -0.4})}), {Rung::kGoRound});
+  expect_corrected(case_with(mesh, {at(0, {-7, 0, 0.4}), at(5, {-7, 0, -0.4})}),
+                   {CorrectionKind::kGoRound});
 }
 
 TEST(Ladder, LeavesWhatItCannotCorrect) {
@@ -167,7 +168,7 @@ TEST(Ladder, LeavesWhatItCannotCorrect) {
   const Case c = case_with(mesh, {at(0, {0, 0, 3}), at(2, {0, 0, 0.2})});
   const LadderResult result = c.corrected();
   ASSERT_EQ(result.corrections.size(), 1U);
-  EXPECT_EQ(result.corrections[0].rung, Rung::kNone);
+  EXPECT_EQ(result.corrections[0].kind, CorrectionKind::kNone);
   EXPECT_TRUE(result.inserted_s.empty());
   EXPECT_EQ(result.path.pieces.size(), c.path().pieces.size());
 }
@@ -226,14 +227,14 @@ TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
 TEST(Ladder, KeepsTheRequiredClearance) {
   Case c = column();
   c.options.detect.clearance_m = 0.1;
-  expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+  expect_corrected(c, {CorrectionKind::kMove, CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 
 TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
   Case c = column();
   std::string error;
   c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)}, error);
-  expect_corrected(c, {Rung::kMove, Rung::kTurn, Rung::kGoRound});
+  expect_corrected(c, {CorrectionKind::kMove, CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 
 // Returns a tour through clutter, with several collisions in adjacent intervals between keyframes.
@@ -255,7 +256,7 @@ Case cluttered_tour(std::mt19937_64& random) {
 }
 
 bool covers(const Correction& correction, double time_s) {
-  return correction.rung != Rung::kNone && correction.t_begin_s <= time_s &&
+  return correction.kind != CorrectionKind::kNone && correction.t_begin_s <= time_s &&
          time_s <= correction.t_end_s;
 }
 
@@ -293,7 +294,7 @@ TEST(Ladder, TellsWhatBecameOfThePath) {
     }
     for (std::size_t k = 0; k < result.corrections.size(); ++k) {
       const Correction& correction = result.corrections[k];
-      if (correction.rung == Rung::kNone) continue;
+      if (correction.kind == CorrectionKind::kNone) continue;
       ++corrected;
       EXPECT_LE(before.begin_s(), correction.t_begin_s);
       EXPECT_LT(correction.t_begin_s, correction.t_end_s);

@@ -271,13 +271,13 @@ void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
   result.corrections.resize(random() % 4);
   for (correction::Correction& correction : result.corrections) {
     correction.interval = {number(), number()};
-    correction.rung = static_cast<correction::Rung>(random() % 5);
+    correction.kind = static_cast<correction::CorrectionKind>(random() % 5);
     correction.t_begin_s = number();
     correction.t_end_s = number();
     correction.moved_m = number();
     correction.turned_rad = any_angle(random);
     const auto count = [&] { return static_cast<std::int32_t>(random() >> 33); };
-    if (correction.rung == correction::Rung::kNone) {
+    if (correction.kind == correction::CorrectionKind::kNone) {
       correction.tried = {count(), count(), count(), count()};
     }
   }
@@ -485,7 +485,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   planning::PlanResult result;
   correction::Correction correction;
   correction.interval = {2.25, 2.75, collision::Witness{}};
-  correction.rung = correction::Rung::kGoRound;
+  correction.kind = correction::CorrectionKind::kGoRound;
   correction.t_begin_s = 2.0;
   correction.t_end_s = 3.0;
   correction.moved_m = 0.125;
