@@ -30,10 +30,10 @@ constexpr int kPosesAsInterpolated = 64;  // steps in time; the tree search has 
 
 class Detour {
  public:
-  Detour(const Problem& problem, Improvement& improvement, FreeSpace& space, std::uint64_t seed,
+  Detour(const Problem& problem, base::Budget& budget, FreeSpace& space, std::uint64_t seed,
          const std::function<bool()>& is_hopeless, const base::Deadline& deadline)
       : problem_(problem),
-        improvement_(improvement),
+        budget_(budget),
         space_(space),
         seed_(seed),
         is_hopeless_(is_hopeless),
@@ -42,9 +42,11 @@ class Detour {
         from_(signed_pose_at(problem.path, problem.gap_begin_s())),
         to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
 
-  std::optional<Candidate> run(Search search) {
-    if (search == Search::kTurning) return with_turns();
-    return with_ball(space_.may_turn() ? Lattices::kAllButFinest : Lattices::kAll);
+  DetourResult run(Search search) {
+    result_.candidate = search == Search::kTurning ? with_turns()
+                        : space_.may_turn()        ? with_ball(Lattices::kAllButFinest)
+                                                   : with_ball(Lattices::kAll);
+    return std::move(result_);
   }
 
  private:
@@ -76,23 +78,29 @@ class Detour {
       if (deadline_.passed()) return std::nullopt;
       const CellResult ball = cells_for_ball(share * radius_m_);
       if (ball.pocket && share == kBallShares.front()) {
-        if (problem_.pocket != nullptr) *problem_.pocket = ball.pocket;
+        result_.pocket = ball.pocket;
         return std::nullopt;
       }
       const std::vector<Vec3>& way_W = ball.way_W;
       if (way_W.empty()) break;
       const TreeOptions trees = tree_about(way_W);
-      const Guide threaded = threaded_guide(space_, way_W, from_, to_, trees, deadline_);
-      if (auto found = followed(threaded, Turning::kAsGuide)) return found;
-      const Guide guide = tree_way(space_, from_, to_, trees, deadline_);
-      if (auto found = followed(guide, Turning::kAsGuide)) return found;
+      const TreeResult threaded = threaded_guide(space_, way_W, from_, to_, trees, deadline_);
+      if (auto found = followed(threaded)) return found;
+      const TreeResult tree = tree_way(space_, from_, to_, trees, deadline_);
+      if (auto found = followed(tree)) return found;
     }
     // The finest lattice comes last: detours that need it mostly need turning as well.
     return with_ball(Lattices::kFinest);
   }
 
   std::optional<Candidate> followed(const Guide& guide, Turning turning) {
-    return follow(problem_, guide, turning, improvement_, space_, deadline_);
+    Followed found = follow(problem_, guide, turning, budget_, space_, deadline_);
+    result_.effort.paths += found.paths;
+    return std::move(found.candidate);
+  }
+  std::optional<Candidate> followed(const TreeResult& tree) {
+    result_.effort.tree_samples += tree.samples;
+    return followed(tree.guide, Turning::kAsGuide);
   }
 
   [[nodiscard]] TreeOptions tree_about(std::vector<Vec3> way_W) const {
@@ -104,7 +112,6 @@ class Detour {
     options.largest_turn_rad =
         std::min(options.largest_turn_rad, kAimedShare * space_.policy().max_turn_rad);
     options.interpolated = poses_as_interpolated(kPosesAsInterpolated);
-    options.effort = problem_.effort;
     return options;
   }
 
@@ -131,9 +138,8 @@ class Detour {
     return found;
   }
 
-  void count_points(std::size_t points) const {
-    if (problem_.effort != nullptr)
-      problem_.effort->lattice_points += static_cast<std::int32_t>(points);
+  void count_points(std::size_t points) {
+    result_.effort.lattice_points += static_cast<std::int32_t>(points);
   }
 
   [[nodiscard]] Vec3 center_W(const SignedPose& pose) const {
@@ -180,7 +186,7 @@ class Detour {
   }
 
   const Problem& problem_;
-  Improvement& improvement_;
+  base::Budget& budget_;
   FreeSpace& space_;
   const std::uint64_t seed_;
   const std::function<bool()>& is_hopeless_;
@@ -188,15 +194,15 @@ class Detour {
   const double radius_m_;
   const SignedPose from_;
   const SignedPose to_;
+  DetourResult result_;
 };
 
 }  // namespace
 
-std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
-                                  FreeSpace& space, std::uint64_t seed,
-                                  const std::function<bool()>& is_hopeless,
-                                  const base::Deadline& deadline) {
-  return Detour(problem, improvement, space, seed, is_hopeless, deadline).run(search);
+DetourResult go_round(const Problem& problem, Search search, base::Budget& budget, FreeSpace& space,
+                      std::uint64_t seed, const std::function<bool()>& is_hopeless,
+                      const base::Deadline& deadline) {
+  return Detour(problem, budget, space, seed, is_hopeless, deadline).run(search);
 }
 
 }  // namespace camway::correction

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/correction/smoothing/relaxation.h"
+
 namespace camway::correction {
 
 namespace {
@@ -64,14 +66,32 @@ Guide divided(const Guide& guide, const FreeSpace& space) {
 
 class Follower {
  public:
-  Follower(const Problem& problem, Turning turning, Improvement& improvement, FreeSpace& space,
+  Follower(const Problem& problem, Turning turning, base::Budget& budget, FreeSpace& space,
            const base::Deadline& deadline)
-      : problem_(problem),
-        turning_(turning),
-        improvement_(improvement),
-        space_(space),
-        deadline_(deadline) {}
+      : problem_(problem), turning_(turning), budget_(budget), space_(space), deadline_(deadline) {}
 
+  /// Follows the guide as it is, or else shortened.
+  std::optional<Candidate> run(const Guide& guide) {
+    if (guide.empty()) return std::nullopt;
+    // A lattice guide keeps away from the scene; a shortened one turns around corners.
+    for (const int count : kCoarse) {
+      if (std::optional<Candidate> found = drawn(guide, count)) return found;
+    }
+    const Guide fine = divided(guide, space_);
+    for (const double margin : kMargins) {
+      const Guide direct = shortened(fine, space_, margin * space_.ball_radius_m());
+      for (const int count : kFine) {
+        if (deadline_.passed()) return std::nullopt;
+        if (std::optional<Candidate> found = drawn(direct, count)) return found;
+      }
+      if (std::optional<Candidate> found = refined(direct)) return found;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] int paths() const { return paths_; }
+
+ private:
   /// Draws the path to the guide by one row of bumps, and improves the result.
   std::optional<Candidate> drawn(const Guide& guide, int count) {
     const motion::KnotRow knots = problem_.knots(count);
@@ -97,6 +117,7 @@ class Follower {
     std::vector<motion::BumpRow> rows = {bumps_for(*offsets, Ends::kFixed)};
     for (int i = 0; i < kMostRefinements && !deadline_.passed(); ++i) {
       Attempt tried = attempt(problem_, rows, space_, deadline_);
+      ++paths_;
       if (tried.candidate) return std::move(tried.candidate);
       const double at_s = 0.5 * (tried.collision->t_begin_s + tried.collision->t_end_s);
       knots.count = 2 * finest_at(rows, at_s);
@@ -110,7 +131,6 @@ class Follower {
     return std::nullopt;
   }
 
- private:
   [[nodiscard]] std::optional<Offsets> offsets_on(const motion::CubicPath& path,
                                                   const TimedGuide& timed,
                                                   const motion::KnotRow& knots) const {
@@ -118,6 +138,7 @@ class Follower {
   }
 
   std::optional<Candidate> tried(const Offsets& offsets, Ends ends) {
+    ++paths_;
     return attempt(problem_, {bumps_for(offsets, ends)}, space_, deadline_).candidate;
   }
 
@@ -130,39 +151,29 @@ class Follower {
       offsets = std::move(half);
       found = std::move(*coarser);
     }
-    return relaxed(problem_, {std::move(offsets), std::move(found)}, ends, improvement_, space_,
-                   deadline_)
-        .candidate;
+    Relaxed better = relaxed(problem_, {std::move(offsets), std::move(found)}, ends, Improvement(),
+                             budget_, space_, deadline_);
+    paths_ += better.paths;
+    return std::move(better.candidate);
   }
 
   const Problem& problem_;
   const Turning turning_;
-  Improvement& improvement_;
+  base::Budget& budget_;
   FreeSpace& space_;
   const base::Deadline& deadline_;
+  int paths_ = 0;  ///< changed paths that were checked for collisions
 };
 
 }  // namespace
 
-std::optional<Candidate> follow(const Problem& problem, const Guide& guide, Turning turning,
-                                Improvement& improvement, FreeSpace& space,
-                                const base::Deadline& deadline) {
-  if (guide.empty()) return std::nullopt;
-  Follower follower(problem, turning, improvement, space, deadline);
-  // A lattice guide keeps away from the scene; a shortened one turns around corners.
-  for (const int count : kCoarse) {
-    if (std::optional<Candidate> found = follower.drawn(guide, count)) return found;
-  }
-  const Guide fine = divided(guide, space);
-  for (const double margin : kMargins) {
-    const Guide direct = shortened(fine, space, margin * space.ball_radius_m());
-    for (const int count : kFine) {
-      if (deadline.passed()) return std::nullopt;
-      if (std::optional<Candidate> found = follower.drawn(direct, count)) return found;
-    }
-    if (std::optional<Candidate> found = follower.refined(direct)) return found;
-  }
-  return std::nullopt;
+Followed follow(const Problem& problem, const Guide& guide, Turning turning, base::Budget& budget,
+                FreeSpace& space, const base::Deadline& deadline) {
+  Follower follower(problem, turning, budget, space, deadline);
+  Followed followed;
+  followed.candidate = follower.run(guide);
+  followed.paths = follower.paths();
+  return followed;
 }
 
 }  // namespace camway::correction

@@ -5,13 +5,13 @@
 #include <functional>
 #include <utility>
 
+#include "daemon/base/budget.h"
 #include "daemon/correction/infeasibility/prover.h"
 #include "daemon/correction/ladder/collision_list.h"
 #include "daemon/correction/ladder/corrected_path.h"
 #include "daemon/correction/ladder/detour.h"
 #include "daemon/correction/ladder/nudge.h"
 #include "daemon/correction/ladder/polish.h"
-#include "daemon/correction/smoothing/relaxation.h"
 
 namespace camway::correction {
 
@@ -36,15 +36,14 @@ class Ladder {
                    deadline),
         collisions_(collisions, corrected_.keyframes_s()),
         prover_(mesh, space.body(), keyframes, options.max_shrink),
-        improvement_{Objective::kClosest, kStepsAGap * static_cast<int>(collisions_.count_gaps())} {
-  }
+        budget_(kStepsAGap * static_cast<std::int64_t>(collisions_.count_gaps())) {}
 
   LadderResult run() && {
     const bool is_corrected = options_.max_inserted_keyframes > 0 && correct();
     LadderResult result;
     result.timed_out = timed_out_;
     if (is_corrected) {
-      polish(options_.objective, options_.origin, improvement_, space_, corrected_, collisions_);
+      polish(options_.objective, options_.origin, budget_, space_, corrected_, collisions_);
       result.needed_keyframes = corrected_.needed_keyframes();
     }
     result.corrections = collisions_.corrections();
@@ -91,25 +90,27 @@ class Ladder {
   }
 
   // The part of the path that may change for a collision.
-  [[nodiscard]] Problem problem(std::size_t index) {
-    Correction& correction = collisions_[index].correction;
+  [[nodiscard]] Problem problem(std::size_t index) const {
+    const CollisionInterval& interval = collisions_[index].correction.interval;
     Problem problem = collisions_.with_open_collisions(
         corrected_.part_about(collisions_[index].gap, options_.origin, space_.ball_radius_m()));
-    problem.effort = &correction.tried;
-    problem.interval = correction.interval;
-    std::erase(problem.foreign_collisions, correction.interval);
+    problem.interval = interval;
+    std::erase(problem.foreign_collisions, interval);
     return problem;
   }
 
   bool nudge_away(std::size_t index) {
     const Problem problem = this->problem(index);
-    if (accept(index, CorrectionKind::kMove,
-               nudge(problem, NudgeKind::kMove, space_, deadline()))) {
-      return true;
-    }
+    if (nudge_away(index, problem, NudgeKind::kMove)) return true;
     if (!space_.may_turn() || collisions_[index].is_beyond_limit) return false;
-    return accept(index, CorrectionKind::kTurn,
-                  nudge(problem, NudgeKind::kTurn, space_, deadline()));
+    return nudge_away(index, problem, NudgeKind::kTurn);
+  }
+
+  bool nudge_away(std::size_t index, const Problem& problem, NudgeKind nudge_kind) {
+    const NudgeResult found = nudge(problem, nudge_kind, space_, deadline());
+    collisions_[index].correction.tried += found.effort;
+    const bool is_move = nudge_kind == NudgeKind::kMove;
+    return accept(index, is_move ? CorrectionKind::kMove : CorrectionKind::kTurn, found.candidate);
   }
 
   // A detour replaces everything between the two keyframes.
@@ -121,16 +122,12 @@ class Ladder {
       return std::ranges::any_of(
           same_gap, [&](std::size_t i) { return collisions_[i].correction.interval == other; });
     });
-    Effort effort;
-    problem.effort = &effort;
-    std::optional<Pocket> pocket;
-    problem.pocket = &pocket;
-    const std::optional<Candidate> found = go_round(
-        problem, search, improvement_, space_, options_.seed,
-        [this] { return prover_.is_separated(); }, deadline());
-    if (pocket) add_shut_in(gap + (pocket->is_at_end ? 1 : 0), *pocket);
-    for (const std::size_t i : same_gap) collisions_[i].correction.tried += effort;
-    const bool is_accepted = accept(index, CorrectionKind::kGoRound, found);
+    const DetourResult found = go_round(
+        problem, search, budget_, space_, options_.seed, [this] { return prover_.is_separated(); },
+        deadline());
+    if (found.pocket) add_shut_in(gap + (found.pocket->is_at_end ? 1 : 0), *found.pocket);
+    for (const std::size_t i : same_gap) collisions_[i].correction.tried += found.effort;
+    const bool is_accepted = accept(index, CorrectionKind::kGoRound, found.candidate);
     for (const std::size_t i : same_gap) {
       const CollisionInterval interval = collisions_[i].correction.interval;
       if (is_accepted) collisions_[i].correction = collisions_[index].correction;
@@ -184,7 +181,7 @@ class Ladder {
   CorrectedPath corrected_;
   CollisionList collisions_;
   Prover prover_;
-  Improvement improvement_;  ///< budget of the relaxation of detours, and then of polishing
+  base::Budget budget_;  ///< steps of the relaxation of detours, and then of polishing
   std::vector<ShutIn> shut_in_;
   bool timed_out_ = false;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/correction/smoothing/objective_cost.h"
+#include "daemon/correction/smoothing/relaxation.h"
 
 namespace camway::correction {
 
@@ -33,13 +34,13 @@ class Polisher {
            CollisionList& collisions)
       : origin_(origin), space_(space), corrected_(corrected), collisions_(collisions) {}
 
-  void relax(Improvement& improvement) {
+  void relax(base::Budget& budget) {
     std::vector<bool> needs_polish = collisions_.corrected_gaps(corrected_);
     for (int round = 0; round < kRounds; ++round) {
       for (std::size_t gap = 0; gap < needs_polish.size() && !deadline().passed(); ++gap) {
         if (!needs_polish[gap]) continue;
         const std::optional<Candidate> better =
-            polished(part_about(gap), kPolishedKnots, improvement, space_, deadline());
+            polished(part_about(gap), kPolishedKnots, {}, budget, space_, deadline());
         if (better && take(gap, *better)) {
           for (const motion::BumpRow& row : better->rows) {
             corrected_.mark_gaps(row.begin_s(), row.end_s(), needs_polish);
@@ -52,11 +53,13 @@ class Polisher {
 
   // Relaxation of detours favours smoothness, so some intervals end far away.
   void pull_to_interpolated() {
-    Improvement pull{Objective::kClosest, kPullSteps, true, kPullSpread};
+    const Improvement pull{.spread = kPullSpread};
+    base::Budget budget(kPullSteps);
     for (const std::size_t gap : far_gaps()) {
       if (deadline().passed()) continue;
       const Problem part = part_about(gap);
-      const std::optional<Candidate> other = polished(part, kPullKnots, pull, space_, deadline());
+      const std::optional<Candidate> other =
+          polished(part, kPullKnots, pull, budget, space_, deadline());
       if (!other) continue;
       if (bending_energy(other->path) > kMostBending * bending_energy(part.path)) continue;
       take_if_better(gap, Objective::kClosest, *other, part);
@@ -64,15 +67,15 @@ class Polisher {
   }
 
   void pursue(Objective objective) {
-    Improvement pursuit{objective, kPursuitStepsAGap * static_cast<int>(collisions_.count_gaps()),
-                        false};
-    pursuit.worth = kPursuitWorth;
+    const Improvement pursuit{.objective = objective, .may_turn = false, .worth = kPursuitWorth};
+    base::Budget budget(kPursuitStepsAGap * static_cast<std::int64_t>(collisions_.count_gaps()));
     const std::vector<bool> gaps = collisions_.corrected_gaps(corrected_);
     for (const int knots : kPursuitKnots) {
       for (std::size_t gap = 0; gap < gaps.size() && !deadline().passed(); ++gap) {
         if (!gaps[gap]) continue;
         const Problem part = part_about(gap);
-        const std::optional<Candidate> other = polished(part, knots, pursuit, space_, deadline());
+        const std::optional<Candidate> other =
+            polished(part, knots, pursuit, budget, space_, deadline());
         if (other) take_if_better(gap, objective, *other, part);
       }
     }
@@ -136,10 +139,10 @@ class Polisher {
 
 }  // namespace
 
-void polish(Objective objective, const motion::TimeOrigin& origin, Improvement& relaxing,
+void polish(Objective objective, const motion::TimeOrigin& origin, base::Budget& budget,
             FreeSpace& space, CorrectedPath& corrected, CollisionList& collisions) {
   Polisher polisher(origin, space, corrected, collisions);
-  polisher.relax(relaxing);
+  polisher.relax(budget);
   polisher.pull_to_interpolated();
   if (objective != Objective::kClosest) polisher.pursue(objective);
 }

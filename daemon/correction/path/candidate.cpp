@@ -109,7 +109,6 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
 
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const base::Deadline& deadline) {
-  if (problem.effort != nullptr) ++problem.effort->paths;
   // Rows without bumps change nothing, and end before they begin.
   std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
   const std::optional<Span> changed = span_of(rows, problem);

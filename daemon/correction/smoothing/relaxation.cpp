@@ -39,9 +39,8 @@ double horizon_m(Objective objective, double radius_m) {
 
 class Relaxation {
  public:
-  /// Spends at most `steps_left` steps and subtracts them.
   Relaxation(const Problem& problem, const Offsets& offsets, Ends ends,
-             const Improvement& improvement, FreeSpace& space, int& steps_left)
+             const Improvement& improvement, FreeSpace& space)
       : radius_m_(space.ball_radius_m()),
         lever_m_(4.0 * radius_m_),
         is_safest_(improvement.objective == Objective::kSafest),
@@ -50,8 +49,7 @@ class Relaxation {
         form_(problem, free_, improvement.objective, lever_m_, improvement.spread),
         minimum_(form_, improvement.objective, radius_m_, may_turn_),
         probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)),
-        variables_(free_.variables_of(offsets, lever_m_)),
-        steps_left_(steps_left) {
+        variables_(free_.variables_of(offsets, lever_m_)) {
     const double step_s = offsets.knots.spacing_s();
     for (int k = free_.first() - 2; k < free_.last() + 2; ++k) {
       for (int m = 0; m < kSamplesAStep; ++m)
@@ -76,11 +74,12 @@ class Relaxation {
                              form_.value(free_.variables_of(before, lever_m_));
   }
 
-  void run(const base::Deadline& deadline) {
+  /// Takes steps until the budget is spent, or a step gains little.
+  void run(base::Budget& budget, const base::Deadline& deadline) {
     const double first_value = form_.value(variables_);
     double trust_m = kFirstTrust * radius_m_;
-    while (steps_left_ > 0 && trust_m > kLeastTrust * radius_m_ && !deadline.passed()) {
-      --steps_left_;
+    while (budget.covers(1) && trust_m > kLeastTrust * radius_m_ && !deadline.passed()) {
+      budget.spend(1);
       const double before = form_.value(variables_);
       const std::optional<double> moved_m = take_step(trust_m);
       if (!moved_m) return;
@@ -227,7 +226,6 @@ class Relaxation {
   SampleProbe probe_;
   StackedPoints variables_;
   std::vector<PathSample> samples_;
-  int& steps_left_;
 };
 
 Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
@@ -242,15 +240,16 @@ Offsets mixed(const Offsets& a, const Offsets& b, double share_of_b) {
 }
 
 Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, Ends ends,
-               FreeSpace& space, const base::Deadline& deadline) {
+               base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
   Offsets better = free.offsets;
   for (int i = 0; i < kRounds && !deadline.passed(); ++i) {
-    relaxation.run(deadline);
+    relaxation.run(budget, deadline);
     better = relaxation.offsets();
     Attempt tried = attempt(problem, {bumps_for(better, ends)}, space, deadline);
+    ++free.paths;
     if (tried.candidate) {
       if (!relaxation.is_no_worse(better, free.offsets)) return free;
-      return {better, std::move(*tried.candidate)};
+      return {better, std::move(*tried.candidate), free.paths};
     }
     // The path collides between the samples: add samples there.
     relaxation.watch(*tried.collision, free.offsets);
@@ -259,37 +258,38 @@ Relaxed proved(const Problem& problem, Relaxation& relaxation, Relaxed free, End
   for (int i = 0; i < kRetreats && !deadline.passed(); ++i, share *= kRetreat) {
     const Offsets between = mixed(free.offsets, better, share);
     Attempt tried = attempt(problem, {bumps_for(between, ends)}, space, deadline);
-    if (tried.candidate && relaxation.is_no_worse(between, free.offsets))
-      return {between, std::move(*tried.candidate)};
+    ++free.paths;
+    if (tried.candidate && relaxation.is_no_worse(between, free.offsets)) {
+      return {between, std::move(*tried.candidate), free.paths};
+    }
   }
   return free;
 }
 
 }  // namespace
 
-Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
-                FreeSpace& space, const base::Deadline& deadline) {
-  int steps_left = std::min(kMostSteps, improvement.steps_left);
-  if (steps_left == 0) return free;
-  improvement.steps_left -= steps_left;
-  Relaxation relaxation(problem, free.offsets, ends, improvement, space, steps_left);
-  Relaxed better = proved(problem, relaxation, std::move(free), ends, space, deadline);
-  improvement.steps_left += steps_left;
+Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
+                base::Budget& budget, FreeSpace& space, const base::Deadline& deadline) {
+  if (!budget.covers(1)) return free;
+  Relaxation relaxation(problem, free.offsets, ends, improvement, space);
+  base::Budget steps = budget.take(kMostSteps);
+  Relaxed better = proved(problem, relaxation, std::move(free), ends, steps, space, deadline);
+  budget.put_back(steps);
   return better;
 }
 
-std::optional<Candidate> polished(const Problem& problem, int knots, Improvement& improvement,
-                                  FreeSpace& space, const base::Deadline& deadline) {
-  int steps_left = std::min(kMostSteps, improvement.steps_left);
-  if (steps_left == 0) return std::nullopt;
+std::optional<Candidate> polished(const Problem& problem, int knots, const Improvement& improvement,
+                                  base::Budget& budget, FreeSpace& space,
+                                  const base::Deadline& deadline) {
+  if (!budget.covers(1)) return std::nullopt;
   const Offsets none{problem.knots(knots), 1, {}};
   if (!none.knots.fits()) return std::nullopt;
   const Ends ends = fits_free_ends(problem, none.knots) ? Ends::kFree : Ends::kFixed;
-  Relaxation relaxation(problem, none, ends, improvement, space, steps_left);
+  Relaxation relaxation(problem, none, ends, improvement, space);
   if (!relaxation.promises(improvement.worth)) return std::nullopt;
-  improvement.steps_left -= steps_left;
-  Relaxed better = proved(problem, relaxation, {none, {}}, ends, space, deadline);
-  improvement.steps_left += steps_left;
+  base::Budget steps = budget.take(kMostSteps);
+  Relaxed better = proved(problem, relaxation, {none, {}}, ends, steps, space, deadline);
+  budget.put_back(steps);
   if (better.candidate.rows.empty()) return std::nullopt;
   return std::move(better.candidate);
 }

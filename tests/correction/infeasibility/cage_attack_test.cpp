@@ -71,7 +71,7 @@ class Attack {
     options.seed = random_();
     return !tree_way(space_, motion::signed_pose(from), motion::signed_pose(to), options,
                      base::Deadline::never())
-                .empty();
+                .guide.empty();
   }
 
  private:

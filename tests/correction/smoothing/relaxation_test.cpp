@@ -82,8 +82,9 @@ std::optional<Relaxed> correction_with(const Case& c, const Offsets& offsets, En
 Relaxed relaxed_fully(const Case& c, const Relaxed& free, Ends ends, Objective objective,
                       int steps = kEnough) {
   FreeSpace space = c.space();
-  Improvement improvement{objective, steps};
-  return relaxed(c.problem, free, ends, improvement, space, Deadline::never());
+  const Improvement improvement{objective};
+  base::Budget budget(steps);
+  return relaxed(c.problem, free, ends, improvement, budget, space, Deadline::never());
 }
 
 /// Returns equal inner coefficients.
@@ -223,20 +224,22 @@ TEST(Relaxation, WithoutStepsChangesNothing) {
   const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, Objective::kClosest, 0);
   expect_same(result.candidate.path, swing.free->candidate.path);
   FreeSpace space = swing.c.space();
-  Improvement improvement{Objective::kClosest, 0};
-  EXPECT_FALSE(polished(swing.c.problem, kKnots, improvement, space, Deadline::never()));
-  EXPECT_EQ(improvement.steps_left, 0);
+  const Improvement improvement{Objective::kClosest};
+  base::Budget budget(0);
+  EXPECT_FALSE(polished(swing.c.problem, kKnots, improvement, budget, space, Deadline::never()));
+  EXPECT_EQ(budget.left(), 0);
 }
 
 TEST(Relaxation, AfterTheDeadlineChangesNothingAndDoesNoSteps) {
   Draw draw(4405);
   const Swing swing = random_swing(draw);
   FreeSpace space = swing.c.space();
-  Improvement improvement{Objective::kClosest, kEnough};
-  const Relaxed result =
-      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, space, Deadline::after_s(0.0));
+  const Improvement improvement{Objective::kClosest};
+  base::Budget budget(kEnough);
+  const Relaxed result = relaxed(swing.c.problem, *swing.free, swing.ends, improvement, budget,
+                                 space, Deadline::after_s(0.0));
   expect_same(result.candidate.path, swing.free->candidate.path);
-  EXPECT_EQ(improvement.steps_left, kEnough);
+  EXPECT_EQ(budget.left(), kEnough);
 }
 
 TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
@@ -246,11 +249,13 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
     const Swing swing = random_swing(draw);
     for (const int steps : {1, 3, kEnough}) {
       FreeSpace space = swing.c.space();
-      Improvement improvement{Objective::kSmoothest, steps};
-      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, space, Deadline::never());
-      EXPECT_GE(improvement.steps_left, 0);
-      EXPECT_LT(improvement.steps_left, steps);
-      stopped_early += steps == kEnough && improvement.steps_left > 0 ? 1 : 0;
+      const Improvement improvement{Objective::kSmoothest};
+      base::Budget budget(steps);
+      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, budget, space,
+              Deadline::never());
+      EXPECT_GE(budget.left(), 0);
+      EXPECT_LT(budget.left(), steps);
+      stopped_early += steps == kEnough && budget.left() > 0 ? 1 : 0;
     }
   }
   EXPECT_EQ(stopped_early, 20) << "one correction must not use up what all have";
@@ -376,10 +381,11 @@ TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
     c.problem.path = swing.free->candidate.path;
     // On coarser knots than before; some wide swings can only get worse on these.
     FreeSpace space = c.space();
-    Improvement improvement{Objective::kSmoothest, kEnough};
+    const Improvement improvement{Objective::kSmoothest};
+    base::Budget budget(kEnough);
     const std::optional<Candidate> better =
-        polished(c.problem, kKnots, improvement, space, Deadline::never());
-    EXPECT_LE(improvement.steps_left, kEnough);
+        polished(c.problem, kKnots, improvement, budget, space, Deadline::never());
+    EXPECT_LE(budget.left(), kEnough);
     if (!better) continue;
     ++found;
     expect_free(c, better->path);
@@ -445,9 +451,10 @@ TEST(Relaxation, PolishesNextToAShortGap) {
   c.problem.path =
       correction_with(c, lifted(c.problem, 12, {0, 0.5, 0}), Ends::kFixed).value().candidate.path;
   FreeSpace space = c.space();
-  Improvement improvement{Objective::kShortest, kEnough};
+  const Improvement improvement{Objective::kShortest};
+  base::Budget budget(kEnough);
   const std::optional<Candidate> better =
-      polished(c.problem, kKnots, improvement, space, Deadline::never());
+      polished(c.problem, kKnots, improvement, budget, space, Deadline::never());
   ASSERT_TRUE(better);
   expect_keyframes_kept(c, better->path);
   constexpr double kStraight_m = 6.5;
@@ -460,9 +467,10 @@ TEST(Relaxation, PolishesNothingThatIsAsGoodAsItGets) {
   c.build();
   c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
   FreeSpace space = c.space();
-  Improvement improvement{Objective::kClosest, kEnough};
-  EXPECT_FALSE(polished(c.problem, kKnots, improvement, space, Deadline::never()));
-  EXPECT_EQ(improvement.steps_left, kEnough);
+  const Improvement improvement{Objective::kClosest};
+  base::Budget budget(kEnough);
+  EXPECT_FALSE(polished(c.problem, kKnots, improvement, budget, space, Deadline::never()));
+  EXPECT_EQ(budget.left(), kEnough);
 }
 
 }  // namespace
