@@ -63,10 +63,9 @@ struct Piece {
 // that are far too long.)
 class Detector {
  public:
-  Detector(const Obstacles& obstacles, const motion::Body& body, const DetectOptions& options,
-           const base::Deadline& deadline, bool only_first)
-      : probe_(obstacles, body, options.clearance_m),
-        options_(options),
+  Detector(const Query& query, const base::Deadline& deadline, bool only_first)
+      : probe_(query.obstacles, query.body, query.options.clearance_m),
+        options_(query.options),
         deadline_(deadline),
         only_first_(only_first) {}
 
@@ -311,35 +310,31 @@ class Detector {
 
 }  // namespace
 
-std::optional<std::vector<CollisionInterval>> detect_collisions(const Obstacles& obstacles,
+std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& query,
                                                                 const motion::Path& path,
-                                                                const motion::Body& body,
                                                                 double t_begin_s, double t_end_s,
-                                                                const DetectOptions& options,
                                                                 const base::Deadline& deadline) {
-  Search search = search_collisions(obstacles, path, body, t_begin_s, t_end_s, options, deadline);
+  Search search = search_collisions(query, path, t_begin_s, t_end_s, deadline);
   if (!search.complete) return std::nullopt;
   return std::move(search.collisions);
 }
 
-Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
-                         const motion::Body& body, double t_begin_s, double t_end_s,
-                         const DetectOptions& options, const base::Deadline& deadline) {
-  Detector detector(obstacles, body, options, deadline, /*only_first=*/false);
+Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
+                         double t_end_s, const base::Deadline& deadline) {
+  Detector detector(query, deadline, /*only_first=*/false);
   detector.run(path, t_begin_s, t_end_s);
   Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
   if (search.collisions.size() > 1) {
-    const double travel_m = travel_bound_m(path, body.radius_m());
+    const double travel_m = travel_bound_m(path, query.body.radius_m());
     join_close_intervals(search.collisions,
-                         options.gap_m / travel_m * (path.end_s() - path.begin_s()));
+                         query.options.gap_m / travel_m * (path.end_s() - path.begin_s()));
   }
   return search;
 }
 
-FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,
-                               const motion::Body& body, double t_begin_s, double t_end_s,
-                               const DetectOptions& options, const base::Deadline& deadline) {
-  Detector detector(obstacles, body, options, deadline, /*only_first=*/true);
+FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
+                               double t_end_s, const base::Deadline& deadline) {
+  Detector detector(query, deadline, /*only_first=*/true);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return {false, std::nullopt};
   if (detector.intervals().empty()) return {};

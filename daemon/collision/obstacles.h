@@ -20,9 +20,8 @@ namespace camway::collision {
 /// The scene and the bounds that a path is checked against. Refers to its sources, which must
 /// outlive it.
 struct Obstacles {
-  // Implicit on purpose: an index or a snapshot may be passed where obstacles are expected.
-  Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
-  Obstacles(const scene::Snapshot& snapshot);                              // NOLINT
+  explicit Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}
+  explicit Obstacles(const scene::Snapshot& snapshot);
 
   /// These obstacles with the bounds reduced to `limits`.
   [[nodiscard]] Obstacles within(const geometry::Bounds& limits) const {

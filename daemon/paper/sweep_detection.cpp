@@ -156,12 +156,13 @@ FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motio
                                      const base::Deadline& deadline) {
   SweepWalk walk(index, path, corners_C, options.chord_error_m, t_begin_s, t_end_s);
   const Bisection bisection(index, path, corners_C, options.detect.tolerance_m);
+  const motion::Body body(corners_C);
+  const Query query{Obstacles(index), body, options.detect};
   while (const std::optional<HitRun> run = walk.next_run(deadline)) {
     const std::optional<double> t_i = bisection.boundary(run->t_a, run->t_b);
     const std::optional<double> t_f = bisection.boundary(run->t_d, run->t_c);
     if (t_i && t_f && *t_i <= *t_f) return {true, CollisionInterval{*t_i, *t_f}};
-    const FirstCollision settled = first_collision(index, path, motion::Body(corners_C), run->t_a,
-                                                   run->t_d, options.detect, deadline);
+    const FirstCollision settled = first_collision(query, path, run->t_a, run->t_d, deadline);
     if (!settled.decided || settled.interval) return settled;
   }
   return {!deadline.passed(), std::nullopt};

@@ -6,7 +6,6 @@
 
 #include "daemon/correction/ladder/ladder.h"
 #include "daemon/paper/keyframe_insertion.h"
-#include "daemon/planning/check.h"
 #include "daemon/planning/search_changes.h"
 #include "daemon/planning/stage_times.h"
 
@@ -18,7 +17,6 @@ using motion::Keyframe;
 
 correction::LadderOptions ladder_options(const PlanRequest& request, const PreparedPlan& prepared) {
   correction::LadderOptions options;
-  options.detect = detect_options(request.options);
   options.origin = prepared.origin;
   options.max_inserted_keyframes = request.options.max_inserted_keyframes;
   options.seed = request.options.seed;
@@ -41,14 +39,12 @@ std::optional<Infeasibility> infeasibility_of(correction::LadderResult& correcte
   return std::nullopt;
 }
 
-CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot,
-                                const collision::Obstacles& obstacles, const PlanRequest& request,
-                                const PreparedPlan& prepared, const base::Deadline& deadline,
-                                PlanResult& result) {
+CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision::Query& query,
+                                const PlanRequest& request, const PreparedPlan& prepared,
+                                const base::Deadline& deadline, PlanResult& result) {
   correction::LadderResult corrected = correction::correct_by_ladder(
-      snapshot.mesh, obstacles, prepared.body, result.keyframes, prepared.interpolated,
-      result.collisions, ladder_options(request, prepared),
-      deadline.share_of_rest(kShareOfCorrection));
+      snapshot.mesh, query, result.keyframes, prepared.interpolated, result.collisions,
+      ladder_options(request, prepared), deadline.share_of_rest(kShareOfCorrection));
   CorrectedPlan plan;
   plan.timed_out = corrected.timed_out;
   plan.needed_keyframes = corrected.needed_keyframes;
@@ -71,17 +67,17 @@ CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot,
   return plan;
 }
 
-CorrectedPlan insert_keyframes(const collision::Obstacles& obstacles, const PlanRequest& request,
+CorrectedPlan insert_keyframes(const collision::Query& query, const PlanRequest& request,
                                const PreparedPlan& prepared, const base::Deadline& deadline,
                                PlanResult& result) {
   correction::KeyframeInsertionOptions options;
-  options.sweep = {request.options.chord_error_m, detect_options(request.options)};
+  options.sweep = {request.options.chord_error_m, query.options};
   options.origin = prepared.origin;
   options.max_inserted_keyframes = request.options.max_inserted_keyframes;
   const double rest_s =
       rest_s_per_piece(request.options) * static_cast<double>(result.path.segments().size());
   correction::KeyframeInsertionResult corrected = correction::insert_keyframes(
-      obstacles.index, result.keyframes, motion::near_corners_C(request.camera), options,
+      query.obstacles.index, result.keyframes, motion::near_corners_C(request.camera), options,
       deadline.share_of_rest(kShareOfCorrection).sooner_by_s(rest_s));
   result.keyframes = std::move(corrected.keyframes);
   result.path = std::move(corrected.path);
@@ -93,16 +89,16 @@ CorrectedPlan insert_keyframes(const collision::Obstacles& obstacles, const Plan
 
 }  // namespace
 
-CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Query& query,
                       const PlanRequest& request, const PreparedPlan& prepared,
                       const base::Deadline& deadline, PlanResult& result) {
   deadline.report(base::Progress::Stage::kCorrecting);
   if (request.options.method == Method::kLadder) {
-    return correct_by_ladder(snapshot, obstacles, request, prepared, deadline, result);
+    return correct_by_ladder(snapshot, query, request, prepared, deadline, result);
   }
   // The paper's method handles near quadrilaterals only, and no clearance.
   if (!prepared.body.is_camera()) return {};
-  return insert_keyframes(obstacles, request, prepared, deadline, result);
+  return insert_keyframes(query, request, prepared, deadline, result);
 }
 
 void put_back(double from_s, const PreparedPlan& prepared, CorrectedPlan& corrected,

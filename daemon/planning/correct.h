@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/obstacles.h"
+#include "daemon/collision/query.h"
 #include "daemon/motion/spline/cubic_path.h"
 #include "daemon/planning/prepare.h"
 #include "daemon/planning/request.h"
@@ -28,7 +28,7 @@ struct CorrectedPlan {
 
 /// Corrects `result.collisions`, which are those of the path as interpolated, by the method that
 /// the request asks for. Adds path, inserted keyframes, corrections and proofs to `result`.
-CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
+CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Query& query,
                       const PlanRequest& request, const PreparedPlan& prepared,
                       const base::Deadline& deadline, PlanResult& result);
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/detect.h"
+#include "daemon/collision/query.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/time_origin.h"
@@ -40,9 +40,7 @@ struct TooFast {
   const motion::CubicPath& interpolated;  ///< the path before correction, over the same time
   const correction::MotionLimits& limits;
   const correction::OrientationPolicy& orientation;
-  const collision::Obstacles& obstacles;
-  const motion::Body& body;
-  const collision::DetectOptions detect;
+  const collision::Query& query;
   const motion::TimeOrigin& origin;        ///< of all times
   const std::vector<double>& keyframes_s;  ///< of the given keyframes, increasing
   const bool is_free;                      ///< `path` is proved free of collision

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
-#include "daemon/planning/check.h"
 #include "daemon/planning/stage_times.h"
 
 namespace camway::planning {
@@ -49,7 +48,7 @@ void take(Retimed slowed, const motion::TimeOrigin& origin, PlanResult& result) 
 
 }  // namespace
 
-SlowedPlan meet_limits(const collision::Obstacles& obstacles, const PlanRequest& request,
+SlowedPlan meet_limits(const collision::Query& query, const PlanRequest& request,
                        const PreparedPlan& prepared, const CorrectedPlan& corrected,
                        const base::Deadline& deadline, PlanResult& result) {
   const correction::MotionLimits& limits = request.options.limits;
@@ -65,9 +64,8 @@ SlowedPlan meet_limits(const collision::Obstacles& obstacles, const PlanRequest&
       corrected.path ? request.options.orientation : correction::OrientationPolicy{};
   const std::vector<double> times_s = given_times_s(result.keyframes);
   const bool is_free = result.certificate.certified;
-  const TooFast too_fast{
-      path,          prepared.interpolated,           limits,          policy,  obstacles,
-      prepared.body, detect_options(request.options), prepared.origin, times_s, is_free};
+  const TooFast too_fast{path,  prepared.interpolated, limits,  policy,
+                         query, prepared.origin,       times_s, is_free};
   std::optional<Retimed> slowed;
   if (is_free) slowed = slowed_where_needed(too_fast, deadline.share_of_rest(kShareOfSlowing));
   plan.is_everywhere = !slowed;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/obstacles.h"
+#include "daemon/collision/query.h"
 #include "daemon/motion/timing/time_law.h"
 #include "daemon/planning/correct.h"
 #include "daemon/planning/limits.h"
@@ -26,7 +26,7 @@ struct SlowedPlan {
 /// if the path may not be slowed. A path that collides is not worth a new curve: it is slowed all
 /// the way, which leaves its collisions where they are. Requires the measures of the path, unless
 /// there was no time for them.
-SlowedPlan meet_limits(const collision::Obstacles& obstacles, const PlanRequest& request,
+SlowedPlan meet_limits(const collision::Query& query, const PlanRequest& request,
                        const PreparedPlan& prepared, const CorrectedPlan& corrected,
                        const base::Deadline& deadline, PlanResult& result);
 

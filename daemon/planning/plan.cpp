@@ -44,18 +44,17 @@ class Planner {
           const PlanRequest& request, const Deadline& deadline, const PreparedPlan& prepared,
           PlanResult& result)
       : snapshot_(snapshot),
-        obstacles_(obstacles),
         request_(request),
         deadline_(deadline),
         prepared_(prepared),
-        detect_(detect_options(request.options)),
+        query_{obstacles, prepared.body, detect_options(request.options)},
         result_(result) {}
 
   // Returns the law that slowed the path, if any.
   std::optional<motion::TimeLaw> run() {
     find_collisions();
     if (is_searched_ && !result_.collisions.empty()) {
-      corrected_ = correct(snapshot_, obstacles_, request_, prepared_, deadline_, result_);
+      corrected_ = correct(snapshot_, query_, request_, prepared_, deadline_, result_);
       result_.timing.correct_ms = lap_ms();
     }
     certify();
@@ -72,8 +71,7 @@ class Planner {
   void find_collisions() {
     deadline_.report(base::Progress::Stage::kDetecting);
     std::optional<std::vector<CollisionInterval>> found = collision::detect_collisions(
-        obstacles_, result_.path, prepared_.body, result_.path.begin_s(), result_.path.end_s(),
-        detect_, deadline_);
+        query_, result_.path, result_.path.begin_s(), result_.path.end_s(), deadline_);
     is_searched_ = found.has_value();
     if (found) result_.collisions = std::move(*found);
     deadline_.report_collisions(result_.collisions.size(), 0);
@@ -94,8 +92,7 @@ class Planner {
     result_.remaining_collisions =
         corrected_.is_as_interpolated ? result_.collisions : final_search(budget);
     if (result_.remaining_collisions.empty()) {
-      result_.certificate =
-          certificate_of_free(obstacles_, result_.path, prepared_.body, detect_, budget);
+      result_.certificate = certificate_of_free(query_, result_.path, budget);
     }
     result_.timing.certify_ms = lap_ms();
   }
@@ -104,16 +101,16 @@ class Planner {
   std::vector<CollisionInterval> final_search(const Deadline& budget) {
     collision::Search whole{false, {}, result_.path.begin_s()};
     if (!corrected_.timed_out) {
-      whole = collision::search_collisions(obstacles_, result_.path, prepared_.body,
-                                           result_.path.begin_s(), result_.path.end_s(), detect_,
+      whole = collision::search_collisions(query_, result_.path, result_.path.begin_s(),
+                                           result_.path.end_s(),
                                            budget.share_of_rest(kShareOfWholeSearch));
     }
     if (whole.complete) return std::move(whole.collisions);
     corrected_.timed_out = true;
     // Keyframe insertion changes the path everywhere.
     const motion::Path before = corrected_.path ? prepared_.interpolated.path() : motion::Path();
-    collision::Search changes = search_changes(obstacles_, result_.path, prepared_.body, detect_,
-                                               {before, result_.collisions}, whole, budget);
+    collision::Search changes =
+        search_changes(query_, result_.path, {before, result_.collisions}, whole, budget);
     if (!changes.complete) give_up_corrections(changes.until_s);
     return std::move(changes.collisions);
   }
@@ -149,7 +146,7 @@ class Planner {
   }
 
   void slow() {
-    slowed_ = meet_limits(obstacles_, request_, prepared_, corrected_, deadline_, result_);
+    slowed_ = meet_limits(query_, request_, prepared_, corrected_, deadline_, result_);
     result_.timing.certify_ms += lap_ms();
   }
 
@@ -187,7 +184,7 @@ class Planner {
           fmt::format("{}; the path is proved free of collision, {} m or more from the scene{}",
                       what_was_done(result_),
                       rounded_down(result_.certificate.clearance_lower_bound_m),
-                      obstacles_.bounds.any() ? ", and within bounds" : "") +
+                      query_.obstacles.bounds.any() ? ", and within bounds" : "") +
           note_of_times(result_, slowed_.is_everywhere) + note();
     }
   }
@@ -209,7 +206,7 @@ class Planner {
         fmt::format("{}the path still collides {} ({})",
                     corrected_.timed_out ? "the deadline came first; " : "",
                     counted(result_.remaining_collisions.size(), "time"), what_was_done(result_)) +
-        note_of_shut_in(result_.shut_in, obstacles_.bounds.any()) +
+        note_of_shut_in(result_.shut_in, query_.obstacles.bounds.any()) +
         note_of_keyframe_limit(request_, result_, corrected_.needed_keyframes) +
         note_of_effort(result_.corrections) + haste +
         note_of_times(result_, slowed_.is_everywhere) + note();
@@ -217,9 +214,8 @@ class Planner {
 
   // Notes about the request and the scene.
   [[nodiscard]] std::string note() const {
-    const double body_size_m =
-        2.0 * correction::FreeSpace(obstacles_, prepared_.body, detect_).ball_radius_m();
-    return note_of_scale(result_, obstacles_.index.bounds()) + note_of_tilt(request_) +
+    const double body_size_m = 2.0 * correction::FreeSpace(query_).ball_radius_m();
+    return note_of_scale(result_, query_.obstacles.index.bounds()) + note_of_tilt(request_) +
            note_of_tolerance(request_, body_size_m) + note_of_method(request_);
   }
 
@@ -234,11 +230,10 @@ class Planner {
   }
 
   const scene::Snapshot& snapshot_;
-  const collision::Obstacles& obstacles_;
   const PlanRequest& request_;
   const Deadline& deadline_;
   const PreparedPlan& prepared_;
-  const collision::DetectOptions detect_;
+  const collision::Query query_;
   double lap_begin_ms_ = deadline_.elapsed_ms();
   bool is_searched_ = false;  ///< the path as interpolated was searched for collisions
   CorrectedPlan corrected_;

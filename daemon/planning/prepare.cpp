@@ -90,7 +90,7 @@ std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
   PreparedKeyframes prepared = prepared_keyframes(request);
   result.keyframes = std::move(prepared.keyframes);
   KeyframeFaults faults = find_keyframe_faults(
-      snapshot, obstacles, *body, detect_options(request.options), result.keyframes, deadline);
+      snapshot, {obstacles, *body, detect_options(request.options)}, result.keyframes, deadline);
   if (!accept_keyframes(std::move(faults), request, deadline, result)) return std::nullopt;
   const auto count = static_cast<double>(result.keyframes.size());
   if (leaves_too_little(deadline, kInterpolating_s_per_keyframe * count)) {

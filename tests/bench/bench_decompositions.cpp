@@ -132,9 +132,9 @@ void measure_queries(const scene::SceneIndex& index, const std::vector<BenchRequ
   m.certify_s = warm_s([&] {
     answers.colliding_paths = 0;
     for (const BenchRequest& request : requests) {
-      const bool free =
-          testing::certified_intervals(index, request.path, request.camera, default_options())
-              .empty();
+      const bool free = testing::certified_intervals(collision::Obstacles(index), request.path,
+                                                     request.camera, default_options())
+                            .empty();
       answers.colliding_paths += free ? 0U : 1U;
     }
   });

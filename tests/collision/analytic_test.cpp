@@ -114,7 +114,7 @@ class Analytic : public ::testing::TestWithParam<double> {
   const double half_height_m_ = corners_C_[0].y();
 
   [[nodiscard]] std::vector<CollisionInterval> detect(const Mesh& mesh, const Path& path) const {
-    return certified_intervals(SceneIndex::build(mesh), path, camera_, options_);
+    return certified_intervals(Obstacles(SceneIndex::build(mesh)), path, camera_, options_);
   }
 };
 

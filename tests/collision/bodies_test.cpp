@@ -48,7 +48,7 @@ std::vector<CollisionInterval> detect(const SceneIndex& index, const Path& path,
                                       double clearance_m = 0.0) {
   DetectOptions options;
   options.clearance_m = clearance_m;
-  return detect_collisions(index, path, body, path.begin_s(), path.end_s(), options,
+  return detect_collisions({Obstacles(index), body, options}, path, path.begin_s(), path.end_s(),
                            base::Deadline::never())
       .value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
 }
@@ -118,8 +118,9 @@ TEST(Bodies, AreSolidThroughAndThrough) {
     ASSERT_TRUE(found[0].witness);
     EXPECT_NEAR(found[0].witness->depth_m, 0.3, 0.11);
     EXPECT_LT(found[0].witness->point_W.norm(), 0.01);
-    EXPECT_EQ(path_clearance(index, rest, make(shape), base::Deadline::never())->lower_bound_m,
-              0.0);
+    EXPECT_EQ(
+        path_clearance(Obstacles(index), rest, make(shape), base::Deadline::never())->lower_bound_m,
+        0.0);
   }
 }
 
@@ -141,7 +142,8 @@ TEST(Bodies, ClearanceIsThatOfTheSurface) {
   for (const auto& [shape, truth_m] :
        {std::pair(motion::BodyShape(motion::SphereShape{Vec3::Zero(), 0.4}), 0.6),
         std::pair(motion::BodyShape(motion::BoxShape{Vec3::Zero(), {1, 1, 1}}), 0.5)}) {
-    const PathClearance found = *path_clearance(index, path, make(shape), base::Deadline::never());
+    const PathClearance found =
+        *path_clearance(Obstacles(index), path, make(shape), base::Deadline::never());
     EXPECT_LE(found.lower_bound_m, truth_m);
     EXPECT_GE(found.lower_bound_m, 0.8 * truth_m);
   }

@@ -36,8 +36,8 @@ Bounds with_limit(std::size_t side, double limit_m) {
 std::vector<CollisionInterval> detect(const SceneIndex& index, const Bounds& bounds,
                                       const Path& path, const Body& body,
                                       const DetectOptions& options = {}) {
-  const auto found = detect_collisions(Obstacles(index).within(bounds), path, body, path.begin_s(),
-                                       path.end_s(), options, base::Deadline::never());
+  const auto found = detect_collisions({Obstacles(index).within(bounds), body, options}, path,
+                                       path.begin_s(), path.end_s(), base::Deadline::never());
   return found.value();
 }
 
@@ -165,7 +165,7 @@ TEST(BoundsOfAPath, AddToWhatTheSceneAsks) {
       {0.0, {Vec3(2, 0, 3), Quat::Identity()}}, {6.0, {Vec3(2, 0, -3), Quat::Identity()}}});
   const Obstacles near_bounds = Obstacles(index).within(with_limit(3, 2.2));
   const auto with = path_clearance(near_bounds, aside, body, base::Deadline::never());
-  const auto without = path_clearance(index, aside, body, base::Deadline::never());
+  const auto without = path_clearance(Obstacles(index), aside, body, base::Deadline::never());
   EXPECT_EQ(with->lower_bound_m, without->lower_bound_m);
   EXPECT_GT(with->lower_bound_m, 1.0);
 }

@@ -20,13 +20,13 @@ using scene::Mesh;
 using scene::SceneIndex;
 
 PathClearance clearance(const SceneIndex& index, const Path& path, const Corners& corners_C) {
-  return path_clearance(index, path, motion::Body(corners_C), base::Deadline::never())
+  return path_clearance(Obstacles(index), path, motion::Body(corners_C), base::Deadline::never())
       .value_or(PathClearance{-1.0, -1.0});
 }
 
 bool detect_free(const SceneIndex& index, const Path& path, const Corners& corners_C) {
-  const auto found = detect_collisions(index, path, motion::Body(corners_C), path.begin_s(),
-                                       path.end_s(), {}, base::Deadline::never());
+  const auto found = detect_collisions({Obstacles(index), motion::Body(corners_C)}, path,
+                                       path.begin_s(), path.end_s(), base::Deadline::never());
   return found && found->empty();
 }
 
@@ -112,7 +112,7 @@ TEST(PathClearance, IsUndecidedWhenTheDeadlineStrikes) {
   const Path path = motion::interpolate(std::vector<Keyframe>{
       {0.0, {{0, 0, 1}, Quat::Identity()}}, {1.0, {{0, 0, -1}, Quat::Identity()}}});
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  EXPECT_FALSE(path_clearance(SceneIndex::build(Mesh{}), path, motion::Body(corners_C),
+  EXPECT_FALSE(path_clearance(Obstacles(SceneIndex::build(Mesh{})), path, motion::Body(corners_C),
                               base::Deadline::after_s(0.0)));
 }
 

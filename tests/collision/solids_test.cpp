@@ -45,7 +45,7 @@ Path straight(const Vec3& from, const Vec3& to) {
 
 std::vector<CollisionInterval> detect(const scene::Snapshot& snapshot, const Path& path,
                                       const motion::Body& body) {
-  return detect_collisions(snapshot, path, body, path.begin_s(), path.end_s(), {},
+  return detect_collisions({Obstacles(snapshot), body}, path, path.begin_s(), path.end_s(),
                            base::Deadline::never())
       .value();
 }
@@ -62,8 +62,9 @@ TEST(Solids, ABodyThatNeverLeavesTheInsideCollidesAllTheTime) {
     EXPECT_EQ(found[0].t_begin_s, 0.0);
     EXPECT_EQ(found[0].t_end_s, 1.0);
     EXPECT_TRUE(detect(*snapshot, straight({-3, 2, 2}, {-1, 2, 2}), body).empty());
-    const auto clearance = path_clearance(*snapshot, straight({1.7, 1.7, 1.8}, {2.3, 2.2, 2.4}),
-                                          body, base::Deadline::never());
+    const auto clearance =
+        path_clearance(Obstacles(*snapshot), straight({1.7, 1.7, 1.8}, {2.3, 2.2, 2.4}), body,
+                       base::Deadline::never());
     EXPECT_EQ(clearance->lower_bound_m, 0.0);
   }
 }

@@ -58,8 +58,8 @@ TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
                                {{0.1 * place(random), 0.2 * place(random), 0.1},
                                 Quat(Eigen::AngleAxisd(0.6 * place(random), Vec3::UnitY()))}},
                               {2.0, {{0, 0, -1}, Quat::Identity()}}});
-    const FirstCollision by_distance = first_collision(index, path, motion::Body(corners_C), 0.0,
-                                                       2.0, {}, base::Deadline::never());
+    const FirstCollision by_distance = first_collision({Obstacles(index), motion::Body(corners_C)},
+                                                       path, 0.0, 2.0, base::Deadline::never());
     const FirstCollision by_sweep = sweep(index, path);
     ASSERT_TRUE(by_distance.decided && by_sweep.decided);
     ASSERT_EQ(by_distance.interval.has_value(), by_sweep.interval.has_value()) << "run " << run;

@@ -235,9 +235,9 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
     corrected += left ? 1 : 0;
     EXPECT_GT(least_depth_m(result, request.camera, bounds), 0.0) << "run " << run;
     const motion::Body body(request.camera);
-    const PathCheck check = check_path(collision::Obstacles(*snapshot).within(bounds), result.path,
-                                       body, detect_options(request.options),
-                                       base::Deadline::never(), base::Deadline::never());
+    const PathCheck check = check_path(
+        {collision::Obstacles(*snapshot).within(bounds), body, detect_options(request.options)},
+        result.path, base::Deadline::never(), base::Deadline::never());
     EXPECT_TRUE(check.certificate.certified) << "run " << run;
   }
   EXPECT_GT(proved, 10);
@@ -251,7 +251,7 @@ TEST(WatchedPathWithinBounds, IsCheckedAnewWhereTheSceneHasOthers) {
   const PlanResult result = planned(*before, request);
   const auto watched = WatchedPath::of(request, result);
   ASSERT_TRUE(watched);
-  EXPECT_TRUE(watched->collisions(*before, base::Deadline::never()).empty());
+  EXPECT_TRUE(watched->collisions(collision::Obstacles(*before), base::Deadline::never()).empty());
   Bounds low;
   low.max_W.y() = 0.4;
   const auto after = snapshot_of({}, low);
@@ -259,7 +259,7 @@ TEST(WatchedPathWithinBounds, IsCheckedAnewWhereTheSceneHasOthers) {
   EXPECT_FALSE(change.empty());
   EXPECT_TRUE(watched->may_meet(change));
   EXPECT_FALSE(watched->stays_free(change, base::Deadline::never()));
-  EXPECT_EQ(watched->collisions(*after, base::Deadline::never()).size(), 1u);
+  EXPECT_EQ(watched->collisions(collision::Obstacles(*after), base::Deadline::never()).size(), 1u);
   EXPECT_TRUE(scene::difference(*before, *snapshot_of({})).empty());
 }
 

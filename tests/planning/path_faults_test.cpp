@@ -208,7 +208,8 @@ TEST(Bridges, ShowAWallOfNoThicknessInTheGap) {
   const scene::SceneIndex index = scene::SceneIndex::build(wall);
   const auto check = [&](const Path& part) {
     const auto never = base::Deadline::never();
-    return check_path(index, part, motion::Body(testing::small_camera()), {}, never, never);
+    return check_path({collision::Obstacles(index), motion::Body(testing::small_camera())}, part,
+                      never, never);
   };
   EXPECT_TRUE(check(path).certificate.certified);
   const std::vector<Bridge> found = bridges(path);

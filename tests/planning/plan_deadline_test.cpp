@@ -45,8 +45,8 @@ std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request
   }
   const motion::Body body(request.camera);
   const auto found = *collision::detect_collisions(
-      collision::Obstacles(snapshot), result.path, body, result.path.begin_s(), result.path.end_s(),
-      detect_options(request.options), Deadline::never());
+      {collision::Obstacles(snapshot), body, detect_options(request.options)}, result.path,
+      result.path.begin_s(), result.path.end_s(), Deadline::never());
   if (result.certificate.certified && !found.empty()) return "certified, and collides";
   if (result.status == Status::kOk && !result.certificate.certified) return "ok without proof";
   if (result.certificate.certified && !result.remaining_collisions.empty())

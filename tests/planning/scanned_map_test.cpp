@@ -108,7 +108,8 @@ TEST(ScannedMap, WatchedPathsSeeWhatAScanChanged) {
       if (!watched) continue;
       map = scene::scanned(*map, {origin, sight(trial % 20, random)}).map;
       const Scene now = with(before, map);
-      const bool is_free = watched->collisions(*now, Deadline::never()).empty();
+      const bool is_free =
+          watched->collisions(collision::Obstacles(*now), Deadline::never()).empty();
       const scene::SceneDifference change = scene::difference(*before, *now);
       if (!is_free) {
         ASSERT_TRUE(watched->may_meet(change)) << "trial " << trial;

@@ -32,9 +32,9 @@ Vec3 place_on(const motion::Path& path, std::mt19937_64& random) {
 std::vector<collision::CollisionInterval> from_scratch(const scene::Snapshot& snapshot,
                                                        const WatchedPath& watched,
                                                        const motion::Body& body) {
-  const auto found = collision::detect_collisions(snapshot, watched.path(), body,
-                                                  watched.path().begin_s(), watched.path().end_s(),
-                                                  detect_options(PlanOptions{}), Deadline::never());
+  const auto found = collision::detect_collisions(
+      {collision::Obstacles(snapshot), body, detect_options(PlanOptions{})}, watched.path(),
+      watched.path().begin_s(), watched.path().end_s(), Deadline::never());
   return *found;
 }
 
@@ -68,7 +68,7 @@ TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
     const auto after = store.find("room");
     const scene::SceneDifference change = scene::difference(*before, *after);
     const auto truth = from_scratch(*after, *watched, motion::Body(request.camera));
-    EXPECT_EQ(watched->collisions(*after, Deadline::never()), truth);
+    EXPECT_EQ(watched->collisions(collision::Obstacles(*after), Deadline::never()), truth);
     if (!watched->may_meet(change)) {
       EXPECT_TRUE(truth.empty()) << "round " << round;
       ++unharmed;
@@ -112,7 +112,7 @@ TEST(WatchedPath, DismissesNothingThatIsTooNear) {
       const scene::SceneDifference change = scene::difference(*before, *after);
       EXPECT_TRUE(watched->may_meet(change));
       EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
-      EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
+      EXPECT_FALSE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
     }
   }
 }
@@ -154,7 +154,7 @@ TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const scene::SceneDifference change = scene::difference(*empty, *after);
   EXPECT_TRUE(watched->may_meet(change));
   EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
-  EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
+  EXPECT_FALSE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
 }
 
 TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
@@ -167,7 +167,7 @@ TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
                                           at(watched->path().pose(0.1).position), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
   EXPECT_FALSE(watched->stays_free(scene::difference(*empty, *after), Deadline::after_s(0.0)));
-  EXPECT_EQ(watched->collisions(*after, Deadline::after_s(0.0)),
+  EXPECT_EQ(watched->collisions(collision::Obstacles(*after), Deadline::after_s(0.0)),
             (std::vector{watched->everywhere()}));
 }
 
@@ -187,9 +187,11 @@ TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
   const auto placed =
       scene::place_object("bar", box_source({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
-  EXPECT_TRUE(watched->collisions(*after, Deadline::never()).empty());
+  EXPECT_TRUE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
   planned.near_scale = 1.0;
-  EXPECT_FALSE(WatchedPath::of(request, planned)->collisions(*after, Deadline::never()).empty());
+  EXPECT_FALSE(WatchedPath::of(request, planned)
+                   ->collisions(collision::Obstacles(*after), Deadline::never())
+                   .empty());
 }
 
 }  // namespace

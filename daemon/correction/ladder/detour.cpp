@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "daemon/correction/ladder/follow_guide.h"
 #include "daemon/correction/path/guide.h"

@@ -31,7 +31,7 @@ class Ladder {
       : space_(space),
         options_(options),
         corrected_(path, keyframes,
-                   {options.max_inserted_keyframes, options.detect.tolerance_m,
+                   {options.max_inserted_keyframes, space.detect().tolerance_m,
                     space.body().radius_m(), options.rest_s_per_piece},
                    deadline),
         collisions_(collisions, corrected_.keyframes_s()),
@@ -188,13 +188,12 @@ class Ladder {
 
 }  // namespace
 
-LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Obstacles& obstacles,
-                               const motion::Body& body,
+LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Query& query,
                                const std::vector<motion::Keyframe>& keyframes,
                                const CubicPath& path,
                                const std::vector<CollisionInterval>& collisions,
                                const LadderOptions& options, const base::Deadline& deadline) {
-  FreeSpace space(obstacles, body, options.detect, options.orientation);
+  FreeSpace space(query, options.orientation);
   return Ladder(mesh, space, keyframes, path, collisions, options, deadline).run();
 }
 

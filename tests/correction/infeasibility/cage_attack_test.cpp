@@ -40,7 +40,7 @@ class Attack {
         short_m_(short_m),
         long_m_(short_m * within(1.0, 2.0)),
         body_(rectangle(short_m, long_m_)),
-        space_(index_, body_, options_) {}
+        space_({collision::Obstacles(index_), body_, options_}) {}
 
   /// Searches a free pose with the centre on the box, which a proof excludes: at the centres of the
   /// holes, along their sides and diagonals, and near these.

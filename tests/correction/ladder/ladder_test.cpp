@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/smoothing/objective_cost.h"
@@ -29,17 +30,21 @@ struct Case {
   scene::SceneIndex index;
   motion::Body body{testing::small_camera()};
   std::vector<Keyframe> keyframes;
+  collision::DetectOptions detect;
   LadderOptions options;
 
+  [[nodiscard]] collision::Query query() const {
+    return {collision::Obstacles(index), body, detect};
+  }
   [[nodiscard]] CubicPath path() const { return motion::interpolate_cubic(keyframes); }
   [[nodiscard]] std::vector<CollisionInterval> collisions(const CubicPath& path) const {
-    return collision::detect_collisions(index, path.path(), body, path.begin_s(), path.end_s(),
-                                        options.detect, Deadline::never())
+    return collision::detect_collisions(query(), path.path(), path.begin_s(), path.end_s(),
+                                        Deadline::never())
         .value();
   }
   [[nodiscard]] LadderResult corrected() const {
     const CubicPath before = path();
-    return correct_by_ladder(std::make_shared<const Mesh>(mesh), index, body, keyframes, before,
+    return correct_by_ladder(std::make_shared<const Mesh>(mesh), query(), keyframes, before,
                              collisions(before), options, Deadline::never());
   }
 };
@@ -226,7 +231,7 @@ TEST(Ladder, InsertsNoMoreKeyframesThanAllowed) {
 
 TEST(Ladder, KeepsTheRequiredClearance) {
   Case c = column();
-  c.options.detect.clearance_m = 0.1;
+  c.detect.clearance_m = 0.1;
   expect_corrected(c, {CorrectionKind::kMove, CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 
@@ -320,7 +325,7 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
     Case c = cluttered_tour(random);
     const CubicPath original = c.path();
     const CubicPath closest = c.corrected().path;
-    FreeSpace space(c.index, c.body, c.options.detect, c.options.orientation);
+    FreeSpace space(c.query(), c.options.orientation);
     for (const Objective objective :
          {Objective::kShortest, Objective::kSmoothest, Objective::kSafest}) {
       c.options.objective = objective;
@@ -366,7 +371,7 @@ TEST(Ladder, ClosestStraysTheLeast) {
   for (int run = 0; run < 24; ++run) {
     Case c = two_walls(random);
     const CubicPath original = c.path();
-    FreeSpace space(c.index, c.body, c.options.detect, c.options.orientation);
+    FreeSpace space(c.query(), c.options.orientation);
     const auto deviation_m = [&](Objective objective) {
       c.options.objective = objective;
       return objective_cost(Objective::kClosest, c.corrected().path, original, space,

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/collision/detect.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/correction/search_scene.h"
@@ -204,8 +205,9 @@ TEST(Attempt, OthersMayStayAndMustNotGrow) {
   const SearchScene scene(std::move(mesh));
   const FreeSpace space = scene.space();
   Problem problem = middle_problem();
-  const auto found = collision::detect_collisions(scene.index, problem.path.path(), scene.body, 0.0,
-                                                  6.0, scene.detect, Deadline::never());
+  const auto found =
+      collision::detect_collisions({collision::Obstacles(scene.index), scene.body, scene.detect},
+                                   problem.path.path(), 0.0, 6.0, Deadline::never());
   ASSERT_TRUE(found);
   ASSERT_EQ(found->size(), 2U);
   problem.interval = (*found)[1];
@@ -253,8 +255,9 @@ TEST(FirstNewCollision, IsTheFirstOfThemAll) {
   const SearchScene scene(std::move(mesh));
   const FreeSpace space = scene.space();
   Problem problem = middle_problem();
-  const auto all = collision::detect_collisions(scene.index, problem.path.path(), scene.body, 0.0,
-                                                6.0, scene.detect, Deadline::never());
+  const auto all =
+      collision::detect_collisions({collision::Obstacles(scene.index), scene.body, scene.detect},
+                                   problem.path.path(), 0.0, 6.0, Deadline::never());
   ASSERT_TRUE(all);
   ASSERT_EQ(all->size(), 3U);
   for (std::size_t known = 0; known <= 3; ++known) {

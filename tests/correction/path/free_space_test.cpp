@@ -142,8 +142,8 @@ TEST(FreeSpace, TheDistanceFieldChangesNoAnswerOfABall) {
   ASSERT_TRUE(made.snapshot);
   const motion::Body body(testing::small_camera());
   const collision::DetectOptions detect;
-  const FreeSpace with(*made.snapshot, body, detect);
-  const FreeSpace without(made.snapshot->index, body, detect);
+  const FreeSpace with({collision::Obstacles(*made.snapshot), body, detect});
+  const FreeSpace without({collision::Obstacles(made.snapshot->index), body, detect});
   for (int run = 0; run < 500; ++run) {
     const Vec3 point_W = anywhere(random, 1.5);
     EXPECT_EQ(with.ball_gap_m(point_W, 0.1, 0.2), without.ball_gap_m(point_W, 0.1, 0.2));
@@ -173,7 +173,7 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
     const SearchScene scene(scattered_cuboids(random, 4, 0.4), body);
     collision::Obstacles obstacles(scene.index);
     const FreeSpace alone = scene.space();
-    FreeSpace space(obstacles.within(bounds), scene.body, scene.detect);
+    FreeSpace space({obstacles.within(bounds), scene.body, scene.detect});
     const auto depth_m = [&](const motion::Pose& pose) {
       double least_m = std::numeric_limits<double>::infinity();
       for (const Triangle& part : body.triangles_C()) {
@@ -221,7 +221,7 @@ TEST(FreeSpace, BringsPosesWithinBounds) {
   int moved = 0;
   for (const motion::Body& body : {motion::Body(testing::small_camera()), sphere(0.2)}) {
     const SearchScene scene({}, body);
-    FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+    FreeSpace space({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
     for (int run = 0; run < 300; ++run) {
       const motion::Pose pose = {anywhere(random, 4.0), testing::random_rotation(random)};
       const motion::Pose inside = space.within_bounds(pose, kMargin_m);
@@ -245,7 +245,7 @@ TEST(FreeSpace, FindsWhereAMotionLeavesTheBounds) {
   const SearchScene scene({}, sphere(0.2));
   geometry::Bounds bounds;
   bounds.max_W.x() = 1.0;
-  FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+  FreeSpace space({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
   const auto at = [](double x) { return motion::signed_pose({Vec3(x, 0, 0), Quat::Identity()}); };
   EXPECT_FALSE(space.first_hit(at(-1.0), at(0.7), 0.05));
   const std::optional<double> hit = space.first_hit(at(-1.0), at(1.0), 0.05);

@@ -205,8 +205,8 @@ TEST(CellWay, IsExhaustedOnlyWhereThereIsNoWay) {
     Bounds bounds{Vec3::Constant(-0.6), Vec3::Constant(0.6)};
     const GridOfRoom grid(scene, {bounds.min_W, bounds.max_W}, kSpacing_m, kBall_m + to_spare_m);
     bounds = bounds.shrunk_by(-2.0 * kBall_m);
-    const FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body,
-                          scene.detect);
+    const FreeSpace space(
+        {collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
     const std::vector<int> parts = grid.parts();
     for (int pair = 0; pair < 30; ++pair) {
       const std::size_t from = any(random) % parts.size();

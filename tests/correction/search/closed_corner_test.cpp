@@ -29,7 +29,8 @@ struct Seen {
       const Vec3 half = Vec3::Constant(half_m);
       const scene::SceneIndex index = scene::SceneIndex::build(turned);
       const bool closed =
-          closed_corner(index, Box(-half, half), turn_W * from, kKeep_m).has_value();
+          closed_corner(collision::Obstacles(index), Box(-half, half), turn_W * from, kKeep_m)
+              .has_value();
       if (run == 0) first = closed;
       EXPECT_EQ(closed, first) << run;
     }

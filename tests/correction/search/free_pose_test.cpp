@@ -213,7 +213,7 @@ TEST(NearestFreePose, BackWithinBounds) {
   const SearchScene empty({}, sphere(kRadius_m));
   geometry::Bounds bounds;
   bounds.max_W = {1.0, 1.0, std::numeric_limits<double>::infinity()};
-  FreeSpace space(collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect);
+  FreeSpace space({collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect});
   const auto found = nearest_free_pose(space, at({31, 41, 0}), kMargin_m, kAny);
   ASSERT_TRUE(found);
   const double inset_m = kRadius_m + kMargin_m;
@@ -226,7 +226,7 @@ TEST(NearestFreePose, BackWithinBounds) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.5, 0.5, -0.1}, {1.5, 1.5, 0.1});
   const SearchScene scene(std::move(mesh), sphere(kRadius_m));
-  FreeSpace blocked(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+  FreeSpace blocked({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
   const auto beside = nearest_free_pose(blocked, at({31, 41, 0}), kMargin_m, kAny);
   ASSERT_TRUE(beside);
   EXPECT_GE(scene.distance_m(beside->pose), kMargin_m);

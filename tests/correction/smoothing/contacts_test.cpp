@@ -48,7 +48,9 @@ struct Case {
   Vec4 reference;
   StackedPoint point;
 
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, policy); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect}, policy);
+  }
   [[nodiscard]] motion::Pose pose(const StackedPoint& at) const {
     return motion::pose_of(reference, unstacked(at, kLever_m));
   }
@@ -227,7 +229,7 @@ TEST(Contacts, OfASideAreOfEveryVertex) {
     geometry::Bounds bounds;
     bounds.min_W.y() = -4.0;
     bounds.max_W.z() = 3.0;
-    FreeSpace space(collision::Obstacles(c.index).within(bounds), c.body, c.detect, c.policy);
+    FreeSpace space({collision::Obstacles(c.index).within(bounds), c.body, c.detect}, c.policy);
     const std::vector<std::uint32_t> sides = {collision::Obstacles::number_of_side(1),
                                               collision::Obstacles::number_of_side(5)};
     std::vector<ContactRow> rows;

@@ -28,7 +28,9 @@ struct Case {
     testing::add_cuboid(mesh, {-50, -2, -50}, {50, -1, 50});
     index = scene::SceneIndex::build(mesh);
   }
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, {}); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect});
+  }
   [[nodiscard]] ObjectiveCost cost(Objective objective, const CubicPath& path,
                                    const CubicPath& original) const {
     FreeSpace space = this->space();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
@@ -42,7 +43,9 @@ struct Case {
   Problem problem;
 
   void build() { index = scene::SceneIndex::build(mesh); }
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, policy); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect}, policy);
+  }
   /// Returns the value of the objective; the lever arm is that of the relaxation.
   [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
     const double lever_m = 4.0 * space().ball_radius_m();
@@ -132,9 +135,9 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
     swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
     // The parts that the swing left unchanged may collide and are not corrected.
     c.problem.foreign_collisions =
-        collision::detect_collisions(c.index, c.problem.path.path(), c.body,
-                                     c.problem.path.begin_s(), c.problem.path.end_s(), c.detect,
-                                     Deadline::never())
+        collision::detect_collisions({collision::Obstacles(c.index), c.body, c.detect},
+                                     c.problem.path.path(), c.problem.path.begin_s(),
+                                     c.problem.path.end_s(), Deadline::never())
             .value();
     std::erase_if(c.problem.foreign_collisions, [&](const collision::CollisionInterval& other) {
       return other.t_end_s > c.problem.gap_begin_s() && other.t_begin_s < c.problem.gap_end_s();
@@ -349,8 +352,9 @@ TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
     ASSERT_TRUE(free);
     const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
     expect_keyframes_kept(c, result.candidate.path);
-    EXPECT_FALSE(collision::first_collision(c.index, result.candidate.path.path(), c.body, 0.0, 8.0,
-                                            c.detect, Deadline::never())
+    EXPECT_FALSE(collision::first_collision({collision::Obstacles(c.index), c.body, c.detect},
+                                            result.candidate.path.path(), 0.0, 8.0,
+                                            Deadline::never())
                      .interval);
     // The path passes above the plate, lower than at its beginning: it came down to it.
     const CubicPath& path = result.candidate.path;

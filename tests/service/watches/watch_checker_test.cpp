@@ -107,7 +107,7 @@ TEST_F(WatchCheckerTest, KnowsWhatCheckingFromScratchSaysAfterAnyChanges) {
     ASSERT_TRUE(told_.wait_for(revision(), paths_.size()));
     const auto now = store_.find("room");
     for (const auto& [id, path] : paths_) {
-      const auto truth = path->collisions(*now, Deadline::never());
+      const auto truth = path->collisions(collision::Obstacles(*now), Deadline::never());
       const auto said = told_.of(id);
       ASSERT_EQ(said.empty(), truth.empty()) << "path " << id << " in round " << round;
       if (!truth.empty()) {

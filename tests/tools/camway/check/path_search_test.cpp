@@ -99,9 +99,11 @@ TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
   for (int trial = 0; trial < 10; ++trial) {
     SCOPED_TRACE(trial);
     const motion::Path path = random_path(random);
-    const auto whole = collision::detect_collisions(*made.snapshot, path, body, path.begin_s(),
-                                                    path.end_s(), options, Deadline::never());
-    const PathSearch search = search_path(*made.snapshot, path, body, options, Deadline::never());
+    const auto whole =
+        collision::detect_collisions({collision::Obstacles(*made.snapshot), body, options}, path,
+                                     path.begin_s(), path.end_s(), Deadline::never());
+    const PathSearch search =
+        search_path({collision::Obstacles(*made.snapshot), body, options}, path, Deadline::never());
     ASSERT_TRUE(whole);
     ASSERT_TRUE(search.complete);
     EXPECT_EQ(search.searched_until_s, path.end_s());
@@ -131,12 +133,14 @@ TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
   const motion::Body body{motion::Camera{1.5, 1.2, 0.3}};
   const motion::Path path = random_path(random, 100);
   const Deadline clock = Deadline::never();
-  const PathSearch all = search_path(*made.snapshot, path, body, {}, Deadline::never());
+  const PathSearch all =
+      search_path({collision::Obstacles(*made.snapshot), body}, path, Deadline::never());
   double deadline_s = clock.elapsed_ms() / 2000.0;
   ASSERT_TRUE(all.complete);
   PathSearch some;
   for (int attempt = 0; attempt < 50; ++attempt) {
-    some = search_path(*made.snapshot, path, body, {}, Deadline::after_s(deadline_s));
+    some = search_path({collision::Obstacles(*made.snapshot), body}, path,
+                       Deadline::after_s(deadline_s));
     if (!some.complete && !some.collisions.empty()) break;
     deadline_s *= some.complete ? 0.5 : 1.7;
   }
@@ -164,7 +168,8 @@ TEST(PathSearch, ADeadlineThatHasPassedLeavesNothingKnown) {
   std::mt19937_64 random(kSeed);
   const motion::Path path = random_path(random);
   const PathSearch search =
-      search_path(*made.snapshot, path, motion::Body{motion::Camera{}}, {}, Deadline::after_s(0.0));
+      search_path({collision::Obstacles(*made.snapshot), motion::Body{motion::Camera{}}}, path,
+                  Deadline::after_s(0.0));
   EXPECT_FALSE(search.complete);
   EXPECT_FALSE(search.certificate.certified);
   EXPECT_EQ(search.searched_until_s, path.begin_s());
