@@ -33,6 +33,7 @@ constexpr double kNotMeasured_s = -1.0;
 struct Options {
   std::vector<std::string> scenes;
   double scale = 1.0;
+  bool with_large = true;
   int rounds = 3;
   std::string json_file;
 };
@@ -221,12 +222,13 @@ Measured medians(const std::vector<Measured>& rounds) {
           over(&Measured::certify_s)};
 }
 
-// The project's own scenes with their requests, and larger ones with random paths.
-std::vector<Case> default_cases() {
+// The project's own scenes with their requests, and large ones with random paths.
+std::vector<Case> default_cases(bool with_large) {
   std::vector<Case> cases;
   for (BenchScene& own : load_requests({.requests = own_scenes() + "/requests", .scene = ""})) {
     cases.push_back({std::move(own.name), own.mesh, std::move(own.requests)});
   }
+  if (!with_large) return cases;
   const auto office = load_mesh(own_scenes() + "/office.obj", 1.0);
   cases.push_back({"office, tiled", tiled(*office, 250'000), {}});
   cases.push_back({"terrain: one fine surface", terrain(250'000), {}});
@@ -280,7 +282,9 @@ class Comparison {
     const auto triangles = c.mesh->triangles.size();
     Measured m{.scene = c.name, .triangles = triangles, .decomposition = kind.name};
     std::unique_ptr<const Decomposition> tree;
-    m.build_one_thread_s = timed_s([&] { tree = kind.build(c.mesh, 1); });
+    const double begin_s = thread_seconds();
+    tree = kind.build(c.mesh, 1);
+    m.build_one_thread_s = thread_seconds() - begin_s;
     tree.reset();
     m.build_s = timed_s([&] { tree = kind.build(c.mesh, 0); });
     m.bytes_per_triangle =
@@ -316,7 +320,7 @@ int run(const Options& options) {
     cases.push_back(
         {std::filesystem::path(file).stem().string(), load_mesh(file, options.scale), {}});
   }
-  if (cases.empty()) cases = default_cases();
+  if (cases.empty()) cases = default_cases(options.with_large);
   Comparison comparison(options.rounds);
   bool agreed = true;
   for (Case& c : cases) {
@@ -341,6 +345,7 @@ int main(int argc, char** argv) {
   camway::bench::Options options;
   app.add_option("--scene", options.scenes,
                  "scenes, with random paths, instead of six of different kinds");
+  app.add_flag("!--no-large", options.with_large, "leave out the three large scenes");
   app.add_option("--scale", options.scale, "multiplies coordinates")->capture_default_str();
   camway::bench::add_rounds_option(app, options.rounds);
   camway::bench::add_json_option(app, options.json_file);
