@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/collision/interval.h"
 
 namespace camway::correction {
@@ -17,8 +19,11 @@ enum class Rung : std::uint8_t {
   kShrink,   ///< the near distance was reduced
 };
 
+constexpr std::array<std::string_view, 5> names_of(Rung) {
+  return {"none", "move", "turn", "go_round", "shrink"};
+}
 /// Returns "none", "move", "turn", "go_round" or "shrink".
-std::string_view to_string(Rung rung);
+inline std::string_view to_string(Rung rung) { return base::name_of(rung); }
 
 /// Effort spent on a correction; a counter is 0 if its method was not tried.
 struct Effort {

@@ -297,11 +297,8 @@ ExitCode run_plan(const PlanFlags& flags) {
 
 /// Adds the flags that override options of the request.
 void add_option_flags(CLI::App& command, PlanFlags& flags) {
-  static constexpr std::array<std::pair<std::string_view, planning::Method>, 2> kMethods{
-      {{"ladder", planning::Method::kLadder},
-       {"keyframe_insertion", planning::Method::kKeyframeInsertion}}};
   service::add_choice(
-      command, "--method", flags.method, kMethods,
+      command, "--method", flags.method, base::named_values<planning::Method>(),
       "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
       "keyframe_insertion (the paper's); these flags go before the request's options")
       ->type_name("METHOD");
