@@ -33,6 +33,7 @@ struct FieldSpec {
   /// Text of the default in documents, if it is not the initial value of the member.
   std::string_view unset = {};
   std::string_view help = {};  ///< meaning, as a cell of a Markdown table
+  bool has_section = false;    ///< whether the page of requests explains it in a section
 
   [[nodiscard]] constexpr std::string_view wire_name() const { return wire.empty() ? name : wire; }
   [[nodiscard]] constexpr std::string_view file_name() const { return file.empty() ? name : file; }

@@ -82,8 +82,8 @@ namespace option {
 inline constexpr FieldSpec kMethod{
     .name = "method",
     .help =
-        "`ladder`: move, turn, go round, whichever is proved first; or `keyframe_insertion`, "
-        "the paper's method"};
+        "how a colliding path is corrected: `ladder` (move, turn, go round, whichever is proved "
+        "first) or `keyframe_insertion` (the paper's method)"};
 inline constexpr FieldSpec kDeadline{
     .name = "deadline_s",
     .range = {.least = 0.0, .excludes_least = true, .excludes_infinity = true},
@@ -108,20 +108,20 @@ inline constexpr FieldSpec kMaxInsertedKeyframes{
     .range = {.least = 0.0},
     .help = "most keyframes that corrections may insert; 0 corrects nothing and shrinks nothing"};
 inline constexpr FieldSpec kObjective{
-    .name = "objective", .help = "what corrected stretches are improved for; see below"};
-inline constexpr FieldSpec kOrientation{
-    .name = "orientation",
-    .unset = R"({"policy": "free"})",
-    .help = "what a correction may do to the orientation; see below"};
-inline constexpr FieldSpec kLimits{
-    .name = "limits",
-    .unset = "none",
-    .help = "limits on speed, acceleration and turn rate; see below"};
+    .name = "objective", .help = "what corrected stretches are improved for", .has_section = true};
+inline constexpr FieldSpec kOrientation{.name = "orientation",
+                                        .unset = R"({"policy": "free"})",
+                                        .help = "what a correction may do to the orientation",
+                                        .has_section = true};
+inline constexpr FieldSpec kLimits{.name = "limits",
+                                   .unset = "none",
+                                   .help = "limits on speed, acceleration and turn rate",
+                                   .has_section = true};
 inline constexpr FieldSpec kBounds{
     .name = "bounds",
     .unset = "none",
-    .help = R"(`{"min": [x, y, z], "max": [x, y, z]}`: a box that no point of the body may leave; )"
-            "see below"};
+    .help = R"(`{"min": [x, y, z], "max": [x, y, z]}`: a box that no point of the body may leave)",
+    .has_section = true};
 inline constexpr FieldSpec kMaxShrink{
     .name = "max_shrink",
     .range = {.least = 0.0, .most = 1.0, .excludes_most = true},
@@ -130,9 +130,7 @@ inline constexpr FieldSpec kMaxShrink{
         "cameras only. This search takes half of the deadline"};
 inline constexpr FieldSpec kRepairKeyframes{
     .name = "repair_keyframes",
-    .help =
-        "`true` moves a given keyframe that collides to the nearest free pose, instead of "
-        "refusing it"};
+    .help = "move a given keyframe that collides to the nearest free pose, instead of refusing it"};
 inline constexpr FieldSpec kSeed{.name = "seed",
                                  .range = {.least = 1.0},
                                  .help = "seed of the random numbers in searches for ways round"};
@@ -144,6 +142,18 @@ inline constexpr FieldSpec kDefaultSpeed{
     .range = {.least = kLeastDefaultSpeed_m_per_s, .most = kMostDefaultSpeed_m_per_s},
     .unset = "1",
     .help = "speed between keyframes without times; refused beside times"};
+
+inline constexpr FieldSpec kCone{
+    .name = "cone",
+    .wire = "cone_rad",
+    .file = "cone_deg",
+    .range = {.least = 0.0, .most = std::numbers::pi, .excludes_least = true}};
+inline constexpr FieldSpec kMaxTurn{
+    .name = "max_turn",
+    .wire = "max_turn_rad",
+    .file = "max_turn_deg",
+    .range = {.least = 0.0, .most = std::numbers::pi},
+    .help = "largest angle by which a correction may turn the camera, in degrees"};
 
 }  // namespace option
 
@@ -171,20 +181,11 @@ void visit_options(const Visit& visit, Options&... options) {
 /// Visits the members of an orientation policy as `visit_options` visits options.
 template <class Visit, class... Policy>
 void visit_orientation(const Visit& visit, Policy&... policy) {
-  constexpr double kHalfTurn = std::numbers::pi;
   visit(FieldSpec{.name = "policy"}, policy.rule...);
   visit(FieldSpec{.name = "up"}, policy.up_W...);
   visit(FieldSpec{.name = "target", .wire = "target_m"}, policy.target_W...);
-  visit(FieldSpec{.name = "cone",
-                  .wire = "cone_rad",
-                  .file = "cone_deg",
-                  .range = {.least = 0.0, .most = kHalfTurn, .excludes_least = true}},
-        policy.cone_rad...);
-  visit(FieldSpec{.name = "max_turn",
-                  .wire = "max_turn_rad",
-                  .file = "max_turn_deg",
-                  .range = {.least = 0.0, .most = kHalfTurn}},
-        policy.max_turn_rad...);
+  visit(option::kCone, policy.cone_rad...);
+  visit(option::kMaxTurn, policy.max_turn_rad...);
 }
 
 /// Visits the limits of the motion. Infinity means no limit.

@@ -33,7 +33,8 @@ std::vector<std::string> expected_rows() {
   std::vector<std::string> rows;
   const PlanOptions defaults;
   const auto add = [&rows](const FieldSpec& spec, const auto& member) {
-    rows.push_back(fmt::format("| `{}` | {} | {} | {} |", spec.file_name(), spec.help,
+    rows.push_back(fmt::format("| `{}` | {}{} | {} | {} |", spec.file_name(), spec.help,
+                               spec.has_section ? "; see below" : "",
                                spec.range.any() ? spec.range_text() : "",
                                default_text(spec, member)));
   };

@@ -6,9 +6,6 @@
 
 namespace camway::tools {
 
-/// Names of the objectives in requests and on the command line.
-inline constexpr auto kObjectives = base::named_values<correction::Objective>();
-
 /// Reads the `options` of a request. A missing option has its default. `planning::visit_options`
 /// has the names of the options; an example is
 ///
