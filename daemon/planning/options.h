@@ -87,7 +87,7 @@ inline constexpr FieldSpec kMethod{
 inline constexpr FieldSpec kDeadline{
     .name = "deadline_s",
     .range = {.least = 0.0, .excludes_least = true, .excludes_infinity = true},
-    .help = "planning ends then and answers `timeout` with what is proved"};
+    .help = "seconds after which planning ends and answers `timeout` with what is proved"};
 inline constexpr FieldSpec kClearance{
     .name = "clearance",
     .wire = "clearance_m",

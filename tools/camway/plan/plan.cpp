@@ -278,11 +278,12 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "sphere, convex or mesh (\"body\": {\"type\": \"box\", \"size\": [x, y, z]}, metres, in the "
       "camera's frame). options.clearance asks for a distance to keep, in metres; "
       "options.orientation and options.limits say how corrections may turn the camera and how fast "
-      "it may move; docs/requests.md explains all options. Fields that are unknown are refused, but for "
-      "comment and those that begin with '_'. Each collision of the response has a witness: time, "
-      "object, triangle, feature of the body, depth, point; corrections say what became of it, and "
-      "how "
-      "hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
+      "it may move; docs/requests.md explains all options. Fields that are unknown are refused, "
+      "but "
+      "for comment and those that begin with '_'. Each collision of the response has a witness: "
+      "time, object, triangle, feature of the body, depth, point; corrections say what became of "
+      "it, "
+      "and how hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });
