@@ -12,8 +12,8 @@
 
 namespace camway::base {
 
-/// An enumeration whose values count from 0, as they do on the wire. A function `names_of` beside
-/// the enumeration returns an array of the names, in order of the values.
+/// An enumeration whose values count from 0, as they do on the wire. A function `names_of` in
+/// its namespace returns an array of the names, in order of the values.
 template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && requires {
   names_of(Enum{});

@@ -10,6 +10,7 @@
 #include "daemon/base/named_enum.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/geometry/bounds.h"
+#include "daemon/planning/enum_names.h"
 #include "daemon/planning/field_spec.h"
 
 namespace camway::planning {

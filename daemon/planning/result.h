@@ -17,6 +17,7 @@
 #include "daemon/motion/path/keyframe.h"
 #include "daemon/motion/path/measures.h"
 #include "daemon/motion/path/path.h"
+#include "daemon/planning/enum_names.h"
 
 namespace camway::planning {
 

@@ -13,7 +13,7 @@
 namespace camway::planning {
 namespace {
 
-/// The initial value of an option, as a cell of the table.
+/// Returns the default of an option as a cell of the table.
 template <class Member>
 std::string default_text(const FieldSpec& spec, const Member& member) {
   if (!spec.unset.empty())
@@ -42,7 +42,7 @@ std::vector<std::string> expected_rows() {
   return rows;
 }
 
-/// The rows of the table under the heading "## Options".
+/// Returns the rows of the table under the heading "## Options".
 std::vector<std::string> rows_in_document() {
   std::ifstream document(CAMWAY_REQUESTS_PAGE);
   std::vector<std::string> rows;
@@ -55,15 +55,21 @@ std::vector<std::string> rows_in_document() {
   return rows;
 }
 
-// In whatever order: the page begins with what is asked for most.
-TEST(OptionTable, IsTheOneOfTheDocumentation) {
+// The order differs: the page begins with the most common options.
+TEST(OptionTable, IsThatOfTheDocuments) {
   const std::vector<std::string> rows = rows_in_document();
   for (const std::string& expected : expected_rows()) {
     EXPECT_EQ(std::ranges::count(rows, expected), 1) << "docs/requests.md needs this row:\n"
                                                      << expected;
   }
   EXPECT_EQ(rows.size(), expected_rows().size())
-      << "docs/requests.md has an option that there is not";
+      << "docs/requests.md has an option that does not exist";
+}
+
+TEST(OptionTable, KindsOfCorrectionHaveTheNamesOfTheirRoom) {
+  for (const auto& [name, kind] : base::named_values<correction::Rung>()) {
+    EXPECT_EQ(name, correction::to_string(kind));
+  }
 }
 
 TEST(OptionTable, RangesReadAsSentences) {

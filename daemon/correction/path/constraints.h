@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <numbers>
-#include <string_view>
 
 #include "daemon/geometry/types.h"
 #include "daemon/motion/timing/rate_limits.h"
@@ -18,9 +16,6 @@ enum class Objective : std::uint8_t {
   kSmoothest,  ///< bending energy
   kSafest,     ///< least distance to the scene
 };
-constexpr std::array<std::string_view, 4> names_of(Objective) {
-  return {"closest", "shortest", "smoothest", "safest"};
-}
 
 /// Changes of orientation that corrections may make (`orientation_rule.h` defines them exactly).
 /// The rule holds at every time, relative to the interpolated path at the same time.
@@ -30,9 +25,6 @@ enum class OrientationRule : std::uint8_t {
   kLevel,   ///< turns that nowhere tilt the horizon, the line across `up_W`, more than before
   kTarget,  ///< turns that nowhere look farther off a point than a cone allows, or than before
 };
-constexpr std::array<std::string_view, 4> names_of(OrientationRule) {
-  return {"free", "keep", "level", "target"};
-}
 
 /// The orientation rule and its parameters. It binds the parts that the ladder changes; given
 /// keyframes are kept in any case.

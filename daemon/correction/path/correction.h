@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string_view>
 
-#include "daemon/base/named_enum.h"
 #include "daemon/collision/interval.h"
 
 namespace camway::correction {
@@ -19,11 +17,8 @@ enum class Rung : std::uint8_t {
   kShrink,   ///< the near distance was reduced
 };
 
-constexpr std::array<std::string_view, 5> names_of(Rung) {
-  return {"none", "move", "turn", "go_round", "shrink"};
-}
 /// Returns "none", "move", "turn", "go_round" or "shrink".
-inline std::string_view to_string(Rung rung) { return base::name_of(rung); }
+std::string_view to_string(Rung rung);
 
 /// Effort spent on a correction; a counter is 0 if its method was not tried.
 struct Effort {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <string_view>
-
 #include "daemon/geometry/types.h"
 
 namespace camway::motion {
@@ -17,7 +14,6 @@ struct Pose {
 
 /// The source of a keyframe: the request, or a correction.
 enum class KeyframeOrigin { kGiven, kInserted };
-constexpr std::array<std::string_view, 2> names_of(KeyframeOrigin) { return {"given", "inserted"}; }
 
 /// A pose that the path must pass through at a time.
 struct Keyframe {
