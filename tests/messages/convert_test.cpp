@@ -46,7 +46,8 @@ TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
   Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
     SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
-    const planning::PlanRequest request = sample_request(2, random);
+    planning::PlanRequest request = sample_request(2, random);
+    request.options = testing::sample_options(random);
     const ConvertedRequest back = from_wire(to_wire(request, kIds));
     ASSERT_TRUE(back.request) << back.error;
     EXPECT_EQ(back.request->options, request.options);

@@ -166,7 +166,14 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   request.camera = {1.5, 1.0, 0.1};
   request.has_times = below(random, 2) == 0;
   request.options = sample_options(random);
-  if (below(random, 4) == 0) request.options.max_inserted_keyframes = 0;
+  // The service's tests plan it: neither for long nor with the paper's method.
+  request.options.method = planning::Method::kLadder;
+  request.options.deadline_s = 3.25;
+  request.options.chord_error_m = 0.0078125;
+  request.options.interval_tolerance_m = 1e-5;
+  request.options.clearance_m = 0.0625;
+  request.options.max_shrink = 0.375;
+  request.options.max_inserted_keyframes = below(random, 2) == 0 ? 17 : 0;
   if (request.has_times) request.options.default_speed_m_per_s.reset();
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
