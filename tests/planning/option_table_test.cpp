@@ -81,7 +81,9 @@ TEST(OptionTable, RangesReadAsSentences) {
     if (spec.is_angle()) angles.push_back(spec.range_text());
   });
   visit_limits([](const FieldSpec& spec) {
-    if (spec.range.any()) EXPECT_EQ(spec.range_text(), "above 0") << spec.name;
+    if (spec.range.any()) {
+      EXPECT_EQ(spec.range_text(), "above 0") << spec.name;
+    }
   });
   EXPECT_EQ(angles, (std::vector<std::string>{"above 0 and at most 180 degrees",
                                               "between 0 and 180 degrees"}));
