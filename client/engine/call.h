@@ -47,7 +47,8 @@ class Call {
   /// Returns all messages of one try.
   const std::vector<Outgoing>& question() const { return question_; }
 
-  /// Takes a message from the channel for answers. It is for this request, or cannot be read.
+  /// Takes a message from the channel for answers. The message is for this request, or cannot be
+  /// read.
   virtual void take_answer(std::span<const std::uint8_t> bytes, Clock::time_point now) = 0;
   /// Takes a progress report.
   virtual void take_progress(std::span<const std::uint8_t> /*bytes*/) {}

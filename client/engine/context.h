@@ -47,8 +47,8 @@ class Context {
   Retry retry(Clock::time_point deadline);
 
   /// Returns the failure of a call without an answer. `partly` names the part of the answer that
-  /// came
-  /// ("2 of 5 pages"), `fault` the fault of a message on the answer's channel; both may be empty.
+  /// came ("2 of 5 pages"). `fault` describes an unreadable message on the channel of the answer.
+  /// Both may be empty.
   Failure explain(Outcome outcome, bool ever_heard, std::string_view partly,
                   std::string_view fault) const;
 
@@ -60,7 +60,8 @@ class Context {
 
  private:
   std::string where() const;
-  /// Returns a hint about keys, because a daemon with other keys seems not to be there.
+  /// Returns a hint to check the keys. A daemon with other keys does not answer, so it looks like
+  /// no daemon.
   std::string about_keys() const;
 
   ClientOptions options_;

@@ -46,7 +46,8 @@ class Engine {
   /// Cancels all calls of a kind.
   void cancel_all(Call::Kind kind);
 
-  /// These call `WatchList::add`, `remove` and `take_better` on the engine's thread.
+  /// The next three functions call `WatchList::add`, `remove` and `take_better` on the engine's
+  /// thread.
   void watch(const PlanRequest& request, WatchHandler handler);
   void unwatch(std::int64_t request_id);
   void take_better(std::int64_t request_id);

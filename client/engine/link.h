@@ -50,9 +50,9 @@ class Link {
   /// Makes the link sign and check messages. Call it before `listen`; null changes nothing.
   void authenticate(std::unique_ptr<Authentication::Session> session);
 
-  /// Has `wait` call `handler` with the content of every message on `channel`. Messages that are
-  /// not to be trusted are dropped, and those beyond a queue of `capacity`. Exceptions of `handler`
-  /// are ignored. Requires an open link.
+  /// Makes `wait` call `handler` with the content of every message on `channel`. Drops messages
+  /// that are not to be trusted, and messages that exceed a queue of `capacity`. Exceptions of
+  /// `handler` are ignored. Requires an open link.
   void listen(const std::string& channel, int capacity, Handler handler);
 
   /// Sends a message. Returns whether LCM accepted it. Requires an open link.

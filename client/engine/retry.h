@@ -13,9 +13,9 @@ using Clock = std::chrono::steady_clock;
 /// Decides when a request is sent again and when it is given up. A state machine without a clock or
 /// network of its own. Not thread-safe.
 ///
-/// - A request is repeated after `try_timeout_s`, then after growing waits. Each wait is changed at
-///   random by up to `jitter`, so that clients that were refused together do not come back
-///   together.
+/// - A request is repeated after `try_timeout_s`, then after growing waits. Each wait is multiplied
+///   by a random factor from 1 - `jitter` to 1 + `jitter`, so that clients that were refused
+///   together do not come back together.
 /// - If a part of the answer has come and no more follows, the missing pages are asked for, twice.
 ///   Then the request is repeated.
 /// - It is repeated at once if a heartbeat shows that the daemon started after it was sent.
@@ -49,7 +49,7 @@ class Retry {
 
   /// Notes that a new page of the answer came.
   void note_part(Clock::time_point now);
-  /// Notes that the daemon gave another sign of life.
+  /// Notes a sign of life of the daemon that is neither a page nor a heartbeat.
   void note_life() { life_ = ever_heard_ = true; }
   /// Notes that the daemon announced its end. The request is given up after `successor_wait_s`
   /// unless a heartbeat comes.
@@ -59,7 +59,7 @@ class Retry {
   /// Forgets that pages came, because their answer was discarded.
   void forget_parts() { has_part_ = false; }
 
-  /// Begins anew for another request in place of this one, which is sent at once.
+  /// Starts over for a new request that replaces the current one. The next call of `next` sends it.
   void restart();
 
   bool ever_heard() const { return ever_heard_; }

@@ -133,7 +133,7 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
   tell(last, std::move(event));
   WatchEvent end;
   end.kind = WatchEvent::Kind::kEnded;
-  end.error = "there is nothing to watch, as the answer proves no path: " +
+  end.error = "there is nothing to watch, as the answer has no proved path: " +
               (response.ok() ? response.message : response.error);
   tell(last, std::move(end));
 }

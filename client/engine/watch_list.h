@@ -66,7 +66,7 @@ class WatchList {
   struct Offer {
     std::int64_t revision;     ///< `path_state_t::offer_revision`
     Clock::time_point ask_at;  ///< next time to ask for its pages, or to accept it
-    double again_s;            ///< wait until the time after that
+    double again_s;            ///< pause between the attempt at `ask_at` and the next one; it grows
     bool is_told = false;      ///< whether the handler has received it
     bool is_taken = false;     ///< whether the user has accepted it
   };
@@ -74,17 +74,19 @@ class WatchList {
     PlanRequest request;
     WatchHandler handler;
     PlanCollector collector;
-    PlanCollector offered;            ///< pages of the offer
-    bool is_asked = false;            ///< whether a call for the path is pending
-    Clock::time_point ask_at{};       ///< next time to request the path; max: not needed
-    double ask_again_s = 0.0;         ///< wait until the time after that
+    PlanCollector offered;       ///< pages of the offer
+    bool is_asked = false;       ///< whether a call for the path is pending
+    Clock::time_point ask_at{};  ///< next time to request the path; max: not needed
+    double ask_again_s = 0.0;    ///< pause between the attempt at `ask_at` and the next; it grows
     std::int64_t held_revision = -1;  ///< scene revision of the answer that is held; below 0: none
     std::int64_t serial = 0;          ///< serial of the newest state that was received
     bool is_broken = false;
     bool is_lost = false;                 ///< whether the last event was kLost
     std::int64_t scene_revision = 0;      ///< scene revision of the last event before kLost
     std::optional<Failure> refusal = {};  ///< reason why the daemon refuses to watch it, if it does
-    std::vector<WatchEvent> untold = {};  ///< answer that came after a refusal; told once watched
+    /// The event with the newest answer that came while the daemon refused to watch the path; at
+    /// most one. The handler receives it when a report says that the path is watched.
+    std::vector<WatchEvent> untold = {};
     std::optional<Offer> offer = {};
   };
   /// A message that ends the watches of some paths. It is repeated until it is answered.
@@ -92,7 +94,7 @@ class WatchList {
     std::vector<std::int64_t> paths;
     Clock::time_point send_at;     ///< next time to send it
     Clock::time_point give_up_at;  ///< time at which the lease is over anyway
-    double again_s;                ///< wait until the time after that
+    double again_s;  ///< pause between the attempt at `send_at` and the next; it grows
   };
 
   void ask(Watched& watched);
@@ -124,12 +126,17 @@ class WatchList {
   Clock::time_point renew_at_ = Clock::time_point::max();
   double renew_again_s_ = 0.0;         ///< wait for the answer to a renewal
   std::set<std::int64_t> unanswered_;  ///< ids of the last renewals that are not answered yet
-  Clock::time_point renewed_at_{};     ///< time at which the last renewals were all answered
-  Clock::time_point stepped_at_{};     ///< time of the last step
-  Clock::time_point heard_at_{};       ///< last sign of life, moved on by times without listening
-  Clock::time_point ping_at_{};        ///< earliest time to ask the daemon for a sign of life
-  bool was_heard_ = false;  ///< whether a daemon was heard since the first path was added
-  bool is_silent_ = false;  ///< whether the handlers were told of the daemon's silence
+  /// Last time at which every renewal that had been sent was answered. Also set when the first path
+  /// is added, and when a heartbeat shows that the daemon was restarted.
+  Clock::time_point renewed_at_{};
+  Clock::time_point stepped_at_{};  ///< time of the last step
+  /// Time of the last sign of life, plus the time since then in which this client did not run (for
+  /// example, because the process was stopped). So a pause of the client does not count as silence
+  /// of the daemon.
+  Clock::time_point heard_at_{};
+  Clock::time_point ping_at_{};  ///< earliest time to ask the daemon for a sign of life
+  bool was_heard_ = false;       ///< whether a daemon was heard since the first path was added
+  bool is_silent_ = false;       ///< whether the handlers were told of the daemon's silence
   bool is_closed_ = false;
 };
 

@@ -15,9 +15,9 @@
 #include <vector>
 
 /// Converts between the client's structs and the messages: `put(mine, wire)` writes a message,
-/// `read(wire, mine)` reads one. Members of the same name go one to one, whatever struct they stand
-/// in, so a struct needs a function of its own only for what it says otherwise than the wire. `put`
-/// expects `wire` to be value-initialised; `read` appends to lists.
+/// `read(wire, mine)` reads one. `put` and `read` copy every member that the struct and the message
+/// have under the same name. A struct needs its own overload only for members whose name or form
+/// differs from the message. `put` expects `wire` to be value-initialised; `read` appends to lists.
 namespace camway {
 
 template <class T>
@@ -34,7 +34,7 @@ template <class T, std::size_t N>
 void put(const std::array<T, N>& mine, T (&wire)[N]) {
   std::copy(mine.begin(), mine.end(), wire);
 }
-/// An empty optional is 0 on the wire.
+/// Writes the value; an empty optional leaves `wire` at 0.
 template <class Mine, class Wire>
 void put(const std::optional<Mine>& mine, Wire& wire) {
   if (mine) put(*mine, wire);
@@ -59,18 +59,20 @@ template <class T, std::size_t M, std::size_t N>
 void read(const T (&wire)[M][N], std::array<std::array<T, N>, M>& mine) {
   for (std::size_t i = 0; i < M; ++i) read(wire[i], mine[i]);
 }
+/// Reads the value. The optional is never empty afterwards.
 template <class Wire, class Mine>
 void read(const Wire& wire, std::optional<Mine>& mine) {
   read(wire, mine.emplace());
 }
 void read(const bounds_t& wire, Bounds& mine);
 
-/// Writes the members that both have by one name.
+/// Writes every member that the struct and the message have under the same name.
 template <class Mine, wire::Described Wire>
 void put_common(const Mine& mine, Wire& wire) {
   wire::Members<Wire>::common(wire, mine, [](auto& to, const auto& from) { put(from, to); });
 }
-/// Structs that have all members of the message, by the same names.
+/// Writes a struct that has every member of the message under the same name; otherwise it does not
+/// compile.
 template <class Mine, wire::Described Wire>
 requires(!std::same_as<Mine, Wire>) void put(const Mine& mine, Wire& wire) {
   static_assert(wire::lacks_only<Wire, Mine>({}), "a pair that differs needs a `put` of its own");
@@ -82,11 +84,13 @@ requires(!std::same_as<Mine, Wire>) void put(const std::vector<Mine>& mine,
   for (const Mine& element : mine) put(element, wire.emplace_back());
 }
 
-/// Reads the members that both have by one name.
+/// Reads every member that the struct and the message have under the same name.
 template <wire::Described Wire, class Mine>
 void read_common(const Wire& wire, Mine& mine) {
   wire::Members<Wire>::common(wire, mine, [](const auto& from, auto& to) { read(from, to); });
 }
+/// Reads a struct that has every member of the message under the same name; otherwise it does not
+/// compile.
 template <wire::Described Wire, class Mine>
 requires(!std::same_as<Mine, Wire>) void read(const Wire& wire, Mine& mine) {
   static_assert(wire::lacks_only<Wire, Mine>({}), "a pair that differs needs a `read` of its own");

@@ -38,8 +38,9 @@ class PlanCollector {
   Taken take(std::span<const std::uint8_t> bytes);
 
   bool complete() const;
-  /// Return the number of pages of the answer and of those that came; 0 before the first one.
+  /// Returns the number of pages of the whole answer; 0 before the first page.
   std::size_t pages_expected() const;
+  /// Returns the number of pages received.
   std::size_t pages_here() const { return pages_.size(); }
   /// Returns the numbers of the missing pages. Requires at least one page.
   std::vector<std::int32_t> missing() const;

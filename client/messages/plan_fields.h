@@ -9,13 +9,13 @@
 
 namespace camway {
 
-/// Writes a request but for its ids and its time of sending.
+/// Writes a request except its ids and its time of sending.
 void put(const PlanRequest& mine, plan_request_t& wire);
 
-/// Reads a whole answer but for its path.
+/// Reads a whole answer except its path.
 void read(const plan_response_t& wire, PlanResponse& mine);
 
-/// Stages that are unknown here count as waiting.
+/// Reads a progress report. A stage that this client does not know becomes kWaiting.
 void read(const plan_progress_t& wire, PlanProgress& mine);
 
 }  // namespace camway

@@ -9,7 +9,7 @@
 
 namespace camway {
 
-/// Returns the heartbeat in these bytes, or nothing if they are no valid one.
+/// Returns the heartbeat in these bytes. Returns nothing if the bytes are not a valid heartbeat.
 std::optional<DaemonStatus> read_status(std::span<const std::uint8_t> bytes);
 
 }  // namespace camway

@@ -10,9 +10,10 @@
 #include <thread>
 #include <vector>
 
-namespace camway::scene {
+namespace camway::base {
 
-/// Largest useful number of threads: passes over a scene are then limited by memory bandwidth.
+/// Largest number of threads that `chunk_threads` returns. With more, loops over large arrays are
+/// limited by memory bandwidth.
 inline constexpr unsigned kMaxChunkThreads = 8;
 
 /// Number of threads to use if the caller asks for `asked`, where 0 means one per processor.
@@ -56,4 +57,4 @@ void for_each_chunk(unsigned workers, std::size_t chunks, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace camway::scene
+}  // namespace camway::base

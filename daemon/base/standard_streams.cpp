@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace camway::service {
+namespace camway::base {
 
 bool occupy_closed_standard_streams() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
@@ -17,4 +17,4 @@ bool occupy_closed_standard_streams() {
   return true;
 }
 
-}  // namespace camway::service
+}  // namespace camway::base

@@ -76,7 +76,7 @@ class ClearanceSearch {
       const Verdict verdict = settle(stretch, splittable);
       if (verdict == Verdict::kTouches) return false;
       if (verdict == Verdict::kSettled) u = end;
-      width *= std::clamp(target_reach_m_ / reach_m, kLargestShrink, kLargestGrowth);
+      width *= std::clamp(target_reach_m_ / reach_m, kLargestShrink, kLargestStep);
     }
     return true;
   }
@@ -125,9 +125,9 @@ class ClearanceSearch {
   // Chosen by measurement: none changes what is proved.
   static constexpr double kShare = 0.93;  // the true distance is at least this share
   static constexpr int kPlacesASegment = 8;
-  static constexpr double kWorthACheck = 1.5;  // share of the reach aimed at
-  static constexpr double kApproach = 0.8;     // reach aimed at, as a share of the gap
-  static constexpr double kLargestGrowth = 4.0;
+  static constexpr double kWorthACheck = 1.5;   // share of the reach aimed at
+  static constexpr double kApproach = 0.8;      // reach aimed at, as a share of the gap
+  static constexpr double kLargestStep = 4.0;   // largest growth of a width
   static constexpr double kLargestShare = 0.8;  // share of a reach that was too long
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;

@@ -14,21 +14,24 @@ namespace camway::collision {
 struct PathClearance {
   /// Never above the true least distance; 0 if no positive distance could be proved.
   double lower_bound_m = 0.0;
-  /// Somewhere the distance was found to be this or less; at most `kLargestClearance_m`.
+  /// A distance that is reached at some place of the path: an upper bound of the least distance.
+  /// `kLargestClearance_m` if no smaller distance was found.
   double upper_bound_m = 0.0;
 };
 
-/// Largest gap between the two bounds, as a share of the upper one, rounding apart.
+/// If `lower_bound_m` > 0: largest value of (upper_bound_m - lower_bound_m) / upper_bound_m, apart
+/// from rounding.
 inline constexpr double kClearanceGap = 0.18;
 
 /// Largest clearance that is reported; a scene may be empty, and larger values are of no use.
 /// [Units: metres]
 inline constexpr double kLargestClearance_m = 100.0;
 
-/// Computes the clearance by branch and bound over the path, with the bound of `Probe::look`: a
-/// stretch is final when its distance is proved to be nowhere below the least distance found so far
-/// by more than `kClearanceGap`. Covers every instant, rounding included. Ignores bounds. Returns
-/// nothing if the deadline strikes first.
+/// Computes the clearance by branch and bound over the path. A stretch is final once
+/// `Probe::check_refined` proves that its distance is at least (1 - `kClearanceGap`) times the
+/// least distance found so far. The result holds at every instant, rounding included. The bounds of
+/// the scene (`Obstacles::bounds`) are not considered. Returns nothing if the deadline strikes
+/// first.
 std::optional<PathClearance> path_clearance(const Obstacles& obstacles, const motion::Path& path,
                                             const motion::Body& body,
                                             const base::Deadline& deadline);

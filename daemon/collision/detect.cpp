@@ -63,10 +63,9 @@ struct Piece {
 // that are far too long.)
 class Detector {
  public:
-  Detector(const Obstacles& obstacles, const motion::Body& body, const DetectOptions& options,
-           const base::Deadline& deadline, bool only_first)
-      : probe_(obstacles, body, options.clearance_m),
-        options_(options),
+  Detector(const Query& query, const base::Deadline& deadline, bool only_first)
+      : probe_(query.obstacles, query.body, query.options.clearance_m),
+        options_(query.options),
         deadline_(deadline),
         only_first_(only_first) {}
 
@@ -125,7 +124,7 @@ class Detector {
     }
     if (seen.contains) {
       extend(piece, seen.gap_m, /*surely=*/true);
-      target_reach_m_ = kLargestGrowth * seen.reach_m;
+      target_reach_m_ = kGrowthInCollision * seen.reach_m;
       return true;
     }
     const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.gap_m;
@@ -162,7 +161,7 @@ class Detector {
     const bool is_short = motion_m <= options_.gap_m || !piece.splittable();
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
-      target_reach_m_ = kLargestGrowth * reach_m;
+      target_reach_m_ = kGrowthInCollision * reach_m;
       return Verdict::kSettled;
     }
     if (!is_short) {
@@ -179,7 +178,7 @@ class Detector {
       checks_left_ = backoff_;
     }
     extend(piece, 0.0, hit_.has_value());
-    target_reach_m_ = hit_ ? kLargestGrowth * reach_m : kBelow * options_.gap_m;
+    target_reach_m_ = hit_ ? kGrowthInCollision * reach_m : kBelow * options_.gap_m;
     return Verdict::kSettled;
   }
 
@@ -274,11 +273,11 @@ class Detector {
   }
 
   // Chosen by measurement over furnished and empty scenes: none changes what is proved.
-  static constexpr double kWorthACheck = 1.5;    // share of the reach aimed at
-  static constexpr double kFinestShare = 0.1;    // share of the tolerance
-  static constexpr double kBelow = 0.9;          // keeps rounding from exceeding a limit
-  static constexpr double kLargestGrowth = 2.0;  // growth after a stretch proved to collide
-  static constexpr double kLargestStep = 8.0;    // largest growth of a width
+  static constexpr double kWorthACheck = 1.5;        // share of the reach aimed at
+  static constexpr double kFinestShare = 0.1;        // share of the tolerance
+  static constexpr double kBelow = 0.9;              // keeps rounding from exceeding a limit
+  static constexpr double kGrowthInCollision = 2.0;  // after a stretch proved to collide
+  static constexpr double kLargestStep = 8.0;        // largest growth of a width
   static constexpr double kLargestShrink = 1.0 / 64.0;
   static constexpr unsigned kLooksPerClock = 16;
   static constexpr int kMostBackoff = 15;  // checks between attempts to prove a collision
@@ -311,35 +310,31 @@ class Detector {
 
 }  // namespace
 
-std::optional<std::vector<CollisionInterval>> detect_collisions(const Obstacles& obstacles,
+std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& query,
                                                                 const motion::Path& path,
-                                                                const motion::Body& body,
                                                                 double t_begin_s, double t_end_s,
-                                                                const DetectOptions& options,
                                                                 const base::Deadline& deadline) {
-  Search search = search_collisions(obstacles, path, body, t_begin_s, t_end_s, options, deadline);
+  Search search = search_collisions(query, path, t_begin_s, t_end_s, deadline);
   if (!search.complete) return std::nullopt;
   return std::move(search.collisions);
 }
 
-Search search_collisions(const Obstacles& obstacles, const motion::Path& path,
-                         const motion::Body& body, double t_begin_s, double t_end_s,
-                         const DetectOptions& options, const base::Deadline& deadline) {
-  Detector detector(obstacles, body, options, deadline, /*only_first=*/false);
+Search search_collisions(const Query& query, const motion::Path& path, double t_begin_s,
+                         double t_end_s, const base::Deadline& deadline) {
+  Detector detector(query, deadline, /*only_first=*/false);
   detector.run(path, t_begin_s, t_end_s);
   Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
   if (search.collisions.size() > 1) {
-    const double travel_m = travel_bound_m(path, body.radius_m());
+    const double travel_m = travel_bound_m(path, query.body.radius_m());
     join_close_intervals(search.collisions,
-                         options.gap_m / travel_m * (path.end_s() - path.begin_s()));
+                         query.options.gap_m / travel_m * (path.end_s() - path.begin_s()));
   }
   return search;
 }
 
-FirstCollision first_collision(const Obstacles& obstacles, const motion::Path& path,
-                               const motion::Body& body, double t_begin_s, double t_end_s,
-                               const DetectOptions& options, const base::Deadline& deadline) {
-  Detector detector(obstacles, body, options, deadline, /*only_first=*/true);
+FirstCollision first_collision(const Query& query, const motion::Path& path, double t_begin_s,
+                               double t_end_s, const base::Deadline& deadline) {
+  Detector detector(query, deadline, /*only_first=*/true);
   detector.run(path, t_begin_s, t_end_s);
   if (detector.timed_out()) return {false, std::nullopt};
   if (detector.intervals().empty()) return {};

@@ -17,8 +17,8 @@ std::array<geometry::Triangle, 2> near_quad_triangles(const motion::Corners& cor
 bool collides(const scene::SceneIndex& index, const motion::Corners& corners_C,
               const motion::Pose& pose);
 
-/// Distance from the filled near quadrilateral at `pose` to the scene, 0 where they touch; nothing
-/// if it is `cutoff_m` or more.
+/// Returns the distance from the filled near quadrilateral at `pose` to the scene, 0 if they touch;
+/// nothing if the distance is `cutoff_m` or more.
 std::optional<double> clearance_m(const scene::SceneIndex& index, const motion::Corners& corners_C,
                                   const motion::Pose& pose, double cutoff_m);
 

@@ -20,25 +20,24 @@ namespace camway::collision {
 /// The scene and the bounds that a path is checked against. Refers to its sources, which must
 /// outlive it.
 struct Obstacles {
-  // Implicit on purpose: an index or a snapshot may be passed where obstacles are expected.
-  Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}  // NOLINT
-  Obstacles(const scene::Snapshot& snapshot);                              // NOLINT
+  explicit Obstacles(const scene::SceneIndex& scene_index) : index(scene_index) {}
+  explicit Obstacles(const scene::Snapshot& snapshot);
 
-  /// These obstacles with the bounds reduced to `limits`.
+  /// Returns these obstacles with the intersection of their bounds and `limits`.
   [[nodiscard]] Obstacles within(const geometry::Bounds& limits) const {
     Obstacles both = *this;
     both.bounds = bounds.within(limits);
     return both;
   }
-  /// The same scene without bounds.
+  /// Returns these obstacles without bounds.
   [[nodiscard]] Obstacles without_bounds() const {
     Obstacles scene = *this;
     scene.bounds = {};
     return scene;
   }
 
-  /// Each obstacle has a number: triangles of the scene their index, sides of the bounds the
-  /// highest numbers, which `signed_number` maps to -1 to -6.
+  /// Each obstacle has a number. The number of a triangle is its index in the scene. The sides of
+  /// the bounds have the six highest numbers; `signed_number` maps these to -1 to -6.
   static constexpr std::uint32_t number_of_side(std::size_t side) {
     return std::numeric_limits<std::uint32_t>::max() - static_cast<std::uint32_t>(side);
   }

@@ -18,9 +18,9 @@ struct ProbeResult {
   /// Proved: everywhere on the stretch the body keeps the required clearance, and all of it is
   /// within the bounds.
   bool free = false;
-  /// Proved: everywhere on the stretch a part of the scene is inside a solid of the body, or a part
-  /// of the body is inside a solid of the scene, away from its surface, or a point of the body is
-  /// beyond the bounds. If false, the body may still collide everywhere.
+  /// Proved for the whole stretch: a part of the scene is inside a solid of the body, or a part of
+  /// the body is inside a solid of the scene, in both cases without touching its surface; or a
+  /// point of the body is beyond the bounds. If false, the body may still collide everywhere.
   bool contains = false;
   /// Bound of the distance of the body's points from their places at the middle of the stretch,
   /// rounding included.
@@ -33,8 +33,9 @@ struct ProbeResult {
   /// computed: distance less the required clearance, or depth inside the bounds. Another obstacle
   /// may be nearer, unless `Probe::refine` was called.
   double gap_m = 0.0;
-  /// Estimated factor from this stretch's length to that of a free stretch: the next one if this is
-  /// free, otherwise one with the same beginning. Infinite if no obstacle was met.
+  /// Estimated length of a free stretch, divided by the length of this one. If this stretch is
+  /// free, the other one begins where it ends; otherwise both have the same beginning. Infinite if
+  /// no obstacle was met.
   double step_scale = 0.0;
 
   /// Whether the body collides at the middle; known once the gap is measured.
@@ -47,17 +48,18 @@ struct ProbeResult {
 /// own.
 ///
 /// The proof that a stretch is free: let d be the computed distance from the scene to the body's
-/// triangles, placed as computed for the middle, with an error of at most e. Every point of a
-/// triangle is, anywhere on the stretch and in exact arithmetic, within `reach` of its place there
+/// triangles, placed as computed for the middle, with an error of at most e. In exact arithmetic,
+/// every point of a triangle is, anywhere on the stretch, within `reach` of that place
 /// (`motion::Stretch::reach_m`). So its distance from the scene is everywhere at least d - e -
 /// reach. If that is more than the radius of the body's ball plus the required clearance, the whole
-/// surface keeps the required clearance. Otherwise the direction of motion is used: a point is also
-/// within `motion::Stretch::bend_m`, which is much less, of the line between its two ends, and the
-/// hulls of these lines may keep away all the same (`scene::SceneIndex::swept`). A part inside a
-/// solid, of the body or of the scene, that does not touch its surface is checked separately: if
-/// the surface is free all the time, nothing can have entered or left. Source: He & van den Berg
-/// 2014, "Efficient exact collision-checking of 3-D rigid body motions using linear transformations
-/// and distance computations in workspace", with our motion bounds; the check of motion along a
+/// surface keeps the required clearance. Otherwise the direction of motion is used. Every point is
+/// also within `motion::Stretch::bend_m` of the straight line between its places at the two ends;
+/// this bound is much smaller than `reach`. So the hulls of these lines may keep the distance
+/// although the first test fails (`scene::SceneIndex::swept`). A part that is inside a solid, of
+/// the body or of the scene, without touching its surface is checked separately: if the surface is
+/// free all the time, nothing enters or leaves the solid. Source: He & van den Berg 2014,
+/// "Efficient exact collision-checking of 3-D rigid body motions using linear transformations and
+/// distance computations in workspace", with our motion bounds; the check of motion along a
 /// direction, for a slab, is after Mirtich 1996 ("Impulse-based dynamic simulation of rigid body
 /// systems", section 2.3).
 ///
@@ -83,8 +85,9 @@ class Probe {
   ProbeResult check(const motion::Stretch& stretch, double margin_m = 0.0,
                     Way way = Way::kForwards);
 
-  /// Measures `gap_m` after a `check` at the same stretch, unless that is free: afterwards the
-  /// true distance is at least `share` of the one used, and exactly 0 if that is 0.
+  /// Measures `gap_m` after a `check` of the same stretch; does nothing if the stretch is free.
+  /// Afterwards the true distance is at least `share` times the measured one, and exactly 0 if the
+  /// measured one is 0.
   void refine(const motion::Stretch& stretch, ProbeResult& result, double share = kRough);
 
   /// `check`, then `refine`.
@@ -92,8 +95,8 @@ class Probe {
                             double share = kRough);
 
   /// Returns an obstacle that the body touches at the middle of the stretch, or is too close to;
-  /// nothing if there is none. The triangle `guess` is tried first. Cheaper than a look if there is
-  /// one.
+  /// nothing if there is none. The triangle `guess` is tried first. If there is such an obstacle,
+  /// this is cheaper than `check_refined`.
   std::optional<std::uint32_t> touched_in_the_middle(const motion::Stretch& stretch,
                                                      std::uint32_t guess);
 
@@ -102,8 +105,9 @@ class Probe {
   /// that a vertex is everywhere beyond the side that it is farthest beyond at the middle.
   bool surely_collides_with(std::uint32_t obstacle, const motion::Stretch& stretch);
 
-  /// Returns an obstacle for which that is proved, searched among the bounds and the first few
-  /// triangles that the body touches at the middle. Nothing returned proves nothing.
+  /// Returns an obstacle for which `surely_collides_with` is true. Searches only among the bounds
+  /// and the first few triangles that the body touches at the middle. If it returns nothing,
+  /// nothing is proved.
   std::optional<std::uint32_t> surely_hit(const motion::Stretch& stretch);
 
   /// `ProbeResult::reach_m` of that stretch.

@@ -5,9 +5,10 @@
 
 namespace camway::collision {
 
-/// Chooses the reach of the next stretch: the following one if `seen` is free, otherwise another
-/// one from the same beginning. As long as the obstacles met allow at the current motion. Only the
-/// number of checks depends on it, no proof. [Units: metres]
+/// Returns the reach to aim at for the next stretch. If `seen` is free, the next stretch begins
+/// where `seen` ends; otherwise it begins where `seen` begins. The reach is the largest one that
+/// the obstacles near `seen` are estimated to allow if the body keeps its motion. The result
+/// affects the number of checks, not what is proved. [Units: metres]
 double next_reach_m(const ProbeResult& seen);
 
 }  // namespace camway::collision

@@ -15,7 +15,8 @@ using Vec2 = Eigen::Vector2d;
 int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
 /// Sign of `((b - a) × (c - a)) · (p - a)`, exactly: 1 if `p` is on the side from which `a`, `b`,
-/// `c` are seen counter-clockwise, -1 on the other side, 0 in their plane. Requires the same.
+/// `c` are seen counter-clockwise, -1 on the other side, 0 in their plane. Requires every
+/// coordinate to be finite and below kLargestCoordinate_m.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p);
 
 }  // namespace camway::geometry

@@ -10,8 +10,8 @@ namespace camway::geometry {
 /// The point of the convex hull of `points` that is closest to the origin (Wolfe, "Finding the
 /// nearest point in a polytope", Mathematical Programming 11, 1976). It is unique, so independent
 /// of the frame and of the order of the points up to rounding. The iteration ends when no point
-/// could lower the squared length by more than `kMinNormGap`; the result is then within the root of
-/// that of the true point.
+/// could lower the squared length by more than `kMinNormGap`; the result is then within the square
+/// root of `kMinNormGap` of the true point.
 ///
 /// Deviations: the affine sub-problem is solved by a pivoted QR decomposition of the differences
 /// instead of the normal equations, so that clusters do not square the condition number. Major

@@ -10,27 +10,14 @@ namespace {
 
 using Name = std::pair<std::string_view, std::string_view>;
 
-/// Members, without indices, that have another name on the wire, where nothing begins with
-/// "options.".
-constexpr std::array<Name, 18> kNames{{
-    {"camera.fov_x", "camera.fov_x_rad"},
-    {"camera.fov_y", "camera.fov_y_rad"},
-    {"camera.near", "camera.near_m"},
+/// Members of the body, without indices, that have another name on the wire.
+constexpr std::array<Name, 6> kBodyNames{{
     {"body.center", "body.center_m"},
     {"body.size", "body.size_m"},
     {"body.radius", "body.radius_m"},
     {"body.points", "body.points_m"},
     {"body.pieces", "body.piece_sizes"},
     {"body.vertices", "body.points_m"},
-    {"clearance", "clearance_m"},
-    {"default_speed", "default_speed_m_per_s"},
-    {"orientation.target", "orientation.target_m"},
-    {"orientation.cone", "orientation.cone_rad"},
-    {"orientation.max_turn", "orientation.max_turn_rad"},
-    {"limits.speed", "limits.speed_m_per_s"},
-    {"limits.acceleration", "limits.acceleration_m_per_s2"},
-    {"limits.turn_rate", "limits.turn_rate_rad_per_s"},
-    {"limits.retime", "limits.may_retime"},
 }};
 
 /// Members of a keyframe, which follow its index.
@@ -51,12 +38,11 @@ std::string point_of_piece(std::string_view indices) {
 }
 
 std::string spelled(std::string_view path) {
-  if (path.starts_with(kGroup)) path.remove_prefix(kGroup.size());
   if (path.starts_with(kPieces) && path.find("][") != std::string_view::npos) {
     return point_of_piece(path.substr(kPieces.size()));
   }
   const std::size_t index = path.find('[');
-  for (const auto& [name, wire_name] : kNames) {
+  for (const auto& [name, wire_name] : kBodyNames) {
     if (path.substr(0, index) == name) {
       return std::string(wire_name) +
              std::string(index == std::string_view::npos ? "" : path.substr(index));
@@ -67,7 +53,8 @@ std::string spelled(std::string_view path) {
       return std::string(path.substr(0, path.size() - name.size())) + std::string(wire_name);
     }
   }
-  return std::string(path);
+  const std::string full = planning::spell(path, planning::Spelling::kWire);
+  return full.starts_with(kGroup) ? full.substr(kGroup.size()) : full;
 }
 
 }  // namespace

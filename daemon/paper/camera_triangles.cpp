@@ -6,7 +6,7 @@
 
 #include "daemon/geometry/triangle_intersection.h"
 
-namespace camway::scene {
+namespace camway::paper {
 
 void CameraTriangles::remove(std::uint32_t id) {
   const auto found = triangles_.find(id);
@@ -56,4 +56,4 @@ std::span<const std::uint32_t> CameraTriangles::leaves_of(std::uint32_t id) cons
   return found->second.leaves;
 }
 
-}  // namespace camway::scene
+}  // namespace camway::paper

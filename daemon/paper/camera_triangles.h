@@ -11,7 +11,7 @@
 #include "daemon/geometry/types.h"
 #include "daemon/scene/index/scene_index.h"
 
-namespace camway::scene {
+namespace camway::paper {
 
 /// The second list of the paper's octree (Ptacek & Johnstone 2006, section 3): triangles of the
 /// moving camera's surface, stored in the leaves that they intersect and separate from the scene's.
@@ -21,7 +21,7 @@ namespace camway::scene {
 /// The tree must outlive the list. Thread-safe for const calls.
 class CameraTriangles {
  public:
-  explicit CameraTriangles(const SceneIndex& index) : index_(&index) {}
+  explicit CameraTriangles(const scene::SceneIndex& index) : index_(&index) {}
 
   /// Inserts `triangle` under `id` into its leaves; replaces the triangle that had this id.
   void insert(std::uint32_t id, const geometry::Triangle& triangle);
@@ -29,7 +29,7 @@ class CameraTriangles {
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 
   /// Returns the lowest index of a scene triangle that camera triangle `id` touches; nothing if
-  /// there is none or the id is unknown. Equals `SceneIndex::first_intersection`.
+  /// there is none or the id is unknown. Equals `scene::SceneIndex::first_intersection`.
   [[nodiscard]] std::optional<std::uint32_t> first_hit(std::uint32_t id) const;
 
   /// Ids of the camera triangles in `leaf`, increasing.
@@ -54,9 +54,9 @@ class CameraTriangles {
 
   void remove(std::uint32_t id);
 
-  const SceneIndex* index_;
+  const scene::SceneIndex* index_;
   std::map<std::uint32_t, Placed> triangles_;  ///< ordered, for iteration in order of id
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> ids_in_leaf_;  ///< never iterated
 };
 
-}  // namespace camway::scene
+}  // namespace camway::paper

@@ -5,7 +5,7 @@
 
 #include "daemon/motion/path/segment.h"
 
-namespace camway::motion {
+namespace camway::paper {
 
 /// A rational Bézier curve of degree 15: control points `(w·x, w·y, w·z, w)`.
 struct RationalCurve {
@@ -23,6 +23,6 @@ struct RationalCurve {
 /// their programs stay at degree 12 by adding position points, elevated as a polynomial, to the
 /// points N_j/W_j of the rational rotation. That is a different curve wherever weights vary; it
 /// misses the true one by a centimetre on metre-sized steps (the tests measure it).
-RationalCurve corner_curve(const Segment& segment, const geometry::Vec3& corner_C);
+RationalCurve corner_curve(const motion::Segment& segment, const geometry::Vec3& corner_C);
 
-}  // namespace camway::motion
+}  // namespace camway::paper

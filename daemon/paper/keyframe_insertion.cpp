@@ -7,7 +7,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/paper/push_out.h"
 
-namespace camway::correction {
+namespace camway::paper {
 
 namespace {
 
@@ -30,6 +30,7 @@ class Corrector {
             const base::Deadline& deadline)
       : index_(index),
         corners_C_(corners_C),
+        body_(corners_C),
         options_(options),
         deadline_(deadline),
         radius_m_(motion::body_radius_m(corners_C)),
@@ -80,12 +81,12 @@ class Corrector {
   // The first collision in the window: of the sides of the swept tube by the paper's sweep, and of
   // enclosed objects by the distance-based check of everything before.
   std::optional<CollisionInterval> next_collision(double t_begin_s, double t_end_s) {
-    const FirstCollision side = collision::first_sweep_collision(
-        index_, path_, corners_C_, t_begin_s, t_end_s, options_.sweep, deadline_);
+    const FirstCollision side = first_sweep_collision(index_, path_, corners_C_, t_begin_s, t_end_s,
+                                                      options_.sweep, deadline_);
     const double before_s = side.interval ? side.interval->t_begin_s : t_end_s;
     const FirstCollision enclosed =
-        collision::first_collision(index_, path_, motion::Body(corners_C_), t_begin_s, before_s,
-                                   options_.sweep.detect, deadline_);
+        collision::first_collision({collision::Obstacles(index_), body_, options_.sweep.detect},
+                                   path_, t_begin_s, before_s, deadline_);
     timed_out_ = timed_out_ || !side.decided || !enclosed.decided;
     if (!enclosed.interval) return side.interval;
     // The interval was cut off at `before_s`: it is the beginning of the same collision.
@@ -151,6 +152,7 @@ class Corrector {
 
   const scene::SceneIndex& index_;
   const motion::Corners& corners_C_;
+  const motion::Body body_;  ///< the near quadrilateral with these corners
   const KeyframeInsertionOptions& options_;
   const base::Deadline& deadline_;
   const double radius_m_;
@@ -171,4 +173,4 @@ KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
   return Corrector(index, keyframes, corners_C, options, deadline).run();
 }
 
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -9,10 +9,10 @@
 #include "daemon/paper/sweep_detection.h"
 #include "daemon/scene/index/scene_index.h"
 
-namespace camway::correction {
+namespace camway::paper {
 
 struct KeyframeInsertionOptions {
-  collision::SweepOptions sweep;
+  SweepOptions sweep;
   motion::TimeOrigin origin;         ///< origin of all times
   int max_inserted_keyframes = 200;  ///< limit for the whole path [Limit: 0 <= value]
   int max_recursion = 8;             ///< limit for one interval: levels of insertion into its rest
@@ -57,4 +57,4 @@ KeyframeInsertionResult insert_keyframes(const scene::SceneIndex& index,
                                          const KeyframeInsertionOptions& options,
                                          const base::Deadline& deadline);
 
-}  // namespace camway::correction
+}  // namespace camway::paper

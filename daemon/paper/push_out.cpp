@@ -5,7 +5,7 @@
 
 #include "daemon/collision/near_quad.h"
 
-namespace camway::correction {
+namespace camway::paper {
 
 namespace {
 
@@ -81,4 +81,4 @@ PushOut push_out(const scene::SceneIndex& index, const motion::Corners& corners_
   return result;
 }
 
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -7,7 +7,7 @@
 #include "daemon/motion/body/camera.h"
 #include "daemon/scene/index/scene_index.h"
 
-namespace camway::correction {
+namespace camway::paper {
 
 /// The paper's rule, evaluated at a colliding pose.
 struct PushOutRule {
@@ -51,4 +51,4 @@ inline constexpr double kLeastStepShare = 0.02;
 PushOut push_out(const scene::SceneIndex& index, const motion::Corners& corners_C,
                  const motion::Pose& pose, double margin_m);
 
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -9,11 +9,12 @@
 #include "daemon/paper/camera_triangles.h"
 #include "daemon/paper/swept_surface.h"
 
-namespace camway::collision {
+namespace camway::paper {
 
 namespace {
 
-using motion::SweptTriangle;
+using collision::CollisionInterval;
+using collision::FirstCollision;
 
 // Halving a double interval more often than it has bits of mantissa changes nothing.
 constexpr int kMaxBisections = 60;
@@ -84,8 +85,8 @@ class SweepWalk {
   bool tessellate_next_segment() {
     if (segment_ >= path_.segments().size() || tessellated_to_s_ >= t_end_s_) return false;
     const double to_s = std::min(path_.segments()[segment_++].t1_s, t_end_s_);
-    triangles_ = motion::tessellate_swept_surface(path_, corners_C_, chord_error_m_,
-                                                  tessellated_to_s_, to_s);
+    triangles_ =
+        tessellate_swept_surface(path_, corners_C_, chord_error_m_, tessellated_to_s_, to_s);
     tessellated_to_s_ = to_s;
     next_ = 0;
     camera_triangles_.emplace(index_);
@@ -105,7 +106,7 @@ class SweepWalk {
   double tessellated_to_s_;
   std::size_t segment_;
   std::vector<SweptTriangle> triangles_;
-  std::optional<scene::CameraTriangles> camera_triangles_;
+  std::optional<CameraTriangles> camera_triangles_;
   std::size_t next_ = 0;
 };
 
@@ -129,7 +130,7 @@ class Bisection {
 
  private:
   [[nodiscard]] bool collides_at(double time_s) const {
-    return collides(index_, corners_C_, path_.pose(time_s));
+    return collision::collides(index_, corners_C_, path_.pose(time_s));
   }
 
   [[nodiscard]] double corner_motion_m(double t0_s, double t1_s) const {
@@ -156,15 +157,17 @@ FirstCollision first_sweep_collision(const scene::SceneIndex& index, const motio
                                      const base::Deadline& deadline) {
   SweepWalk walk(index, path, corners_C, options.chord_error_m, t_begin_s, t_end_s);
   const Bisection bisection(index, path, corners_C, options.detect.tolerance_m);
+  const motion::Body body(corners_C);
+  const collision::Query query{collision::Obstacles(index), body, options.detect};
   while (const std::optional<HitRun> run = walk.next_run(deadline)) {
     const std::optional<double> t_i = bisection.boundary(run->t_a, run->t_b);
     const std::optional<double> t_f = bisection.boundary(run->t_d, run->t_c);
     if (t_i && t_f && *t_i <= *t_f) return {true, CollisionInterval{*t_i, *t_f}};
-    const FirstCollision settled = first_collision(index, path, motion::Body(corners_C), run->t_a,
-                                                   run->t_d, options.detect, deadline);
+    const FirstCollision settled =
+        collision::first_collision(query, path, run->t_a, run->t_d, deadline);
     if (!settled.decided || settled.interval) return settled;
   }
   return {!deadline.passed(), std::nullopt};
 }
 
-}  // namespace camway::collision
+}  // namespace camway::paper

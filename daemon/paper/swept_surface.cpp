@@ -9,11 +9,14 @@
 #include "daemon/motion/path/bezier.h"
 #include "daemon/paper/corner_curve.h"
 
-namespace camway::motion {
+namespace camway::paper {
 namespace {
 
 using geometry::Vec3;
-using geometry::Vec4;
+using motion::Corners;
+using motion::Path;
+using motion::Segment;
+namespace bezier = motion::bezier;
 
 /// Largest growth of the error from one attempt to the next. The number of strips that a path needs
 /// grows with the inverse root of the error, so growing the error by the inverse of the fraction
@@ -83,8 +86,8 @@ class Sampler {
     for (std::size_t i = path_.segment_index(begin_s_); i < path_.segments().size(); ++i) {
       const Segment& segment = path_.segments()[i];
       if (segment.t0_s >= end_s_) break;
-      const double u0 = segment_parameter(segment, begin_s_);
-      const double u1 = segment_parameter(segment, end_s_);
+      const double u0 = motion::segment_parameter(segment, begin_s_);
+      const double u1 = motion::segment_parameter(segment, end_s_);
       if (!(u0 < u1)) continue;  // less than rounding of it
       const Station from = station(segment, u0);
       if (stations_.empty()) stations_.push_back(from);
@@ -106,14 +109,14 @@ class Sampler {
 
  private:
   [[nodiscard]] Station station(const Segment& segment, double u) const {
-    return {std::clamp(segment_time_s(segment, u), begin_s_, end_s_),
-            corners_W(corners_C_, pose_at(segment, u))};
+    return {std::clamp(motion::segment_time_s(segment, u), begin_s_, end_s_),
+            motion::corners_W(corners_C_, motion::pose_at(segment, u))};
   }
 
   bool sample(const Segment& segment, double u0, double u1, const Station& from, const Station& to,
               int depth) {
     if (stations_.size() > kMaxSweptStrips + path_.segments().size()) return false;
-    const Segment part = sub_segment(segment, u0, u1);
+    const Segment part = motion::sub_segment(segment, u0, u1);
     const double middle = u0 + (u1 - u0) / 2.0;
     if (depth >= kMaxSweptDepth || strip_error_bound_m(part, corners_C_, from, to) <= error_m_) {
       stations_.push_back(to);
@@ -133,10 +136,10 @@ class Sampler {
 };
 
 double size_m(const Path& path, const Corners& corners_C) {
-  double size_m = body_radius_m(corners_C);
+  double size_m = motion::body_radius_m(corners_C);
   for (const Segment& segment : path.segments()) {
     for (const Vec3& point : segment.position)
-      size_m = std::max(size_m, point.norm() + body_radius_m(corners_C));
+      size_m = std::max(size_m, point.norm() + motion::body_radius_m(corners_C));
   }
   return size_m;
 }
@@ -184,4 +187,4 @@ std::vector<SweptTriangle> tessellate_swept_surface(const Path& path, const Corn
   }
 }
 
-}  // namespace camway::motion
+}  // namespace camway::paper

@@ -8,7 +8,7 @@
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/path.h"
 
-namespace camway::motion {
+namespace camway::paper {
 
 /// A vertex of the tessellated swept surface, annotated with its parameter on the motion.
 struct SweptVertex {
@@ -46,7 +46,8 @@ struct SweptTriangle {
 /// whole surface is sampled again with a larger error, at least doubled, until it fits. If the
 /// orientation numerator comes so close to zero that `kMaxSweptDepth` halvings do not prove it
 /// positive, the bound does not hold. Requires `path` not to be empty and chord_error_m > 0.
-std::vector<SweptTriangle> tessellate_swept_surface(const Path& path, const Corners& corners_C,
+std::vector<SweptTriangle> tessellate_swept_surface(const motion::Path& path,
+                                                    const motion::Corners& corners_C,
                                                     double chord_error_m, double t_begin_s,
                                                     double t_end_s);
 
@@ -61,4 +62,4 @@ inline constexpr std::size_t kMaxSweptStrips = 16384;
 /// Largest number of halvings of a segment.
 inline constexpr int kMaxSweptDepth = 30;
 
-}  // namespace camway::motion
+}  // namespace camway::paper

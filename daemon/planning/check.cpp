@@ -16,27 +16,25 @@ collision::DetectOptions detect_options(const PlanOptions& options) {
   return detect;
 }
 
-PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,
-                     const motion::Body& body, const collision::DetectOptions& options,
+PathCheck check_path(const collision::Query& query, const motion::Path& path,
                      const base::Deadline& deadline, const base::Deadline& clearance_deadline) {
   PathCheck check;
-  auto found = collision::detect_collisions(obstacles, path, body, path.begin_s(), path.end_s(),
-                                            options, deadline);
+  auto found = collision::detect_collisions(query, path, path.begin_s(), path.end_s(), deadline);
   if (!found) return check;
   check.complete = true;
   check.collisions = std::move(*found);
   if (check.collisions.empty()) {
-    check.certificate = certificate_of_free(obstacles, path, body, options, clearance_deadline);
+    check.certificate = certificate_of_free(query, path, clearance_deadline);
   }
   return check;
 }
 
-Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
-                                const motion::Body& body, const collision::DetectOptions& options,
+Certificate certificate_of_free(const collision::Query& query, const motion::Path& path,
                                 const base::Deadline& clearance_deadline) {
   // The proof shows the required clearance, whatever the bound comes to.
-  Certificate certificate{true, options.clearance_m};
-  const auto clearance = collision::path_clearance(obstacles, path, body, clearance_deadline);
+  Certificate certificate{true, query.options.clearance_m};
+  const auto clearance =
+      collision::path_clearance(query.obstacles, path, query.body, clearance_deadline);
   if (clearance) {
     certificate.clearance_lower_bound_m =
         std::max(certificate.clearance_lower_bound_m, clearance->lower_bound_m);

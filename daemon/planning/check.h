@@ -20,17 +20,15 @@ struct PathCheck {
   Certificate certificate;  ///< certified exactly if complete and without collisions
 };
 
-/// Searches the whole path for collisions and, where there are none, bounds its clearance. The
-/// search is the proof: all that it does not list is free, at every instant and rounding included
+/// Searches the whole path for collisions and, if there are none, bounds its clearance. The search
+/// is the proof: all time that it does not list is free, at every instant and rounding included
 /// (`collision/probe.h`). If `clearance_deadline` strikes, the certificate has the required
 /// clearance.
-PathCheck check_path(const collision::Obstacles& obstacles, const motion::Path& path,
-                     const motion::Body& body, const collision::DetectOptions& options,
+PathCheck check_path(const collision::Query& query, const motion::Path& path,
                      const base::Deadline& deadline, const base::Deadline& clearance_deadline);
 
 /// Returns the certificate of a path that was searched already, and found free of collision.
-Certificate certificate_of_free(const collision::Obstacles& obstacles, const motion::Path& path,
-                                const motion::Body& body, const collision::DetectOptions& options,
+Certificate certificate_of_free(const collision::Query& query, const motion::Path& path,
                                 const base::Deadline& clearance_deadline);
 
 }  // namespace camway::planning

@@ -34,15 +34,14 @@ struct Side {
 
 class Search {
  public:
-  Search(const scene::Snapshot& snapshot, const collision::Obstacles& obstacles,
-         const motion::Body& body, const collision::DetectOptions& detect,
+  Search(const scene::Snapshot& snapshot, const collision::Query& query,
          const std::vector<Keyframe>& keyframes, const Deadline& deadline)
       : snapshot_(snapshot),
-        space_(obstacles, body, detect),
-        margin_m_(kMargin * detect.tolerance_m),
+        space_(query),
+        margin_m_(kMargin * query.options.tolerance_m),
         keyframes_(keyframes),
         deadline_(deadline),
-        part_C_(body.triangles_C().front()) {}
+        part_C_(query.body.triangles_C().front()) {}
 
   KeyframeFaults run() && {
     find_faults();
@@ -177,12 +176,10 @@ class Search {
 
 }  // namespace
 
-KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
-                                    const collision::Obstacles& obstacles, const motion::Body& body,
-                                    const collision::DetectOptions& detect,
+KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const collision::Query& query,
                                     const std::vector<Keyframe>& keyframes,
                                     const Deadline& deadline) {
-  return Search(snapshot, obstacles, body, detect, keyframes, deadline).run();
+  return Search(snapshot, query, keyframes, deadline).run();
 }
 
 }  // namespace camway::planning

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/detect.h"
+#include "daemon/collision/query.h"
 #include "daemon/motion/path/keyframe.h"
 #include "daemon/planning/result.h"
 #include "daemon/scene/snapshot/snapshot.h"
@@ -22,8 +22,8 @@ struct KeyframeFaults {
 };
 
 /// Returns the given keyframes at which the body collides, is nearer to the scene than required, or
-/// is beyond the bounds of `obstacles`, in order, at most `kMostKeyframeFaults`; each with the
-/// nearest free pose, if one was found. Requires the obstacles of `snapshot`. Once the deadline has
+/// is beyond the bounds of `query`, in order, at most `kMostKeyframeFaults`; each with the
+/// nearest free pose, if one was found. Requires a query about `snapshot`. Once the deadline has
 /// passed, neither checks further keyframes nor looks for further free poses.
 ///
 /// A free pose lies on that side of every closed surface of the scene on which the path has to be:
@@ -34,9 +34,7 @@ struct KeyframeFaults {
 /// `correction/infeasibility/closed_surfaces` finds. A surface that is not closed has no sides;
 /// there, a free pose that is visible from one of these two keyframes is preferred, if it is not
 /// much further away than the nearest free pose.
-KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot,
-                                    const collision::Obstacles& obstacles, const motion::Body& body,
-                                    const collision::DetectOptions& detect,
+KeyframeFaults find_keyframe_faults(const scene::Snapshot& snapshot, const collision::Query& query,
                                     const std::vector<motion::Keyframe>& keyframes,
                                     const base::Deadline& deadline);
 

@@ -111,8 +111,8 @@ bool stays_close(const TooFast& problem, const CubicPath& slowed, const TimeLaw&
       const motion::Pose is = slowed.pose(law.new_time_s(given_s));
       const double turned_rad = was.orientation.angularDistance(is.orientation);
       const double moved_m = (is.position - was.position).norm() +
-                             2.0 * problem.body.radius_m() * std::sin(turned_rad / 2.0);
-      if (!(moved_m <= problem.detect.tolerance_m)) return false;
+                             2.0 * problem.query.body.radius_m() * std::sin(turned_rad / 2.0);
+      if (!(moved_m <= problem.query.options.tolerance_m)) return false;
     }
   }
   return true;
@@ -133,8 +133,7 @@ std::optional<Retimed> fitted(const TooFast& problem, TimeLaw law, const base::D
                                slowed.end_s())) {
     return std::nullopt;
   }
-  PathCheck check =
-      check_path(problem.obstacles, slowed_path, problem.body, problem.detect, deadline, deadline);
+  PathCheck check = check_path(problem.query, slowed_path, deadline, deadline);
   if (!check.complete || (problem.is_free && !check.certificate.certified)) return std::nullopt;
   return Retimed{std::move(law), std::move(slowed), std::move(interpolated), std::move(check)};
 }

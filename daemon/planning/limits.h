@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/detect.h"
+#include "daemon/collision/query.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/time_origin.h"
@@ -19,7 +19,8 @@
 
 namespace camway::planning {
 
-/// Where a path is faster than limits allow, by samples: for people.
+/// A part of a path that is faster than the limits allow. It is found by samples, for a message to
+/// a person.
 struct LimitBreach {
   double t_begin_s = 0.0;  ///< the stretch with the largest breach
   double t_end_s = 0.0;
@@ -40,9 +41,7 @@ struct TooFast {
   const motion::CubicPath& interpolated;  ///< the path before correction, over the same time
   const correction::MotionLimits& limits;
   const correction::OrientationPolicy& orientation;
-  const collision::Obstacles& obstacles;
-  const motion::Body& body;
-  const collision::DetectOptions detect;
+  const collision::Query& query;
   const motion::TimeOrigin& origin;        ///< of all times
   const std::vector<double>& keyframes_s;  ///< of the given keyframes, increasing
   const bool is_free;                      ///< `path` is proved free of collision
@@ -58,17 +57,19 @@ struct Retimed {
   std::optional<PathCheck> check;
 };
 
-/// Slows a path only where and before it has to be (`motion::TimeLaw::within`), which changes its
-/// curve a little, with knots closer and closer until all of this is so: it meets the limits at
-/// every instant; at samples no point of the body is further than the interval tolerance from where
-/// it was; corrections keep to the orientation policy, compared with the interpolated path by the
-/// same law; it is proved free of collision. Nothing if that is not reached within bounds or the
-/// deadline. Precondition: the path is free, and breaks the limits.
+/// Slows a path only where it has to be slowed, and before (`motion::TimeLaw::within`). That
+/// changes the curve a little, and less with closer knots. So knots are placed closer and closer
+/// until four conditions hold. The path meets the limits at every instant. At samples, no point of
+/// the body is farther from its former place than the interval tolerance. Corrections keep to the
+/// orientation policy, compared with the interpolated path under the same law. The path is proved
+/// free of collision. Returns nothing if a limit on the number of knots or the deadline ends that
+/// before. Requires a path that is free and breaks the limits.
 std::optional<Retimed> slowed_where_needed(const TooFast& problem, const base::Deadline& deadline);
 
-/// The path with all times stretched alike. Far from time 0, where times cannot be stretched alike
-/// but for their rounding, it is the spline through the same joints, and searched anew. Nothing if
-/// the deadline struck first, or if that is not as free as it was.
+/// Returns the path with all times stretched by one factor. Far from time 0, times are too coarse
+/// for an equal stretch; then the result is the spline through the same joints, and is searched for
+/// collisions again. Returns nothing if the deadline strikes first, or if that spline is not as
+/// free as the path was.
 std::optional<Retimed> slowed_alike(const TooFast& problem, const base::Deadline& deadline);
 
 /// Moves the times of keyframes and remaining collisions, and says in the result where and by how

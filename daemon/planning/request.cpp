@@ -5,29 +5,6 @@
 
 namespace camway::planning {
 
-namespace {
-
-constexpr std::string_view kLadder = "ladder";
-constexpr std::string_view kKeyframeInsertion = "keyframe_insertion";
-
-}  // namespace
-
-std::string_view to_string(Method method) {
-  switch (method) {
-    case Method::kLadder:
-      return kLadder;
-    case Method::kKeyframeInsertion:
-      return kKeyframeInsertion;
-  }
-  return "unknown";
-}
-
-std::optional<Method> method_from_string(std::string_view text) {
-  if (text == kLadder) return Method::kLadder;
-  if (text == kKeyframeInsertion) return Method::kKeyframeInsertion;
-  return std::nullopt;
-}
-
 bool may_shrink(const PlanRequest& request) {
   const PlanOptions& options = request.options;
   return options.max_shrink > 0.0 && !request.body && options.max_inserted_keyframes != 0;
@@ -44,6 +21,22 @@ geometry::Vec3 direction_of(const geometry::Vec3& vector) {
   if (std::abs(vector.squaredNorm() - 1.0) <= kUnitLengthError) return vector;
   const geometry::Vec3 scaled = vector / largest;
   return scaled / scaled.norm();
+}
+
+std::string spell(std::string_view path, Spelling spelling) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string_view::npos) return std::string(path);
+  const std::string_view group = path.substr(0, dot);
+  std::string_view last = path.substr(dot + 1);
+  const auto visit = [&](const FieldSpec& spec) {
+    if (spec.name != path.substr(dot + 1)) return;
+    last = spelling == Spelling::kWire ? spec.wire_name() : spec.file_name();
+  };
+  if (group == "options") visit_options(visit);
+  if (group == "options.orientation") visit_orientation(visit);
+  if (group == "options.limits") visit_limits(visit);
+  if (group == "camera") visit_camera(visit);
+  return std::string(group) + "." + std::string(last);
 }
 
 }  // namespace camway::planning

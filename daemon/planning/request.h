@@ -1,67 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "daemon/correction/path/constraints.h"
-#include "daemon/geometry/bounds.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/keyframe.h"
+#include "daemon/planning/options.h"
 
 namespace camway::planning {
-
-/// How a colliding path is corrected.
-enum class Method {
-  kLadder,             ///< kinds of correction, cheapest first
-  kKeyframeInsertion,  ///< the paper's method: Ptacek & Johnstone 2006, section 4
-};
-
-std::string_view to_string(Method method);
-std::optional<Method> method_from_string(std::string_view text);
-
-/// The options of a request. Every default works.
-struct PlanOptions {
-  Method method = Method::kLadder;
-  /// Planning stops after this time and answers `timeout` with the path that it has. The check of
-  /// that path may take a second more. [Limit: 0 < value] [Units: seconds]
-  double deadline_s = 10.0;
-  /// Largest distance of the tessellated swept surface from the true one.
-  /// [Limit: kLeastChordError_m <= value] [Units: metres]
-  double chord_error_m = 0.005;
-  /// The ends of collision intervals are bracketed to within this much motion of a corner.
-  /// [Limit: kLeastIntervalTolerance_m <= value] [Units: metres]
-  double interval_tolerance_m = 1e-3;
-  /// Required clearance: the body collides where it is nearer to the scene than this.
-  /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
-  double clearance_m = 0.0;
-  /// Bounds that no point of the body may leave, in addition to those of the scene. `clearance_m`
-  /// does not apply to them. [Limit: finite ones are below kMaxCoordinate_m; min < max]
-  geometry::Bounds bounds = {};
-  /// Largest number of keyframes that the corrections of a request may insert. With 0 neither the
-  /// path nor, by `max_shrink`, the camera is corrected; keyframes are repaired and times moved all
-  /// the same, if the request asks for that. [Limit: 0 <= value]
-  std::int32_t max_inserted_keyframes = 2000;
-  correction::Objective objective = correction::Objective::kClosest;
-  correction::OrientationPolicy orientation;
-  correction::MotionLimits limits;
-  /// Largest share by which the near distance may be reduced where no other correction succeeds.
-  /// Cameras only. [Limit: 0 <= value < 1]
-  double max_shrink = 0.0;
-  /// Moves given keyframes that collide to the nearest free pose instead of refusing the request.
-  bool repair_keyframes = false;
-  std::uint64_t seed = 1;  ///< random seed of the searches for ways round [Limit: 1 <= value]
-  /// Speed along the chords from which times are derived; if not set,
-  /// motion::kNominalSpeed_m_per_s. Refused where keyframes have times.
-  /// [Limit: kLeastDefaultSpeed_m_per_s <= value <= kMostDefaultSpeed_m_per_s]
-  std::optional<double> default_speed_m_per_s;
-
-  bool operator==(const PlanOptions&) const = default;
-};
 
 /// Returns how the sender of a request spells the member at a path. A path consists of the names of
 /// the members of these structs, mostly without units: "camera.fov_x", "keyframes[3].time",
@@ -112,12 +62,7 @@ std::optional<InvalidRequest> validate(const PlanRequest& request);
 
 /// Largest numbers that a request may hold.
 inline constexpr std::size_t kMaxKeyframes = 100'000;
-inline constexpr double kMaxCoordinate_m = 1e9;  ///< doubles still resolve 0.1 micrometre there
-/// A finer tessellation takes seconds and adds nothing, since the final check does not depend on
-/// it.
-inline constexpr double kLeastChordError_m = 1e-5;
-inline constexpr double kLeastIntervalTolerance_m = 1e-9;  ///< rounding far from the origin
-inline constexpr double kMaxTime_s = 1e10;                 ///< large enough for seconds since 1970
+inline constexpr double kMaxTime_s = 1e10;  ///< large enough for seconds since 1970
 /// Least difference of consecutive times, as a share of their size. A smaller one leaves too few
 /// digits for a parameter between them.
 inline constexpr double kLeastRelativeTimeStep = 1e-12;
@@ -127,9 +72,6 @@ inline constexpr double kLeastTimeStepOfPath = 1e-9;
 /// Least difference of consecutive times. With a smaller one rates, and their squares, leave the
 /// range of doubles. [Units: seconds]
 inline constexpr double kLeastTimeStep_s = 1e-9;
-/// Range of speeds from which times may be derived. A speed beyond it is a mistake of units.
-inline constexpr double kLeastDefaultSpeed_m_per_s = 1e-6;
-inline constexpr double kMostDefaultSpeed_m_per_s = 1e6;
 /// A shorter quaternion counts as zero; its square would lose digits to underflow.
 inline constexpr double kLeastQuaternionLength = 1e-100;
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "daemon/base/named_enum.h"
 #include "daemon/collision/interval.h"
 #include "daemon/correction/infeasibility/cage_box.h"
 #include "daemon/correction/path/correction.h"
@@ -15,6 +17,7 @@
 #include "daemon/motion/path/keyframe.h"
 #include "daemon/motion/path/measures.h"
 #include "daemon/motion/path/path.h"
+#include "daemon/planning/enum_names.h"
 
 namespace camway::planning {
 
@@ -29,8 +32,13 @@ enum class Status {
   kInternalError,  ///< a fault of this program, not of the request
 };
 
-std::string_view to_string(Status status);
-std::optional<Status> status_from_string(std::string_view text);
+constexpr std::array<std::string_view, 7> names_of(Status) {
+  return {"ok", "partial", "infeasible", "timeout", "invalid", "unknown_scene", "internal_error"};
+}
+inline std::string_view to_string(Status status) { return base::name_of(status); }
+inline std::optional<Status> status_from_string(std::string_view text) {
+  return base::value_of<Status>(text);
+}
 
 /// Whether the returned segments, exactly as sent, are proved free of collision. With `kOk` always;
 /// with `kPartial` and `kTimeout` only where the path fails nothing but motion limits.

@@ -69,8 +69,7 @@ class Intervals {
 
 }  // namespace
 
-collision::Search search_changes(const collision::Obstacles& obstacles, const motion::Path& path,
-                                 const motion::Body& body, const collision::DetectOptions& options,
+collision::Search search_changes(const collision::Query& query, const motion::Path& path,
                                  const SearchedPath& known, const collision::Search& begun,
                                  const base::Deadline& deadline) {
   const std::span<const Segment> segments = path.segments();
@@ -91,7 +90,7 @@ collision::Search search_changes(const collision::Obstacles& obstacles, const mo
     const motion::Path changed(std::vector<Segment>(run.begin(), run.end()));
     const double from_s = std::max(begun.until_s, begin_s);
     const collision::Search part =
-        collision::search_collisions(obstacles, changed, body, from_s, end_s, options, deadline);
+        collision::search_collisions(query, changed, from_s, end_s, deadline);
     if (!part.complete) {
       found.add_between(known.collisions, begin_s, path.end_s());
       return {false, std::move(found).take(), begin_s};

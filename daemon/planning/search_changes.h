@@ -23,9 +23,8 @@ struct SearchedPath {
 /// ends may differ from those that `detect_collisions` finds for the whole path, by the tolerance
 /// and by the joining distance. If the deadline strikes, the search is incomplete, and `until_s` is
 /// the beginning of a run of changed segments; the collisions are then those of the path that
-/// equals `known` from there on. Requires the same body, obstacles and options for all searches.
-collision::Search search_changes(const collision::Obstacles& obstacles, const motion::Path& path,
-                                 const motion::Body& body, const collision::DetectOptions& options,
+/// equals `known` from there on. Requires the same query for all searches.
+collision::Search search_changes(const collision::Query& query, const motion::Path& path,
                                  const SearchedPath& known, const collision::Search& begun,
                                  const base::Deadline& deadline);
 

@@ -19,7 +19,7 @@ namespace camway::planning {
 namespace {
 
 using base::Deadline;
-using correction::Rung;
+using correction::CorrectionKind;
 
 constexpr double kStep = 0.85;       // from one scale to the next
 constexpr double kFirstShare = 0.5;  // of the deadline, for the camera as it is; then for the least
@@ -112,8 +112,8 @@ class Shrinking {
     result.measures_before = full.measures_before;
     result.corrections = std::move(full.corrections);
     for (correction::Correction& correction : result.corrections) {
-      if (correction.rung != Rung::kNone) continue;
-      correction.rung = Rung::kShrink;
+      if (correction.kind != CorrectionKind::kNone) continue;
+      correction.kind = CorrectionKind::kShrink;
       correction.tried = {};
     }
   }

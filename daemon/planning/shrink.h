@@ -12,12 +12,13 @@
 
 namespace camway::planning {
 
-/// A result whose times are not the sender's yet. `collisions` and `corrections` have the times of
-/// the path before it was slowed, so that what was found for one camera can be told together with
-/// the path of another; everything else has those of the path that is answered.
+/// A result whose times are not yet converted to those of the sender. `collisions` and
+/// `corrections` have the times of the path before it was slowed, so that the findings for one
+/// camera can be reported together with the path of another camera. Everything else has the times
+/// of the path in the answer.
 struct UnsentResult {
   PlanResult result;
-  motion::TimeOrigin origin = {};           ///< that its times count from
+  motion::TimeOrigin origin = {};           ///< origin of its times
   std::optional<motion::TimeLaw> law = {};  ///< set where the path was slowed
 };
 
@@ -27,18 +28,17 @@ PlanResult with_sent_times(UnsentResult unsent);
 /// Plans for the camera as it is in the request.
 using PlanAtSize = std::function<UnsentResult(const PlanRequest&, const base::Deadline&)>;
 
-/// Plans; where that leaves collisions, again with smaller and smaller near distances, down to what
-/// `max_shrink` allows, and answers with the largest for which all is free. Which that is, is
-/// found by halving the range below which one is: where a camera fits, a smaller one mostly does.
-/// If even the smallest does not, the others are tried all the same, since the near quadrilateral
-/// of a smaller camera is elsewhere; unless it found a keyframe shut in, for a ball that is smaller
-/// than theirs.
+/// Plans for the camera of the request. If that leaves collisions, plans again with smaller near
+/// distances, down to the least that `max_shrink` allows, and answers with the largest one for
+/// which the whole path is free. It is found by bisection: if a camera fits, a smaller one usually
+/// fits, too. If even the smallest camera does not fit, the others are tried all the same, since
+/// their near quadrilaterals are at other places. They are not tried if the smallest camera found a
+/// keyframe shut in: that holds for a ball that is smaller than theirs.
 ///
-/// The first plan has half of the deadline, so that the others get their share; each of them has
-/// its part of what is left. Where none is free the answer is the first one, its message says what
-/// was tried, and its status `timeout` if one of them was cut off. What collided, and what became
-/// of it, is told of the camera that was asked for. Precondition: 0 < max_shrink, and the camera is
-/// what moves.
+/// The first plan has half of the deadline, and each other plan its part of the time that is left.
+/// If no path is free, the answer is the first one: its message says which near distances were
+/// tried, and its status is `timeout` if a plan was cut off. `collisions` and `corrections` are
+/// about the camera of the request. Requires 0 < max_shrink, and that the body is the camera.
 UnsentResult plan_with_shrinking(const PlanRequest& request, const base::Deadline& deadline,
                                  const PlanAtSize& plan_at_size);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -121,8 +122,64 @@ bool is_within_scenes(const geometry::Vec3& point) {
   return point.allFinite() && point.cwiseAbs().maxCoeff() <= kMaxCoordinate_m;
 }
 
-std::optional<InvalidRequest> check_orientation(const correction::OrientationPolicy& policy) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
+using Fault = std::optional<InvalidRequest>;
+
+/// Returns an error if `value` is beyond the range of `spec`.
+template <class Number>
+Fault check_number(const std::string& group, const FieldSpec& spec, Number value) {
+  if (!spec.range.any() || spec.range.holds(static_cast<double>(value))) return std::nullopt;
+  std::string said = fmt::format("{}", value);
+  if (spec.is_told_in_degrees()) {
+    said = fmt::format("{:.6g} degrees", static_cast<double>(value) * (180.0 / std::numbers::pi));
+  }
+  if (!spec.unit.empty()) said += fmt::format(" {}", spec.unit);
+  const std::string range = spec.range_text();
+  return invalid(group + std::string(spec.name),
+                 fmt::format("is {}; it must {} {}", said,
+                             range.starts_with("between") ? "lie" : "be", range));
+}
+
+/// Visits the members of a struct, and keeps the first fault.
+class FirstFault {
+ public:
+  explicit FirstFault(std::string group) : group_(std::move(group)) {}
+
+  template <class Member>
+  void operator()(const FieldSpec& spec, const Member& member) const {
+    if (!fault_) fault_ = check(spec, member);
+  }
+  [[nodiscard]] Fault take() { return std::move(fault_); }
+
+ private:
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  [[nodiscard]] Fault check(const FieldSpec& spec, Number value) const {
+    return check_number(group_, spec, value);
+  }
+  [[nodiscard]] Fault check(const FieldSpec& spec, const std::optional<double>& value) const {
+    return value ? check_number(group_, spec, *value) : std::nullopt;
+  }
+  [[nodiscard]] Fault check(const FieldSpec& spec, const geometry::Bounds& bounds) const;
+  [[nodiscard]] Fault check(const FieldSpec&, const correction::OrientationPolicy& policy) const;
+  [[nodiscard]] Fault check(const FieldSpec&, const correction::MotionLimits& limits) const;
+  /// Points and enumerations have no range.
+  template <class Other>
+  requires(!std::is_arithmetic_v<Other>) [[nodiscard]] Fault
+      check(const FieldSpec&, const Other&) const {
+    return std::nullopt;
+  }
+
+  std::string group_;
+  mutable Fault fault_;
+};
+
+Fault FirstFault::check(const FieldSpec& spec, const geometry::Bounds& bounds) const {
+  const auto fault = geometry::fault_in(bounds);
+  if (!fault) return std::nullopt;
+  return invalid(fmt::format("{}{}.{}", group_, spec.name, fault->field), fault->reason);
+}
+
+Fault FirstFault::check(const FieldSpec&, const correction::OrientationPolicy& policy) const {
   // Directions are brought to unit length where requests come in, unless they are zero or not
   // finite.
   if (!(std::abs(policy.up_W.squaredNorm() - 1.0) <= kUnitLengthError)) {
@@ -133,97 +190,40 @@ std::optional<InvalidRequest> check_orientation(const correction::OrientationPol
     return invalid("options.orientation.target",
                    fmt::format("must be finite and within {:g} m", kMaxCoordinate_m));
   }
-  if (!(policy.cone_rad > 0.0 && policy.cone_rad <= std::numbers::pi)) {
-    return invalid("options.orientation.cone",
-                   fmt::format("is {:.6g} degrees; it must be above 0 and at most 180 degrees",
-                               policy.cone_rad * kDegrees));
-  }
-  if (!(policy.max_turn_rad >= 0.0 && policy.max_turn_rad <= std::numbers::pi)) {
-    return invalid("options.orientation.max_turn",
-                   fmt::format("is {:.6g} degrees; it must lie between 0 and 180 degrees",
-                               policy.max_turn_rad * kDegrees));
-  }
-  return std::nullopt;
+  FirstFault members("options.orientation.");
+  visit_orientation(members, policy);
+  return members.take();
 }
 
-/// Infinity means no limit.
-std::optional<InvalidRequest> check_limits(const correction::MotionLimits& limits) {
-  const std::pair<const char*, double> members[] = {
-      {"options.limits.speed", limits.speed_m_per_s},
-      {"options.limits.acceleration", limits.acceleration_m_per_s2},
-      {"options.limits.turn_rate", limits.turn_rate_rad_per_s}};
-  for (const auto& [field, value] : members) {
-    if (!(value > 0.0)) return invalid(field, fmt::format("is {}; it must be above 0", value));
-  }
-  return std::nullopt;
+Fault FirstFault::check(const FieldSpec&, const correction::MotionLimits& limits) const {
+  FirstFault members("options.limits.");
+  visit_limits(members, limits);
+  return members.take();
 }
 
 bool moves_a_camera(const PlanRequest& request) {
   return !request.body || std::holds_alternative<motion::Camera>(*request.body);
 }
 
-/// Checks the options of corrections.
-std::optional<InvalidRequest> check_correction(const PlanRequest& request) {
+/// Checks each option by itself, then those that depend on other parts of the request.
+std::optional<InvalidRequest> check_options(const PlanRequest& request) {
   const PlanOptions& options = request.options;
-  if (auto fault = check_orientation(options.orientation)) return fault;
-  if (auto fault = check_limits(options.limits)) return fault;
-  if (!(options.max_shrink >= 0.0 && options.max_shrink < 1.0)) {
-    return invalid("options.max_shrink",
-                   fmt::format("is {}; it must be at least 0 and below 1", options.max_shrink));
+  FirstFault members("options.");
+  visit_options(members, options);
+  if (auto fault = members.take()) return fault;
+  if (options.clearance_m > kMaxCoordinate_m) {
+    return invalid("options.clearance", fmt::format("is {}; it must be at most {:g}",
+                                                    options.clearance_m, kMaxCoordinate_m));
+  }
+  if (options.default_speed_m_per_s && request.has_times) {
+    return invalid("options.default_speed",
+                   "counts only where keyframes have no times, and these have");
   }
   if (options.max_shrink > 0.0 && !moves_a_camera(request)) {
     return invalid("options.max_shrink",
                    fmt::format("is {}, but the body is no camera: it has no near distance that "
                                "could be made smaller",
                                options.max_shrink));
-  }
-  if (options.seed == 0) return invalid("options.seed", "is 0; it must be at least 1");
-  return std::nullopt;
-}
-
-/// Checks the speed from which times are derived.
-std::optional<InvalidRequest> check_speed(const PlanRequest& request) {
-  constexpr char kField[] = "options.default_speed";
-  const std::optional<double>& speed_m_per_s = request.options.default_speed_m_per_s;
-  if (!speed_m_per_s) return std::nullopt;
-  if (!(*speed_m_per_s >= kLeastDefaultSpeed_m_per_s &&
-        *speed_m_per_s <= kMostDefaultSpeed_m_per_s)) {
-    return invalid(kField, fmt::format("is {} m/s; it must be from {:g} to {:g}", *speed_m_per_s,
-                                       kLeastDefaultSpeed_m_per_s, kMostDefaultSpeed_m_per_s));
-  }
-  if (!request.has_times) return std::nullopt;
-  return invalid(kField, "counts only where keyframes have no times, and these have");
-}
-
-std::optional<InvalidRequest> check_options(const PlanOptions& options) {
-  const auto at_least = [](std::string_view field, double value,
-                           double least) -> std::optional<InvalidRequest> {
-    if (value >= least && std::isfinite(value)) return std::nullopt;
-    return invalid(std::string(field),
-                   fmt::format("is {}; it must be at least {:g} and finite", value, least));
-  };
-  const auto positive = [](std::string_view field, double value) -> std::optional<InvalidRequest> {
-    if (value > 0.0 && std::isfinite(value)) return std::nullopt;
-    return invalid(std::string(field), fmt::format("is {}; it must be above 0 and finite", value));
-  };
-  if (auto fault = positive("options.deadline_s", options.deadline_s)) return fault;
-  if (auto fault = at_least("options.chord_error_m", options.chord_error_m, kLeastChordError_m)) {
-    return fault;
-  }
-  if (auto fault = at_least("options.interval_tolerance_m", options.interval_tolerance_m,
-                            kLeastIntervalTolerance_m)) {
-    return fault;
-  }
-  if (auto fault = at_least("options.clearance", options.clearance_m, 0.0)) return fault;
-  if (options.clearance_m > kMaxCoordinate_m) {
-    return invalid("options.clearance", fmt::format("is {}; it must be at most {:g}",
-                                                    options.clearance_m, kMaxCoordinate_m));
-  }
-  if (const auto fault = geometry::fault_in(options.bounds))
-    return invalid("options.bounds." + fault->field, fault->reason);
-  if (options.max_inserted_keyframes < 0) {
-    return invalid("options.max_inserted_keyframes",
-                   fmt::format("is {}; it must be at least 0", options.max_inserted_keyframes));
   }
   return std::nullopt;
 }
@@ -241,9 +241,7 @@ std::optional<InvalidRequest> find_fault(const PlanRequest& request) {
   if (request.has_times) {
     if (auto fault = check_times(request.keyframes)) return fault;
   }
-  if (auto fault = check_options(request.options)) return fault;
-  if (auto fault = check_speed(request)) return fault;
-  return check_correction(request);
+  return check_options(request);
 }
 
 }  // namespace

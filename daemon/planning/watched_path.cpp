@@ -88,7 +88,7 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
     }
     const motion::Path stretch(std::move(near));
     const collision::FirstCollision found = collision::first_collision(
-        added, stretch, body_, stretch.begin_s(), stretch.end_s(), detect_, deadline);
+        {added, body_, detect_}, stretch, stretch.begin_s(), stretch.end_s(), deadline);
     if (!found.decided || found.interval) return false;
   }
   return true;
@@ -96,8 +96,8 @@ bool WatchedPath::stays_free(const scene::SceneDifference& change,
 
 std::vector<collision::CollisionInterval> WatchedPath::collisions(
     const collision::Obstacles& obstacles, const base::Deadline& deadline) const {
-  auto found = collision::detect_collisions(obstacles.within(bounds_), path_, body_,
-                                            path_.begin_s(), path_.end_s(), detect_, deadline);
+  auto found = collision::detect_collisions({obstacles.within(bounds_), body_, detect_}, path_,
+                                            path_.begin_s(), path_.end_s(), deadline);
   return found ? std::move(*found) : std::vector{everywhere()};
 }
 

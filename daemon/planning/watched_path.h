@@ -19,31 +19,33 @@ namespace camway::planning {
 /// still is after a change of its scene. Immutable.
 /// Thread-safe.
 ///
-/// Proof: The scene after a change is what stayed, and what was added. A path that was proved free
-/// in the scene before is free of what stayed, since removing triangles brings no triangle nearer,
-/// nor any solid. So it is free in the new scene if it is free of what was added, whose boxes hold
-/// its triangles and its inside. The eye on a segment lies in the convex hull of its four control
-/// points, in exact arithmetic, and every body point is within `Body::radius_m` plus the ball's
-/// radius of the eye. So the body stays in the box of the control points grown by these, by
-/// `Body::slack_m` and the required clearance, all rounded up. A segment whose grown box does not
-/// meet the box of an added object is free of it; every other segment has to be proved free of what
-/// was added alone, by `collision::first_collision`. The path stays within the bounds while these
-/// are the same; if those of the scene change, nothing is known.
+/// Proof: the scene after a change consists of the part that stayed and the part that was added. A
+/// path that was proved free in the earlier scene is free of the part that stayed, since removing
+/// triangles brings no triangle and no solid nearer. So the path is free in the new scene if it is
+/// free of the added part. The boxes of the added part hold its triangles and its inside. The eye
+/// on a segment lies in the convex hull of its four control points, in exact arithmetic, and every
+/// body point is within `Body::radius_m` plus the ball's radius of the eye. So the body stays in
+/// the box of the control points grown by these, by `Body::slack_m` and the required clearance, all
+/// rounded up. A segment whose grown box does not meet the box of an added object is free of that
+/// object. Every other segment has to be proved free of the added part alone, by
+/// `collision::first_collision`. The path stays within the bounds as long as they are the same. If
+/// the bounds of the scene change, nothing is known.
 class WatchedPath {
  public:
   /// Requires segments with increasing times.
   WatchedPath(motion::Path path, motion::Body body, const collision::DetectOptions& detect,
               const geometry::Bounds& bounds = {});
 
-  /// Returns the path that `result` proves free for `request`; nothing if it proves nothing.
+  /// Returns the path that `result` proves free for `request`; nothing if it has no proved path.
   static std::optional<WatchedPath> of(const PlanRequest& request, const PlanResult& result);
 
   [[nodiscard]] const motion::Path& path() const { return path_; }
 
-  /// Returns whether the change can affect the path. If not, all that was known of it still holds.
+  /// Returns whether the change can affect the path. If not, everything that was known of the path
+  /// still holds.
   [[nodiscard]] bool may_meet(const scene::SceneDifference& change) const;
 
-  /// Returns true if a path that was free before is proved free after. False proves nothing.
+  /// Returns true if a path that was free before is proved free after. If false, nothing is proved.
   [[nodiscard]] bool stays_free(const scene::SceneDifference& change,
                                 const base::Deadline& deadline) const;
 

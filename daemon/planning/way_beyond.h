@@ -10,7 +10,7 @@ namespace camway::planning {
 inline constexpr double kShareWithinBounds = 0.85;
 
 /// Returns whether a search beyond the bounds of `result` is worthwhile: the ladder found no way
-/// within them, and that is not because there is provably none.
+/// within the bounds, and it is not proved that there is none.
 bool may_have_way_beyond(const PlanRequest& request, const PlanResult& result);
 
 /// Adds to the message of `result` that there is a way only beyond its bounds, and how far beyond,

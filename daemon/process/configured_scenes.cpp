@@ -10,7 +10,7 @@
 #include "daemon/planning/request.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/import_warnings.h"
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "daemon/service/scenes/scene_rules.h"
 
 namespace camway::service {

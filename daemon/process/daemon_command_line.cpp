@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/process/config_file.h"
 #include "daemon/process/daemon_faults.h"
 #include "daemon/process/daemon_settings.h"
@@ -141,7 +141,7 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
     if (app.exit(error, text, text) == 0) return ParsedOptions{std::nullopt, text.str(), {}};
-    return failed({command_line_fault(app, error)});
+    return failed({cli_support::command_line_fault(app, error)});
   }
 }
 

@@ -28,8 +28,8 @@ struct Setting {
   /// Returns an error about a text, or an empty text. Null if any text is valid.
   std::string (*fault_of_text)(const std::string&) = nullptr;
   /// Whether a text names a file, or folders with ':' between them. A relative path in a
-  /// configuration file is relative to the folder of the file, one of a flag to the working
-  /// directory of the daemon.
+  /// configuration file is relative to the folder of the file. A relative path of a flag is
+  /// relative to the working directory of the daemon.
   enum class Path { kNone, kFile, kFolders } path = Path::kNone;
 
   /// Returns the value as the file would have it.

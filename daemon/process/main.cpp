@@ -47,7 +47,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!camway::service::occupy_closed_standard_streams()) return kExitFault;
+  if (!camway::base::occupy_closed_standard_streams()) return kExitFault;
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -39,7 +39,7 @@ void Reloader::request() {
   {
     const std::lock_guard lock(mutex_);
     requested_ = true;
-    if (may_call_off_) work_.request_stop();
+    if (may_cancel_) work_.request_stop();
   }
   changed_.notify_one();
 }
@@ -65,11 +65,11 @@ void Reloader::serve(const std::stop_token& stop) {
   }
 }
 
-std::stop_token Reloader::begin_work(const std::stop_token& stop, bool may_call_off) {
+std::stop_token Reloader::begin_work(const std::stop_token& stop, bool may_cancel) {
   const std::lock_guard lock(mutex_);
   work_ = std::stop_source();
-  may_call_off_ = may_call_off;
-  if ((requested_ && may_call_off) || stop.stop_requested()) work_.request_stop();
+  may_cancel_ = may_cancel;
+  if ((requested_ && may_cancel) || stop.stop_requested()) work_.request_stop();
   return work_.get_token();
 }
 
@@ -86,7 +86,7 @@ bool Reloader::wait(const std::stop_token& stop) {
         return true;
       }
     }
-    look_at_files(begin_work(stop, /*may_call_off=*/true));
+    look_at_files(begin_work(stop, /*may_cancel=*/true));
   }
   return false;
 }
@@ -116,7 +116,7 @@ void Reloader::reload(const std::stop_token& stop) {
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
     if (stop.stop_requested()) {
-      log_->info("reload called off, all stays as it was");
+      log_->info("reload cancelled, all stays as it was");
       return;
     }
     log_->error("reload failed, not all scenes could be taken over, so no setting is",

@@ -49,9 +49,9 @@ class Reloader {
   void serve(const std::stop_token& stop);
   /// Checks files until a reload is requested, then returns true; returns false at the stop.
   bool wait(const std::stop_token& stop);
-  /// Returns a token that cancels the work that begins now: at `stop` and, with `may_call_off`, at
-  /// a request.
-  std::stop_token begin_work(const std::stop_token& stop, bool may_call_off);
+  /// Returns a token that cancels the work that begins now: at `stop` and, if `may_cancel`, at a
+  /// request.
+  std::stop_token begin_work(const std::stop_token& stop, bool may_cancel);
   void look_at_files(const std::stop_token& stop);
   void reload(const std::stop_token& stop);
   void take_over(const DaemonOptions& next);
@@ -64,12 +64,12 @@ class Reloader {
   std::shared_ptr<Log> log_;
   std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
   const std::chrono::milliseconds look_every_;
-  std::mutex mutex_;  ///< guards requested_, work_ and may_call_off_
+  std::mutex mutex_;  ///< guards requested_, work_ and may_cancel_
   std::condition_variable_any changed_;
   bool requested_ = false;
   std::stop_source work_;
-  bool may_call_off_ = true;  ///< whether a request cancels the work
-  std::jthread thread_;       ///< last: uses all above
+  bool may_cancel_ = true;  ///< whether a request cancels the work
+  std::jthread thread_;     ///< last: uses all above
 };
 
 }  // namespace camway::service

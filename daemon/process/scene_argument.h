@@ -38,8 +38,7 @@ inline constexpr char kSceneArgumentForm[] =
 
 /// Reads `text` of that form. Options are taken off the end, so a FILE may hold commas unless the
 /// text after one looks like an option. NAME consists of at most `wire::kMaxSceneNameBytes`
-/// characters of
-/// [A-Za-z0-9_.-].
+/// characters of [A-Za-z0-9_.-].
 ParsedSceneArgument parse_scene_argument(std::string_view text);
 
 }  // namespace camway::service

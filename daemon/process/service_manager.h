@@ -24,12 +24,12 @@ class ServiceManager {
 
   [[nodiscard]] bool present() const { return !socket_.empty(); }
 
-  /// The daemon serves. `status` is one line for people.
+  /// Reports that the daemon serves. `status` is one line for people.
   void ready(std::string_view status) const;
-  /// The configuration is being read again; `ready` ends it.
+  /// Reports that the configuration is being read again. Requires a call of `ready` at the end.
   void reloading() const;
   void stopping() const;
-  /// The daemon is alive. Sent only if the manager has a watchdog.
+  /// Reports that the daemon is alive. Sends nothing if the manager has no watchdog.
   void alive() const;
   /// Returns how often `alive` has to be called: a third of the watchdog's time, at most 1 s.
   [[nodiscard]] std::chrono::milliseconds alive_period() const;

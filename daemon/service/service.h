@@ -39,7 +39,8 @@ struct ServiceHooks {
   /// for longer than the longest deadline plus `stuck_after`.
   std::function<void()> alive;
   std::chrono::milliseconds alive_period{1000};
-  /// Planning checks its deadline now and then only, and more rarely on a busy machine.
+  /// Time beyond the longest deadline after which a worker counts as stuck. It is long because
+  /// planning checks its deadline only now and then, and more rarely on a busy machine.
   std::chrono::milliseconds stuck_after{60'000};
 };
 

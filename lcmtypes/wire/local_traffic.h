@@ -44,8 +44,7 @@ OpenedLcm open_lcm(const std::string& url);
 ///    socket is open throughout the scan, so the scan finds it: bound to the port, with a cookie
 ///    that was not recorded.
 /// 3. If the scan finds exactly one such descriptor, it is LCM's. Only LCM closes it, so it is
-/// still
-///    LCM's when the filter is attached. If the scan finds several, it changes nothing.
+///    still LCM's when the filter is attached. If the scan finds several, it changes nothing.
 ///
 /// The scan only reads. A descriptor that another thread closes or reuses meanwhile can only add to
 /// the descriptors that it finds. [Source: socket(7), SO_COOKIE and SO_ATTACH_FILTER; proc(5),

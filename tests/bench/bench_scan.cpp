@@ -11,7 +11,7 @@
 #include "daemon/scene/voxels/map_scan.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
-#include "tests/collision/crossing_random.h"
+#include "tests/support/random.h"
 
 namespace camway::bench {
 namespace {
@@ -81,7 +81,7 @@ std::shared_ptr<const VoxelMap> storey(const Options& options, bool is_all_known
 
 /// Returns what a sensor in the first room sees of its walls, with an error of a centimetre in each
 /// direction. At the end of one ray in fifty there is a moving object.
-std::vector<Vec3> sight(const Options& options, const Vec3& origin, testing::CaseRandom& random) {
+std::vector<Vec3> sight(const Options& options, const Vec3& origin, testing::Random& random) {
   std::vector<Vec3> points;
   while (points.size() < static_cast<std::size_t>(options.points)) {
     const Vec3 direction = random.direction();
@@ -149,7 +149,7 @@ Scans measure(const Options& options, bool is_all_known, bool has_mirror) {
   std::vector<double> map_s;
   std::vector<double> taken_s;
   for (int round = 0; round < options.rounds; ++round) {
-    testing::CaseRandom random(4711, static_cast<std::uint64_t>(round));
+    testing::Random random = testing::Random::of_case(4711, static_cast<std::uint64_t>(round));
     const Vec3 origin(random.uniform(2.0, 6.0), random.uniform(2.0, 6.0), 1.5);
     const std::vector<Vec3> points = sight(options, origin, random);
     const auto before = store.find("bench");

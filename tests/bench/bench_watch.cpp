@@ -21,6 +21,7 @@
 #include "daemon/service/watches/watch_checker.h"
 #include "tests/bench/columns.h"
 #include "tests/bench/command_line.h"
+#include "tests/support/random.h"
 
 namespace camway::bench {
 namespace {
@@ -67,7 +68,7 @@ scene::Placement at(const Vec3& position) {
 /// Returns paths free of the scene, with three keyframes some metres apart.
 std::vector<std::shared_ptr<const WatchedPath>> free_paths(const scene::Snapshot& scene,
                                                            const Options& options) {
-  std::mt19937_64 random(2006);
+  testing::Random random(2006);
   const geometry::Box& bounds = scene.index.bounds();
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::normal_distribution<double> normal;
@@ -134,7 +135,7 @@ Watching move_about(const Options& options, scene::SceneStore& store, Told& told
   const geometry::Box bounds = store.find("bench")->index.bounds();
   const auto period = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(1.0 / options.rate_hz));
-  std::mt19937_64 random(7);
+  testing::Random random(7);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::vector<double> latencies_s;
   const std::size_t broken_before = told.broken();

@@ -30,7 +30,7 @@ collision::DetectOptions default_options() { return {}; }
 planning::PathCheck check_whole(const collision::Obstacles& obstacles, const motion::Path& path,
                                 const motion::Camera& camera,
                                 const collision::DetectOptions& options) {
-  return planning::check_path(obstacles, path, motion::Body(camera), options,
+  return planning::check_path({obstacles, motion::Body(camera), options}, path,
                               base::Deadline::never(), base::Deadline::never());
 }
 

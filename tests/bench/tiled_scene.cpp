@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/random.h"
+
 namespace camway::bench {
 
 namespace {
@@ -111,7 +113,7 @@ std::shared_ptr<const Mesh> cropped(const Mesh& mesh, const Vec3& center, std::s
 }
 
 std::shared_ptr<const Mesh> dust(std::size_t count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+  testing::Random random(seed);
   std::uniform_real_distribution<double> place(-10.0, 10.0);
   std::uniform_real_distribution<double> size(-0.05, 0.05);
   const auto near = [&](const Vec3& center) {

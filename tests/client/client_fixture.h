@@ -16,7 +16,7 @@ inline ClientOptions quick() {
   return options;
 }
 
-class ClientTest : public testing::Test {
+class ClientTest : public ::testing::Test {
  protected:
   void SetUp() override {
     const Client probe(quick());

@@ -10,7 +10,6 @@
 #include <future>
 #include <map>
 #include <memory>
-#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -22,12 +21,13 @@
 #include "lcmtypes/wire/layout.h"
 #include "tests/client/client_fixture.h"
 #include "tests/client/fake_daemon.h"
+#include "tests/support/random.h"
 
 namespace camway {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using testing_support::answer_pages;
 using testing_support::Bytes;
 using testing_support::ClientTest;
@@ -207,7 +207,7 @@ TEST_F(ClientTest, PagesALargeRequest) {
 
 TEST_F(ClientTest, ReceivesALargeAnswerThroughLosses) {
   // 188 pages; a different tenth of them is lost each time.
-  std::mt19937 random(kSeed);
+  testing::Random random(kSeed);
   FakeDaemon daemon;
   daemon.on_plan = [&](const plan_request_t& request) {
     std::vector<Bytes> pages = encode_all(answer_pages(request, 30'000, 160));

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "tests/collision/crossing_campaign.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -114,16 +115,16 @@ class Analytic : public ::testing::TestWithParam<double> {
   const double half_height_m_ = corners_C_[0].y();
 
   [[nodiscard]] std::vector<CollisionInterval> detect(const Mesh& mesh, const Path& path) const {
-    return certified_intervals(SceneIndex::build(mesh), path, camera_, options_);
+    return certified_intervals(Obstacles(SceneIndex::build(mesh)), path, camera_, options_);
   }
 };
 
 TEST_P(Analytic, PlaneMetByATiltedQuadrilateralThatAccelerates) {
   Mesh mesh;
   add_z_plane(mesh, 0.0);
-  std::mt19937_64 random = testing::seeded(31);
+  testing::Random random(31);
   for (int run = 0; run < 50; ++run) {
-    const Quat orientation = testing::random_rotation(random);
+    const Quat orientation = random.rotation();
     double lowest_m = 1.0;
     double highest_m = -1.0;
     for (const Vec3& corner_C : corners_C_) {
@@ -185,7 +186,7 @@ TEST_P(Analytic, SlotThatIsWideEnoughIsFreeAndOneThatIsNotIsNot) {
 // A quadrilateral that is rotated about the vertical flies straight at a vertical triangular pole,
 // which is thinner than the distance between two samples of any sampled check.
 TEST_P(Analytic, PoleOfKnownPlace) {
-  std::mt19937_64 random = testing::seeded(32);
+  testing::Random random(32);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   for (int run = 0; run < 50; ++run) {
     const double thickness_m = 1e-4;

@@ -10,6 +10,7 @@
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -48,7 +49,7 @@ std::vector<CollisionInterval> detect(const SceneIndex& index, const Path& path,
                                       double clearance_m = 0.0) {
   DetectOptions options;
   options.clearance_m = clearance_m;
-  return detect_collisions(index, path, body, path.begin_s(), path.end_s(), options,
+  return detect_collisions({Obstacles(index), body, options}, path, path.begin_s(), path.end_s(),
                            base::Deadline::never())
       .value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
 }
@@ -67,7 +68,7 @@ void expect_crossing(const std::vector<CollisionInterval>& found, double lowest_
 }
 
 TEST(Bodies, CrossAPlateFromTheirLowestToTheirHighestPoint) {
-  std::mt19937_64 random = testing::seeded(51);
+  testing::Random random(51);
   const SceneIndex index = plate_at_z0();
   const motion::BoxShape box{{0.1, -0.2, 0.05}, {0.3, 0.2, 0.6}};
   const motion::SphereShape ball{{0.1, 0.2, -0.3}, 0.25};
@@ -75,7 +76,7 @@ TEST(Bodies, CrossAPlateFromTheirLowestToTheirHighestPoint) {
       {{{0, 0, 0}, {0.2, 0.1, -0.4}, {-0.2, 0.1, -0.4}, {-0.2, -0.1, -0.4}, {0.2, -0.1, -0.4}}}};
   const motion::MeshShape fin{pyramid.pieces_C[0], {{0, 1, 2}, {0, 3, 4}}};
   for (int run = 0; run < 25; ++run) {
-    const Quat orientation = testing::random_rotation(random);
+    const Quat orientation = random.rotation();
     const Path path = descent(orientation);
     const double center_m = (orientation * ball.center_C).z();
     expect_crossing(detect(index, path, make(ball)), center_m - ball.radius_m,
@@ -118,8 +119,9 @@ TEST(Bodies, AreSolidThroughAndThrough) {
     ASSERT_TRUE(found[0].witness);
     EXPECT_NEAR(found[0].witness->depth_m, 0.3, 0.11);
     EXPECT_LT(found[0].witness->point_W.norm(), 0.01);
-    EXPECT_EQ(path_clearance(index, rest, make(shape), base::Deadline::never())->lower_bound_m,
-              0.0);
+    EXPECT_EQ(
+        path_clearance(Obstacles(index), rest, make(shape), base::Deadline::never())->lower_bound_m,
+        0.0);
   }
 }
 
@@ -141,7 +143,8 @@ TEST(Bodies, ClearanceIsThatOfTheSurface) {
   for (const auto& [shape, truth_m] :
        {std::pair(motion::BodyShape(motion::SphereShape{Vec3::Zero(), 0.4}), 0.6),
         std::pair(motion::BodyShape(motion::BoxShape{Vec3::Zero(), {1, 1, 1}}), 0.5)}) {
-    const PathClearance found = *path_clearance(index, path, make(shape), base::Deadline::never());
+    const PathClearance found =
+        *path_clearance(Obstacles(index), path, make(shape), base::Deadline::never());
     EXPECT_LE(found.lower_bound_m, truth_m);
     EXPECT_GE(found.lower_bound_m, 0.8 * truth_m);
   }

@@ -14,6 +14,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/collision/crossing_paths.h"
 #include "tests/collision/precise_pose.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -36,8 +37,8 @@ Bounds with_limit(std::size_t side, double limit_m) {
 std::vector<CollisionInterval> detect(const SceneIndex& index, const Bounds& bounds,
                                       const Path& path, const Body& body,
                                       const DetectOptions& options = {}) {
-  const auto found = detect_collisions(Obstacles(index).within(bounds), path, body, path.begin_s(),
-                                       path.end_s(), options, base::Deadline::never());
+  const auto found = detect_collisions({Obstacles(index).within(bounds), body, options}, path,
+                                       path.begin_s(), path.end_s(), base::Deadline::never());
   return found.value();
 }
 
@@ -55,7 +56,7 @@ TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
   const SceneIndex nothing;
   int decided = 0;
   for (std::uint64_t run = 0; run < 60; ++run) {
-    testing::CaseRandom random(kSeed, run);
+    testing::Random random = testing::Random::of_case(kSeed, run);
     const Vec3 place_W = testing::random_place(random);
     const motion::Camera camera = testing::random_camera(random);
     const motion::Corners corners_C = motion::near_corners_C(camera);
@@ -90,7 +91,7 @@ TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
 // The oracle is dense sampling, for bodies of all kinds: every sample outside of the bounds lies in
 // an interval, and at the ends of intervals the body is near its bounds.
 TEST(BoundsOfAPath, HoldEverySampleThatIsInNoInterval) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   std::string error;
   const std::vector<Body> bodies = {
@@ -104,9 +105,8 @@ TEST(BoundsOfAPath, HoldEverySampleThatIsInNoInterval) {
     const Body& body = bodies[static_cast<std::size_t>(run) % bodies.size()];
     std::vector<motion::Keyframe> keyframes;
     for (int i = 0; i < 4; ++i) {
-      keyframes.push_back(
-          {static_cast<double>(i),
-           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+      keyframes.push_back({static_cast<double>(i),
+                           {{place(random), place(random), place(random)}, random.rotation()}});
     }
     const Path path = motion::interpolate(keyframes);
     const Bounds bounds{Vec3(-1, -0.9, -0.8), Vec3(0.9, 1, 0.8)};
@@ -165,7 +165,7 @@ TEST(BoundsOfAPath, AddToWhatTheSceneAsks) {
       {0.0, {Vec3(2, 0, 3), Quat::Identity()}}, {6.0, {Vec3(2, 0, -3), Quat::Identity()}}});
   const Obstacles near_bounds = Obstacles(index).within(with_limit(3, 2.2));
   const auto with = path_clearance(near_bounds, aside, body, base::Deadline::never());
-  const auto without = path_clearance(index, aside, body, base::Deadline::never());
+  const auto without = path_clearance(Obstacles(index), aside, body, base::Deadline::never());
   EXPECT_EQ(with->lower_bound_m, without->lower_bound_m);
   EXPECT_GT(with->lower_bound_m, 1.0);
 }

@@ -70,8 +70,8 @@ void merge(CampaignResult& into, const CampaignResult& part) {
 std::vector<collision::CollisionInterval> certified_intervals(
     const collision::Obstacles& obstacles, const motion::Path& path, const motion::Camera& camera,
     const collision::DetectOptions& options) {
-  return collision::detect_collisions(obstacles, path, motion::Body(camera), path.begin_s(),
-                                      path.end_s(), options, base::Deadline::never())
+  return collision::detect_collisions({obstacles, motion::Body(camera), options}, path,
+                                      path.begin_s(), path.end_s(), base::Deadline::never())
       .value();
 }
 

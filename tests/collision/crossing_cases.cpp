@@ -26,7 +26,7 @@ constexpr double kWide = 3.0;
 // whole case is drawn again.
 class CaseMaker {
  public:
-  CaseMaker(CaseRandom& random, CrossingFamily family) : random_(random) {
+  CaseMaker(Random& random, CrossingFamily family) : random_(random) {
     case_.family = family;
     case_.camera = random_camera(random);
     corners_C_ = motion::near_corners_C(case_.camera);
@@ -239,9 +239,9 @@ class CaseMaker {
   // Adds other triangles, so that the index has something to divide.
   void add_dust(const RealVec3& center, double spread_m) {
     for (int i = 0; i < 40; ++i) {
-      const RealVec3 at = center + (spread_m * random_.vector()).cast<Real>();
+      const RealVec3 at = center + (spread_m * random_.normal_vector(1.0)).cast<Real>();
       const auto corner = [&] {
-        return RealVec3(at + (0.05 * radius_m_ * random_.vector()).cast<Real>());
+        return RealVec3(at + (0.05 * radius_m_ * random_.normal_vector(1.0)).cast<Real>());
       };
       const RealVec3 a = corner();
       const RealVec3 b = corner();
@@ -396,7 +396,7 @@ class CaseMaker {
     return case_.clearance_above_m > 2.0 * floor_m_;
   }
 
-  CaseRandom& random_;
+  Random& random_;
   CrossingCase case_;
   motion::Corners corners_C_;
   double radius_m_ = 0.0;
@@ -425,7 +425,7 @@ std::string_view to_string(CrossingFamily family) {
 }
 
 CrossingCase make_crossing_case(std::uint64_t seed, std::uint64_t index) {
-  CaseRandom random(seed, index);
+  Random random = Random::of_case(seed, index);
   const auto family = static_cast<CrossingFamily>(index % kCrossingFamilies);
   for (int redrawn = 0;; ++redrawn) {
     CaseMaker maker(random, family);

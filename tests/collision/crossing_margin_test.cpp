@@ -7,6 +7,7 @@
 
 #include "daemon/collision/crossing.h"
 #include "daemon/geometry/triangle_intersection.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -15,32 +16,21 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-class RandomTriangles {
- public:
-  explicit RandomTriangles(std::uint64_t seed) : random_(testing::seeded(seed)) {}
-
-  Vec3 point(double scale) {
-    return {scale * even_(random_), scale * even_(random_), scale * even_(random_)};
-  }
-  Triangle triangle(double scale) { return {point(scale), point(scale), point(scale)}; }
-  Vec3 direction() { return point(1.0).normalized(); }
-  double share() { return 0.5 * (even_(random_) + 1.0); }
-  geometry::Quat rotation() { return testing::random_rotation(random_); }
-
- private:
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> even_{-1.0, 1.0};
-};
+Triangle random_triangle(testing::Random& random, double scale) {
+  const Vec3 a = random.in_cube(scale);
+  const Vec3 b = random.in_cube(scale);
+  return {a, b, random.in_cube(scale)};
+}
 
 // The claim of the header: if each corner moves in any direction by no more than the margin, they
 // still touch.
 TEST(CrossingMargin, SurvivesAnyMotionOfThatSize) {
-  RandomTriangles random(31);
+  testing::Random random(31);
   int margins = 0;
   for (int run = 0; run < 20'000; ++run) {
-    const Vec3 place = run % 2 == 0 ? Vec3::Zero() : random.point(1e6);
-    Triangle a = random.triangle(1.0);
-    Triangle b = random.triangle(std::pow(10.0, 2.0 * random.share() - 1.0));
+    const Vec3 place = run % 2 == 0 ? Vec3::Zero() : random.in_cube(1e6);
+    Triangle a = random_triangle(random, 1.0);
+    Triangle b = random_triangle(random, std::pow(10.0, 2.0 * random.uniform(0.0, 1.0) - 1.0));
     for (Vec3& vertex : a) vertex += place;
     for (Vec3& vertex : b) vertex += place;
     const double margin_m = crossing_margin_m(a, b, 0.0);
@@ -66,16 +56,16 @@ TEST(CrossingMargin, SurvivesAnyMotionOfThatSize) {
 
 // A rotation of a rigid body counts by the motion of its points.
 TEST(CrossingMargin, SurvivesTurns) {
-  RandomTriangles random(32);
+  testing::Random random(32);
   int margins = 0;
   for (int run = 0; run < 20'000; ++run) {
-    const Triangle a = random.triangle(1.0);
-    const Triangle b = random.triangle(1.0);
+    const Triangle a = random_triangle(random, 1.0);
+    const Triangle b = random_triangle(random, 1.0);
     const double margin_m = crossing_margin_m(a, b, 0.0);
     if (!(margin_m > 1e-3)) continue;
     ++margins;
-    const Vec3 about = random.point(1.0);
-    const Eigen::AngleAxisd turn(0.4 * margin_m * random.share(), random.direction());
+    const Vec3 about = random.in_cube(1.0);
+    const Eigen::AngleAxisd turn(0.4 * margin_m * random.uniform(0.0, 1.0), random.direction());
     Triangle moved = a;
     double moved_m = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -30,12 +30,12 @@ Path a_second_each(const Path& path) {
   return Path(std::move(segments));
 }
 
-Quat turned_by(CaseRandom& random, const Quat& from, double most_rad) {
+Quat turned_by(Random& random, const Quat& from, double most_rad) {
   const Vec3 axis = random.direction();
   return Quat(Eigen::AngleAxisd(random.uniform(0.0, most_rad), axis)) * from;
 }
 
-Path smooth_path(CaseRandom& random, const Vec3& place_W, double size_m) {
+Path smooth_path(Random& random, const Vec3& place_W, double size_m) {
   std::vector<Keyframe> keyframes;
   Pose pose{place_W, random.rotation()};
   const int count = random.integer(3, 4);
@@ -48,7 +48,7 @@ Path smooth_path(CaseRandom& random, const Vec3& place_W, double size_m) {
 }
 
 // Returns joined segments with kinks: the proof requires continuity only.
-Path free_path(CaseRandom& random, const Vec3& place_W, double size_m) {
+Path free_path(Random& random, const Vec3& place_W, double size_m) {
   std::vector<Segment> segments(2);
   Vec3 position = place_W;
   Vec4 orientation = geometry::wxyz(random.rotation());
@@ -57,7 +57,7 @@ Path free_path(CaseRandom& random, const Vec3& place_W, double size_m) {
     segments[s].t1_s = static_cast<double>(s + 1);
     for (std::size_t i = 0; i < 4; ++i) {
       segments[s].position[i] = position;
-      if (i < 3) position += 0.4 * size_m * random.vector();
+      if (i < 3) position += 0.4 * size_m * random.normal_vector(1.0);
     }
     const double spread = random.uniform(0.0, 0.12);
     for (std::size_t i = 0; i < 7; ++i) {
@@ -71,13 +71,13 @@ Path free_path(CaseRandom& random, const Vec3& place_W, double size_m) {
 
 }  // namespace
 
-motion::Camera random_camera(CaseRandom& random) {
+motion::Camera random_camera(Random& random) {
   return {.fov_x_rad = random.uniform(20.0, 120.0) * kRadPerDeg,
           .fov_y_rad = random.uniform(20.0, 120.0) * kRadPerDeg,
           .near_m = random.log_uniform(1e-3, 1.0)};
 }
 
-Vec3 random_place(CaseRandom& random) {
+Vec3 random_place(Random& random) {
   switch (random.integer(0, 3)) {
     case 0:
       return 1e6 * random.direction();
@@ -99,7 +99,7 @@ Path turning_path(const Pose& from, const Vec3& axis_C, double angle_rad) {
       motion::interpolate(std::vector<Keyframe>{{0.0, from}, {1.0, {from.position, to}}}));
 }
 
-Path random_path(CaseRandom& random, PathKind kind, const Vec3& place_W, double size_m) {
+Path random_path(Random& random, PathKind kind, const Vec3& place_W, double size_m) {
   switch (kind) {
     case PathKind::kStraight:
       return uniform_path({place_W, random.rotation()}, place_W + size_m * random.direction());

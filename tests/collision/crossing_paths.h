@@ -3,15 +3,15 @@
 
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/path.h"
-#include "tests/collision/crossing_random.h"
+#include "tests/support/random.h"
 
 namespace camway::testing {
 
 /// Returns a camera with a near distance of 1 mm to 1 m and fields of view of 20° to 120°.
-motion::Camera random_camera(CaseRandom& random);
+motion::Camera random_camera(Random& random);
 
 /// Returns the begin of a path: the origin, a place within a kilometre, or a place 10⁶ m away.
-geometry::Vec3 random_place(CaseRandom& random);
+geometry::Vec3 random_place(Random& random);
 
 enum class PathKind {
   kStraight,  ///< uniform motion without rotation
@@ -22,7 +22,7 @@ enum class PathKind {
 
 /// Returns a path whose segment `i` lasts from second `i` to second `i + 1`, so that times and
 /// parameters convert without rounding.
-motion::Path random_path(CaseRandom& random, PathKind kind, const geometry::Vec3& place_W,
+motion::Path random_path(Random& random, PathKind kind, const geometry::Vec3& place_W,
                          double size_m);
 
 /// Returns a uniform straight motion without rotation, of one second.

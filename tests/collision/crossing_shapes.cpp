@@ -3,7 +3,7 @@
 
 namespace camway::testing {
 
-std::array<RealVec3, 2> across(CaseRandom& random, const RealVec3& normal) {
+std::array<RealVec3, 2> across(Random& random, const RealVec3& normal) {
   const RealVec3 any = random.direction().cast<Real>();
   const RealVec3 first = normal.cross(any).normalized();
   return {first, normal.cross(first)};

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "daemon/scene/mesh/mesh.h"
-#include "tests/collision/crossing_random.h"
 #include "tests/collision/precise_pose.h"
+#include "tests/support/random.h"
 
 /// Obstacles for the crossing campaign. Points are in extended precision and are rounded to doubles
 /// once, when they become vertices.
 namespace camway::testing {
 
 /// Returns two unit vectors that are orthogonal to the unit vector `normal` and to each other.
-std::array<RealVec3, 2> across(CaseRandom& random, const RealVec3& normal);
+std::array<RealVec3, 2> across(Random& random, const RealVec3& normal);
 
 void add_face(scene::Mesh& mesh, const RealVec3& a, const RealVec3& b, const RealVec3& c);
 

@@ -9,6 +9,7 @@
 
 #include "daemon/collision/near_quad.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::collision {
@@ -30,8 +31,8 @@ Path straight(const Vec3& from, const Vec3& to, const Quat& orientation) {
 std::vector<CollisionInterval> detect(const SceneIndex& index, const Path& path,
                                       const Corners& corners_C, const DetectOptions& options = {}) {
   const std::optional<std::vector<CollisionInterval>> found =
-      detect_collisions(index, path, motion::Body(corners_C), path.begin_s(), path.end_s(), options,
-                        base::Deadline::never());
+      detect_collisions({Obstacles(index), motion::Body(corners_C), options}, path, path.begin_s(),
+                        path.end_s(), base::Deadline::never());
   return found.value_or(std::vector<CollisionInterval>{{-1.0, -1.0}});
 }
 
@@ -46,9 +47,9 @@ Mesh plate_at_z0() {
 TEST(DetectCollisions, PlaneAtAnyTiltIsBracketedToTheTolerance) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
-  std::mt19937_64 random = testing::seeded(11);
+  testing::Random random(11);
   for (int run = 0; run < 200; ++run) {
-    const Quat orientation = testing::random_rotation(random);
+    const Quat orientation = random.rotation();
     double lowest_m = 1.0;
     double highest_m = -1.0;
     for (const Vec3& corner_C : corners_C) {
@@ -126,15 +127,16 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
   ASSERT_EQ(found.size(), 3u);
   EXPECT_LT(found[0].t_end_s, found[1].t_begin_s);
   EXPECT_LT(found[1].t_end_s, found[2].t_begin_s);
-  const FirstCollision first = first_collision(index, path, motion::Body(corners_C), path.begin_s(),
-                                               path.end_s(), {}, base::Deadline::never());
+  const FirstCollision first =
+      first_collision({Obstacles(index), motion::Body(corners_C)}, path, path.begin_s(),
+                      path.end_s(), base::Deadline::never());
   ASSERT_TRUE(first.decided && first.interval);
   EXPECT_EQ(first.interval->t_begin_s, found[0].t_begin_s);
   EXPECT_EQ(first.interval->t_end_s, found[0].t_end_s);
   EXPECT_FALSE(first.interval->witness);
   const FirstCollision later =
-      first_collision(index, path, motion::Body(corners_C), found[0].t_end_s + 0.01, path.end_s(),
-                      {}, base::Deadline::never());
+      first_collision({Obstacles(index), motion::Body(corners_C)}, path, found[0].t_end_s + 0.01,
+                      path.end_s(), base::Deadline::never());
   ASSERT_TRUE(later.decided && later.interval);
   EXPECT_NEAR(later.interval->t_begin_s, found[1].t_begin_s, 1e-4);
 }
@@ -155,7 +157,7 @@ TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
 
 // The oracle is dense sampling, which may miss a collision but never invents one.
 TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const DetectOptions options;
@@ -164,9 +166,8 @@ TEST(DetectCollisions, ContainsEverySampledCollisionAndEndsNextToTheScene) {
     const SceneIndex index = SceneIndex::build(testing::scattered_triangles(random, 60, 0.15));
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 5; ++i) {
-      keyframes.push_back(
-          {static_cast<double>(i),
-           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+      keyframes.push_back({static_cast<double>(i),
+                           {{place(random), place(random), place(random)}, random.rotation()}});
     }
     const Path path = motion::interpolate(keyframes);
     const std::vector<CollisionInterval> found = detect(index, path, corners_C, options);
@@ -196,9 +197,9 @@ TEST(DetectCollisions, IsUndecidedWhenTheDeadlineStrikes) {
   const SceneIndex index = SceneIndex::build(plate_at_z0());
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
-  EXPECT_FALSE(detect_collisions(index, path, motion::Body(corners_C), 0.0, 1.0, {},
+  EXPECT_FALSE(detect_collisions({Obstacles(index), motion::Body(corners_C)}, path, 0.0, 1.0,
                                  base::Deadline::after_s(0.0)));
-  EXPECT_FALSE(first_collision(index, path, motion::Body(corners_C), 0.0, 1.0, {},
+  EXPECT_FALSE(first_collision({Obstacles(index), motion::Body(corners_C)}, path, 0.0, 1.0,
                                base::Deadline::after_s(0.0))
                    .decided);
 }
@@ -210,13 +211,14 @@ TEST(SearchCollisions, KnowsAllUpToWhereTheDeadlineStruck) {
   const SceneIndex index = SceneIndex::build(mesh);
   const motion::Body body(testing::small_camera());
   const Path path = straight({0, 0, 5}, {0, 0, -2}, Quat::Identity());
-  const auto all = detect_collisions(index, path, body, 0.0, 1.0, {}, base::Deadline::never());
+  const auto all =
+      detect_collisions({Obstacles(index), body}, path, 0.0, 1.0, base::Deadline::never());
   ASSERT_EQ(all->size(), 8u);  // two faces each
   double until_s = 0.0;
   std::size_t most = 0;
   for (int looks = 0;; ++looks) {
-    const Search found =
-        search_collisions(index, path, body, 0.0, 1.0, {}, base::Deadline::after_looks(looks));
+    const Search found = search_collisions({Obstacles(index), body}, path, 0.0, 1.0,
+                                           base::Deadline::after_looks(looks));
     EXPECT_GE(found.until_s, until_s);
     until_s = found.until_s;
     ASSERT_LE(found.collisions.size(), all->size());
@@ -247,8 +249,8 @@ TEST(DetectCollisions, NumbersWithoutMeaningCollideAllOver) {
       segments[i].position[2].x() = bad;
       segments[i].orientation.fill({1, 0, 0, 0});
     }
-    const auto found =
-        detect_collisions(index, Path(segments), body, 0.0, 3.0, {}, base::Deadline::after_s(20.0));
+    const auto found = detect_collisions({Obstacles(index), body}, Path(segments), 0.0, 3.0,
+                                         base::Deadline::after_s(20.0));
     ASSERT_TRUE(found) << bad;
     ASSERT_EQ(found->size(), 1u) << bad;
     EXPECT_EQ((*found)[0].t_begin_s, 0.0);
@@ -267,8 +269,9 @@ TEST(DetectCollisions, OrientationsThatVanishCollideWhereverTheyCould) {
     segment.position[i] = {0, 0, 2.0 - 4.0 * static_cast<double>(i) / 3.0};
   }
   segment.orientation.fill(geometry::Vec4::Zero());
-  const auto found = detect_collisions(index, Path(std::vector<motion::Segment>{segment}), body,
-                                       0.0, 1.0, {}, base::Deadline::after_s(20.0));
+  const auto found =
+      detect_collisions({Obstacles(index), body}, Path(std::vector<motion::Segment>{segment}), 0.0,
+                        1.0, base::Deadline::after_s(20.0));
   ASSERT_TRUE(found);
   ASSERT_EQ(found->size(), 1u);
   EXPECT_LE((*found)[0].t_begin_s, (2.0 - body.radius_m()) / 4.0);

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "daemon/collision/clearance.h"
 #include "daemon/collision/detect.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/snapshot/snapshot.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 /// Scenes with solids: occupancy maps.
@@ -45,7 +45,7 @@ Path straight(const Vec3& from, const Vec3& to) {
 
 std::vector<CollisionInterval> detect(const scene::Snapshot& snapshot, const Path& path,
                                       const motion::Body& body) {
-  return detect_collisions(snapshot, path, body, path.begin_s(), path.end_s(), {},
+  return detect_collisions({Obstacles(snapshot), body}, path, path.begin_s(), path.end_s(),
                            base::Deadline::never())
       .value();
 }
@@ -62,8 +62,9 @@ TEST(Solids, ABodyThatNeverLeavesTheInsideCollidesAllTheTime) {
     EXPECT_EQ(found[0].t_begin_s, 0.0);
     EXPECT_EQ(found[0].t_end_s, 1.0);
     EXPECT_TRUE(detect(*snapshot, straight({-3, 2, 2}, {-1, 2, 2}), body).empty());
-    const auto clearance = path_clearance(*snapshot, straight({1.7, 1.7, 1.8}, {2.3, 2.2, 2.4}),
-                                          body, base::Deadline::never());
+    const auto clearance =
+        path_clearance(Obstacles(*snapshot), straight({1.7, 1.7, 1.8}, {2.3, 2.2, 2.4}), body,
+                       base::Deadline::never());
     EXPECT_EQ(clearance->lower_bound_m, 0.0);
   }
 }
@@ -90,8 +91,7 @@ TEST(Solids, AWayInCollidesFromTheFaceOnAndOutAgainToIt) {
 /// coordinates of the voxels alone.
 TEST(Solids, NothingThatIsFreeIsInAnOccupiedVoxel) {
   constexpr std::uint64_t kSeed = 7301;
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random = testing::seeded(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const motion::Corners corners_C = motion::near_corners_C(testing::small_camera());
   int free_samples = 0;
@@ -106,13 +106,13 @@ TEST(Solids, NothingThatIsFreeIsInAnOccupiedVoxel) {
     std::string fault;
     const scene::Placement placement = scene::Placement::make(
         trial % 2 == 0 ? Vec3(Vec3::Zero()) : Vec3(9.0 * unit(random), 3.0, -2.0),
-        trial % 2 == 0 ? Quat::Identity() : testing::random_rotation(random), fault);
+        trial % 2 == 0 ? Quat::Identity() : random.rotation(), fault);
     const auto snapshot = scene_of(occupied, placement);
     std::vector<Keyframe> keyframes;
     for (int k = 0; k < 4; ++k) {
       const Vec3 point_O = 3.0 * Vec3(unit(random), unit(random), unit(random));
-      keyframes.push_back({static_cast<double>(k),
-                           {placement.to_world(point_O), testing::random_rotation(random)}});
+      keyframes.push_back(
+          {static_cast<double>(k), {placement.to_world(point_O), random.rotation()}});
     }
     const Path path = motion::interpolate(keyframes);
     const auto found = detect(*snapshot, path, motion::Body(corners_C));

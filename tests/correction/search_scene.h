@@ -6,9 +6,11 @@
 #include <limits>
 #include <string>
 
+#include "daemon/collision/detect.h"
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/geometry/triangle_distance.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 /// A small scene for tests of searches, with oracles that test every triangle.
@@ -25,7 +27,9 @@ struct SearchScene {
                        const motion::Body& moving = motion::Body(testing::small_camera()))
       : mesh(std::move(mesh_W)), index(scene::SceneIndex::build(mesh)), body(moving) {}
 
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect});
+  }
 
   /// Returns the distance of a point from the scene; infinity for an empty scene.
   [[nodiscard]] double distance_m(const Vec3& point_W) const {
@@ -70,7 +74,7 @@ inline scene::Mesh wall_with_gap(double from_m, double to_m) {
 }
 
 /// Returns `count` cuboids of up to `size_m` in a cube of side 2 m about the origin.
-inline scene::Mesh scattered_cuboids(std::mt19937_64& random, int count, double size_m) {
+inline scene::Mesh scattered_cuboids(testing::Random& random, int count, double size_m) {
   std::uniform_real_distribution<double> share(0.2, 1.0);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   scene::Mesh mesh;
@@ -106,8 +110,9 @@ inline bool is_proved_free(const SearchScene& scene, const Guide& guide, double 
   detect.clearance_m += margin_m;
   for (std::size_t i = 1; i < guide.size(); ++i) {
     const motion::Path path({motion::straight_motion(guide[i - 1], guide[i])});
-    const auto found = collision::detect_collisions(scene.index, path, scene.body, 0.0, 1.0, detect,
-                                                    base::Deadline::never());
+    const auto found =
+        collision::detect_collisions({collision::Obstacles(scene.index), scene.body, detect}, path,
+                                     0.0, 1.0, base::Deadline::never());
     if (!found || !found->empty()) return false;
   }
   return true;

@@ -4,7 +4,7 @@
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/record/import_format.h"
 #include "daemon/scene/import/record/import_record.h"
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fuzz/targets.h"

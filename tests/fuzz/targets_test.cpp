@@ -9,6 +9,8 @@
 
 #include "tests/messages/message_mutation.h"
 #include "tests/messages/random_messages.h"
+#include "tests/support/case_name.h"
+#include "tests/support/random.h"
 
 namespace camway::testing {
 namespace {
@@ -31,7 +33,7 @@ TEST_P(FuzzTargetTest, MutantsBreakNoPromise) {
   constexpr std::size_t kLargest = 20'000;
   int right = 0;
   for (int trial = 0; trial < target().mutants; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
     FuzzBytes bytes = seeds[below(random, seeds.size())];
     if (bytes.size() > kLargest) continue;
     if (trial % 5 == 0) bytes.resize(below(random, bytes.size() + 1));
@@ -47,12 +49,11 @@ TEST_P(FuzzTargetTest, NoiseBreaksNoPromise) {
   for (int trial = 0; trial < target().mutants / 10; ++trial) {
     FuzzBytes bytes(below(random, 300));
     for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
-    ASSERT_NO_THROW(target().exercise(bytes)) << "seed " << kSeed << ", trial " << trial;
+    ASSERT_NO_THROW(target().exercise(bytes)) << "trial " << trial;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FuzzTargetTest, ::testing::ValuesIn(fuzz_targets()),
-                         [](const auto& target) { return std::string(target.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, FuzzTargetTest, ::testing::ValuesIn(fuzz_targets()), name_of_case);
 
 }  // namespace
 }  // namespace camway::testing

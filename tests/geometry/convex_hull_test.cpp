@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kManyPoints = 512;  // as many as a body may have
 
-using motion::test::Random;
 using test::exact;
 using test::exact_volume;
 using test::PointSet;
 using test::Rational;
+using testing::Random;
 
 Triangle triangle(const PointSet& set, const std::array<std::uint32_t, 3>& t) {
   return {set.points[t[0]], set.points[t[1]], set.points[t[2]]};

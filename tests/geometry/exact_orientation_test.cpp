@@ -10,6 +10,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "daemon/geometry/rounding.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::geometry {
@@ -50,7 +51,7 @@ TEST(ExactOrientation, KnownSigns) {
 // Points on a line or plane, moved by a few units in the last place, near and far from the origin,
 // at every size that a kernel accepts.
 TEST(ExactOrientation, NearlyDegenerateAgainstWideArithmetic) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::array<int, 3> seen{};
   for (int i = 0; i < 20'000; ++i) {

@@ -7,11 +7,11 @@
 namespace camway::geometry {
 namespace {
 
-using motion::test::Random;
 using test::exact;
 using test::exact_volume;
 using test::PointSet;
 using test::Rational;
+using testing::Random;
 
 std::vector<PointSet> all_sets(Random& random) {
   std::vector<PointSet> sets = test::solid_point_sets(random);
@@ -67,10 +67,10 @@ TEST(ExactPoints, NormalsAreTrueHoweverThinTheTriangle) {
   // 2^-51 for each coordinate, plus the error of the length.
   constexpr double kBound = 8.0 * geometry::kUnitRoundoff;
   for (int i = 0; i < 500; ++i) {
-    const Vec3 a = random.vector(1.0);
-    const Vec3 along = random.vector(1.0);
+    const Vec3 a = random.normal_vector(1.0);
+    const Vec3 along = random.normal_vector(1.0);
     const std::array<Vec3, 3> given{
-        a, a + along, a + 0.5 * along + random.vector(random.log_uniform(1e-15, 1.0))};
+        a, a + along, a + 0.5 * along + random.normal_vector(random.log_uniform(1e-15, 1.0))};
     const ExactPoints points(given);
     if (points.collinear(0, 1, 2)) continue;
     const Vec3 normal = points.unit_normal(0, 1, 2);

@@ -4,7 +4,7 @@
 namespace camway::geometry::test {
 namespace {
 
-Vec3 on_grid(motion::test::Random& random, int most) {
+Vec3 on_grid(testing::Random& random, int most) {
   return {static_cast<double>(random.integer(0, most)),
           static_cast<double>(random.integer(0, most)),
           static_cast<double>(random.integer(0, most))};
@@ -19,33 +19,34 @@ std::vector<Vec3> many(int count, const Make& make) {
 
 }  // namespace
 
-std::vector<PointSet> solid_point_sets(motion::test::Random& random) {
+std::vector<PointSet> solid_point_sets(testing::Random& random) {
   std::vector<PointSet> sets;
   for (int round = 0; round < 3; ++round) {
     const int count = random.integer(5, 120);
-    sets.push_back({"general", many(count, [&] { return random.vector(1.0); })});
+    sets.push_back({"general", many(count, [&] { return random.normal_vector(1.0); })});
     sets.push_back({"grid 0..2", many(count + 30, [&] { return on_grid(random, 2); })});
     sets.push_back({"grid 0..6", many(count + 30, [&] { return on_grid(random, 6); })});
-    sets.push_back({"sphere", many(count, [&] { return random.vector(1.0).normalized(); })});
+    sets.push_back({"sphere", many(count, [&] { return random.normal_vector(1.0).normalized(); })});
     const Quat turn = random.rotation();
     const auto squeezed = [&](const Vec3& by) {
-      return many(count, [&] { return turn * random.vector(1.0).cwiseProduct(by); });
+      return many(count, [&] { return turn * random.normal_vector(1.0).cwiseProduct(by); });
     };
     sets.push_back({"needle", squeezed({1.0, 1e-12, 1e-12})});
     sets.push_back({"plate", squeezed({1.0, 1.0, 1e-14})});
     sets.push_back({"tilted grid", many(count + 30, [&] { return turn * on_grid(random, 3); })});
-    sets.push_back({"far away",
-                    many(count, [&] { return Vec3(Vec3(1e6, -1e6, 1e6) + random.vector(1e-3)); })});
-    sets.push_back({"tiny", many(count, [&] { return random.vector(1e-170); })});
+    sets.push_back({"far away", many(count, [&] {
+                      return Vec3(Vec3(1e6, -1e6, 1e6) + random.normal_vector(1e-3));
+                    })});
+    sets.push_back({"tiny", many(count, [&] { return random.normal_vector(1e-170); })});
     sets.push_back({"wide range", many(count, [&] {
                       return Vec3(random.log_uniform(1e-300, 1e9) *
-                                  random.vector(0.1).normalized());
+                                  random.normal_vector(0.1).normalized());
                     })});
   }
   return sets;
 }
 
-std::vector<PointSet> flat_point_sets(motion::test::Random& random) {
+std::vector<PointSet> flat_point_sets(testing::Random& random) {
   std::vector<PointSet> sets;
   for (int round = 0; round < 10; ++round) {
     // x, y and a sum of multiples of them are exact for small integers.

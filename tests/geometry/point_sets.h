@@ -19,11 +19,11 @@ struct PointSet {
 
 /// Returns sets with volume: in general position; on small grids with many coplanar, collinear and
 /// equal points; spheres; needles and plates of almost no thickness; far from the origin; tiny.
-std::vector<PointSet> solid_point_sets(motion::test::Random& random);
+std::vector<PointSet> solid_point_sets(testing::Random& random);
 
 /// Returns sets exactly in one plane that is not parallel to an axis, with grid points and
 /// repetitions.
-std::vector<PointSet> flat_point_sets(motion::test::Random& random);
+std::vector<PointSet> flat_point_sets(testing::Random& random);
 
 using Rational = boost::multiprecision::cpp_rational;
 struct RationalVec : std::array<Rational, 3> {};

@@ -1,38 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <random>
 #include <string>
 #include <utility>
 
 #include "daemon/geometry/types.h"
+#include "tests/support/random.h"
 
 namespace camway::geometry {
 
-/// Random triangles that are hard for the kernels. Prints the seed, so that a failure can be
-/// repeated.
-class RandomTriangles {
+/// Random triangles that are hard for the kernels.
+class RandomTriangles : public testing::Random {
  public:
-  explicit RandomTriangles(std::uint64_t seed) : engine_(seed) {
-    std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
-  }
+  using Random::Random;
 
-  double uniform(double low, double high) {
-    // Not std::uniform_real_distribution: its numbers differ between standard libraries.
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  int integer(int low, int high) {
-    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  Vec3 in_cube(double half) {
-    return {uniform(-half, half), uniform(-half, half), uniform(-half, half)};
-  }
   Vec3 on_grid(int size) {
     return {static_cast<double>(integer(0, size)), static_cast<double>(integer(0, size)),
             static_cast<double>(integer(0, size))};
@@ -88,9 +70,6 @@ class RandomTriangles {
     for (Vec3& v : b) v += shift;
     return {a, b};
   }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 inline std::string to_text(const Triangle& t) {

@@ -20,8 +20,8 @@
 namespace camway::integration {
 namespace {
 
-using testing::AnyOf;
-using testing::HasSubstr;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
 
 const std::string kOld = "1 " + std::string(64, '1') + "\n";
 const std::string kNew = "2 " + std::string(64, '2') + "\n";

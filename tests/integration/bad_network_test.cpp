@@ -17,7 +17,7 @@ Pose at(double x_m, double y_m, double z_m) {
 
 /// Scene and map requests of a client whose messages are lost, duplicated and delayed.
 /// `load_test.cpp` and `watch_test.cpp` test planning and watching.
-class BadNetworkTest : public IntegrationTest, public testing::WithParamInterface<double> {};
+class BadNetworkTest : public IntegrationTest, public ::testing::WithParamInterface<double> {};
 
 TEST_P(BadNetworkTest, ScenesAreUploadedChangedAndExportedAsOnAGoodOne) {
   start_daemon();
@@ -54,7 +54,7 @@ TEST_P(BadNetworkTest, ScenesAreUploadedChangedAndExportedAsOnAGoodOne) {
   EXPECT_EQ(occupied.points_occupied, known.points_occupied);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, BadNetworkTest, testing::ValuesIn(kBadShares), name_of_share);
+INSTANTIATE_TEST_SUITE_P(Shares, BadNetworkTest, ::testing::ValuesIn(kBadShares), name_of_share);
 
 }  // namespace
 }  // namespace camway::integration

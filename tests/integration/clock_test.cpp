@@ -22,7 +22,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr long kDay_s = 86'400;
 constexpr long kTwentyYears_s = 20 * 365 * kDay_s;

@@ -21,7 +21,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Clients that overload the daemon.
 class CrowdTest : public IntegrationTest {};

@@ -41,7 +41,7 @@ SceneMesh long_mesh(std::size_t bytes) {
   return mesh;
 }
 
-std::string name_of_share(const testing::TestParamInfo<double>& share) {
+std::string name_of_share(const ::testing::TestParamInfo<double>& share) {
   return std::to_string(std::lround(100.0 * share.param)) + "InAHundred";
 }
 

@@ -18,7 +18,7 @@ namespace camway::integration {
 
 /// Tests with real processes in the network of tools/scripts/netns.sh. Fails with a message if that
 /// network does not carry LCM.
-class IntegrationTest : public testing::Test {
+class IntegrationTest : public ::testing::Test {
  protected:
   void SetUp() override;
   void TearDown() override;
@@ -62,7 +62,7 @@ class IntegrationTest : public testing::Test {
 
 /// Fractions of messages that bad networks of tests lose, and the names of tests with them.
 inline constexpr double kBadShares[] = {0.0, 0.01, 0.1, 0.3};
-std::string name_of_share(const testing::TestParamInfo<double>& share);
+std::string name_of_share(const ::testing::TestParamInfo<double>& share);
 
 /// Return the paths of committed files: `scenes/office.obj`,
 /// `scenes/requests/office-free-door.json`.

@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Mounts a small disk at $0 that only the next command sees.
 constexpr char kMount[] = "mount -t tmpfs -o size=512k none \"$0\" && ";
@@ -78,7 +78,7 @@ TEST_F(FullDiskTest, TheDaemonSaysSoAndServesOn) {
   for (const fs::directory_entry& entry : fs::directory_iterator(disk_of(daemon()))) {
     names.push_back(entry.path().filename());
   }
-  EXPECT_THAT(names, testing::UnorderedElementsAre("filler", "log")) << "no half of anything";
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("filler", "log")) << "no half of anything";
 
   Pose aside;
   aside.position_m = {0, 50, 0};

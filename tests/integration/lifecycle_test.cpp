@@ -19,7 +19,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Counts the messages on a channel.
 class Counter {

@@ -14,7 +14,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// `camway load` against a daemon.
 class LoadTest : public IntegrationTest {
@@ -86,7 +86,7 @@ TEST_F(LoadTest, SaysThatThereIsNoDaemon) {
   EXPECT_THAT(output_, HasSubstr("no daemon was heard"));
 }
 
-class LoadOnABadNetworkTest : public LoadTest, public testing::WithParamInterface<double> {};
+class LoadOnABadNetworkTest : public LoadTest, public ::testing::WithParamInterface<double> {};
 
 TEST_P(LoadOnABadNetworkTest, NothingIsLostOrWrong) {
   start_daemon();
@@ -99,7 +99,7 @@ TEST_P(LoadOnABadNetworkTest, NothingIsLostOrWrong) {
   EXPECT_GE(json["retries"], static_cast<int>(20 * GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, LoadOnABadNetworkTest, testing::ValuesIn(kBadShares),
+INSTANTIATE_TEST_SUITE_P(Shares, LoadOnABadNetworkTest, ::testing::ValuesIn(kBadShares),
                          name_of_share);
 
 }  // namespace

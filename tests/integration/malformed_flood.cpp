@@ -37,8 +37,8 @@
 namespace {
 
 using namespace camway;
-using testing::below;
-using testing::Random;
+using camway::testing::below;
+using camway::testing::Random;
 using Bytes = std::vector<std::uint8_t>;
 using Clock = std::chrono::steady_clock;
 
@@ -68,7 +68,7 @@ Target target_of(const std::string& channel, Random& random) {
                   }
                 }};
   for (int i = 0; i < kSamples; ++i) {
-    target.right.push_back(wire::encode(testing::random_message<Message>(random)));
+    target.right.push_back(wire::encode(camway::testing::random_message<Message>(random)));
   }
   return target;
 }
@@ -114,7 +114,7 @@ Bytes attempt(const std::vector<Target>& all, const Target& target, Random& rand
       return bytes;
     }
     case 4: {
-      envelope_t envelope = testing::random_message<envelope_t>(random);
+      envelope_t envelope = camway::testing::random_message<envelope_t>(random);
       return wire::encode(envelope);
     }
     case 5:  // a wrong fingerprint
@@ -122,7 +122,7 @@ Bytes attempt(const std::vector<Target>& all, const Target& target, Random& rand
           static_cast<std::uint8_t>(1 + below(random, 255));
       return bytes;
     default:
-      testing::mutate(bytes, random);
+      camway::testing::mutate(bytes, random);
       return bytes;
   }
 }
@@ -148,7 +148,7 @@ class Signatures {
       default: {
         const Bytes sealed = right_.seal(channel, bytes);
         Bytes altered = sealed;
-        while (altered == sealed) testing::mutate(altered, random);
+        while (altered == sealed) camway::testing::mutate(altered, random);
         return altered;
       }
     }
@@ -313,7 +313,8 @@ int main(int argc, char** argv) {
   Signatures* const signatures = with_keys ? &*with_keys : nullptr;
   Daemon daemon(std::atoi(argv[1]), signatures);
   const std::int64_t messages = std::atoll(argv[2]);
-  Random random(argc > 3 ? static_cast<std::uint64_t>(std::atoll(argv[3])) : testing::kSeed);
+  Random random(argc > 3 ? static_cast<std::uint64_t>(std::atoll(argv[3]))
+                         : camway::testing::kSeed);
   const std::int64_t counted_before = daemon.good() ? daemon.dropped() : -1;
   if (counted_before < 0 || !daemon.ping_ms()) {
     std::fprintf(stderr, "malformed_flood: there is no daemon to be heard\n");

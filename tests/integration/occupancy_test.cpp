@@ -11,7 +11,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kResolution_m = 0.125;
 /// Voxels that a triangle touches are occupied, so an occupied point is at most one voxel's

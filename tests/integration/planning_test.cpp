@@ -16,7 +16,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class PlanningTest : public IntegrationTest {};
 

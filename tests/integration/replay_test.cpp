@@ -12,7 +12,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::size_t count(const std::string& text, const std::string& word) {
   std::size_t found = 0;

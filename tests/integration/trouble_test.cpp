@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <fstream>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -19,11 +18,12 @@
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/integration/fixture.h"
+#include "tests/support/random.h"
 
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
 /// A program on the network that sends arbitrary bytes and receives the answers.
@@ -127,9 +127,9 @@ TEST_F(TroubleTest, MalformedMessagesAreAnsweredAndCounted) {
 
 TEST_F(TroubleTest, RandomBytesDoNotHurt) {
   constexpr std::uint32_t kSeed = 20061121;
-  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   start_daemon();
-  std::mt19937 random(kSeed);
+  testing::Random random(kSeed);
   Stranger stranger;
   const Bytes plan = wire::encode(good_request());
   const Bytes occupancy = wire::encode(occupancy_request_t{});

@@ -14,7 +14,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr char kThisHostOnly[] = "udpm://239.255.76.67:7667?ttl=0";
 constexpr char kBothHosts[] = "udpm://239.255.76.67:7667?ttl=1";

@@ -16,7 +16,7 @@
 namespace camway::integration {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Kind = WatchEvent::Kind;
 
 /// Returns a crate to block the path of `walk`.
@@ -115,7 +115,7 @@ TEST_F(WatchTest, TellsOfAChangeAndCorrectsThePath) {
   play(watcher, painter, /*hears_all=*/true);
 }
 
-class WatchOnABadNetworkTest : public WatchTest, public testing::WithParamInterface<double> {};
+class WatchOnABadNetworkTest : public WatchTest, public ::testing::WithParamInterface<double> {};
 
 TEST_P(WatchOnABadNetworkTest, TellsOfAChangeAndCorrectsThePath) {
   start_daemon();
@@ -125,7 +125,7 @@ TEST_P(WatchOnABadNetworkTest, TellsOfAChangeAndCorrectsThePath) {
   play(watcher, painter, /*hears_all=*/false);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shares, WatchOnABadNetworkTest, testing::ValuesIn(kBadShares),
+INSTANTIATE_TEST_SUITE_P(Shares, WatchOnABadNetworkTest, ::testing::ValuesIn(kBadShares),
                          name_of_share);
 
 TEST_F(WatchTest, ADaemonThatIsStartedAnewWatchesOn) {

@@ -9,6 +9,7 @@
 
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
+#include "tests/support/random.h"
 
 namespace camway::service {
 namespace {
@@ -45,8 +46,9 @@ TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
 TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
   Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
-    const planning::PlanRequest request = sample_request(2, random);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
+    planning::PlanRequest request = sample_request(2, random);
+    request.options = testing::sample_options(random);
     const ConvertedRequest back = from_wire(to_wire(request, kIds));
     ASSERT_TRUE(back.request) << back.error;
     EXPECT_EQ(back.request->options, request.options);
@@ -358,7 +360,7 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   planning::PlanResult result;
   correction::Correction correction;
   correction.interval = {1.0, 2.0, collision::Witness{}};
-  correction.rung = correction::Rung::kGoRound;
+  correction.kind = correction::CorrectionKind::kGoRound;
   correction.t_begin_s = 0.5;
   correction.t_end_s = 2.5;
   correction.moved_m = 0.25;

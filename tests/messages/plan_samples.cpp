@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tests/messages/plan_samples.h"
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,28 +45,62 @@ collision::Witness witness(double time_s, Random& random) {
           .point_W = point(random)};
 }
 
-correction::OrientationPolicy orientation(Random& random) {
-  correction::OrientationPolicy policy;
-  policy.rule = static_cast<correction::OrientationRule>(below(random, 4));
-  // Only the members that the policy uses are sent.
-  const geometry::Vec3 any = point(random);
-  if (policy.rule == correction::OrientationRule::kLevel) policy.up_W = planning::direction_of(any);
-  if (policy.rule == correction::OrientationRule::kTarget) {
-    policy.target_W = any;
-    policy.cone_rad = 0.25;
-  }
-  policy.max_turn_rad = static_cast<double>(below(random, 4));
-  return policy;
-}
+/// Gives about half of the options a random value of their range.
+struct OptionFiller {
+  Random& random;
 
-correction::MotionLimits limits(Random& random) {
-  correction::MotionLimits limits;
-  if (below(random, 2) == 0) limits.speed_m_per_s = 1.5;
-  if (below(random, 2) == 0) limits.acceleration_m_per_s2 = 2.5;
-  if (below(random, 2) == 0) limits.turn_rate_rad_per_s = 3.5;
-  limits.may_retime = below(random, 2) == 0;
-  return limits;
-}
+  template <class Member>
+  void operator()(const planning::FieldSpec& spec, Member& member) const {
+    if (below(random, 2) == 0) fill(spec, member);
+  }
+
+ private:
+  /// Returns a number between the ends of a range. Angles are a number of degrees, so that they
+  /// survive in a file bit for bit.
+  [[nodiscard]] double inside(const planning::FieldSpec& spec) const {
+    constexpr double kRadians = std::numbers::pi / 180.0;
+    const double unit = spec.is_angle() ? kRadians : 1.0;
+    const double least = spec.range.least / unit;
+    const double most = std::isfinite(spec.range.most) ? spec.range.most / unit : least + 50.0;
+    return (least + (most - least) * static_cast<double>(1 + below(random, 999)) / 1000.0) * unit;
+  }
+  void fill(const planning::FieldSpec& spec, double& value) const { value = inside(spec); }
+  void fill(const planning::FieldSpec& spec, std::optional<double>& value) const {
+    value = inside(spec);
+  }
+  void fill(const planning::FieldSpec&, bool& value) const { value = below(random, 2) == 0; }
+  template <std::integral Number>
+  void fill(const planning::FieldSpec& spec, Number& value) const {
+    constexpr auto kMost = static_cast<Number>(std::min<std::uint64_t>(
+        std::numeric_limits<Number>::max(), std::numeric_limits<std::int64_t>::max()));
+    value = static_cast<Number>(static_cast<Number>(spec.range.least) +
+                                static_cast<Number>(random() % static_cast<std::uint64_t>(kMost)));
+  }
+  template <base::NamedEnum Enum>
+  void fill(const planning::FieldSpec&, Enum& value) const {
+    value = static_cast<Enum>(below(random, names_of(Enum{}).size()));
+  }
+  void fill(const planning::FieldSpec&, geometry::Bounds& bounds) const {
+    if (below(random, 2) == 0) bounds.min_W = {-1.5, 0.0, -2.5};
+    if (below(random, 2) == 0) bounds.max_W.y() = 3.25;
+  }
+  void fill(const planning::FieldSpec&, correction::MotionLimits& limits) const {
+    planning::visit_limits(*this, limits);
+  }
+  /// Only the members that the policy uses are sent.
+  void fill(const planning::FieldSpec& spec, correction::OrientationPolicy& policy) const {
+    fill(spec, policy.rule);
+    const geometry::Vec3 any = point(random);
+    if (policy.rule == correction::OrientationRule::kLevel) {
+      policy.up_W = planning::direction_of(any);
+    }
+    if (policy.rule == correction::OrientationRule::kTarget) {
+      policy.target_W = any;
+      fill(planning::option::kCone, policy.cone_rad);
+    }
+    (*this)(planning::option::kMaxTurn, policy.max_turn_rad);
+  }
+};
 
 motion::PathMeasures measures(Random& random) {
   return {number(random), number(random), number(random), number(random),
@@ -70,7 +110,7 @@ motion::PathMeasures measures(Random& random) {
 correction::Correction corrected(const collision::CollisionInterval& interval, Random& random) {
   correction::Correction correction;
   correction.interval = {interval.t_begin_s, interval.t_end_s};
-  correction.rung = static_cast<correction::Rung>(below(random, 5));
+  correction.kind = static_cast<correction::CorrectionKind>(below(random, 5));
   correction.t_begin_s = number(random);
   correction.t_end_s = number(random);
   correction.moved_m = number(random);
@@ -114,25 +154,27 @@ void add_report(planning::PlanResult& result, Random& random) {
 
 }  // namespace
 
+planning::PlanOptions sample_options(Random& random) {
+  planning::PlanOptions options;
+  planning::visit_options(OptionFiller{random}, options);
+  return options;
+}
+
 planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   planning::PlanRequest request;
   request.scene = "room";
   request.camera = {1.5, 1.0, 0.1};
   request.has_times = below(random, 2) == 0;
+  request.options = sample_options(random);
+  // The service's tests plan it: neither for long nor with the paper's method.
+  request.options.method = planning::Method::kLadder;
   request.options.deadline_s = 3.25;
   request.options.chord_error_m = 0.0078125;
   request.options.interval_tolerance_m = 1e-5;
   request.options.clearance_m = 0.0625;
-  request.options.max_inserted_keyframes = below(random, 2) == 0 ? 17 : 0;
-  request.options.objective = static_cast<correction::Objective>(below(random, 4));
-  request.options.orientation = orientation(random);
-  request.options.limits = limits(random);
-  if (below(random, 2) == 0) request.options.bounds.min_W = {-1.5, 0.0, -2.5};
-  if (below(random, 2) == 0) request.options.bounds.max_W.y() = 3.25;
   request.options.max_shrink = 0.375;
-  request.options.repair_keyframes = below(random, 2) == 0;
-  request.options.seed = 1 + random();
-  if (!request.has_times && below(random, 2) == 0) request.options.default_speed_m_per_s = 2.5;
+  request.options.max_inserted_keyframes = below(random, 2) == 0 ? 17 : 0;
+  if (request.has_times) request.options.default_speed_m_per_s.reset();
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
   }

@@ -16,6 +16,10 @@
 /// Requests, results and scenes for tests of the wire: valid in form, but without meaning.
 namespace camway::testing {
 
+/// Returns options of which about half have a random value of their range, the others the default.
+/// Each value survives in messages and files bit for bit.
+planning::PlanOptions sample_options(Random& random);
+
 /// Returns a request with finite numbers, `keyframes` keyframes and increasing times.
 planning::PlanRequest sample_request(std::size_t keyframes, Random& random);
 

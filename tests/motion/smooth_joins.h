@@ -42,7 +42,7 @@ inline void expect_smooth_join(const Segment& before, const Segment& after,
 
 inline void expect_smooth(const Path& path, double roundings = 1.0) {
   for (std::size_t i = 0; i + 1 < path.segments().size(); ++i) {
-    SCOPED_TRACE(testing::Message() << "join " << i);
+    SCOPED_TRACE(::testing::Message() << "join " << i);
     expect_smooth_join(path.segments()[i], path.segments()[i + 1], roundings);
   }
 }

@@ -9,19 +9,21 @@
 #include "tests/geometry/random_triangles.h"
 #include "tests/scene/test_meshes.h"
 
-namespace camway::scene {
+namespace camway::paper {
 namespace {
 
 using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
+using scene::IndexStatistics;
+using scene::SceneIndex;
 
-class CameraTrianglesTest : public testing::Test {
+class CameraTrianglesTest : public ::testing::Test {
  protected:
   CameraTrianglesTest() : random_(601) {
     std::vector<Triangle> scene;
     for (int i = 0; i < 600; ++i) scene.push_back(triangle(1.0));
-    tree_ = SceneIndex::build(mesh_of_triangles(scene), {.threshold = 6});
+    tree_ = SceneIndex::build(scene::mesh_of_triangles(scene), {.threshold = 6});
   }
 
   Triangle triangle(double size) {
@@ -104,4 +106,4 @@ TEST_F(CameraTrianglesTest, KnowsNothingOfAnUnknownId) {
 }
 
 }  // namespace
-}  // namespace camway::scene
+}  // namespace camway::paper

@@ -5,13 +5,20 @@
 #include "daemon/motion/path/bezier.h"
 #include "tests/motion/random_motion.h"
 
-namespace camway::motion {
+namespace camway::paper {
 namespace {
 
+using motion::Corners;
+using motion::Keyframe;
+using motion::Path;
+using motion::Pose;
+using motion::Segment;
+namespace bezier = motion::bezier;
+namespace test = motion::test;
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 Vec3 corner_at(const Segment& segment, const Vec3& corner_C, double u) {
   const Pose pose = pose_at(segment, u);
@@ -22,7 +29,7 @@ TEST(CornerCurve, IsTheMotionOfTheCorner) {
   Random random(101);
   for (int i = 0; i < 300; ++i) {
     const Segment segment = test::random_segment(random, 0.6);
-    const Vec3 corner_C = random.vector(0.5);
+    const Vec3 corner_C = random.normal_vector(0.5);
     const RationalCurve curve = corner_curve(segment, corner_C);
     for (int k = 0; k <= 20; ++k) {
       const double u = k / 20.0;
@@ -36,7 +43,7 @@ TEST(CornerCurve, IsTheMotionOfTheCorner) {
 TEST(CornerCurve, OfAnInterpolatedPathIsTheMotionOfTheCorner) {
   Random random(102);
   const Path path = interpolate(test::with_times(test::random_poses(random, 200)));
-  const Corners corners_C = near_corners_C({1.3, 1.0, 0.1});
+  const Corners corners_C = motion::near_corners_C({1.3, 1.0, 0.1});
   for (const Segment& segment : path.segments()) {
     for (const Vec3& corner_C : corners_C) {
       const RationalCurve curve = corner_curve(segment, corner_C);
@@ -80,7 +87,7 @@ TEST(CornerCurve, DegreeTwelveWouldMissByACentimetre) {
   double largest_m = 0.0;
   for (int repeat = 0; repeat < 200; ++repeat) {
     const std::vector<Keyframe> keyframes = test::with_times(
-        {{Vec3::Zero(), random.rotation()}, {random.vector(1.0), random.rotation()}});
+        {{Vec3::Zero(), random.rotation()}, {random.normal_vector(1.0), random.rotation()}});
     const Path path = interpolate(keyframes);
     for (const Segment& segment : path.segments()) {
       for (int k = 0; k <= 20; ++k)
@@ -94,4 +101,4 @@ TEST(CornerCurve, DegreeTwelveWouldMissByACentimetre) {
 }
 
 }  // namespace
-}  // namespace camway::motion
+}  // namespace camway::paper

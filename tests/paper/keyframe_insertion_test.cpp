@@ -8,7 +8,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/scenes.h"
 
-namespace camway::correction {
+namespace camway::paper {
 namespace {
 
 using base::Deadline;
@@ -36,8 +36,8 @@ KeyframeInsertionResult correct(const SceneIndex& index, const std::vector<Keyfr
 }
 
 std::vector<CollisionInterval> collisions(const SceneIndex& index, const motion::Path& path) {
-  return *collision::detect_collisions(index, path, motion::Body(corners_C()), path.begin_s(),
-                                       path.end_s(), {}, base::Deadline::never());
+  return *collision::detect_collisions({collision::Obstacles(index), motion::Body(corners_C())},
+                                       path, path.begin_s(), path.end_s(), base::Deadline::never());
 }
 
 SceneIndex column_at(double x_min, double z) {
@@ -123,4 +123,4 @@ TEST(KeyframeInsertion, StopsAtTheDeadline) {
 }
 
 }  // namespace
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "daemon/collision/near_quad.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
-namespace camway::correction {
+namespace camway::paper {
 namespace {
 
 using geometry::Quat;
@@ -72,7 +73,7 @@ TEST(PushOutRule, ABadCornerWithClearEdgesTakesItsDepthFromTheCentre) {
 }
 
 TEST(PushOut, EndsFreeWithTheMarginAndKeepsTheOrientation) {
-  std::mt19937_64 random = testing::seeded(3);
+  testing::Random random(3);
   std::uniform_real_distribution<double> where(-0.04, 0.05);
   int pushed_out = 0;
   for (int run = 0; run < 200; ++run) {
@@ -126,4 +127,4 @@ TEST(PushOut, IsCutOffBetweenTwoWallsCloserThanTheCamera) {
 }
 
 }  // namespace
-}  // namespace camway::correction
+}  // namespace camway::paper

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
-namespace camway::collision {
+namespace camway::paper {
 namespace {
 
+using collision::FirstCollision;
 using geometry::Quat;
 using geometry::Vec3;
 using motion::Corners;
@@ -42,7 +44,7 @@ TEST(SweepDetection, BracketsACuboidInTheWay) {
 }
 
 TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
-  std::mt19937_64 random = testing::seeded(21);
+  testing::Random random(21);
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   int compared = 0;
@@ -58,8 +60,9 @@ TEST(SweepDetection, AgreesWithTheDistanceBasedCheckOnSides) {
                                {{0.1 * place(random), 0.2 * place(random), 0.1},
                                 Quat(Eigen::AngleAxisd(0.6 * place(random), Vec3::UnitY()))}},
                               {2.0, {{0, 0, -1}, Quat::Identity()}}});
-    const FirstCollision by_distance = first_collision(index, path, motion::Body(corners_C), 0.0,
-                                                       2.0, {}, base::Deadline::never());
+    const FirstCollision by_distance =
+        collision::first_collision({collision::Obstacles(index), motion::Body(corners_C)}, path,
+                                   0.0, 2.0, base::Deadline::never());
     const FirstCollision by_sweep = sweep(index, path);
     ASSERT_TRUE(by_distance.decided && by_sweep.decided);
     ASSERT_EQ(by_distance.interval.has_value(), by_sweep.interval.has_value()) << "run " << run;
@@ -113,4 +116,4 @@ TEST(SweepDetection, WorksOnNegativeTimesAndFromTheMiddle) {
 }
 
 }  // namespace
-}  // namespace camway::collision
+}  // namespace camway::paper

@@ -6,14 +6,19 @@
 #include "daemon/motion/path/bezier.h"
 #include "tests/motion/random_motion.h"
 
-namespace camway::motion {
+namespace camway::paper {
 namespace {
 
+using motion::Corners;
+using motion::Path;
+using motion::Pose;
+namespace bezier = motion::bezier;
+namespace test = motion::test;
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
-const Corners kCorners = near_corners_C({1.5, 1.0, 0.2});
+const Corners kCorners = motion::near_corners_C({1.5, 1.0, 0.2});
 
 Path random_path(Random& random, int keyframes) {
   return interpolate(test::with_times(test::random_poses(random, keyframes)));
@@ -184,4 +189,4 @@ TEST(SweptSurface, IsBitIdenticalWhenRepeated) {
 }
 
 }  // namespace
-}  // namespace camway::motion
+}  // namespace camway::paper

@@ -14,6 +14,7 @@
 #include "daemon/planning/way_beyond.h"
 #include "daemon/planning/witness_names.h"
 #include "daemon/scene/snapshot/scene_difference.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -208,7 +209,7 @@ TEST(PlanWithinBounds, ThatAreFarAwayLeaveFreePathsAsTheyAre) {
 
 // Every ok path is inside its bounds at every sample, and is proved so again.
 TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
-  std::mt19937_64 random = testing::seeded(19);
+  testing::Random random(19);
   std::uniform_real_distribution<double> place(-0.75, 0.75);
   const Bounds bounds{Vec3(-0.86, -0.86, -0.86), Vec3(0.86, 0.86, 0.86)};
   int proved = 0;
@@ -224,7 +225,7 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
     for (int i = 0; i < 5; ++i) {
       request.keyframes.push_back(
           {static_cast<double>(i),
-           {{place(random), place(random), place(random)}, testing::random_rotation(random)}});
+           {{place(random), place(random), place(random)}, random.rotation()}});
     }
     const PlanResult result = planned(*snapshot, request);
     if (result.status != Status::kOk) continue;
@@ -235,9 +236,9 @@ TEST(PlanWithinBounds, NoProvedPathLeavesThem) {
     corrected += left ? 1 : 0;
     EXPECT_GT(least_depth_m(result, request.camera, bounds), 0.0) << "run " << run;
     const motion::Body body(request.camera);
-    const PathCheck check = check_path(collision::Obstacles(*snapshot).within(bounds), result.path,
-                                       body, detect_options(request.options),
-                                       base::Deadline::never(), base::Deadline::never());
+    const PathCheck check = check_path(
+        {collision::Obstacles(*snapshot).within(bounds), body, detect_options(request.options)},
+        result.path, base::Deadline::never(), base::Deadline::never());
     EXPECT_TRUE(check.certificate.certified) << "run " << run;
   }
   EXPECT_GT(proved, 10);
@@ -251,7 +252,7 @@ TEST(WatchedPathWithinBounds, IsCheckedAnewWhereTheSceneHasOthers) {
   const PlanResult result = planned(*before, request);
   const auto watched = WatchedPath::of(request, result);
   ASSERT_TRUE(watched);
-  EXPECT_TRUE(watched->collisions(*before, base::Deadline::never()).empty());
+  EXPECT_TRUE(watched->collisions(collision::Obstacles(*before), base::Deadline::never()).empty());
   Bounds low;
   low.max_W.y() = 0.4;
   const auto after = snapshot_of({}, low);
@@ -259,7 +260,7 @@ TEST(WatchedPathWithinBounds, IsCheckedAnewWhereTheSceneHasOthers) {
   EXPECT_FALSE(change.empty());
   EXPECT_TRUE(watched->may_meet(change));
   EXPECT_FALSE(watched->stays_free(change, base::Deadline::never()));
-  EXPECT_EQ(watched->collisions(*after, base::Deadline::never()).size(), 1u);
+  EXPECT_EQ(watched->collisions(collision::Obstacles(*after), base::Deadline::never()).size(), 1u);
   EXPECT_TRUE(scene::difference(*before, *snapshot_of({})).empty());
 }
 

@@ -25,7 +25,8 @@ Path tour() {
 motion::Body body() { return motion::Body(testing::small_camera()); }
 
 PathCheck check(const scene::Mesh& mesh, const Deadline& deadline = Deadline::never()) {
-  return check_path(scene::SceneIndex::build(mesh), tour(), body(), {}, deadline, deadline);
+  return check_path({collision::Obstacles(scene::SceneIndex::build(mesh)), body()}, tour(),
+                    deadline, deadline);
 }
 
 TEST(CheckPath, CertifiesAFreePathWithItsClearance) {

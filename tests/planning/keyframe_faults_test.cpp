@@ -22,7 +22,9 @@ std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<
   for (const Vec3& position : positions) {
     keyframes.push_back({double(keyframes.size()), {position, Quat::Identity()}});
   }
-  return find_keyframe_faults(*snapshot, *snapshot, *body, {}, keyframes, deadline).faults;
+  return find_keyframe_faults(*snapshot, {collision::Obstacles(*snapshot), *body}, keyframes,
+                              deadline)
+      .faults;
 }
 
 std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<Vec3>& positions) {

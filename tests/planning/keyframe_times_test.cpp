@@ -11,6 +11,7 @@
 #include "daemon/motion/spline/knot_row.h"
 #include "daemon/planning/plan.h"
 #include "tests/support/path_continuity.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -40,7 +41,7 @@ std::shared_ptr<const scene::Snapshot> columns() {
 
 /// Returns a tour between columns, mostly through some, with rotations about the vertical and
 /// without times.
-PlanRequest tour(std::mt19937_64& random) {
+PlanRequest tour(testing::Random& random) {
   const auto draw = [&](std::uint64_t count) { return static_cast<double>(random() % count); };
   PlanRequest request;
   request.camera = testing::small_camera();
@@ -102,7 +103,7 @@ void expect_times_within(const PlanResult& result) {
   }
   for (const correction::Correction& correction : result.corrections) {
     EXPECT_TRUE(within(correction.interval.t_begin_s) && within(correction.interval.t_end_s));
-    if (correction.rung == correction::Rung::kNone) continue;
+    if (correction.kind == correction::CorrectionKind::kNone) continue;
     EXPECT_TRUE(within(correction.t_begin_s) && within(correction.t_end_s));
   }
   for (const SlowedStretch& stretch : result.slowed)
@@ -146,7 +147,7 @@ void look_at(const PlanRequest& request, const PlanResult& result, double gap_s,
 TEST(KeyframeTimes, PathsAreSmoothWhereverTimeBegins) {
   const auto scene = columns();
   for (const double first_s : {0.0, 0.1, -7.7, 1e3, 1e5, 1e7, 1.76e9, 2147483640.3, 4e9, -1.76e9}) {
-    std::mt19937_64 random = testing::seeded(71);
+    testing::Random random(71);
     Tally tally;
     for (const double gap_s : {2.1, 3.33, 0.05}) {
       for (int run = 0; run < 3; ++run) {
@@ -165,7 +166,7 @@ TEST(KeyframeTimes, PathsAreSmoothWhereverTimeBegins) {
 TEST(KeyframeTimes, NearlyEqualGapsMakeNoShortSegments) {
   const auto scene = columns();
   for (const double jitter_s : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
-    std::mt19937_64 random = testing::seeded(72);
+    testing::Random random(72);
     Tally tally;
     double even_sum = 0.0;
     double sum = 0.0;
@@ -192,7 +193,7 @@ TEST(KeyframeTimes, NearlyEqualGapsMakeNoShortSegments) {
 TEST(KeyframeTimes, AnyScaleOfTimeWillDo) {
   const auto scene = columns();
   for (const double gap_s : {1e-3, 0.1, 100.0, 1e4}) {
-    std::mt19937_64 random = testing::seeded(73);
+    testing::Random random(73);
     Tally tally;
     for (int run = 0; run < 5; ++run) {
       SCOPED_TRACE(::testing::Message() << "gap " << gap_s << ", " << run);
@@ -223,7 +224,7 @@ PlanRequest limited(const scene::Snapshot& scene, PlanRequest request) {
 TEST(KeyframeTimes, SlowedPathsAreSmoothToo) {
   const auto scene = columns();
   for (const double first_s : {0.0, 1e5, 1.76e9, 4e9}) {
-    std::mt19937_64 random = testing::seeded(74);
+    testing::Random random(74);
     for (int run = 0; run < 5; ++run) {
       SCOPED_TRACE(::testing::Message() << "from " << first_s << ", " << run);
       PlanRequest request = tour(random);
@@ -245,7 +246,7 @@ TEST(KeyframeTimes, SlowedPathsAreSmoothToo) {
 TEST(KeyframeTimes, CollidingPathsThatAreSlowedAreSmooth) {
   const auto scene = columns();
   for (const double first_s : {0.0, 1e5, 1.76e9, 4e9}) {
-    std::mt19937_64 random = testing::seeded(75);
+    testing::Random random(75);
     int colliding = 0;
     for (int run = 0; run < 6; ++run) {
       SCOPED_TRACE(::testing::Message() << "from " << first_s << ", " << run);
@@ -267,7 +268,7 @@ TEST(KeyframeTimes, CollidingPathsThatAreSlowedAreSmooth) {
 
 TEST(KeyframeTimes, InsertionIsSmoothToo) {
   const auto scene = columns();
-  std::mt19937_64 random = testing::seeded(76);
+  testing::Random random(76);
   for (int run = 0; run < 6; ++run) {
     PlanRequest request = tour(random);
     set_times(request, 1.76e9, 2.1);
@@ -284,7 +285,7 @@ TEST(KeyframeTimes, InsertionIsSmoothToo) {
 
 TEST(KeyframeTimes, AreNamedAsTheSenderHasThem) {
   const auto scene = columns();
-  std::mt19937_64 random = testing::seeded(77);
+  testing::Random random(77);
   PlanRequest request = tour(random);
   set_times(request, 1.76e9, 2.1);
   request = limited(*scene, request);

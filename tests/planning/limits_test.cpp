@@ -107,7 +107,7 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
     // The path is proved again by code that does not know how it was made.
     std::string fault;
     const auto body = motion::Body::make(request.camera, fault);
-    const PathCheck check = check_path(collision::Obstacles(*snapshot), slower.path, *body, {},
+    const PathCheck check = check_path({collision::Obstacles(*snapshot), *body}, slower.path,
                                        base::Deadline::never(), base::Deadline::never());
     EXPECT_TRUE(check.certificate.certified);
     EXPECT_EQ(slower.certificate.clearance_lower_bound_m,
@@ -196,16 +196,14 @@ TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
   std::string fault;
   const auto body = motion::Body::make(request.camera, fault);
   const motion::CubicPath path = motion::interpolate_cubic(request.keyframes);
-  const collision::Obstacles obstacles(*snapshot);
+  const collision::Query query{collision::Obstacles(*snapshot), *body};
   const motion::TimeOrigin origin;
   const std::vector<double> keyframes_s = {0.0, 2.0, 4.0, 6.0};
   const TooFast problem{path,
                         path,
                         request.options.limits,
                         request.options.orientation,
-                        obstacles,
-                        *body,
-                        {},
+                        query,
                         origin,
                         keyframes_s,
                         /*is_free=*/true};

@@ -6,6 +6,7 @@
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/plan.h"
 #include "tests/support/orientation_oracle.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -73,7 +74,7 @@ TEST(PlanOrientation, RollsThroughASlitWithinTheLimit) {
   EXPECT_GT(turned_deg, 20.0);
   ASSERT_FALSE(result.corrections.empty());
   for (const correction::Correction& correction : result.corrections) {
-    EXPECT_NE(correction.rung, correction::Rung::kNone);
+    EXPECT_NE(correction.kind, correction::CorrectionKind::kNone);
     EXPECT_NEAR(correction.turned_rad / kDegree, turned_deg, 1.0) << "of what is reported";
   }
 }
@@ -106,20 +107,16 @@ TEST(PlanOrientation, NotesThatKeyframesAreNotLevelByTheAxisThatIsUp) {
   EXPECT_THAT(plan(*nothing, request).message, ::testing::HasSubstr("keyframe 0 is tilted by 45"));
 }
 
-class Requests {
+class RandomRequests : public testing::Random {
  public:
-  Requests() : generator_(testing::seeded(77)) {}
-
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
+  using Random::Random;
 
   /// Returns bars and blocks in a corridor along z.
   std::shared_ptr<const scene::Snapshot> scene() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) {
-      const Vec3 middle(number(-0.4, 0.4), number(-0.4, 0.4), number(-1.6, 1.6));
-      Vec3 half(number(0.02, 0.15), number(0.02, 0.15), number(0.02, 0.15));
+      const Vec3 middle(uniform(-0.4, 0.4), uniform(-0.4, 0.4), uniform(-1.6, 1.6));
+      Vec3 half(uniform(0.02, 0.15), uniform(0.02, 0.15), uniform(0.02, 0.15));
       if (i % 2 == 0) half[i % 4 == 0 ? 0 : 1] = 3.0;
       testing::add_cuboid(mesh, middle - half, middle + half);
     }
@@ -131,27 +128,24 @@ class Requests {
     request.camera = testing::small_camera();
     request.has_times = true;
     for (int i = 0; i < 3; ++i) {
-      const Quat q = Eigen::AngleAxisd(number(-0.6, 0.6), Vec3::UnitY()) *
-                     Eigen::AngleAxisd(number(-0.5, 0.5), Vec3::UnitX()) *
-                     Eigen::AngleAxisd(number(-0.1, 0.1), Vec3::UnitZ());
+      const Quat q = Eigen::AngleAxisd(uniform(-0.6, 0.6), Vec3::UnitY()) *
+                     Eigen::AngleAxisd(uniform(-0.5, 0.5), Vec3::UnitX()) *
+                     Eigen::AngleAxisd(uniform(-0.1, 0.1), Vec3::UnitZ());
       request.keyframes.push_back(
-          {3.0 * i, {{number(-0.3, 0.3), number(-0.3, 0.3), 2.0 - 2.0 * i}, q}});
+          {3.0 * i, {{uniform(-0.3, 0.3), uniform(-0.3, 0.3), 2.0 - 2.0 * i}, q}});
     }
     OrientationPolicy& policy = request.options.orientation;
     policy.rule = rule;
-    policy.target_W = {number(-1, 1), number(-1, 1), -6};
-    policy.cone_rad = number(0.1, 0.5);
-    if (number(0, 1) < 0.5) policy.max_turn_rad = number(0.0, 1.0);
+    policy.target_W = {uniform(-1, 1), uniform(-1, 1), -6};
+    policy.cone_rad = uniform(0.1, 0.5);
+    if (uniform(0, 1) < 0.5) policy.max_turn_rad = uniform(0.0, 1.0);
     request.options.deadline_s = kEnough_s;
     return request;
   }
-
- private:
-  std::mt19937_64 generator_;
 };
 
 TEST(PlanOrientation, EveryRuleHoldsOnWhateverIsReturned) {
-  Requests requests;
+  RandomRequests requests(77);
   constexpr int kEach = 25;
   for (const OrientationRule rule : {OrientationRule::kFree, OrientationRule::kKeep,
                                      OrientationRule::kLevel, OrientationRule::kTarget}) {

@@ -11,6 +11,7 @@
 
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/planning/check.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {
@@ -102,7 +103,7 @@ TEST(FindFault, AcceptsWhatIsOnlyUnusual) {
 
 // A path without faults can be evaluated, which is the reason for the limits.
 TEST(FindFault, LetsPassOnlyWhatGivesFinitePosesAtTheEnds) {
-  std::mt19937_64 random = testing::seeded(7);
+  testing::Random random(7);
   std::uniform_real_distribution<double> exponent(-160.0, 160.0);
   std::uniform_real_distribution<double> coefficient(-1.0, 1.0);
   int passed = 0;
@@ -123,14 +124,14 @@ TEST(FindFault, LetsPassOnlyWhatGivesFinitePosesAtTheEnds) {
 }
 
 TEST(PoseDistance, BoundsTheWayOfEveryCornerAndIsTightForATurn) {
-  std::mt19937_64 random = testing::seeded(8);
+  testing::Random random(8);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   std::uniform_real_distribution<double> angle_rad(0.0, 3.0);
   for (int round = 0; round < 1000; ++round) {
     const Quat turn(Eigen::AngleAxisd(
         angle_rad(random),
         testing::looking_along(Vec3(place(random), place(random), place(random))) * Vec3::UnitX()));
-    const motion::Pose a{{place(random), place(random), 0}, testing::random_rotation(random)};
+    const motion::Pose a{{place(random), place(random), 0}, random.rotation()};
     const motion::Pose b{{place(random), place(random), 0}, a.orientation * turn};
     const motion::Corners at_a = motion::corners_W(corners_C(), a);
     const motion::Corners at_b = motion::corners_W(corners_C(), b);
@@ -208,7 +209,8 @@ TEST(Bridges, ShowAWallOfNoThicknessInTheGap) {
   const scene::SceneIndex index = scene::SceneIndex::build(wall);
   const auto check = [&](const Path& part) {
     const auto never = base::Deadline::never();
-    return check_path(index, part, motion::Body(testing::small_camera()), {}, never, never);
+    return check_path({collision::Obstacles(index), motion::Body(testing::small_camera())}, part,
+                      never, never);
   };
   EXPECT_TRUE(check(path).certificate.certified);
   const std::vector<Bridge> found = bridges(path);

@@ -45,8 +45,8 @@ std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request
   }
   const motion::Body body(request.camera);
   const auto found = *collision::detect_collisions(
-      collision::Obstacles(snapshot), result.path, body, result.path.begin_s(), result.path.end_s(),
-      detect_options(request.options), Deadline::never());
+      {collision::Obstacles(snapshot), body, detect_options(request.options)}, result.path,
+      result.path.begin_s(), result.path.end_s(), Deadline::never());
   if (result.certificate.certified && !found.empty()) return "certified, and collides";
   if (result.status == Status::kOk && !result.certificate.certified) return "ok without proof";
   if (result.certificate.certified && !result.remaining_collisions.empty())
@@ -63,7 +63,7 @@ std::string fault_in(const scene::Snapshot& snapshot, const PlanRequest& request
   const auto inserted = std::ranges::count(result.keyframes, motion::KeyframeOrigin::kInserted,
                                            &motion::Keyframe::origin);
   const bool any_corrected = std::ranges::any_of(result.corrections, [](const auto& correction) {
-    return correction.rung != correction::Rung::kNone;
+    return correction.kind != correction::CorrectionKind::kNone;
   });
   if (inserted > 0 && !any_corrected) return "keyframes of no correction";
   const auto meets_keyframe = [&](const motion::Keyframe& keyframe) {
@@ -127,7 +127,7 @@ TEST(PlanDeadline, WhatWasNotCheckedIsPutBack) {
     EXPECT_EQ(fault_in(*snapshot, flight(kPosts), result), "") << looks << ": " << result.message;
     if (result.collisions.empty()) continue;  // it struck before they were searched for
     const auto corrected = std::ranges::count_if(result.corrections, [](const auto& correction) {
-      return correction.rung != correction::Rung::kNone;
+      return correction.kind != correction::CorrectionKind::kNone;
     });
     // A collision whose correction was undone does not count as corrected.
     EXPECT_EQ(std::ssize(result.remaining_collisions), kPosts - corrected) << looks;

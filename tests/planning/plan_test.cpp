@@ -11,6 +11,7 @@
 
 #include "daemon/collision/near_quad.h"
 #include "tests/planning/plan_fixture.h"
+#include "tests/support/random.h"
 
 namespace camway::planning {
 namespace {
@@ -90,7 +91,7 @@ double colliding_s(const std::vector<collision::CollisionInterval>& intervals) {
 }
 
 TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
-  std::mt19937_64 random = testing::seeded(4);
+  testing::Random random(4);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   int partial = 0;
   for (int run = 0; run < 40; ++run) {
@@ -99,8 +100,7 @@ TEST(Plan, APartialPathCollidesNoLongerThanTheOneAskedFor) {
     request.has_times = false;
     request.options.method = Method::kKeyframeInsertion;
     for (motion::Keyframe& keyframe : request.keyframes) {
-      keyframe.pose = {{place(random), place(random), place(random)},
-                       testing::random_rotation(random)};
+      keyframe.pose = {{place(random), place(random), place(random)}, random.rotation()};
     }
     const PlanResult result = planned(*snapshot, request);
     if (result.status != Status::kPartial) continue;
@@ -181,7 +181,7 @@ TEST(Plan, KeepsCorrectionsOfLessThanTheTolerance) {
   request.options.interval_tolerance_m = 1.0;
   const PlanResult result = planned(*column_scene(), request);
   ASSERT_FALSE(result.corrections.empty());
-  const bool is_corrected = result.corrections[0].rung != correction::Rung::kNone;
+  const bool is_corrected = result.corrections[0].kind != correction::CorrectionKind::kNone;
   EXPECT_EQ(is_corrected, result.measures->largest_deviation_m > 0.0);
   EXPECT_EQ(is_corrected, result.status == Status::kOk) << result.message;
 }
@@ -371,7 +371,7 @@ TEST(Plan, SaysHowFarItIs) {
   ASSERT_FALSE(result.corrections.empty());
   const auto corrected =
       std::ranges::count_if(result.corrections, [](const correction::Correction& correction) {
-        return correction.rung != correction::Rung::kNone;
+        return correction.kind != correction::CorrectionKind::kNone;
       });
   EXPECT_EQ(progress->stage, base::Progress::Stage::kCertifying);
   EXPECT_EQ(progress->collisions, static_cast<int>(result.corrections.size()));

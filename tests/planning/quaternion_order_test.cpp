@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/random.h"
+
 namespace camway::planning {
 namespace {
 
@@ -40,7 +42,7 @@ std::vector<motion::Keyframe> keyframes(const std::vector<Quat>& orientations) {
 
 TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
   EXPECT_TRUE(looks_like_xyzw(keyframes({misread(Quat::Identity()), misread(Quat::Identity())})));
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> heading_deg(-80, 80);
   std::uniform_real_distribution<double> small_deg(-10, 10);
   for (int trial = 0; trial < 1000; ++trial) {
@@ -51,15 +53,15 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithYUp) {
                              radians(small_deg(random)), radians(small_deg(random))));
       wrong.push_back(misread(right.back()));
     }
-    EXPECT_FALSE(looks_like_xyzw(keyframes(right))) << "seed " << kSeed << ", trial " << trial;
-    EXPECT_TRUE(looks_like_xyzw(keyframes(wrong))) << "seed " << kSeed << ", trial " << trial;
+    EXPECT_FALSE(looks_like_xyzw(keyframes(right))) << "trial " << trial;
+    EXPECT_TRUE(looks_like_xyzw(keyframes(wrong))) << "trial " << trial;
   }
 }
 
 // Only half of the headings can be recognised: for the others the cameras look upright as read,
 // too.
 TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> heading_deg(-150, -30);
   std::uniform_real_distribution<double> small_deg(-5, 5);
   for (int trial = 0; trial < 1000; ++trial) {
@@ -70,14 +72,14 @@ TEST(QuaternionOrder, TellsWhatWasWrittenXyzwInScenesWithZUp) {
                              radians(small_deg(random)), radians(small_deg(random))));
       wrong.push_back(misread(right.back()));
     }
-    EXPECT_FALSE(looks_like_xyzw(keyframes(right))) << "seed " << kSeed << ", trial " << trial;
-    EXPECT_TRUE(looks_like_xyzw(keyframes(wrong))) << "seed " << kSeed << ", trial " << trial;
+    EXPECT_FALSE(looks_like_xyzw(keyframes(right))) << "trial " << trial;
+    EXPECT_TRUE(looks_like_xyzw(keyframes(wrong))) << "trial " << trial;
   }
 }
 
 // Upright cameras in any direction, and cameras that are rolled on purpose.
 TEST(QuaternionOrder, IsNotDoubtedWhereOneCameraIsUprightOrNoneIsInTheOtherOrder) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> heading(-std::numbers::pi, std::numbers::pi);
   std::uniform_real_distribution<double> pitch(-1.3, 1.3);
   for (const Vec3& up_W : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
@@ -87,7 +89,7 @@ TEST(QuaternionOrder, IsNotDoubtedWhereOneCameraIsUprightOrNoneIsInTheOtherOrder
         upright.push_back(camera(up_W, heading(random), pitch(random), 0.0));
       }
       EXPECT_FALSE(looks_like_xyzw(keyframes(upright)))
-          << "seed " << kSeed << ", trial " << trial << ", up " << up_W.transpose();
+          << "trial " << trial << ", up " << up_W.transpose();
     }
   }
   const Quat rolled = camera(Vec3::UnitY(), 0.4, 0.1, radians(90));

@@ -11,6 +11,7 @@
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/scene_change.h"
 #include "daemon/scene/voxels/map_scan.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"
 
@@ -43,7 +44,7 @@ Map anew(const VoxelMap& map) {
   return VoxelMap::build(kVoxelM, std::move(occupied), std::move(free), map.unknown()).map;
 }
 
-std::vector<Vec3> sight(int points, std::mt19937_64& random) {
+std::vector<Vec3> sight(int points, testing::Random& random) {
   std::uniform_real_distribution<double> place(-5.0, 5.0);
   std::vector<Vec3> seen;
   for (int i = 0; i < points; ++i) seen.emplace_back(place(random), place(random), place(random));
@@ -69,7 +70,7 @@ void expect_equal(const PlanResult& a, const PlanResult& b) {
 }
 
 TEST(ScannedMap, IsPlannedInLikeOneThatIsMadeAnew) {
-  std::mt19937_64 random = testing::seeded(7361);
+  testing::Random random(7361);
   const Scene empty = scene::assemble("room", 1, {}, {});
   Map map = VoxelMap::build(kVoxelM, {}, {}, scene::UnknownSpace::kFree).map;
   Scene now = with(empty, map);
@@ -90,7 +91,7 @@ TEST(ScannedMap, IsPlannedInLikeOneThatIsMadeAnew) {
 
 /// The check of a watched path after a scan never says free if the whole scene does not.
 TEST(ScannedMap, WatchedPathsSeeWhatAScanChanged) {
-  std::mt19937_64 random = testing::seeded(7362);
+  testing::Random random(7362);
   const Scene empty = scene::assemble("room", 1, {}, {});
   int broken = 0;
   int unharmed = 0;
@@ -108,7 +109,8 @@ TEST(ScannedMap, WatchedPathsSeeWhatAScanChanged) {
       if (!watched) continue;
       map = scene::scanned(*map, {origin, sight(trial % 20, random)}).map;
       const Scene now = with(before, map);
-      const bool is_free = watched->collisions(*now, Deadline::never()).empty();
+      const bool is_free =
+          watched->collisions(collision::Obstacles(*now), Deadline::never()).empty();
       const scene::SceneDifference change = scene::difference(*before, *now);
       if (!is_free) {
         ASSERT_TRUE(watched->may_meet(change)) << "trial " << trial;

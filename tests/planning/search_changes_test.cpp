@@ -29,8 +29,8 @@ class SearchChanges : public ::testing::Test {
     index_ = scene::SceneIndex::build(mesh);
     before_ = flight();
     changed_ = before_;
-    collisions_ = *collision::detect_collisions(index_, before_.path(), body_, 0.0, 10.0, {},
-                                                Deadline::never());
+    collisions_ = *collision::detect_collisions({collision::Obstacles(index_), body_},
+                                                before_.path(), 0.0, 10.0, Deadline::never());
   }
 
   // Moves the part of one second from `first` on aside.
@@ -52,8 +52,8 @@ class SearchChanges : public ::testing::Test {
 
   Search search(const Search& begun, const Deadline& deadline) const {
     const motion::Path before = before_.path();
-    return search_changes(index_, changed_.path(), body_, {}, {before, collisions_}, begun,
-                          deadline);
+    return search_changes({collision::Obstacles(index_), body_}, changed_.path(),
+                          {before, collisions_}, begun, deadline);
   }
   Search search() const { return search({false, {}, 0.0}, Deadline::never()); }
 
@@ -123,8 +123,8 @@ TEST_F(SearchChanges, WhereTheDeadlineStrikesThePathIsToBePutBack) {
     cuts_s.insert(found.until_s);
     const motion::CubicPath mixed = with_rest_of(changed_, before_, found.until_s);
     EXPECT_EQ(mixed.pieces.size(), before_.pieces.size());
-    const auto all =
-        collision::detect_collisions(index_, mixed.path(), body_, 0.0, 10.0, {}, Deadline::never());
+    const auto all = collision::detect_collisions({collision::Obstacles(index_), body_},
+                                                  mixed.path(), 0.0, 10.0, Deadline::never());
     ASSERT_EQ(found.collisions.size(), all->size()) << looks;
     for (std::size_t i = 0; i < all->size(); ++i)
       EXPECT_NEAR(found.collisions[i].t_begin_s, (*all)[i].t_begin_s, 0.01) << looks;

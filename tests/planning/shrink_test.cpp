@@ -80,7 +80,7 @@ TEST(PlanWithShrinking, TakesTheLargestStepThatFits) {
     EXPECT_TRUE(result.result.near_scale > 0.85 * limit || result.result.near_scale < 0.301)
         << limit << " " << result.result.near_scale;
     EXPECT_LE(result.scales.size(), 6U);
-    EXPECT_EQ(result.result.corrections[0].rung, correction::Rung::kShrink);
+    EXPECT_EQ(result.result.corrections[0].kind, correction::CorrectionKind::kShrink);
     EXPECT_THAT(result.result.message, HasSubstr(" m instead of 2 m"));
   }
 }
@@ -121,7 +121,7 @@ TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
   request.options.max_shrink = 0.1;
   for (const double full_factor : {1.0, 5.0}) {
     for (const double small_factor : {1.0, 3.0}) {
-      SCOPED_TRACE(testing::Message() << full_factor << " " << small_factor);
+      SCOPED_TRACE(::testing::Message() << full_factor << " " << small_factor);
       const auto plan_at_size = [&](const PlanRequest& asked, const Deadline&) {
         const bool is_full = asked.camera.near_m == 1.0;
         UnsentResult ends = ended(is_full ? Status::kPartial : Status::kOk);
@@ -142,7 +142,7 @@ TEST(PlanWithShrinking, TellsOfCollisionsAtTheTimesOfTheSlowedPath) {
       EXPECT_DOUBLE_EQ(result.collisions[0].t_begin_s, 100.0 + small_factor);
       EXPECT_DOUBLE_EQ(result.collisions[0].t_end_s, 100.0 + 2.0 * small_factor);
       ASSERT_EQ(result.corrections.size(), 1U);
-      EXPECT_EQ(result.corrections[0].rung, correction::Rung::kShrink);
+      EXPECT_EQ(result.corrections[0].kind, correction::CorrectionKind::kShrink);
       EXPECT_EQ(result.corrections[0].interval, result.collisions[0]);
     }
   }

@@ -9,6 +9,7 @@
 #include "daemon/planning/plan.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/voxels/voxel_map.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"
 
@@ -23,7 +24,7 @@ using testing::at;
 using testing::box_source;
 using testing::random_path_request;
 
-Vec3 place_on(const motion::Path& path, std::mt19937_64& random) {
+Vec3 place_on(const motion::Path& path, testing::Random& random) {
   const double time_s =
       std::uniform_real_distribution<double>(path.begin_s(), path.end_s())(random);
   return path.pose(time_s).position;
@@ -32,14 +33,14 @@ Vec3 place_on(const motion::Path& path, std::mt19937_64& random) {
 std::vector<collision::CollisionInterval> from_scratch(const scene::Snapshot& snapshot,
                                                        const WatchedPath& watched,
                                                        const motion::Body& body) {
-  const auto found = collision::detect_collisions(snapshot, watched.path(), body,
-                                                  watched.path().begin_s(), watched.path().end_s(),
-                                                  detect_options(PlanOptions{}), Deadline::never());
+  const auto found = collision::detect_collisions(
+      {collision::Obstacles(snapshot), body, detect_options(PlanOptions{})}, watched.path(),
+      watched.path().begin_s(), watched.path().end_s(), Deadline::never());
   return *found;
 }
 
 TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
-  std::mt19937_64 random = testing::seeded(7351);
+  testing::Random random(7351);
   std::uniform_real_distribution<double> place(-5.0, 5.0);
   std::uniform_real_distribution<double> size(0.05, 1.5);
   scene::SceneStore store;
@@ -62,13 +63,12 @@ TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
     const Vec3 offset(place(random), place(random), place(random));
     const Vec3 to =
         watched && round % 2 == 0 ? place_on(watched->path(), random) + 0.2 * offset : offset;
-    store.change("room", {SceneChange::Kind::kMove, name, nullptr,
-                          at(to, testing::random_rotation(random))});
+    store.change("room", {SceneChange::Kind::kMove, name, nullptr, at(to, random.rotation())});
     if (!watched) continue;
     const auto after = store.find("room");
     const scene::SceneDifference change = scene::difference(*before, *after);
     const auto truth = from_scratch(*after, *watched, motion::Body(request.camera));
-    EXPECT_EQ(watched->collisions(*after, Deadline::never()), truth);
+    EXPECT_EQ(watched->collisions(collision::Obstacles(*after), Deadline::never()), truth);
     if (!watched->may_meet(change)) {
       EXPECT_TRUE(truth.empty()) << "round " << round;
       ++unharmed;
@@ -88,7 +88,7 @@ TEST(WatchedPath, SaysWhatCheckingFromScratchSays) {
 /// The box around a path that dismisses changes is large enough: it does not dismiss an object that
 /// touches the body at its furthest point.
 TEST(WatchedPath, DismissesNothingThatIsTooNear) {
-  std::mt19937_64 random = testing::seeded(7352);
+  testing::Random random(7352);
   for (const double clearance_m : {0.0, 0.3}) {
     for (int round = 0; round < 100; ++round) {
       PlanRequest request = random_path_request(3 + random() % 4, random);
@@ -112,7 +112,7 @@ TEST(WatchedPath, DismissesNothingThatIsTooNear) {
       const scene::SceneDifference change = scene::difference(*before, *after);
       EXPECT_TRUE(watched->may_meet(change));
       EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
-      EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
+      EXPECT_FALSE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
     }
   }
 }
@@ -122,7 +122,7 @@ TEST(WatchedPath, TakingAwayNeverBreaks) {
   store.put(scene::assemble("room", 1, {}, {}));
   store.change("room", {SceneChange::Kind::kPut, "a", box_source(Vec3::Ones()), at({0, 2, 0})});
   const auto before = store.find("room");
-  std::mt19937_64 random = testing::seeded(7353);
+  testing::Random random(7353);
   PlanRequest request = random_path_request(3 + random() % 4, random);
   const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*before, request));
   ASSERT_TRUE(watched);
@@ -134,7 +134,7 @@ TEST(WatchedPath, TakingAwayNeverBreaks) {
 /// Far from all faces, but in the middle of the added solid.
 TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const auto empty = scene::assemble("room", 1, {}, {});
-  std::mt19937_64 random = testing::seeded(7356);
+  testing::Random random(7356);
   const PlanRequest request = random_path_request(3 + random() % 4, random);
   const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
   ASSERT_TRUE(watched);
@@ -154,12 +154,12 @@ TEST(WatchedPath, SeesThatItIsInsideASolid) {
   const scene::SceneDifference change = scene::difference(*empty, *after);
   EXPECT_TRUE(watched->may_meet(change));
   EXPECT_FALSE(watched->stays_free(change, Deadline::never()));
-  EXPECT_FALSE(watched->collisions(*after, Deadline::never()).empty());
+  EXPECT_FALSE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
 }
 
 TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
   const auto empty = scene::assemble("room", 1, {}, {});
-  std::mt19937_64 random = testing::seeded(7354);
+  testing::Random random(7354);
   const PlanRequest request = random_path_request(3 + random() % 4, random);
   const std::optional<WatchedPath> watched = WatchedPath::of(request, plan(*empty, request));
   ASSERT_TRUE(watched);
@@ -167,13 +167,13 @@ TEST(WatchedPath, KnowsNothingAfterTheDeadline) {
                                           at(watched->path().pose(0.1).position), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
   EXPECT_FALSE(watched->stays_free(scene::difference(*empty, *after), Deadline::after_s(0.0)));
-  EXPECT_EQ(watched->collisions(*after, Deadline::after_s(0.0)),
+  EXPECT_EQ(watched->collisions(collision::Obstacles(*after), Deadline::after_s(0.0)),
             (std::vector{watched->everywhere()}));
 }
 
 TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
   const auto empty = scene::assemble("room", 1, {}, {});
-  std::mt19937_64 random = testing::seeded(7355);
+  testing::Random random(7355);
   PlanRequest request = random_path_request(3 + random() % 4, random);
   request.keyframes.resize(2);
   request.keyframes[0].pose = {Vec3(0, 0, 0), Quat::Identity()};
@@ -187,9 +187,11 @@ TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
   const auto placed =
       scene::place_object("bar", box_source({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
-  EXPECT_TRUE(watched->collisions(*after, Deadline::never()).empty());
+  EXPECT_TRUE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
   planned.near_scale = 1.0;
-  EXPECT_FALSE(WatchedPath::of(request, planned)->collisions(*after, Deadline::never()).empty());
+  EXPECT_FALSE(WatchedPath::of(request, planned)
+                   ->collisions(collision::Obstacles(*after), Deadline::never())
+                   .empty());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "daemon/messages/bounds.h"
+#include "tests/support/random.h"
 
 namespace camway::service {
 namespace {
@@ -45,7 +46,7 @@ TEST(BoundsText, FaultsQuoteWhatIsWrong) {
 // As text and on the wire, bounds keep the same numbers for any set of limits.
 TEST(BoundsText, AndTheWireKeepEveryNumber) {
   constexpr unsigned kSeed = 7;
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> number(-10.0, 10.0);
   for (int trial = 0; trial < 500; ++trial) {
     Bounds bounds;

@@ -130,7 +130,7 @@ TEST_F(ReloaderTest, WaitsForNoFileThatIsBeingRead) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(40))
       << "an import may take a minute";
   EXPECT_NE(store_.find("attic"), nullptr);
-  EXPECT_THAT(log_.text(), HasSubstr("info reload called off"));
+  EXPECT_THAT(log_.text(), HasSubstr("info reload cancelled"));
   EXPECT_THAT(log_.text(), Not(HasSubstr("cannot be read")));
 }
 
@@ -145,7 +145,7 @@ TEST_F(ReloaderTest, RequestsThatComeAllTheTimeKeepNoReloadFromItsEnd) {
     if (++reads < kRequests) reloader_->request();
     return ParsedOptions{next, {}, {}};
   });
-  EXPECT_EQ(reads_before_it_is_there, 2) << "the first is called off for the second";
+  EXPECT_EQ(reads_before_it_is_there, 2) << "the first is cancelled for the second";
   reloader_.reset();
 }
 

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <iterator>
 
 #include "tests/support/notify_socket.h"
 #include "tests/support/temporary_folder.h"
@@ -34,18 +36,33 @@ TEST(ServiceManager, SaysEachStateInADatagram) {
   }
 }
 
+std::size_t open_descriptors() {
+  const std::filesystem::directory_iterator descriptors("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(descriptors), end(descriptors)));
+}
+
 TEST(ServiceManager, SaysNothingWhereNobodyListens) {
+  EXPECT_FALSE(ServiceManager("", std::nullopt).present());
+  const std::size_t descriptors = open_descriptors();
+  ::testing::internal::CaptureStderr();
   ServiceManager("", std::nullopt).ready("serving");
   ServiceManager("/nowhere/at/all", 1s).alive();
   ServiceManager(std::string(500, 'x'), 1s).alive();
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(open_descriptors(), descriptors);
 }
 
 TEST(ServiceManager, DoesNotWaitForAManagerThatDoesNotRead) {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "notify").string();
-  const NotifySocket socket(path);
+  NotifySocket socket(path);
   const ServiceManager manager(path, 30s);
-  for (int i = 0; i < 10'000; ++i) manager.alive();  // ends
+  constexpr int kSent = 10'000;
+  for (int i = 0; i < kSent; ++i) manager.alive();
+  int received = 0;
+  while (!socket.next(0ms).empty()) ++received;
+  EXPECT_GT(received, 0);
+  EXPECT_LT(received, kSent) << "the socket has room for all, so none had to be dropped";
 }
 
 TEST(ServiceManager, CallsThreeTimesInAPeriodAndOnlyIfItIsWatched) {

@@ -10,34 +10,26 @@
 #include "daemon/correction/path/candidate.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
 #include "daemon/motion/spline/interpolate.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 /// Inputs of the correction of one interval between keyframes, made in memory.
 namespace camway::testing {
 
-/// A random generator for tests.
-class Draw {
+/// Random values of the types that corrections work on.
+class Draw : public Random {
  public:
-  explicit Draw(std::uint64_t seed) : generator_(seeded(seed)) {}
+  using Random::Random;
 
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  int integer(int low, int high) {
-    return std::uniform_int_distribution<int>(low, high)(generator_);
-  }
-  Vec3 vector(double size) {
-    return {number(-size, size), number(-size, size), number(-size, size)};
-  }
   geometry::Vec4 image(double size) {
-    return {number(-size, size), number(-size, size), number(-size, size), number(-size, size)};
+    return {uniform(-size, size), uniform(-size, size), uniform(-size, size), uniform(-size, size)};
   }
   Quat turn(double largest_rad) {
-    return Quat(Eigen::AngleAxisd(number(0.0, largest_rad), vector(1.0).normalized()));
+    return Quat(Eigen::AngleAxisd(uniform(0.0, largest_rad), in_cube(1.0).normalized()));
   }
   correction::StackedPoint stacked(double size) {
     correction::StackedPoint result;
-    for (Eigen::Index i = 0; i < 7; ++i) result[i] = number(-size, size);
+    for (Eigen::Index i = 0; i < 7; ++i) result[i] = uniform(-size, size);
     return result;
   }
   correction::StackedPoints points(Eigen::Index count, double size) {
@@ -45,10 +37,6 @@ class Draw {
     for (Eigen::Index i = 0; i < count; ++i) result.row(i) = stacked(size).transpose();
     return result;
   }
-  std::mt19937_64& generator() { return generator_; }
-
- private:
-  std::mt19937_64 generator_;
 };
 
 /// Returns the problem of one interval between keyframes, on a path that is still as interpolated.
@@ -70,10 +58,10 @@ inline correction::Problem problem_of_gap(const std::vector<motion::Keyframe>& k
 
 inline std::vector<motion::Keyframe> random_keyframes(Draw& draw, int count) {
   std::vector<motion::Keyframe> keyframes;
-  double time_s = draw.number(-5.0, 5.0);
+  double time_s = draw.uniform(-5.0, 5.0);
   for (int i = 0; i < count; ++i) {
-    keyframes.push_back({time_s, {draw.vector(2.0), draw.turn(1.5)}});
-    time_s += draw.number(0.3, 2.0);
+    keyframes.push_back({time_s, {draw.in_cube(2.0), draw.turn(1.5)}});
+    time_s += draw.uniform(0.3, 2.0);
   }
   return keyframes;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/cage_checker.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::testing {
@@ -36,7 +37,7 @@ struct RandomCage {
 
 class CageMaker {
  public:
-  explicit CageMaker(std::mt19937_64& random) : random_(random) {}
+  explicit CageMaker(Random& random) : random_(random) {}
 
   RandomCage make() {
     cage_ = RandomCage{};
@@ -236,7 +237,7 @@ class CageMaker {
     }
   }
 
-  std::mt19937_64& random_;
+  Random& random_;
   RandomCage cage_;
   std::array<int, 3> bars_{};
   int below_ = 0;

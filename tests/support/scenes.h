@@ -10,18 +10,13 @@
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/keyframe.h"
 #include "daemon/scene/index/scene_index.h"
+#include "tests/support/random.h"
 
 /// Small scenes and cameras that tests build in memory.
 namespace camway::testing {
 
 using geometry::Quat;
 using geometry::Vec3;
-
-/// Returns a generator and prints its seed, so that a failure can be repeated.
-inline std::mt19937_64 seeded(std::uint64_t seed) {
-  std::printf("[   SEED   ] %llu\n", static_cast<unsigned long long>(seed));
-  return std::mt19937_64(seed);
-}
 
 /// Adds an axis-parallel cuboid of 12 triangles.
 inline void add_cuboid(scene::Mesh& mesh, const Vec3& min, const Vec3& max) {
@@ -55,7 +50,7 @@ inline void add_triangle(scene::Mesh& mesh, const Vec3& a, const Vec3& b, const 
 }
 
 /// Returns triangles of about `size_m` scattered over a cube of side 2 m about the origin.
-inline scene::Mesh scattered_triangles(std::mt19937_64& random, int count, double size_m) {
+inline scene::Mesh scattered_triangles(Random& random, int count, double size_m) {
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   scene::Mesh mesh;
   const auto anywhere = [&] { return Vec3(place(random), place(random), place(random)); };
@@ -65,12 +60,6 @@ inline scene::Mesh scattered_triangles(std::mt19937_64& random, int count, doubl
                  center + size_m * anywhere());
   }
   return mesh;
-}
-
-/// Returns a rotation from the uniform distribution.
-inline Quat random_rotation(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return Quat(normal(random), normal(random), normal(random), normal(random)).normalized();
 }
 
 /// Returns a camera of 90° × 60° with a near distance of 10 cm; its quadrilateral has 0.2 m × 0.115

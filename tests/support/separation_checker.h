@@ -15,6 +15,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "daemon/scene/mesh/mesh.h"
+#include "tests/support/random.h"
 
 /// Checks whether a surface separates two points, from the mesh's triangles, the indices and the
 /// points alone. Shares no code with the search for such surfaces: rays have random directions
@@ -58,7 +59,7 @@ class SeparationChecker {
   /// `p` is on a triangle, or if every ray that was tried meets an edge, as all do if `p` is on
   /// one.
   [[nodiscard]] std::optional<bool> odd_from(const geometry::Vec3& p) const {
-    std::mt19937_64 random(7);
+    Random random(7);
     for (int attempt = 0; attempt < 20; ++attempt) {
       geometry::Vec3 direction;
       for (double& x : direction) {

@@ -7,6 +7,7 @@
 #include "daemon/planning/request.h"
 #include "daemon/scene/snapshot/scene_object.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::testing {
@@ -25,14 +26,13 @@ inline std::shared_ptr<const scene::ObjectSource> box_source(const geometry::Vec
 }
 
 /// Returns a request with random keyframes of a small camera in a cube of side 8 m.
-inline planning::PlanRequest random_path_request(std::size_t keyframes, std::mt19937_64& random) {
+inline planning::PlanRequest random_path_request(std::size_t keyframes, Random& random) {
   std::uniform_real_distribution<double> place(-4.0, 4.0);
   planning::PlanRequest request;
   request.camera = small_camera();
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(
-        {0.0,
-         {geometry::Vec3(place(random), place(random), place(random)), random_rotation(random)}});
+        {0.0, {geometry::Vec3(place(random), place(random), place(random)), random.rotation()}});
   }
   return request;
 }

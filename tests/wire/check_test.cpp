@@ -8,6 +8,7 @@
 #include "tests/messages/message_mutation.h"
 #include "tests/messages/random_messages.h"
 #include "tests/support/allocation_meter.h"
+#include "tests/support/random.h"
 
 namespace camway {
 namespace {
@@ -40,7 +41,7 @@ TYPED_TEST(WireCheck, AcceptsWhatTheEncoderWrites) {
   Random random(kSeed);
   int within_limits = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
     const Bytes bytes = wire::encode(random_message<TypeParam>(random));
     const std::optional<Fault> fault = check(layout_of<TypeParam>(), bytes);
     if (bytes.size() > layout_of<TypeParam>().max_bytes) {
@@ -64,7 +65,7 @@ TYPED_TEST(WireCheck, RefusesEveryTruncationAndAnyTrailingByte) {
     const std::size_t step = 1 + bytes.size() / 500;
     for (std::size_t size = 0; size < bytes.size(); size += step) {
       ASSERT_TRUE(check(layout_of<TypeParam>(), std::span(bytes).first(size)))
-          << "seed " << kSeed << ", trial " << trial << ", " << size << " bytes";
+          << "trial " << trial << ", " << size << " bytes";
     }
     bytes.push_back(0);
     ASSERT_TRUE(check(layout_of<TypeParam>(), bytes));
@@ -79,7 +80,7 @@ TYPED_TEST(WireCheck, MutantsAreRefusedOrHarmless) {
   Bytes original;
   int accepted = 0;
   for (int trial = 0; trial < kMutants; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << kSeed << ", trial " << trial);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
     if (trial % 20 == 0) original = wire::encode(random_message<TypeParam>(random));
     Bytes bytes = original;
     mutate(bytes, random);

@@ -83,7 +83,7 @@ TEST(LocalTraffic, HearsThisHost) {
 TEST(LocalTraffic, LeavesSocketsOfOthersAsTheyAre) {
   LoopbackSocket before;
   LocalTraffic local(url_of(before.port()));
-  EXPECT_THAT(local.guard().fault, testing::HasSubstr("no new socket is bound to UDP port"));
+  EXPECT_THAT(local.guard().fault, ::testing::HasSubstr("no new socket is bound to UDP port"));
   EXPECT_FALSE(before.is_guarded());
   LoopbackSocket elsewhere;
   EXPECT_NE(local.guard().fault, "");
@@ -96,7 +96,7 @@ TEST(LocalTraffic, ChangesNothingWhereTwoSocketsMayBeTheOne) {
   const LoopbackSocket one(before.port());
   const LoopbackSocket other(before.port());
   const LocalTraffic::Guarded guarded = local.guard();
-  EXPECT_THAT(guarded.fault, testing::HasSubstr("another socket was bound to UDP port"));
+  EXPECT_THAT(guarded.fault, ::testing::HasSubstr("another socket was bound to UDP port"));
   EXPECT_TRUE(guarded.try_again);
   EXPECT_FALSE(one.is_guarded() || other.is_guarded());
 }

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/camway/common/commands.h"
@@ -124,8 +124,8 @@ void add_draw_command(CLI::App& app, ExitCode& exit_code) {
       });
   static constexpr std::array<std::pair<std::string_view, draw::SceneUp>, 2> kVerticals{
       {{"y", draw::SceneUp::kY}, {"z", draw::SceneUp::kZ}}};
-  service::add_choice(*command, "--vertical", flags->vertical, kVerticals,
-                      "Axis that points up in the scene as read, --up included [y]")
+  cli_support::add_choice(*command, "--vertical", flags->vertical, kVerticals,
+                          "Axis that points up in the scene as read, --up included [y]")
       ->type_name("AXIS");
   command->add_flag("--side-by-side", flags->is_side_by_side,
                     "Draw two small plans, before and after, without details");

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/request.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/import_warnings.h"
@@ -209,12 +209,12 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--octree-threshold", flags->octree_threshold,
                    "A leaf of the octree with more triangles than this splits")
-      ->check(service::whole_number(1, 1'000'000'000))
+      ->check(cli_support::whole_number(1, 1'000'000'000))
       ->capture_default_str();
   command
       ->add_option("--occupancy", flags->occupancy_m,
                    "Build the OctoMap mirror with voxels of this many metres too")
-      ->check(service::above_0())
+      ->check(cli_support::above_0())
       ->type_name("METRES");
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer(exit_code_help("") +

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/base/standard_streams.h"
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/version/build_info.h"
 #include "tools/camway/common/commands.h"
 
@@ -41,12 +41,12 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help and --version
     // Otherwise `camway scene uplaod --help` would show the help of `camway scene` without an
     // error.
-    const std::string unknown = camway::service::unknown_word(app);
+    const std::string unknown = camway::cli_support::unknown_word(app);
     if (unknown.empty()) return app.exit(success);
     camway::tools::print_error(unknown);
     return static_cast<int>(ExitCode::kInvalidInput);
   } catch (const CLI::ParseError& error) {
-    camway::tools::print_error(camway::service::command_line_fault(app, error));
+    camway::tools::print_error(camway::cli_support::command_line_fault(app, error));
     return static_cast<int>(ExitCode::kInvalidInput);
   }
   return static_cast<int>(exit_code);
@@ -65,7 +65,7 @@ int no_output() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!camway::service::occupy_closed_standard_streams()) {
+  if (!camway::base::occupy_closed_standard_streams()) {
     return static_cast<int>(camway::tools::ExitCode::kOurFault);
   }
   try {

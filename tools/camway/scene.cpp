@@ -18,7 +18,7 @@
 #include <thread>
 #include <utility>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/process/bounds_text.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
@@ -364,7 +364,7 @@ CLI::App* add_change(CLI::App& parent, const Flags& flags, const char* name, con
       ->add_option("--deadline-s", flags->deadline_s,
                    "How long the daemon may take; then, and on Ctrl-C, it leaves all as it was. "
                    "Seconds; 0: its own")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->capture_default_str();
   return command;
 }
@@ -388,19 +388,19 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
       ->type_name("FILE")
       ->excludes(file);
   command.add_option("--scale", flags->scale, "Metres per unit of the file")
-      ->check(service::above_0())
+      ->check(cli_support::above_0())
       ->capture_default_str();
   static constexpr std::array<std::pair<std::string_view, SceneMesh::Up>, 3> kUpAxes{
       {{"as-in-file", SceneMesh::Up::kAsInFile},
        {"z-to-y", SceneMesh::Up::kZToY},
        {"y-to-z", SceneMesh::Up::kYToZ}}};
-  service::add_choice(command, "--up", flags->up, kUpAxes,
-                      "Turn the axes: z-to-y or y-to-z [as-in-file]")
+  cli_support::add_choice(command, "--up", flags->up, kUpAxes,
+                          "Turn the axes: z-to-y or y-to-z [as-in-file]")
       ->type_name("AXES");
   static constexpr std::array<std::pair<std::string_view, SceneMesh::Unknown>, 2> kUnknown{
       {{"free", SceneMesh::Unknown::kFree}, {"occupied", SceneMesh::Unknown::kOccupied}}};
-  service::add_choice(command, "--unknown", flags->unknown, kUnknown,
-                      "What an OctoMap knows nothing of counts as free or occupied [free]")
+  cli_support::add_choice(command, "--unknown", flags->unknown, kUnknown,
+                          "What an OctoMap knows nothing of counts as free or occupied [free]")
       ->type_name("STATE");
 }
 
@@ -444,7 +444,7 @@ void add_shape_flags(CLI::App& command, const Flags& flags) {
       .add_option("--max-range", flags->sensor.max_range_m,
                   "With --map: points further away only say what is free up to there, metres [all "
                   "count]")
-      ->check(service::above_0());
+      ->check(cli_support::above_0());
   command.add_option("--chord-error", flags->chord_error_m,
                      "How far the triangles about a sphere or cylinder may stand out, metres [a "
                      "hundredth of the radius]");
@@ -555,7 +555,7 @@ void add_restore(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
                  "Make a new revision with the objects of an earlier one, which `history` lists");
   add_scene_name(*command, flags);
   command->add_option("--revision", flags->revision, "The earlier one")
-      ->check(service::whole_number(1))
+      ->check(cli_support::whole_number(1))
       ->required();
   command
       ->add_option("--as", flags->restore_as,

@@ -17,7 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/process/bounds_text.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
@@ -285,7 +285,7 @@ void add_status_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   add_key_file(*command, flags->key_file);
   command->add_option("--timeout-s", flags->timeout_s, "How long to wait for a heartbeat, seconds")
-      ->check(service::between(0.0, 3600.0))
+      ->check(cli_support::between(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--json", flags->json,
                     "Print JSON, for machines; with --watch a line for each");
@@ -295,7 +295,7 @@ void add_status_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--count", flags->count,
                    "End after so many heartbeats, or the first that "
                    "does not come")
-      ->check(service::whole_number(1, std::int64_t{1} << 53))
+      ->check(cli_support::whole_number(1, std::int64_t{1} << 53))
       ->needs(watch);
   command->footer(exit_code_help("", /*asks_daemon=*/true) + "\nExample: camway status --watch");
   command->callback([flags, &exit_code] { exit_code = run_status(*flags); });

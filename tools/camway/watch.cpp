@@ -19,7 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
@@ -263,16 +263,16 @@ void add_watch_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--lease-s", flags->client.watch_lease_s,
                    "How long the daemon goes on watching when it hears nothing of us, seconds")
-      ->check(service::between(1.0, 86'400.0))
+      ->check(cli_support::between(1.0, 86'400.0))
       ->capture_default_str();
   command->add_option("--for-s", flags->for_s, "End after so many seconds [when interrupted]")
-      ->check(service::between(0.0, 1e7));
+      ->check(cli_support::between(0.0, 1e7));
   command->add_option("--count", flags->count, "End after so many events")
-      ->check(service::whole_number(1, std::int64_t{1} << 53));
+      ->check(cli_support::whole_number(1, std::int64_t{1} << 53));
   command
       ->add_option("--timeout-s", flags->timeout_s,
                    "How long to wait for a daemon to be heard at first, seconds [3.25]")
-      ->check(service::between(0.01, 86'400.0));
+      ->check(cli_support::between(0.01, 86'400.0));
   command->add_flag("--take-better", flags->take_better,
                     "Take each better path that the daemon offers");
   command->add_flag("--json", flags->json, "Print JSON, for machines: a line for each event");

@@ -72,7 +72,7 @@ endfunction()
 function(camway_test name)
   cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;DEPENDS;SLOW" ${ARGN})
   camway_executable(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} GTest::gtest
-                    GTest::gmock GTest::gtest_main)
+                    GTest::gmock GTest::gtest_main Eigen3::Eigen)
   if(CAMWAY_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM camway_precompiled_test)
   endif()

@@ -29,8 +29,9 @@ motion::Camera to_motion(const Camera& camera);
 std::vector<std::string> objects_hit(const scene::Mesh& mesh, const Camera& camera,
                                      const PlanResponse& response);
 
-/// Return the head and a row of the table.
+/// Returns the head of the table of answers.
 std::string table_head();
+/// Returns the row of one answer.
 std::string table_row(const std::string& request, const PlanResponse& response,
                       const std::vector<std::string>& objects);
 

@@ -18,7 +18,8 @@ namespace camway::tools {
 ///     {"type": "convex", "pieces": [[[x, y, z], ...], ...]}
 ///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...]}
 ///
-/// Returns nothing for a camera and if the field fails. `planning::validate` checks the ranges.
+/// Returns nothing for a camera. Also returns nothing after an error, which `field` then holds
+/// (`Field::failed`). `planning::validate` checks the ranges.
 std::optional<motion::BodyShape> read_body(const Field& field);
 
 }  // namespace camway::tools

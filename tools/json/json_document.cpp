@@ -270,7 +270,7 @@ std::vector<std::string> Field::keys() const {
   return keys;
 }
 
-void Field::allow_only(std::initializer_list<std::string_view> known) const {
+void Field::allow_only(const std::vector<std::string_view>& known) const {
   for (const std::string& key : keys()) {
     if (key == "comment" || key.starts_with('_') || std::ranges::count(known, key) > 0) continue;
     std::string list;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,7 +68,7 @@ class Field {
   /// Records an error for the first member whose key is not in `known`: an option that is
   /// misspelled, or that only a later version knows, must not be ignored silently. Keys that begin
   /// with '_' and the key "comment" are remarks and pass.
-  void allow_only(std::initializer_list<std::string_view> known) const;
+  void allow_only(const std::vector<std::string_view>& known) const;
 
   /// Records an error about this value, unless there is one already.
   void fail(std::string_view message) const;

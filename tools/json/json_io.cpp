@@ -2,32 +2,16 @@
 #include "tools/json/json_io.h"
 
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "daemon/scene/import/record/import_words.h"
-#include "tools/json/json_angle.h"
 #include "tools/json/json_body.h"
 #include "tools/json/json_names.h"
 #include "tools/json/json_options.h"
-#include "tools/json/json_path.h"
-#include "tools/json/json_report.h"
 
 namespace camway::tools {
 namespace {
 
-using collision::CollisionInterval;
 using motion::Keyframe;
-using planning::PlanResult;
-
-motion::Camera read_camera(const Field& field) {
-  field.allow_only({"fov_x_deg", "fov_y_deg", "near"});
-  motion::Camera camera;
-  camera.fov_x_rad = radians(field.member("fov_x_deg").number());
-  camera.fov_y_rad = radians(field.member("fov_y_deg").number());
-  camera.near_m = field.member("near").number();
-  return camera;
-}
 
 template <typename Vector>
 Vector read_vector(const Field& field) {
@@ -108,96 +92,6 @@ SceneReading read_reading(const Field& root) {
   return reading;
 }
 
-collision::Witness read_witness(const Field& field, planning::WitnessNames& names) {
-  collision::Witness witness;
-  witness.time_s = field.member("time").number();
-  names.object = field.member("object").text();
-  // A negative number is a side of the bounds.
-  constexpr auto kSides = static_cast<std::int64_t>(geometry::Bounds::kSides);
-  witness.triangle = static_cast<std::uint32_t>(
-      field.member("triangle").integer(-kSides, std::numeric_limits<std::uint32_t>::max()));
-  names.feature = field.member("feature").text();
-  witness.depth_m = field.member("depth").number();
-  witness.point_W = read_vector<geometry::Vec3>(field.member("point"));
-  return witness;
-}
-
-void read_intervals(const Field& list, std::vector<CollisionInterval>& intervals,
-                    std::vector<planning::WitnessNames>& names) {
-  const std::size_t count = list.size();
-  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
-    const Field item = list.element(i);
-    intervals.push_back({item.member("t_begin").number(), item.member("t_end").number()});
-    names.emplace_back();
-    if (const auto witness = item.optional_member("witness")) {
-      intervals.back().witness = read_witness(*witness, names.back());
-    }
-  }
-}
-
-std::vector<Keyframe> read_response_keyframes(const Field& list) {
-  std::vector<Keyframe> keyframes;
-  const std::size_t count = list.size();
-  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
-    const Field item = list.element(i);
-    Keyframe keyframe;
-    keyframe.time_s = item.member("time").number();
-    keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
-    keyframe.pose.orientation =
-        geometry::from_wxyz(read_vector<geometry::Vec4>(item.member("orientation")));
-    keyframe.origin = read_origin(item.member("origin"));
-    if (const auto repaired = item.optional_member("repaired"))
-      keyframe.is_repaired = repaired->boolean();
-    keyframes.push_back(keyframe);
-  }
-  return keyframes;
-}
-
-void read_timing(const Field& field, planning::Timing& timing) {
-  const std::pair<const char*, double*> members[] = {
-      {"load_scene", &timing.load_scene_ms}, {"motion", &timing.motion_ms},
-      {"detect", &timing.detect_ms},         {"correct", &timing.correct_ms},
-      {"certify", &timing.certify_ms},       {"total", &timing.total_ms}};
-  for (const auto& [name, value] : members) {
-    if (const auto member = field.optional_member(name)) *value = member->number();
-  }
-}
-
-PlanResult read_result(const Field& root) {
-  PlanResult result;
-  const Field status_field = root.member("status");
-  const std::string status_name = status_field.text();
-  const std::optional<planning::Status> status = planning::status_from_string(status_name);
-  if (!status) status_field.fail("'" + status_name + "' is unknown");
-  result.status = status.value_or(result.status);
-  if (const auto message = root.optional_member("message")) result.message = message->text();
-  if (const auto keyframe = root.optional_member("keyframe")) {
-    result.keyframe = static_cast<std::size_t>(keyframe->integer(0, planning::kMaxKeyframes));
-  }
-  std::vector<motion::Segment> segments;
-  if (const auto list = root.optional_member("segments")) segments = read_segments(*list);
-  // A path requires valid segments.
-  if (!root.failed()) result.path = motion::Path(std::move(segments));
-  if (const auto list = root.optional_member("keyframes")) {
-    result.keyframes = read_response_keyframes(*list);
-  }
-  if (const auto list = root.optional_member("collisions")) {
-    read_intervals(*list, result.collisions, result.collision_names);
-  }
-  if (const auto list = root.optional_member("remaining_collisions")) {
-    read_intervals(*list, result.remaining_collisions, result.remaining_names);
-  }
-  if (const auto certificate = root.optional_member("certificate")) {
-    result.certificate.certified = certificate->member("certified").boolean();
-    if (const auto bound = certificate->optional_member("clearance_lower_bound")) {
-      result.certificate.clearance_lower_bound_m = bound->number();
-    }
-  }
-  read_report(root, result);
-  if (const auto timing = root.optional_member("timing_ms")) read_timing(*timing, result.timing);
-  return result;
-}
-
 RequestFile read_request(const Field& root) {
   root.allow_only({"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "options"});
   RequestFile request;
@@ -223,14 +117,6 @@ Parsed<RequestFile> parse_plan_request(std::string_view text, std::string_view s
 
 Parsed<RequestFile> read_plan_request(const std::string& file) {
   return read_as(read_request, file);
-}
-
-Parsed<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
-  return parse_as(read_result, text, source);
-}
-
-Parsed<PlanResult> read_plan_response(const std::string& file) {
-  return read_as(read_result, file);
 }
 
 }  // namespace camway::tools

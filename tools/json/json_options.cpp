@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tools/json/json_options.h"
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "tools/json/json_angle.h"
 
@@ -16,34 +15,15 @@ namespace {
 using correction::MotionLimits;
 using correction::OrientationPolicy;
 using correction::OrientationRule;
+using planning::FieldSpec;
 using planning::PlanOptions;
 
-constexpr std::array<std::pair<std::string_view, OrientationRule>, 4> kPolicies{{
-    {"free", OrientationRule::kFree},
-    {"keep", OrientationRule::kKeep},
-    {"level", OrientationRule::kLevel},
-    {"target", OrientationRule::kTarget},
-}};
-
-planning::Method read_method(const Field& field) {
-  const std::string name = field.text();
-  const std::optional<planning::Method> method = planning::method_from_string(name);
-  if (!method) field.fail("'" + name + "' is unknown; there are ladder, keyframe_insertion");
-  return method.value_or(planning::Method::kLadder);
-}
-
-geometry::Vec3 read_point(const Field& field) {
-  geometry::Vec3 point;
-  field.numbers(point.data(), 3);
-  return point;
-}
-
-void read_number(const Field& parent, std::string_view key, double& value) {
-  if (const auto member = parent.optional_member(key)) value = member->number();
-}
-
-void read_angle(const Field& parent, std::string_view key, double& value_rad) {
-  if (const auto member = parent.optional_member(key)) value_rad = radians(member->number());
+/// Records an error for the first member that is not in the table.
+template <class VisitTable>
+void allow_only(const Field& field, const VisitTable& visit_table) {
+  std::vector<std::string_view> names;
+  visit_table([&](const FieldSpec& spec) { names.push_back(spec.file_name()); });
+  field.allow_only(names);
 }
 
 /// Records an error if `key` is there although the policy does not use it.
@@ -53,25 +33,58 @@ void refuse_without(std::string_view policy, const Field& field, std::string_vie
   }
 }
 
-OrientationPolicy read_orientation(const Field& field) {
-  field.allow_only({"policy", "up", "target", "cone_deg", "max_turn_deg"});
-  OrientationPolicy policy;
-  if (const auto name = field.optional_member("policy")) policy.rule = named(*name, kPolicies);
-  read_angle(field, "max_turn_deg", policy.max_turn_rad);
-  if (policy.rule != OrientationRule::kLevel) {
-    refuse_without("level", field, "up");
-  } else if (const auto up = field.optional_member("up")) {
-    policy.up_W = planning::direction_of(read_point(*up));
+/// Reads those members of a struct that the object has.
+struct MemberReader {
+  const Field& object;
+
+  template <class Member>
+  void operator()(const FieldSpec& spec, Member& member) const {
+    if (const auto field = object.optional_member(spec.file_name())) read(*field, spec, member);
   }
-  if (policy.rule == OrientationRule::kTarget) {
-    policy.target_W = read_point(field.member("target"));
-    read_angle(field, "cone_deg", policy.cone_rad);
-  } else {
-    refuse_without("target", field, "target");
-    refuse_without("target", field, "cone_deg");
+
+ private:
+  static void read(const Field& field, const FieldSpec& spec, double& value) {
+    value = spec.is_angle() ? radians(field.number()) : field.number();
   }
-  return policy;
-}
+  static void read(const Field& field, const FieldSpec&, std::optional<double>& value) {
+    value = field.number();
+  }
+  static void read(const Field& field, const FieldSpec&, bool& value) { value = field.boolean(); }
+  static void read(const Field& field, const FieldSpec&, std::int32_t& value) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    value = static_cast<std::int32_t>(field.integer(0, kMost));
+  }
+  static void read(const Field& field, const FieldSpec&, std::uint64_t& value) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    value = static_cast<std::uint64_t>(field.integer(1, kMost));
+  }
+  template <base::NamedEnum Enum>
+  static void read(const Field& field, const FieldSpec&, Enum& value) {
+    value = named(field, base::named_values<Enum>());
+  }
+  static void read(const Field& field, const FieldSpec&, geometry::Vec3& point) {
+    field.numbers(point.data(), 3);
+  }
+  static void read(const Field& field, const FieldSpec&, geometry::Bounds& bounds) {
+    bounds = read_bounds(field);
+  }
+  static void read(const Field& field, const FieldSpec&, MotionLimits& limits) {
+    allow_only(field, [](const auto& visit) { planning::visit_limits(visit); });
+    planning::visit_limits(MemberReader{field}, limits);
+  }
+  static void read(const Field& field, const FieldSpec&, OrientationPolicy& policy) {
+    allow_only(field, [](const auto& visit) { planning::visit_orientation(visit); });
+    planning::visit_orientation(MemberReader{field}, policy);
+    policy.up_W = planning::direction_of(policy.up_W);
+    if (policy.rule != OrientationRule::kLevel) refuse_without("level", field, "up");
+    if (policy.rule == OrientationRule::kTarget) {
+      static_cast<void>(field.member("target"));
+    } else {
+      refuse_without("target", field, "target");
+      refuse_without("target", field, "cone_deg");
+    }
+  }
+};
 
 void read_corner(const Field& parent, std::string_view key, geometry::Vec3& corner_W) {
   const auto list = parent.optional_member(key);
@@ -81,16 +94,6 @@ void read_corner(const Field& parent, std::string_view key, geometry::Vec3& corn
     const Field item = list->element(axis);
     if (!item.is_null()) corner_W[static_cast<Eigen::Index>(axis)] = item.number();
   }
-}
-
-MotionLimits read_limits(const Field& field) {
-  field.allow_only({"speed", "acceleration", "turn_rate_deg", "retime"});
-  MotionLimits limits;
-  read_number(field, "speed", limits.speed_m_per_s);
-  read_number(field, "acceleration", limits.acceleration_m_per_s2);
-  read_angle(field, "turn_rate_deg", limits.turn_rate_rad_per_s);
-  if (const auto retime = field.optional_member("retime")) limits.may_retime = retime->boolean();
-  return limits;
 }
 
 }  // namespace
@@ -104,39 +107,22 @@ geometry::Bounds read_bounds(const Field& field) {
 }
 
 PlanOptions read_options(const Field& field) {
-  field.allow_only({"method", "deadline_s", "clearance", "chord_error_m", "interval_tolerance_m",
-                    "max_inserted_keyframes", "objective", "orientation", "limits", "bounds",
-                    "max_shrink", "repair_keyframes", "seed", "default_speed_m_per_s"});
+  allow_only(field, [](const auto& visit) { planning::visit_options(visit); });
   PlanOptions options;
-  if (const auto option = field.optional_member("method")) options.method = read_method(*option);
-  read_number(field, "deadline_s", options.deadline_s);
-  read_number(field, "clearance", options.clearance_m);
-  read_number(field, "chord_error_m", options.chord_error_m);
-  read_number(field, "interval_tolerance_m", options.interval_tolerance_m);
-  if (const auto option = field.optional_member("max_inserted_keyframes")) {
-    options.max_inserted_keyframes =
-        static_cast<std::int32_t>(option->integer(0, std::numeric_limits<std::int32_t>::max()));
-  }
-  if (const auto option = field.optional_member("objective")) {
-    options.objective = named(*option, kObjectives);
-  }
-  if (const auto option = field.optional_member("orientation")) {
-    options.orientation = read_orientation(*option);
-  }
-  if (const auto option = field.optional_member("limits")) options.limits = read_limits(*option);
-  if (const auto option = field.optional_member("bounds")) options.bounds = read_bounds(*option);
-  read_number(field, "max_shrink", options.max_shrink);
-  if (const auto option = field.optional_member("repair_keyframes")) {
-    options.repair_keyframes = option->boolean();
-  }
-  if (const auto option = field.optional_member("seed")) {
-    options.seed =
-        static_cast<std::uint64_t>(option->integer(1, std::numeric_limits<std::int64_t>::max()));
-  }
-  if (const auto option = field.optional_member("default_speed_m_per_s")) {
-    options.default_speed_m_per_s = option->number();
-  }
+  planning::visit_options(MemberReader{field}, options);
   return options;
+}
+
+motion::Camera read_camera(const Field& field) {
+  allow_only(field, [](const auto& visit) { planning::visit_camera(visit); });
+  motion::Camera camera;
+  const MemberReader read{field};
+  const auto need = [&](const FieldSpec& spec, double& member) {
+    static_cast<void>(field.member(spec.file_name()));
+    read(spec, member);
+  };
+  planning::visit_camera(need, camera);
+  return camera;
 }
 
 }  // namespace camway::tools

@@ -31,8 +31,8 @@ constexpr Um kRodZ = mm(2800);
 
 }  // namespace gallery
 
-/// Returns a scene of thin, single, duplicated and degenerate geometry, in the order of the
-/// corridor.
+/// Returns a corridor with exhibits of thin, single, duplicated and degenerate geometry. The
+/// exhibits are added in order of x.
 Scene make_gallery();
 
 }  // namespace camway::make_scenes

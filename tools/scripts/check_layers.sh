@@ -82,8 +82,8 @@ LC_ALL=C exec awk '
     } else if (file ~ /^assimp\// && here !~ /^(daemon\/scene\/import\/child|tests)$/) {
       fault("assimp is for daemon/scene/import/child")
     } else if (file ~ /^octo(map|math)\// &&
-               here !~ /^(daemon\/scene\/(voxels|occupancy|import\/child)|tests)$/) {
-      fault("OctoMap is for daemon/scene/voxels, daemon/scene/occupancy and daemon/scene/import/child")
+               here !~ /^(daemon\/scene\/(voxels|mirror|import\/child)|tests)$/) {
+      fault("OctoMap is for daemon/scene/voxels, daemon/scene/mirror and daemon/scene/import/child")
     } else if (file ~ /^(fcl|embree[0-9]*|CGAL)\// && here != "tests") {
       fault("FCL, Embree and CGAL are for tests and benchmarks")
     } else if (file ~ /^sodium/ && FILENAME != "lcmtypes/wire/auth/message_keys.cpp" && here != "tests") {

@@ -2,6 +2,7 @@
 #include "tools/support/client_request.h"
 
 #include <cmath>
+#include <type_traits>
 #include <variant>
 
 namespace camway::tools {
@@ -36,57 +37,43 @@ Body sent_body(const motion::MeshShape& mesh) {
   return Body::mesh(points(mesh.vertices_C), std::move(triangles));
 }
 
-Objective sent_objective(correction::Objective objective) {
-  switch (objective) {
-    case correction::Objective::kClosest:
-      return Objective::kClosest;
-    case correction::Objective::kShortest:
-      return Objective::kShortest;
-    case correction::Objective::kSmoothest:
-      return Objective::kSmoothest;
-    case correction::Objective::kSafest:
-      return Objective::kSafest;
+/// Copies an option to that of the client. Enumerations have the same values there.
+struct OptionSender {
+  template <class Mine, class Sent>
+  void operator()(const planning::FieldSpec&, const Mine& mine, Sent& sent) const {
+    if constexpr (std::is_same_v<Sent, std::string>) {
+      sent = base::name_of(mine);
+    } else {
+      sent = static_cast<Sent>(mine);
+    }
   }
-  return Objective::kClosest;
-}
-
-Orientation::Policy sent_policy(correction::OrientationRule rule) {
-  switch (rule) {
-    case correction::OrientationRule::kFree:
-      return Orientation::Policy::kFree;
-    case correction::OrientationRule::kKeep:
-      return Orientation::Policy::kKeep;
-    case correction::OrientationRule::kLevel:
-      return Orientation::Policy::kLevel;
-    case correction::OrientationRule::kTarget:
-      return Orientation::Policy::kTarget;
+  void operator()(const planning::FieldSpec&, const std::optional<double>& mine,
+                  double& sent) const {
+    sent = mine.value_or(0.0);
   }
-  return Orientation::Policy::kFree;
-}
-
-/// Returns the policy with the members that it uses; the daemon refuses others.
-Orientation sent_orientation(const correction::OrientationPolicy& policy) {
-  Orientation sent;
-  sent.policy = sent_policy(policy.rule);
-  sent.max_turn_rad = policy.max_turn_rad;
-  if (policy.rule == correction::OrientationRule::kLevel) sent.up = point(policy.up_W);
-  if (policy.rule == correction::OrientationRule::kTarget) {
-    sent.target_m = point(policy.target_W);
-    sent.cone_rad = policy.cone_rad;
+  void operator()(const planning::FieldSpec&, const geometry::Bounds& mine, Bounds& sent) const {
+    sent = to_client_bounds(mine);
   }
-  return sent;
-}
+  void operator()(const planning::FieldSpec&, const correction::MotionLimits& mine,
+                  MotionLimits& sent) const {
+    planning::visit_limits(*this, mine, sent);
+  }
+  /// Copies the members that the policy uses; the daemon refuses others.
+  void operator()(const planning::FieldSpec&, const correction::OrientationPolicy& mine,
+                  Orientation& sent) const {
+    sent.policy = static_cast<Orientation::Policy>(mine.rule);
+    sent.max_turn_rad = mine.max_turn_rad;
+    if (mine.rule == correction::OrientationRule::kLevel) sent.up = point(mine.up_W);
+    if (mine.rule != correction::OrientationRule::kTarget) return;
+    sent.target_m = point(mine.target_W);
+    sent.cone_rad = mine.cone_rad;
+  }
+};
 
-void add_correction_options(const planning::PlanOptions& options, PlanRequest& sent) {
-  sent.objective = sent_objective(options.objective);
-  sent.orientation = sent_orientation(options.orientation);
-  sent.limits = {options.limits.speed_m_per_s, options.limits.acceleration_m_per_s2,
-                 options.limits.turn_rate_rad_per_s, options.limits.may_retime};
-  sent.bounds = to_client_bounds(options.bounds);
-  sent.max_shrink = options.max_shrink;
-  sent.repair_keyframes = options.repair_keyframes;
-  sent.seed = static_cast<std::int64_t>(options.seed);
-}
+static_assert(static_cast<int>(correction::Objective::kSafest) ==
+              static_cast<int>(Objective::kSafest));
+static_assert(static_cast<int>(correction::OrientationRule::kTarget) ==
+              static_cast<int>(Orientation::Policy::kTarget));
 
 }  // namespace
 
@@ -127,14 +114,7 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
                               {p.x(), p.y(), p.z()},
                               {q.w(), q.x(), q.y(), q.z()}});
   }
-  sent.method = std::string(to_string(request.options.method));
-  sent.deadline_s = request.options.deadline_s;
-  sent.chord_error_m = request.options.chord_error_m;
-  sent.interval_tolerance_m = request.options.interval_tolerance_m;
-  sent.clearance_m = request.options.clearance_m;
-  sent.max_inserted_keyframes = request.options.max_inserted_keyframes;
-  sent.default_speed_m_per_s = request.options.default_speed_m_per_s.value_or(0.0);
-  add_correction_options(request.options, sent);
+  planning::visit_options(OptionSender{}, request.options, sent);
   return sent;
 }
 

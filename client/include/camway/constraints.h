@@ -22,17 +22,20 @@ struct Orientation {
   enum class Policy {
     kFree,  ///< no restriction
     kKeep,  ///< no change of orientation
-    /// The camera's x axis leaves the plane across `up` no further than before: the horizon does
-    /// not tilt.
+    /// The angle between the camera's x axis and the plane perpendicular to `up` is nowhere larger
+    /// than on the path as interpolated at the same time. So the horizon does not tilt.
     kLevel,
-    /// `target_m` stays within `cone_rad` of the direction of view, or no further off than before.
+    /// The angle between the direction of view and `target_m` is at most `cone_rad`, or at most the
+    /// angle on the path as interpolated at the same time if that is larger.
     kTarget,
   };
 
   Policy policy = Policy::kFree;
   std::array<double, 3> up{};        ///< kLevel: any length, world frame; all zero for +Y
   std::array<double, 3> target_m{};  ///< kTarget: a point in the world frame
-  double cone_rad = 0.0;  ///< kTarget: half angle of the cone [Limit: 0 < value <= π; 0 for 0.5]
+  /// kTarget: half angle of the cone. 0 stands for the default, 0.5. [Limit: 0 <= value <= π]
+  /// [Units: radians]
+  double cone_rad = 0.0;
   /// Largest angle between the camera and the path as interpolated at the same time; unset: no
   /// limit. Applies to every policy. [Limit: 0 <= value <= π]
   std::optional<double> max_turn_rad;

@@ -37,7 +37,9 @@ struct Correction {
   double changed_t_end_s = 0.0;    ///< end of the part of the path that was changed
   double moved_m = 0.0;            ///< largest distance of the eye from its former position
   double turned_rad = 0.0;         ///< largest angle of the camera from its former orientation
-  Effort tried = {};               ///< effort that was spent; zero unless `method` is kNone
+  /// Effort of the searches; reported only if the collision was not corrected (kNone), otherwise
+  /// all zero.
+  Effort tried = {};
 };
 
 /// Measures for the comparison of paths. Largest values come from samples and may be slightly too
@@ -45,7 +47,7 @@ struct Correction {
 struct PathMeasures {
   double length_m = 0.0;  ///< length of the eye's way
   /// Largest distance of the eye from the path as interpolated at the same time. If the path was
-  /// slowed, the interpolated path is slowed alike.
+  /// slowed, it is compared with the interpolated path under the same slow-down.
   double largest_deviation_m = 0.0;
   double bending_energy_m2_per_s3 = 0.0;  ///< integral of the squared acceleration
   double largest_speed_m_per_s = 0.0;
@@ -84,7 +86,8 @@ struct Cage {
 };
 
 /// A proof that there is no path: a closed surface of the scene with one given keyframe inside and
-/// another outside, or a cage that holds the centre of the near quadrilateral at one keyframe only.
+/// another outside, or a cage: the centre of the near quadrilateral is inside it at
+/// `keyframe_inside` and outside it at `keyframe_outside`.
 struct Infeasibility {
   std::int32_t keyframe_inside = 0;   ///< index of the given keyframe inside
   std::int32_t keyframe_outside = 0;  ///< index of the given keyframe outside

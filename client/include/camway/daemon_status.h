@@ -17,7 +17,7 @@ struct Latency {
   std::int64_t count = 0;  ///< number of durations
   double sum_s = 0.0;      ///< sum of all durations
   /// Bucket i counts the durations of at most 10 µs · 2^(i/4) that are longer than the bound of
-  /// bucket i-1; bucket 95 has no upper bound. Buckets behind the last are 0.
+  /// bucket i-1; bucket 95 has no upper bound. `buckets` leaves out empty buckets at its end.
   std::vector<std::int64_t> buckets;
 
   /// Returns the upper bound of the bucket that holds the quantile `q`, at most a fifth above it.
@@ -57,7 +57,9 @@ struct DaemonStatus {
   std::int64_t altered_messages = 0;      ///< with a wrong signature
   std::int64_t stale_messages = 0;        ///< with a time outside the window
   std::int64_t replayed_messages = 0;     ///< received before
-  std::int64_t crowded_messages = 0;      ///< from more senders than the daemon can remember
+  /// Messages of new senders while the daemon already remembers as many senders as it can
+  /// (`auth.senders`).
+  std::int64_t crowded_messages = 0;
   std::int64_t received_messages = 0;
   std::int64_t received_bytes = 0;
   std::int64_t sent_messages = 0;
@@ -78,7 +80,9 @@ struct DaemonStatus {
   std::string failed_reload;             ///< reason of the last failure; empty if there was none
   bool reload_failed = false;            ///< whether no reload has succeeded since that failure
 
-  std::int32_t total_scenes = 0;  ///< may exceed `scenes.size()`, which has to fit a message
+  /// Number of scenes of the daemon. `scenes` may list fewer, because the list must fit one
+  /// message.
+  std::int32_t total_scenes = 0;
   std::vector<SceneInfo> scenes;  ///< scenes of the daemon, in order of name
 };
 

@@ -68,9 +68,11 @@ struct PlanRequest {
   double progress_period_s = 0.0;
   /// Time for which the daemon watches the path after its answer. `Client::watch` sets it.
   double watch_lease_s = 0.0;
-  double deadline_s = 0.0;     ///< time from the daemon's receipt to its answer, waiting included
-  double chord_error_m = 0.0;  ///< largest error of the tessellated swept surface
-  /// Motion of the body within which the ends of collision intervals are known.
+  double deadline_s = 0.0;  ///< time from the daemon's receipt to its answer, waiting included
+  /// Largest error of the tessellated swept surface. Only the method "keyframe_insertion" uses it.
+  double chord_error_m = 0.0;
+  /// Accuracy of the ends of collision intervals, as a distance: no point of the body moves farther
+  /// between the true and the reported end.
   double interval_tolerance_m = 0.0;
   double clearance_m = 0.0;  ///< required distance between body and scene [Limit: 0 <= value]
   /// Largest number of keyframes that corrections may insert. With 0 collisions are only reported.
@@ -171,7 +173,7 @@ struct PlanResponse {
   std::optional<PathMeasures> measures;         ///< measures of `path`
   double near_scale = 1.0;  ///< near distance that is proved, divided by the requested one
   /// Duration of `path` divided by the requested one; above 1 if the path was slowed to meet motion
-  /// limits. Then every time of the answer is a new one.
+  /// limits. Then all times in the answer are times on the slowed path.
   double time_scale = 1.0;
   std::vector<SlowedStretch> slowed;           ///< slowed parts of `path`, in order of time
   std::vector<KeyframeFault> keyframe_faults;  ///< given keyframes that collide, or were repaired

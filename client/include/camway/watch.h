@@ -20,11 +20,13 @@ struct WatchEvent {
     kAnswer,
     kBroken,  ///< a change of the scene makes the path of the last answer collide, as `broken` says
     kFree,    ///< a broken path is proved free again, unchanged
-    /// The path is not watched for now; `status` and `error` say why. Reported once; silence of the
-    /// daemon within 3.5 s. The client keeps trying, and the next event has the result.
+    /// The path is not watched for now; `status` and `error` say why. This event comes once. If the
+    /// daemon falls silent, it comes within 3.5 s. The client keeps trying; the next event of this
+    /// path has the result.
     kLost,
     kWatched,  ///< after kLost: watched again; the last event before kLost still holds
-    kEnded,    ///< the watch has ended, because the last answer proves no path or `error` says why
+    /// The watch has ended. `error` has the reason: for example, the answer has no proved path.
+    kEnded,
     /// An obstacle is gone at least in part, and `answer` has a path that is better by the
     /// request's objective. The present path stays watched; `Client::take_better` changes over.
     kBetter,
@@ -36,7 +38,8 @@ struct WatchEvent {
   std::vector<CollisionInterval> broken;  ///< kBroken: all collisions, without witnesses
   std::optional<PlanResponse> answer;     ///< set with kAnswer and kBetter
   /// kLost: `kNoDaemon` if no daemon is heard, otherwise the refusal, such as `kLimit` or
-  /// `kOverloaded`. kEnded: why the request cannot be sent, if it cannot. Other events: kOk.
+  /// `kOverloaded`. kEnded: the reason if the request could not be sent, otherwise kOk. All other
+  /// events: kOk.
   Status status = Status::kOk;
   std::string error;  ///< kLost, kEnded: the reason
 };

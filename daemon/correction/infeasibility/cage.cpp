@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "daemon/base/budget.h"
 #include "daemon/correction/infeasibility/cage_scene.h"
 #include "daemon/correction/infeasibility/face_grid.h"
 #include "daemon/correction/infeasibility/surface_parity.h"
@@ -30,7 +31,7 @@ constexpr double kMaxCells = 2e5;
 constexpr std::size_t kMaxSurfaceLines = 1000;
 /// Largest number of cells and triangles visited, and of boxes, for a few hundredths of a second:
 /// most searches are in scenes without a cage.
-constexpr std::size_t kMaxSteps = 4'000'000;
+constexpr std::int64_t kMaxSteps = 4'000'000;
 constexpr int kMaxBoxes = 24;
 /// Points around which boxes are tried, in each frame.
 constexpr std::size_t kMaxPoints = 64;
@@ -58,8 +59,8 @@ constexpr std::array<Face, 6> kFaces{
 class CageSearch {
  public:
   CageSearch(const CageScene& scene, std::span<const Vec3> centers_W, double shortest_chord_m,
-             double within_m, std::size_t& steps)
-      : scene_(scene), chord_m_(shortest_chord_m), steps_(steps) {
+             double within_m, base::Budget& budget)
+      : scene_(scene), chord_m_(shortest_chord_m), budget_(budget) {
     for (const Vec3& center_W : centers_W) centers_.push_back(scene.in_frame(center_W));
     within_m_ = within_m + 2.0 * scene.margin_m().norm();
   }
@@ -76,7 +77,7 @@ class CageSearch {
       for (std::size_t i = 0; i < points; ++i) {
         if (rank >= around[i].size()) continue;
         if (std::optional<Cage> cage = tried_as_cage(around[i][rank], i, tried)) return cage;
-        if (tried == kMaxBoxes || steps_ > kMaxSteps) return std::nullopt;
+        if (tried == kMaxBoxes || budget_.is_overdrawn()) return std::nullopt;
       }
     }
     return std::nullopt;
@@ -121,7 +122,7 @@ class CageSearch {
     return known;
   }
   [[nodiscard]] Parity found_parity(const Barrier& barrier, const Vec3& center) {
-    steps_ += barrier.triangles.size();
+    spend(barrier.triangles.size());
     if (!is_closed(scene_.original(), barrier.triangles)) return Parity::kUnknown;
     const Triangle point = {center, center, center};
     for (const std::uint32_t t : barrier.triangles) {
@@ -149,7 +150,7 @@ class CageSearch {
       if (!meets && !reach.contains(center)) continue;
       const Parity side = parity(i, center);
       if (side == Parity::kOdd || (side == Parity::kEven && meets)) result.push_back(i);
-      if (steps_ > kMaxSteps) break;
+      if (budget_.is_overdrawn()) break;
     }
     return result;
   }
@@ -220,7 +221,7 @@ class CageSearch {
     // other.
     std::size_t cells = 0;
     for (std::size_t k = 0; k < 3; ++k) cells += 2 * along[k].size() * along[(k + 1) % 3].size();
-    if (steps_ + cells > kMaxSteps) return std::nullopt;
+    if (!budget_.covers(static_cast<std::int64_t>(cells))) return std::nullopt;
     Cage cage{.inside = inside,
               .outside = outside,
               .box = {.box = box,
@@ -234,9 +235,9 @@ class CageSearch {
                          std::array{along[static_cast<std::size_t>((face.axis + 1) % 3)],
                                     along[static_cast<std::size_t>((face.axis + 2) % 3)]},
                          scene_.margin_m());
-      steps_ += grids.back().cells();
+      spend(grids.back().cells());
       block(face, box, barriers, grids.back(), cage.triangles);
-      if (steps_ > kMaxSteps) return std::nullopt;
+      if (budget_.is_overdrawn()) return std::nullopt;
       // A hole that is too wide with all edges closed is too wide with any adjacent faces.
       const auto closed = [](int, bool, std::size_t) { return true; };
       if (!is_narrow(grids.back().widest_hole_m(closed))) return std::nullopt;
@@ -257,14 +258,14 @@ class CageSearch {
   void block(const Face& face, const Box& box, const std::vector<std::size_t>& barriers,
              FaceGrid& grid, std::vector<std::uint32_t>& used) {
     for (const std::size_t i : barriers) {
-      if (steps_ > kMaxSteps) return;
+      if (budget_.is_overdrawn()) return;
       const std::vector<std::uint32_t>& triangles = scene_.barriers()[i].triangles;
-      steps_ += grid.block(scene_.mesh(), triangles, parities_[i] == Parity::kOdd);
+      spend(grid.block(scene_.mesh(), triangles, parities_[i] == Parity::kOdd));
       used.insert(used.end(), triangles.begin(), triangles.end());
     }
     for (const auto& [name, flats] : flats_at(face, box)) {
-      if (steps_ > kMaxSteps) return;
-      steps_ += grid.block_flat(scene_.mesh(), scene_.original(), flats);
+      if (budget_.is_overdrawn()) return;
+      spend(grid.block_flat(scene_.mesh(), scene_.original(), flats));
       used.insert(used.end(), flats.begin(), flats.end());
     }
   }
@@ -285,13 +286,15 @@ class CageSearch {
     return widest_m;
   }
 
+  void spend(std::size_t steps) { budget_.spend(static_cast<std::int64_t>(steps)); }
+
   static constexpr std::size_t kTrianglesOfCuboid = 12;
 
   const CageScene& scene_;
   std::vector<Vec3> centers_;
   double chord_m_;
   double within_m_ = 0.0;
-  std::size_t& steps_;
+  base::Budget& budget_;
   /// Parities by point and barrier, computed on demand.
   std::vector<std::vector<Parity>> parities_of_;
   std::span<Parity> parities_;  ///< parities of the point inside
@@ -303,10 +306,10 @@ std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& sur
                               std::span<const Vec3> centers_W, double shortest_chord_m,
                               double within_m) {
   if (centers_W.size() < 2) return std::nullopt;
-  std::size_t steps = 0;
+  base::Budget budget(kMaxSteps);
   for (const CageScene& scene : cage_scenes(mesh, surfaces, shortest_chord_m)) {
     if (std::optional<Cage> cage =
-            CageSearch(scene, centers_W, shortest_chord_m, within_m, steps).run()) {
+            CageSearch(scene, centers_W, shortest_chord_m, within_m, budget).run()) {
       return cage;
     }
   }

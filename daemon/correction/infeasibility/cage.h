@@ -14,8 +14,8 @@
 
 namespace camway::correction {
 
-/// A box with closed faces, except for holes that are too narrow for a flat body, with one point
-/// inside and another outside.
+/// A box whose faces are closed except for holes that are too narrow for a flat body. One point is
+/// inside, another outside.
 struct Cage {
   std::size_t inside = 0;   ///< index of a point
   std::size_t outside = 0;  ///< index of a point
@@ -24,30 +24,39 @@ struct Cage {
   std::vector<std::uint32_t> triangles;
 };
 
-/// Looks for a cage that the centre of a flat convex body cannot leave: a box parallel to the axes
-/// of the world, or of a frame turned about one of them (`CageScene`). `centers_W`: the centre at
-/// each keyframe, known to within `within_m`. `shortest_chord_m`: the shortest chord through the
-/// centre; for a rectangle its smaller side [Limit: 0 < value].
+/// Looks for a cage that the centre of a flat convex body cannot leave. A cage is parallel to the
+/// axes of the world, or to those of a frame that is turned about one of them (`CageScene`).
+/// Returns nothing if it finds none. `centers_W`: the centre at each keyframe, known to within
+/// `within_m`. `shortest_chord_m`: the shortest chord through the centre; for a rectangle its
+/// smaller side [Limit: 0 < value].
 ///
-/// Proof that there is no way out: a body stays on its side of a closed surface and is never on a
-/// triangle. So on a face of the box it can be only in *holes*, which neither the other sides of
-/// surfaces nor triangles in the plane fill. In a cage no hole reaches the border of its face,
-/// except where the adjacent face is filled; so the body never meets an edge of the box. Suppose
-/// that the centre is on a face. The body meets the plane of the face in a chord through the centre
-/// or lies in it, and then contains such a chord. That section is connected and has no point on the
-/// border, so the chord lies in the face and in one hole. But it is longer than the hole is wide.
-/// So the centre is never on a face, however the body turns.
+/// Proof that the centre cannot leave. The body never leaves its side of a closed surface and never
+/// touches a triangle. A place on a face is *blocked* if it is on the other side of a closed
+/// surface than the body, or if a triangle in the plane of the face covers it. A *hole* is a
+/// connected part of a face that is not blocked. So every point of the body on a face is in a hole.
+/// In a cage, a hole may reach the border of its face only where the adjacent face is blocked at
+/// that border. So the body never meets an edge of the box. Suppose that the centre is on a face.
+/// The section of the body with the plane of the face is then a chord through the centre, or the
+/// whole body if the body lies in the plane. The section is connected, contains a chord through the
+/// centre, and has no point on the border of the face. So the chord lies in the face, and in one
+/// hole. But the chord is longer than the hole is wide: a contradiction. So the centre is never on
+/// a face, in whatever orientation.
 ///
-/// All rounding is to the safe side. A turned frame is exactly a rotation and a scaling by 1, up to
-/// a few roundings, which `kChordRounding` covers, like those of the body's sides. Vertices in it
-/// are known to within `margin_m`. While vertices move from there to their exact places, no
-/// triangle meets an element that it does not mark (`FaceGrid`), nor the centre inside: parities
-/// are used only where it is farther than that from the whole surface. So sides are those of the
-/// exact vertices. Both centres are farther from the faces of the box than their uncertainty.
-/// Widths are rounded up.
+/// All rounding is to the safe side. The map to a turned frame, with the sine and cosine as
+/// computed, is exactly a rotation and a scaling. The scale differs from 1 by a few roundings.
+/// `kChordRounding` (cage.cpp) covers these and the rounding of the body's sides. Each vertex as
+/// computed is within `margin_m` (`CageScene`) of its exact image. Imagine that all vertices move
+/// straight from the computed to the exact places. Meanwhile no triangle touches an element of a
+/// face (`FaceGrid`) that it did not mark. No triangle touches the centre inside the box either: a
+/// parity is used only if the centre is farther from every triangle of the surface than the
+/// vertices move and the centre is uncertain. So each computed side is the side for the exact
+/// vertices. Both centres are farther from the faces of the box than their uncertainty. Widths are
+/// rounded up.
 ///
-/// Never claims a cage wrongly. Misses cages whose bars are parallel to no such axes, are not
-/// closed surfaces, or occur twice on a floor. Bounded in time. Thread-safe.
+/// Never claims a cage wrongly. Misses a cage, for example, if a bar is parallel to no axis of
+/// these frames, if a bar is not a closed surface, or if an even number of different triangles of
+/// one surface, or of none, cover the same place in the plane of a face, as where a mesh divides a
+/// floor in two ways. Bounded in time. Thread-safe.
 std::optional<Cage> find_cage(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                               std::span<const geometry::Vec3> centers_W, double shortest_chord_m,
                               double within_m);

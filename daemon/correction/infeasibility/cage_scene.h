@@ -18,9 +18,12 @@ namespace camway::correction {
 struct Barrier {
   std::vector<std::uint32_t> triangles;  ///< triangles of the surface, increasing
   geometry::Box box;
-  /// Whether it is long and, in two directions, thinner than the shortest chord.
+  /// Whether the surface is a bar: the two smaller sides of `box` are less than the shortest chord,
+  /// and the largest is at least `kLeastSlenderness` times the smallest, which is more than 0.
   bool is_bar = false;
-  bool is_stepped = false;  ///< whether all its triangles are parallel to two axes
+  /// Whether every triangle lies in a plane that is perpendicular to an axis; always false in a
+  /// turned frame.
+  bool is_stepped = false;
   [[nodiscard]] double thickness_m() const { return box.sizes().minCoeff(); }
 };
 
@@ -30,23 +33,26 @@ struct FlatTriangle {
   std::uint32_t triangle = 0;
 };
 
-/// A scene prepared for the search for cages, in a frame whose axes bars are parallel to.
+/// A scene that is prepared for the search for cages. Its frame has axes to which bars of the scene
+/// are parallel.
 class CageScene {
  public:
-  /// The scene in the frame of the world. Refers to `mesh`, which must outlive it.
+  /// Prepares the scene in the frame of the world. Refers to `mesh`, which must outlive it.
   CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces, double shortest_chord_m);
-  /// The scene in a frame that is turned about an axis of the world. Refers to `mesh`, which must
-  /// outlive it.
+  /// Prepares the scene in a frame that is turned about an axis of the world by `angle_rad`, which
+  /// is not 0. Refers to `mesh`, which must outlive it.
   CageScene(const scene::Mesh& mesh, const ClosedSurfaces& surfaces, double shortest_chord_m,
             int axis, double angle_rad);
 
   /// The mesh in the frame, with rounded vertices.
   [[nodiscard]] const scene::Mesh& mesh() const { return is_turned() ? turned_ : *original_; }
-  /// The mesh in the frame of the world. Vertices are equal here exactly if they are the same
-  /// point.
+  /// Returns the mesh in the frame of the world. Two of its vertices have equal coordinates if and
+  /// only if they are the same point; in `mesh()`, rounding may make different points equal.
   [[nodiscard]] const scene::Mesh& original() const { return *original_; }
-  /// Bound of the rounding of coordinates, relative to a frame that is turned by `orientation` up
-  /// to a few roundings. 0 along the axis of the turn, and in the frame of the world.
+  /// Returns, for each axis, a bound of the difference between the coordinate of a vertex of
+  /// `mesh()` and that of its exact image in the frame. The exact frame differs from
+  /// `orientation()` by a few roundings of the angle. The bound is 0 along the axis of the turn,
+  /// and on all axes if the frame is not turned.
   [[nodiscard]] const geometry::Vec3& margin_m() const { return margin_m_; }
   [[nodiscard]] const std::vector<Barrier>& barriers() const { return barriers_; }
   /// The triangles in planes perpendicular to an axis, by increasing coordinate. In a turned frame
@@ -80,9 +86,11 @@ class CageScene {
   std::array<std::vector<FlatTriangle>, 3> flats_;
 };
 
-/// The scene in the frame of the world, and in up to two frames, turned about one of its axes, to
-/// which most of the scene's thin closed surfaces are parallel; only frames with enough bars to
-/// make a face. The result refers to `mesh`, which must outlive it.
+/// Returns the scene in the frame of the world, and in at most two turned frames. A turned frame is
+/// rotated about one axis of the world. For each turn, the closed surfaces of at most
+/// `kMostTrianglesOfBar` triangles count that have a triangle perpendicular to one of the two
+/// turned axes; the turns with the most such surfaces are chosen. A turn with fewer of them than a
+/// face needs (`kLeastBars`) is left out. The result refers to `mesh`, which must outlive it.
 std::vector<CageScene> cage_scenes(const scene::Mesh& mesh, const ClosedSurfaces& surfaces,
                                    double shortest_chord_m);
 
@@ -105,6 +113,8 @@ class CageBoxes {
   using Sides = std::array<std::array<std::optional<double>, 2>, 3>;
 
   [[nodiscard]] std::vector<Plane> planes(int axis) const;
+  /// Returns the nearest planes that have enough bars: at least `share` times as many as the plane
+  /// with the most bars on that side of the point.
   [[nodiscard]] Sides nearest_planes(const geometry::Vec3& center, double share) const;
   [[nodiscard]] Sides nearest_flats(const geometry::Vec3& center) const;
 

@@ -15,18 +15,22 @@
 
 namespace camway::correction {
 
-/// A rectangle parallel to two axes, divided into cells by lines, that marks cells as blocked. A
-/// body is never on a closed surface, on the other side of it, or on a triangle. Conservative: a
-/// blocked cell, its border included, contains no point that the body can occupy; rounding is
-/// included.
+/// A rectangle parallel to two axes. Lines divide it into cells, some of which are marked as
+/// blocked. The body never touches a closed surface or a triangle, and is never on the other side
+/// of a closed surface. Conservative: a blocked cell, its border included, contains no point that
+/// the body can occupy; rounding is included.
 ///
-/// Proof: a region of the face that is connected (pieces of lines may connect it) and touched by no
-/// triangle lies on one side of the surface. Any point of the region tells which; that is decided
-/// exactly. If this is not the body's side, the body is not on the border of the region either: a
-/// border point off the surface has a neighbourhood on its own side, and that contains points of
-/// the region. An element counts as touched if it is reached by the hull of a section's corners,
-/// each moved by up to the bound of its rounding and the margin; so elements that any triangle with
-/// corners within the margin touches count.
+/// Proof: consider a connected region of the face that no triangle of the surface touches (pieces
+/// of lines may connect it). The region lies on one side of the surface. Any point of the region
+/// tells the side, which is decided exactly. If the side is not the body's, no point of the body is
+/// on the border of the region either: a border point that is not on the surface has a
+/// neighbourhood on one side, and the neighbourhood contains points of the region.
+///
+/// An *element* is a cell, a piece of a line or a crossing of two lines. The section of a triangle
+/// with the face is the hull of a few corners. An element counts as touched if it is reached by the
+/// hull of these corners, each moved by up to the bound of its rounding plus the margin. So an
+/// element counts as touched if there is a triangle that touches it and whose corners are within
+/// the margin of those given.
 class FaceGrid {
  public:
   /// Coordinates of lines, increasing; the first and the last are borders of the face.
@@ -52,10 +56,11 @@ class FaceGrid {
   std::size_t block(const scene::Mesh& mesh, std::span<const std::uint32_t> triangles,
                     bool body_is_odd);
 
-  /// Blocks the cells that triangles in the plane of the face cover; where triangles overlap, those
-  /// that an odd number of them covers. Requires all corners of `triangles` to be exactly in the
-  /// plane. `exact`: the same mesh without rounding; edges that are equal there count as one.
-  /// Returns the number of cells and triangles examined.
+  /// Blocks the cells that triangles in the plane of the face cover. Copies of a triangle count
+  /// once. Where different triangles overlap, blocks only the cells that an odd number of them
+  /// covers. Requires all corners of `triangles` to be exactly in the plane. `exact`: the same mesh
+  /// without rounding; two edges with the same ends in `exact` count as one edge. Returns the
+  /// number of cells and triangles examined.
   std::size_t block_flat(const scene::Mesh& mesh, const scene::Mesh& exact,
                          std::span<const std::uint32_t> triangles);
 
@@ -68,7 +73,7 @@ class FaceGrid {
   using BorderIsBlocked = std::function<bool(int, bool, std::size_t)>;
 
   /// Returns a bound of the distance of two points in one connected unblocked part of the face.
-  /// Nothing if such a part reaches an unblocked piece of the border. [Units: metres]
+  /// Returns nothing if such a part reaches an unblocked piece of the border. [Units: metres]
   [[nodiscard]] std::optional<double> widest_hole_m(const BorderIsBlocked& border) const;
 
  private:

@@ -45,10 +45,11 @@ class Lists {
   std::vector<std::uint32_t> items_;
 };
 
-/// The triangles of a mesh that can belong to a closed surface, grouped into patches that belong to
-/// it as a whole or not at all. A surface is closed if each edge belongs to an even number of its
-/// triangles: a cycle modulo 2. Edges are identified by the exact coordinates of their ends, so a
-/// file may repeat its vertices, but vertices that differ by a rounding make a slit.
+/// The triangles of a mesh that can belong to a closed surface, grouped into patches. Every closed
+/// surface contains either all triangles of a patch or none. A surface is closed if each edge
+/// belongs to an even number of its triangles: a cycle modulo 2. Edges are identified by the exact
+/// coordinates of their ends, so a file may repeat its vertices, but vertices that differ by a
+/// rounding make a slit.
 ///
 /// Leaves out triangles that no closed surface needs: triangles with two equal corners; all copies
 /// of a triangle but the first (two copies cancel); and, repeatedly, triangles with an edge that no
@@ -56,9 +57,10 @@ class Lists {
 struct PatchComplex {
   /// Sets of triangles that are connected over edges with exactly two triangles.
   Lists patches;
-  /// For each edge with more than two triangles, the patches with an odd number of them,
-  /// increasing; each such set once. A union of patches is closed exactly if it contains an even
-  /// number of each set.
+  /// A seam is a set of patches. It stands for the edges that belong to more than two triangles: it
+  /// contains each patch that has an odd number of triangles at the edge. Equal sets are stored
+  /// once; the patches of a set increase. A union of patches is closed if and only if it contains
+  /// an even number of the patches of every seam.
   std::vector<std::vector<std::uint32_t>> seams;
 };
 

@@ -19,9 +19,10 @@ class SurfaceSides {
   /// Refers to `mesh` and `index`, which must outlive it. Requires `index` to index `mesh`.
   SurfaceSides(const scene::Mesh& mesh, const scene::SceneIndex& index);
 
-  /// The numbers of the closed surfaces that the point is inside of, which a ray from it meets an
-  /// odd number of times. Nothing if the point is found to be on a triangle. The set is the same at
-  /// both ends of any motion that does not touch the scene.
+  /// Returns the set of the closed surfaces that enclose the point, as indices into
+  /// `ClosedSurfaces::surfaces` of the mesh. A surface encloses the point if a ray from the point
+  /// meets it an odd number of times. Returns nothing if the point is found to be on a triangle.
+  /// The set is the same at both ends of any motion that does not touch the scene.
   [[nodiscard]] std::optional<IndexSet> around(const geometry::Vec3& point_W) const;
 
  private:

@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 
+#include "daemon/base/budget.h"
 #include "daemon/correction/path/candidate.h"
-#include "daemon/correction/smoothing/relaxation.h"
+#include "daemon/correction/path/correction.h"
+#include "daemon/correction/path/pocket.h"
 
 namespace camway::correction {
 
@@ -16,18 +18,24 @@ enum class Search : std::uint8_t {
   kTurning,   ///< ways on which the body must turn to get through
 };
 
+struct DetourResult {
+  std::optional<Candidate> candidate;  ///< nothing if no detour was found
+  Effort effort;                       ///< effort spent
+  /// The region that shuts in one end of the interval, if a search found one.
+  std::optional<Pocket> pocket;
+};
+
 /// Replaces the path between the two keyframes about the collision by a detour. A search finds a
 /// free guide: for a ball about the body on a lattice (`lattice_search.h`), or for the body itself
 /// along the way of a smaller ball (`narrow_passage.h`, `tree_search.h`). Bumps draw the path to
-/// the guide, with more and more knots, until it is proved free; then it is relaxed under the
-/// objective (`relaxation.h`).
+/// the guide, with more and more knots, until it is proved free; then it is relaxed towards the
+/// path as interpolated (`relaxation.h`), which spends steps of `budget`.
 ///
-/// Returns nothing if the search found no guide within its limits, or the path could not follow
+/// Finds no detour if the search found no guide within its limits, or the path could not follow
 /// one. Calls `is_hopeless` before a search with room becomes costly, and gives up if it returns
 /// true.
-std::optional<Candidate> go_round(const Problem& problem, Search search, Improvement& improvement,
-                                  FreeSpace& space, std::uint64_t seed,
-                                  const std::function<bool()>& is_hopeless,
-                                  const base::Deadline& deadline);
+DetourResult go_round(const Problem& problem, Search search, base::Budget& budget, FreeSpace& space,
+                      std::uint64_t seed, const std::function<bool()>& is_hopeless,
+                      const base::Deadline& deadline);
 
 }  // namespace camway::correction

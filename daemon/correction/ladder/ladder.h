@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/detect.h"
+#include "daemon/collision/interval.h"
+#include "daemon/collision/query.h"
 #include "daemon/correction/infeasibility/cage.h"
 #include "daemon/correction/infeasibility/separation.h"
 #include "daemon/correction/path/constraints.h"
@@ -20,7 +21,6 @@
 namespace camway::correction {
 
 struct LadderOptions {
-  collision::DetectOptions detect;
   Objective objective = Objective::kClosest;
   OrientationPolicy orientation;
   /// Limit for the whole path; 0 corrects nothing and searches nothing. [Limit: 0 <= value]
@@ -60,9 +60,8 @@ struct LadderResult {
 /// before. Every method has a bounded number of steps.
 ///
 /// Requires `path` to be the interpolation of `keyframes`, `collisions` the result of
-/// `detect_collisions` on it, and `mesh` the scene that `obstacles` index.
-LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Obstacles& obstacles,
-                               const motion::Body& body,
+/// `detect_collisions(query, ...)` on it, and `mesh` the scene that `query.obstacles` index.
+LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Query& query,
                                const std::vector<motion::Keyframe>& keyframes,
                                const motion::CubicPath& path,
                                const std::vector<collision::CollisionInterval>& collisions,

@@ -65,10 +65,11 @@ class Nudger {
     }
   }
 
-  std::optional<Candidate> run() {
-    const std::optional<Way> way = shortest_way();
-    if (!way) return std::nullopt;
-    return with_way(*way);
+  NudgeResult run() {
+    NudgeResult result;
+    if (const std::optional<Way> way = shortest_way()) result.candidate = with_way(*way);
+    result.effort = effort_;
+    return result;
   }
 
  private:
@@ -180,7 +181,7 @@ class Nudger {
     const double farthest = kind_ == NudgeKind::kMove ? kFarthest * radius_m_ : largest_turn_rad;
     std::optional<Way> best;
     for (const Vec3& direction_W : directions_W()) {
-      if (problem_.effort != nullptr) ++problem_.effort->directions;
+      ++effort_.directions;
       const std::optional<double> amount =
           least_amount(direction_W, best ? best->amount : farthest);
       if (amount && (!best || *amount < best->amount)) best = Way{direction_W, *amount};
@@ -210,6 +211,7 @@ class Nudger {
     for (int i = 0; i < kMostRaises; ++i, amount *= kMoreEachTime) {
       Attempt tried =
           attempt(problem_, bump(way.direction_W, amount, spacing_s), space_, deadline_);
+      ++effort_.paths;
       if (tried.candidate) return std::move(tried.candidate);
       // A larger bump helps only against the collision that it is for.
       const bool is_old = tried.collision->t_begin_s < problem_.interval.t_end_s &&
@@ -243,6 +245,7 @@ class Nudger {
   const double radius_m_;
   const double margin_m_;
   std::vector<Sample> samples_;
+  Effort effort_;
 };
 
 CubicPoint scaled(const CubicPoint& point, double factor) {
@@ -291,8 +294,8 @@ std::vector<BumpRow> Nudger::row_with_peak(const CubicPoint& offset, double spac
 
 }  // namespace
 
-std::optional<Candidate> nudge(const Problem& problem, NudgeKind kind, FreeSpace& space,
-                               const base::Deadline& deadline) {
+NudgeResult nudge(const Problem& problem, NudgeKind kind, FreeSpace& space,
+                  const base::Deadline& deadline) {
   return Nudger(problem, kind, space, deadline).run();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "daemon/collision/detect.h"
 #include "daemon/correction/path/orientation_rule.h"
 
 namespace camway::correction {
@@ -92,8 +93,8 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
   const motion::Path segments = path.around(t_begin_s, t_end_s).path();
   const auto search = [&](double from_s, double to_s) -> std::optional<CollisionInterval> {
     if (!(from_s < to_s)) return std::nullopt;
-    const collision::FirstCollision found = collision::first_collision(
-        space.obstacles(), segments, space.body(), from_s, to_s, space.detect(), deadline);
+    const collision::FirstCollision found =
+        collision::first_collision(space.query(), segments, from_s, to_s, deadline);
     if (!found.decided) return CollisionInterval{from_s, to_s};
     return found.interval;
   };
@@ -109,7 +110,6 @@ std::optional<CollisionInterval> first_new_collision(const motion::CubicPath& pa
 
 Attempt attempt(const Problem& problem, std::vector<motion::BumpRow> rows, const FreeSpace& space,
                 const base::Deadline& deadline) {
-  if (problem.effort != nullptr) ++problem.effort->paths;
   // Rows without bumps change nothing, and end before they begin.
   std::erase_if(rows, [](const motion::BumpRow& row) { return row.bumps.empty(); });
   const std::optional<Span> changed = span_of(rows, problem);

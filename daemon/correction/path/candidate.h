@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "daemon/base/deadline.h"
-#include "daemon/correction/path/correction.h"
+#include "daemon/collision/interval.h"
 #include "daemon/correction/path/free_space.h"
-#include "daemon/correction/path/pocket.h"
 #include "daemon/motion/spline/bump.h"
 
 namespace camway::correction {
@@ -28,11 +27,8 @@ struct Problem {
   /// Other collisions in this part. A correction of this problem may leave them, but must not
   /// enlarge them.
   std::vector<collision::CollisionInterval> foreign_collisions;
-  Effort* effort = nullptr;  ///< counters of the effort spent; may be null
   /// Times allowed for the knots of bumps; null allows any time.
   std::shared_ptr<const motion::KnotPlaces> places = nullptr;
-  /// Receives the region that shuts in one end of the interval, if a search finds one; may be null.
-  std::optional<Pocket>* pocket = nullptr;
 
   [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
   [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }

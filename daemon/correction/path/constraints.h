@@ -20,14 +20,17 @@ enum class Objective : std::uint8_t {
 /// Changes of orientation that corrections may make (`orientation_rule.h` defines them exactly).
 /// The rule holds at every time, relative to the interpolated path at the same time.
 enum class OrientationRule : std::uint8_t {
-  kFree,    ///< any turn
-  kKeep,    ///< none: the orientation stays as on the interpolated path
-  kLevel,   ///< turns that nowhere tilt the horizon, the line across `up_W`, more than before
-  kTarget,  ///< turns that nowhere look farther off a point than a cone allows, or than before
+  kFree,  ///< any turn
+  kKeep,  ///< none: the orientation stays as on the interpolated path
+  /// Turns after which the horizon is nowhere more tilted than on the interpolated path.
+  kLevel,
+  /// Turns after which the target is nowhere outside of a cone about the direction of view, or
+  /// nowhere farther outside than on the interpolated path.
+  kTarget,
 };
 
-/// The orientation rule and its parameters. It binds the parts that the ladder changes; given
-/// keyframes are kept in any case.
+/// The orientation rule and its parameters. The policy binds the parts of the path that the ladder
+/// changes. Given keyframes keep their orientation.
 struct OrientationPolicy {
   OrientationRule rule = OrientationRule::kFree;
   /// For kLevel: the up direction, unit length. The default Y is up in the camera's own frame, so

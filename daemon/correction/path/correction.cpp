@@ -3,17 +3,17 @@
 
 namespace camway::correction {
 
-std::string_view to_string(Rung rung) {
-  switch (rung) {
-    case Rung::kNone:
+std::string_view to_string(CorrectionKind kind) {
+  switch (kind) {
+    case CorrectionKind::kNone:
       return "none";
-    case Rung::kMove:
+    case CorrectionKind::kMove:
       return "move";
-    case Rung::kTurn:
+    case CorrectionKind::kTurn:
       return "turn";
-    case Rung::kGoRound:
+    case CorrectionKind::kGoRound:
       return "go_round";
-    case Rung::kShrink:
+    case CorrectionKind::kShrink:
       return "shrink";
   }
   return "none";

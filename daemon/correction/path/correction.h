@@ -9,7 +9,7 @@
 namespace camway::correction {
 
 /// Kind of a correction, cheapest first.
-enum class Rung : std::uint8_t {
+enum class CorrectionKind : std::uint8_t {
   kNone,     ///< not corrected
   kMove,     ///< the camera was moved sideways
   kTurn,     ///< the camera was turned
@@ -18,7 +18,7 @@ enum class Rung : std::uint8_t {
 };
 
 /// Returns "none", "move", "turn", "go_round" or "shrink".
-std::string_view to_string(Rung rung);
+std::string_view to_string(CorrectionKind kind);
 
 /// Effort spent on a correction; a counter is 0 if its method was not tried.
 struct Effort {
@@ -35,7 +35,7 @@ struct Effort {
 /// Outcome for one collision of the interpolated path.
 struct Correction {
   collision::CollisionInterval interval;  ///< the collision
-  Rung rung = Rung::kNone;
+  CorrectionKind kind = CorrectionKind::kNone;
   double t_begin_s = 0.0;  ///< begin of the part of the path that was changed
   double t_end_s = 0.0;    ///< end of that part
   double moved_m = 0.0;    ///< largest distance of the eye from the interpolated path, time by time

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "daemon/collision/detect.h"
 #include "daemon/collision/witness.h"
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/motion/path/stretch.h"
@@ -23,13 +24,11 @@ constexpr double kNearestShare = 0.8;
 
 }  // namespace
 
-FreeSpace::FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
-                     const collision::DetectOptions& detect, const OrientationPolicy& policy)
-    : obstacles_(obstacles),
-      body_(body),
-      detect_(detect),
+FreeSpace::FreeSpace(const collision::Query& query, const OrientationPolicy& policy)
+    : query_(query),
       policy_(policy),
-      probe_(obstacles, body, detect.clearance_m) {
+      probe_(query.obstacles, query.body, query.options.clearance_m) {
+  const motion::Body& body = query.body;
   geometry::Box box;
   for (const Triangle& triangle : body.triangles_C()) box.extend(geometry::bounds(triangle));
   center_C_ = box.center();
@@ -54,7 +53,7 @@ double FreeSpace::gap_m(const motion::Pose& pose, double up_to_m) {
 std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, double up_to_m) {
   const motion::Stretch standing = motion::standing_at(pose);
   if (probe_.at_least_m(standing) >= up_to_m) return std::nullopt;
-  std::optional<scene::Nearest> found = obstacles_.index.near(
+  std::optional<scene::Nearest> found = query_.obstacles.index.near(
       probe_.place(standing), up_to_m + probe_.keep_m(), /*certain_m=*/0.0, kNearestShare);
   if (found) found->distance_m -= probe_.keep_m();
   const std::optional<collision::Probe::Edge> edge = probe_.nearest_edge();
@@ -65,59 +64,59 @@ std::optional<scene::Nearest> FreeSpace::nearest(const motion::Pose& pose, doubl
 
 std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedPose& to,
                                            double margin_m) {
-  collision::DetectOptions options = detect_;
+  collision::Query query = query_;
+  collision::DetectOptions& options = query.options;
   options.clearance_m += margin_m;
   // A search does not need the exact place of the obstacle.
   options.tolerance_m = std::max(options.tolerance_m, 0.5 * margin_m);
   options.gap_m = std::max(options.gap_m, options.tolerance_m);
-  collision::Obstacles obstacles = obstacles_;
   // The required clearance does not apply to the bounds.
-  obstacles.bounds = obstacles.bounds.shrunk_by(margin_m);
+  query.obstacles.bounds = query.obstacles.bounds.shrunk_by(margin_m);
   const motion::Path path({motion::straight_motion(from, to)});
-  const collision::FirstCollision found = collision::first_collision(
-      obstacles, path, body_, 0.0, 1.0, options, base::Deadline::never());
+  const collision::FirstCollision found =
+      collision::first_collision(query, path, 0.0, 1.0, base::Deadline::never());
   if (!found.interval) return std::nullopt;
   return found.interval->t_begin_s;
 }
 
 double FreeSpace::ball_gap_m(const Vec3& point_W, double radius_m, double up_to_m) const {
-  const double keep_m = radius_m + detect_.clearance_m;
-  const double inside_m = obstacles_.bounds.depth_m(point_W) - radius_m;
+  const double keep_m = radius_m + query_.options.clearance_m;
+  const double inside_m = query_.obstacles.bounds.depth_m(point_W) - radius_m;
   if (inside_m <= 0.0) return inside_m;
   up_to_m = std::min(up_to_m, inside_m);
-  if (obstacles_.solids != nullptr && obstacles_.solids->hold(point_W)) return -keep_m;
-  if (obstacles_.field != nullptr) {
-    const double at_least_m = obstacles_.field->clearance_at_least_m(point_W) - keep_m;
+  if (query_.obstacles.solids != nullptr && query_.obstacles.solids->hold(point_W)) return -keep_m;
+  if (query_.obstacles.field != nullptr) {
+    const double at_least_m = query_.obstacles.field->clearance_at_least_m(point_W) - keep_m;
     if (at_least_m >= up_to_m) return up_to_m;
   }
   const std::array<Triangle, 1> point = {Triangle{point_W, point_W, point_W}};
   const double horizon_m = keep_m + up_to_m;
   const std::optional<scene::Nearest> nearest =
-      obstacles_.index.near(point, horizon_m, keep_m, kBallShare);
+      query_.obstacles.index.near(point, horizon_m, keep_m, kBallShare);
   if (!nearest) return up_to_m;
   return std::min(up_to_m, nearest->distance_m - keep_m);
 }
 
 bool FreeSpace::ball_passes(const Vec3& from_W, const Vec3& to_W, double radius_m) const {
   const double inside_m =
-      std::min(obstacles_.bounds.depth_m(from_W), obstacles_.bounds.depth_m(to_W));
+      std::min(query_.obstacles.bounds.depth_m(from_W), query_.obstacles.bounds.depth_m(to_W));
   if (!(inside_m > radius_m)) return false;
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
-  return !obstacles_.index.any_within(way, radius_m + detect_.clearance_m);
+  return !query_.obstacles.index.any_within(way, radius_m + query_.options.clearance_m);
 }
 
 double FreeSpace::way_gap_m(const Vec3& from_W, const Vec3& to_W, double up_to_m) const {
   const double inside_m =
-      std::min(obstacles_.bounds.depth_m(from_W), obstacles_.bounds.depth_m(to_W));
+      std::min(query_.obstacles.bounds.depth_m(from_W), query_.obstacles.bounds.depth_m(to_W));
   const std::array<Triangle, 1> way = {Triangle{from_W, to_W, to_W}};
   const std::optional<scene::Nearest> nearest =
-      obstacles_.index.nearest(way, up_to_m + detect_.clearance_m);
-  return std::min(inside_m, nearest ? nearest->distance_m - detect_.clearance_m : up_to_m);
+      query_.obstacles.index.nearest(way, up_to_m + query_.options.clearance_m);
+  return std::min(inside_m, nearest ? nearest->distance_m - query_.options.clearance_m : up_to_m);
 }
 
 motion::Pose FreeSpace::within_bounds(const motion::Pose& pose, double margin_m) {
   const geometry::Bounds inner =
-      obstacles_.bounds.shrunk_by(margin_m).shrunk_by(body_.ball_radius_m());
+      query_.obstacles.bounds.shrunk_by(margin_m).shrunk_by(query_.body.ball_radius_m());
   geometry::Box box;
   for (const Triangle& triangle : placed(pose)) box.extend(geometry::bounds(triangle));
   const Vec3 below = (inner.min_W - box.min()).cwiseMax(0.0);

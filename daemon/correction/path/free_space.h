@@ -5,8 +5,9 @@
 #include <span>
 
 #include "daemon/base/deadline.h"
-#include "daemon/collision/detect.h"
+#include "daemon/collision/interval.h"
 #include "daemon/collision/probe.h"
+#include "daemon/collision/query.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/motion/path/straight_motion.h"
 #include "daemon/scene/index/scene_index.h"
@@ -20,9 +21,7 @@ namespace camway::correction {
 /// Not thread-safe: queries use buffers of the object.
 class FreeSpace {
  public:
-  /// Refers to the first three arguments, which must outlive it.
-  FreeSpace(const collision::Obstacles& obstacles, const motion::Body& body,
-            const collision::DetectOptions& detect, const OrientationPolicy& policy = {});
+  explicit FreeSpace(const collision::Query& query, const OrientationPolicy& policy = {});
 
   /// Returns true only if the gap of the body at `pose` is proved to be at least `margin_m`.
   [[nodiscard]] bool is_free(const motion::Pose& pose, double margin_m);
@@ -54,8 +53,8 @@ class FreeSpace {
                                                 const motion::SignedPose& to, double margin_m);
 
   /// Gap of a ball about `point_W`, at most `up_to_m`; 0 or less where the ball collides. The sign
-  /// is exact; the true distance of the centre may be as little as `kBallShare` of the one used,
-  /// which saves time. A ball of radius `ball_radius_m()` holds the body in every orientation.
+  /// is exact. To save time, the true distance of the centre may be as little as `kBallShare` times
+  /// the computed one. A ball of radius `ball_radius_m()` holds the body in every orientation.
   [[nodiscard]] double ball_gap_m(const geometry::Vec3& point_W, double radius_m,
                                   double up_to_m) const;
 
@@ -90,9 +89,10 @@ class FreeSpace {
   /// Estimate of how far a point of the body moves between two poses: the metric of searches.
   [[nodiscard]] double distance_m(const motion::SignedPose& a, const motion::SignedPose& b) const;
 
-  [[nodiscard]] const collision::Obstacles& obstacles() const { return obstacles_; }
-  [[nodiscard]] const motion::Body& body() const { return body_; }
-  [[nodiscard]] const collision::DetectOptions& detect() const { return detect_; }
+  [[nodiscard]] const collision::Query& query() const { return query_; }
+  [[nodiscard]] const collision::Obstacles& obstacles() const { return query_.obstacles; }
+  [[nodiscard]] const motion::Body& body() const { return query_.body; }
+  [[nodiscard]] const collision::DetectOptions& detect() const { return query_.options; }
   [[nodiscard]] const OrientationPolicy& policy() const { return policy_; }
   /// Whether corrections may change orientations.
   [[nodiscard]] bool may_turn() const { return may_turn_in(policy_); }
@@ -103,9 +103,7 @@ class FreeSpace {
                                            const motion::Pose& interpolated) const;
 
  private:
-  collision::Obstacles obstacles_;
-  const motion::Body& body_;
-  const collision::DetectOptions& detect_;
+  const collision::Query query_;
   OrientationPolicy policy_;
   collision::Probe probe_;
   geometry::Vec3 center_C_;

@@ -45,8 +45,8 @@ motion::Pose allowed_pose(const OrientationPolicy& policy, const motion::Pose& w
                           const motion::Pose& interpolated, const geometry::Vec3& pivot_C);
 
 /// Returns about the first time range in which `now` violates the policy or cannot be shown to meet
-/// it. Nothing if it meets the policy at every time in [t_begin_s, t_end_s], proved by the motion
-/// bounds of both paths, rounding apart. Requires both paths to cover that range.
+/// it. Returns nothing if it meets the policy at every time in [t_begin_s, t_end_s], proved by the
+/// motion bounds of both paths, rounding apart. Requires both paths to cover that range.
 std::optional<collision::CollisionInterval> first_breach(const OrientationPolicy& policy,
                                                          const motion::CubicPath& now,
                                                          const motion::CubicPath& interpolated,

@@ -14,8 +14,8 @@ namespace camway::correction {
 /// A cell of a cubic lattice. [Range: the absolute value of each coordinate is below
 /// `kFarthestCell`]
 using Cell = std::array<std::int32_t, 3>;
-/// A cell packed into one number, never 0. The difference of two keys, added to the key of a cell,
-/// gives the key of the cell displaced likewise.
+/// A cell packed into one number, never 0. The difference of the keys of two cells, added to the
+/// key of a third one, gives the key of the cell that is displaced from it by the same step.
 using CellKey = std::uint64_t;
 
 inline constexpr std::int32_t kFarthestCell = (1 << 20) - 1;

@@ -42,9 +42,10 @@ struct CellResult {
 /// (`closed_corner.h`) is not divided: its free part leads nowhere that its neighbours do not, so a
 /// bare wall costs the length of its edges and not its area.
 ///
-/// The way is the cheapest one through the free cells known then, where room lowers the cost. It
-/// connects the centres of adjacent free cells, so it is free as far as computed distances are
-/// right. Deterministic, unless the deadline strikes. Requires the ball to be free at both ends.
+/// The way is the cheapest one through the free cells that are known at the end of the search; room
+/// lowers the cost. It connects the centres of adjacent free cells, so it is free as far as
+/// computed distances are right. Deterministic, unless the deadline strikes. Requires the ball to
+/// be free at both ends.
 CellResult cell_way(const FreeSpace& space, const geometry::Vec3& from_W,
                     const geometry::Vec3& to_W, const CellOptions& options,
                     const base::Deadline& deadline);

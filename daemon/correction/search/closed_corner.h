@@ -33,8 +33,8 @@ struct ClosedCorner {
   }
 };
 
-/// Returns the corner if a ball of radius `keep_m` whose centre moves from `from_W` in `box` meets
-/// nothing else there. Then all that it can reach in the box is the convex part in front of the
+/// Returns the corner if a ball of radius `keep_m`, whose centre moves from `from_W` within `box`,
+/// meets nothing else. Then the ball can reach only the convex part of the box in front of the
 /// walls, and nothing behind them. Walls nearly parallel to each other make no corner, as the space
 /// between them may lead on.
 ///

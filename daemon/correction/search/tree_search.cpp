@@ -80,18 +80,19 @@ class TreeSearch {
         trees_{Tree(from), Tree(to)},
         random_(options.seed) {}
 
-  Guide run(const base::Deadline& deadline) {
+  TreeResult run(const base::Deadline& deadline) {
     std::size_t side = 0;
-    if (grow(side, to_).reached) return {from_, to_};
-    for (int i = 0; i < options_.max_samples && !deadline.passed(); ++i, side = 1 - side) {
-      const Growth grown = grow(side, sample(i));
-      if (options_.effort != nullptr) ++options_.effort->tree_samples;
+    if (grow(side, to_).reached) return {{from_, to_}};
+    std::int32_t samples = 0;
+    for (; samples < options_.max_samples && !deadline.passed(); side = 1 - side) {
+      const Growth grown = grow(side, sample(samples));
+      ++samples;
       if (!grown.node) continue;
       const SignedPose met = trees_[side].pose(*grown.node);
       const Growth other = grow(1 - side, met);
-      if (other.reached) return path_through(side, *grown.node, *other.node);
+      if (other.reached) return {path_through(side, *grown.node, *other.node), samples};
     }
-    return {};
+    return {{}, samples};
   }
 
  private:
@@ -230,8 +231,8 @@ class TreeSearch {
 
 }  // namespace
 
-Guide tree_way(FreeSpace& space, const SignedPose& from, const SignedPose& to,
-               const TreeOptions& options, const base::Deadline& deadline) {
+TreeResult tree_way(FreeSpace& space, const SignedPose& from, const SignedPose& to,
+                    const TreeOptions& options, const base::Deadline& deadline) {
   return TreeSearch(space, from, to, options).run(deadline);
 }
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "daemon/correction/path/correction.h"
 #include "daemon/correction/path/guide.h"
 
 namespace camway::correction {
@@ -22,7 +21,12 @@ struct TreeOptions {
   /// way `about_W`; the path must meet the policy later.
   std::vector<motion::Pose> interpolated;
   std::uint64_t seed = 1;
-  Effort* effort = nullptr;  ///< counter of samples; may be null
+};
+
+struct TreeResult {
+  /// The poses from begin to end, both included; empty if none was found.
+  Guide guide;
+  std::int32_t samples = 0;  ///< number of random samples drawn
 };
 
 /// Finds a way for the body, turning included: two trees of straight motions grow from both ends
@@ -33,9 +37,8 @@ struct TreeOptions {
 ///   passages;
 /// - orientations carry a sign, so that the way arrives with the sign of `to`.
 ///
-/// Returns the poses from `from` to `to`, both included; empty if none was found. Deterministic for
-/// a seed, unless the deadline strikes.
-Guide tree_way(FreeSpace& space, const motion::SignedPose& from, const motion::SignedPose& to,
-               const TreeOptions& options, const base::Deadline& deadline);
+/// Deterministic for a seed, unless the deadline strikes.
+TreeResult tree_way(FreeSpace& space, const motion::SignedPose& from, const motion::SignedPose& to,
+                    const TreeOptions& options, const base::Deadline& deadline);
 
 }  // namespace camway::correction

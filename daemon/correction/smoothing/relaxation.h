@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "daemon/base/budget.h"
 #include "daemon/correction/path/candidate.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/correction/path/guide.h"
@@ -8,11 +9,9 @@
 
 namespace camway::correction {
 
-/// Objective and budget of a relaxation. A step of the budget costs about as much as a hundred
-/// distance queries.
+/// Goal of a relaxation.
 struct Improvement {
   Objective objective = Objective::kClosest;
-  int steps_left = 0;
   bool may_turn = true;  ///< if false, orientations stay as they are, whatever the request allows
   double spread = kSpread;  ///< parameter `spread` of `SmoothingForm`
   double worth = 0.1;  ///< least relative gain of the objective for which `polished` takes steps
@@ -22,10 +21,11 @@ struct Improvement {
 struct Relaxed {
   Offsets offsets;
   Candidate candidate;
+  int paths = 0;  ///< changed paths that the relaxation checked for collisions
 };
 
 /// Improves a free correction under an objective (`SmoothingForm`) and keeps it free. Spends steps
-/// of `improvement`.
+/// of `budget`; each costs about as much as a hundred distance queries.
 ///
 /// Sequential convex optimisation (Schulman et al. 2013, "Finding locally optimal, collision-free
 /// trajectories with sequential convex optimization"): each step goes to the minimum of the
@@ -36,13 +36,14 @@ struct Relaxed {
 /// The result is proved. Where the path collides between the samples, a sample is added there and
 /// the change is reverted as far as needed. Returns `free` where no proof succeeds or the objective
 /// became worse.
-Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, Improvement& improvement,
-                FreeSpace& space, const base::Deadline& deadline);
+Relaxed relaxed(const Problem& problem, Relaxed free, Ends ends, const Improvement& improvement,
+                base::Budget& budget, FreeSpace& space, const base::Deadline& deadline);
 
 /// Improves a path that is free already, between the two keyframes of the problem's interval and a
 /// little beyond, by a row of bumps on `knots` steps. Returns nothing if nothing better was found.
-/// Spends steps of `improvement`. [Limit: knots >= 4]
-std::optional<Candidate> polished(const Problem& problem, int knots, Improvement& improvement,
-                                  FreeSpace& space, const base::Deadline& deadline);
+/// Spends steps of `budget`. [Limit: knots >= 4]
+std::optional<Candidate> polished(const Problem& problem, int knots, const Improvement& improvement,
+                                  base::Budget& budget, FreeSpace& space,
+                                  const base::Deadline& deadline);
 
 }  // namespace camway::correction

@@ -25,8 +25,9 @@ struct BumpRow {
   }
 };
 
-/// Peak of a bump with coefficient 1 on equidistant knots, and its value one knot further.
+/// Peak of a bump with coefficient 1 on equidistant knots.
 inline constexpr double kBumpPeak = 2.0 / 3.0;
+/// Value of that bump one knot from its peak.
 inline constexpr double kBumpShoulder = 1.0 / 6.0;
 
 /// Value of a bump with coefficient 1 on equidistant knots, at a distance of `knots` steps from its

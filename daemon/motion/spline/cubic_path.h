@@ -25,9 +25,8 @@ struct CubicPoint {
 };
 
 /// The representation of a path that corrections work on: the C² cubic spline of positions and
-/// images that interpolation made, from which the segments of a `Path` follow. Adding a C² bump to
-/// it keeps it C², whatever the bump; that would not hold for the segments' own sextics. A value
-/// type.
+/// images that interpolation made, from which the segments of a `Path` follow. Adding any C² bump
+/// to the spline keeps it C²; that would not hold for the sextics of the segments. A value type.
 struct CubicPath {
   geometry::Vec4 reference = geometry::Vec4::UnitX();  ///< r in q = r·x²/|x|²
   std::vector<CubicPiece> pieces;                      ///< in order of time, without gaps

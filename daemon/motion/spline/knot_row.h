@@ -28,8 +28,9 @@ struct KnotPlaces {
   std::vector<double> taken_s;  ///< times of existing knots, increasing
   double same_s = 0.0;          ///< a new knot nearer than this to an existing one takes its place
 
-  /// Returns the time of a knot wanted at `time_s`, in a row with that spacing. A knot moves to an
-  /// existing one by at most an eighth of the spacing, so knots stay in order.
+  /// Returns the time to use for a knot that is wanted at `time_s`, in a row with the spacing
+  /// `spacing_s`. A knot moves to an existing one by at most an eighth of the spacing, so knots
+  /// stay in order.
   [[nodiscard]] double place_s(double time_s, double spacing_s) const;
 };
 
@@ -54,13 +55,14 @@ struct KnotRow {
   [[nodiscard]] double knot_s(int index) const;
   /// The mean step between `begin_s` and `end_s`.
   [[nodiscard]] double spacing_s() const { return (end_s - begin_s) / count; }
-  /// Whether times are fine enough for the row: at least `kLeastTimesAStep` of them to a step.
+  /// Whether the sender's times are fine enough for the row: at least `kLeastTimesAStep` of them in
+  /// a step.
   [[nodiscard]] bool fits() const;
 
-  /// Value at a time of the cubic B-spline on knots `bump - 2` to `bump + 2`, of the basis whose
-  /// sum is 1.
+  /// Returns the value, at `time_s`, of the cubic B-spline on the knots `bump - 2` to `bump + 2`.
+  /// The sum of all such B-splines is 1.
   [[nodiscard]] double bump_value(int bump, double time_s) const;
-  /// Its value at a knot.
+  /// Returns `bump_value` at a knot.
   [[nodiscard]] double bump_at_knot(int bump, int knot) const;
 };
 

@@ -47,9 +47,9 @@ geometry::Vec4 image_of(const geometry::Vec4& reference, const geometry::Vec4& o
 /// - The map back is quaternion squaring. The paper's four polynomials are the same map up to the
 ///   choice of axes.
 /// - x_i has unit length (any multiple of it maps to the same q_i), so weights are near 1.
-/// - Neighbours more than 60° apart on S³, or whose x are, get knots half way along their arc and
-///   half way in time (at the nearest time that is exact as a sender's time), repeatedly. The
-///   authors' programs refuse such data.
+/// - Two neighbours that are more than 60° apart on S³, or whose x are, get a knot half way along
+///   their arc and half way in time (at the nearest time that is exact as a sender's time). This is
+///   repeated. The authors' programs refuse such data.
 /// - Keyframes on one great circle (turns about one axis) have their x on the plane of exp(n·θ/2),
 ///   for any number of turns: the axis is kept exactly, a level camera stays level, and no point of
 ///   that circle is singular.

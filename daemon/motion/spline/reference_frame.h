@@ -22,9 +22,9 @@ namespace camway::motion {
 ///   optimum: the tests hold it to within 1.5° of the best of 20,000 random directions.
 ///
 /// Deviation: Johnstone's programs (1999) draw random poses until one is 30° from all data, without
-/// a limit. Independent of a common sign and of reversal, up to rounding. O(n): 0.2 s for 10,000
-/// random orientations, microseconds in the first case. Requires at least one orientation, unit
-/// length, and neighbours' dot products >= 0.
+/// a limit. The result does not depend on a common sign or on reversal, up to rounding. O(n): 0.2 s
+/// for 10,000 random orientations, microseconds in the first case. Requires at least one
+/// orientation, unit length, and neighbours' dot products >= 0.
 geometry::Vec4 reference_frame(std::span<const geometry::Vec4> orientations);
 
 /// Least dot product of `r` with the polygon of geodesic arcs: the cosine of the largest angle from

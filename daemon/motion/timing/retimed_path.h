@@ -6,16 +6,16 @@
 
 namespace camway::motion {
 
-/// `path` with the new times of `law`. A time law that is not linear between joints turns its
-/// cubics into other curves, so the result is the C² cubic spline through its points at the law's
-/// knots, with the path's own velocities at the two ends. It meets the path at the knots, with
-/// positions equal bit for bit at joints of the path. Between the knots it deviates, less with
-/// closer knots, so the path must be proved free anew. Requires the law to cover the time span of
-/// the path.
+/// Returns `path` with the new times of `law`. A time law that is not linear between joints turns
+/// the cubics of the path into other curves. So the result is the C² cubic spline through the
+/// points of the path at the law's knots, with the path's velocities at its two ends. The result
+/// meets the path at the knots, with positions equal bit for bit at joints of the path. Between the
+/// knots it deviates, less with closer knots, so the path must be proved free anew. Requires the
+/// law to cover the time span of the path.
 CubicPath retimed(const CubicPath& path, const TimeLaw& law);
 
-/// `path` at the times of a law that stretches all times alike: the same control points, bit for
-/// bit. It is as smooth as `stretches_alike` says.
+/// Returns `path` at the times of a law that stretches all times alike. The control points are the
+/// same, bit for bit. The result is smooth if `stretches_alike` is true.
 CubicPath stretched(const CubicPath& path, const TimeLaw& law);
 
 /// Whether the law stretches each piece of `path` by the same factor, up to `kSameRate`.

@@ -28,8 +28,8 @@ class TimeLaw {
   /// parameterization based on reachability analysis"). With x the squared rate, dx/dt = 2u, and
   /// the path P(t), which turns at the rate ω(t), the limits are
   ///     |P'|² x <= v²,  ω² x <= w²,  |P'' x + P' u| <= a,  x <= 1,
-  /// convex in (u, x). A pass backwards finds the largest x from which the end can be reached at
-  /// each stage, a pass forwards takes the largest that it can. Deviations from the paper:
+  /// which are convex in (u, x). A backward pass finds, at each stage, the largest x from which the
+  /// end can be reached. A forward pass takes the largest x that it can. Deviations from the paper:
   /// - x is not piecewise linear between stages, where u would jump: the stages' x are the control
   ///   values of a quadratic B-spline, at their Greville abscissae. By de Boor's recursion each
   ///   (u, x) of the spline is a convex combination of those at the ends of the two stages that act
@@ -39,8 +39,8 @@ class TimeLaw {
   ///   admissible u are an interval, in closed form; the x that have one are an interval too, whose
   ///   end is found by bisection.
   /// - x is kept above the largest constant that meets all limits. That constant is admissible at
-  ///   each stage, so there is a solution whatever the path, and its duration is not longer than
-  ///   that of stretching all times alike, knots being what is compared.
+  ///   each stage, so there is a solution for every path. Its duration is not longer than that of
+  ///   stretching all times alike so that the same knots meet the limits.
   ///
   /// Knots are at the ends of segments, and at most `step_s` apart where the rate is below 1.
   /// O(knots). Requires `path` not to be empty, `step_s > 0` and limits above 0.
@@ -48,9 +48,9 @@ class TimeLaw {
 
   /// Returns the law with new times at knots that are exact as sender's times, with `origin`. The
   /// shifts of the times at `kept_s` are spread over the knots between them. There the given time
-  /// shifts with the new one, so the path by the law is as smooth as before. Nothing if times are
-  /// not fine enough for the knots. Requires those of `kept_s` within the law's span to be knots
-  /// and to increase.
+  /// shifts with the new one, so the path by the law is as smooth as before. Returns nothing if
+  /// times are not fine enough for the knots. Requires those of `kept_s` within the law's span to
+  /// be knots and to increase.
   [[nodiscard]] std::optional<TimeLaw> sendable(const TimeOrigin& origin,
                                                 std::span<const double> kept_s) const;
 

@@ -20,9 +20,10 @@ struct PlacedField {
   geometry::Box bounds_W;  ///< bounds of its triangles in the world, not empty
 };
 
-/// A lower bound of the clearance of any point of a scene without a query of its index: the least
-/// over the objects of the better of two bounds, by the object's distance field in its own frame
-/// and by its box. No field is computed again when an object moves. Immutable. Thread-safe.
+/// A lower bound of the clearance of any point of a scene, without a query of its index. Each
+/// object has two bounds: one by its distance field, in its own frame, and one by its box. The
+/// result is the least, over all objects, of the larger of the two. No field is computed again when
+/// an object moves. Immutable. Thread-safe.
 class ClearanceField {
  public:
   /// With more objects than this, planning asks the index directly. A look-up takes about 5 ns per

@@ -105,7 +105,7 @@ double settled_share(const CellGrid& grid, const std::vector<std::uint8_t>& code
   const auto slices = static_cast<std::size_t>(grid.size[2]);
   const std::size_t in_slice = codes.size() / slices;
   std::vector<std::size_t> settled(slices);
-  for_each_chunk(chunk_threads(threads), slices, [&](unsigned, std::size_t z) {
+  base::for_each_chunk(base::chunk_threads(threads), slices, [&](unsigned, std::size_t z) {
     const auto begin = codes.begin() + static_cast<std::ptrdiff_t>(z * in_slice);
     settled[z] = static_cast<std::size_t>(
         std::count_if(begin, begin + static_cast<std::ptrdiff_t>(in_slice),

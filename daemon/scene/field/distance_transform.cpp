@@ -196,12 +196,13 @@ class Transform {
 
 void distance_transform(const std::array<std::int32_t, 3>& size, unsigned threads,
                         const CellDistanceCodes& codes, std::span<std::uint8_t> cells) {
-  const unsigned workers = chunk_threads(threads);
+  const unsigned workers = base::chunk_threads(threads);
   Transform transform(size, workers, cells);
-  for_each_chunk(workers, static_cast<std::size_t>(size[2]),
-                 [&](unsigned worker, std::size_t z) { transform.transform_slice(worker, z); });
-  for_each_chunk(workers, static_cast<std::size_t>(size[1]),
-                 [&](unsigned, std::size_t y) { transform.transform_upright(y, codes); });
+  base::for_each_chunk(
+      workers, static_cast<std::size_t>(size[2]),
+      [&](unsigned worker, std::size_t z) { transform.transform_slice(worker, z); });
+  base::for_each_chunk(workers, static_cast<std::size_t>(size[1]),
+                       [&](unsigned, std::size_t y) { transform.transform_upright(y, codes); });
 }
 
 }  // namespace camway::scene

@@ -134,7 +134,7 @@ class Marker {
 SurfaceExtent surface_extent(const Mesh& mesh, unsigned threads) {
   // One sum per chunk, added up in order, so that the rounding does not depend on the threads.
   std::vector<SurfaceExtent> sums(chunk_count(mesh));
-  for_each_chunk(chunk_threads(threads), sums.size(), [&](unsigned, std::size_t chunk) {
+  base::for_each_chunk(base::chunk_threads(threads), sums.size(), [&](unsigned, std::size_t chunk) {
     SurfaceExtent sum;
     visit_chunk(mesh, chunk, [&](const geometry::Triangle& t) {
       sum.area_m2 += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
@@ -169,9 +169,10 @@ void mark_touched_cells(const Mesh& mesh, const CellGrid& grid, unsigned threads
                         std::span<std::uint8_t> marks) {
   assert(marks.size() == grid.cells());
   const Marker marker(grid, marks);
-  for_each_chunk(chunk_threads(threads), chunk_count(mesh), [&](unsigned, std::size_t chunk) {
-    visit_chunk(mesh, chunk, [&](const geometry::Triangle& t) { marker.mark(t); });
-  });
+  base::for_each_chunk(
+      base::chunk_threads(threads), chunk_count(mesh), [&](unsigned, std::size_t chunk) {
+        visit_chunk(mesh, chunk, [&](const geometry::Triangle& t) { marker.mark(t); });
+      });
 }
 
 }  // namespace camway::scene

@@ -50,7 +50,7 @@ std::string describe(const ImportProcessResult& process, const ImportOptions& op
       return "reading it takes more than the limit of " + std::string(seconds) + " s";
     }
     case End::kStopped:
-      return "reading it was called off";
+      return "reading it was cancelled";
     case End::kCrashed:
       return "crashed its reader (" + process.detail + ")";
     case End::kNotStarted:

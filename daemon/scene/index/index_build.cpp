@@ -209,19 +209,6 @@ class ChunkBuilder {
   std::exception_ptr failure_;  ///< guarded by mutex_
 };
 
-std::unique_ptr<NodeSplitter> make_splitter(const Mesh& mesh, const Box& bounds,
-                                            const IndexOptions& options) {
-  switch (options.decomposition) {
-    case Decomposition::kKdTree:
-      return make_kd_tree_splitter(mesh, bounds, options);
-    case Decomposition::kBvh:
-      return make_bvh_splitter(options);
-    case Decomposition::kOctree:
-      break;
-  }
-  return make_octree_splitter(mesh, bounds, options);
-}
-
 unsigned threads_for(const IndexOptions& options) {
   const unsigned wanted =
       options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
@@ -244,6 +231,11 @@ std::vector<IndexEntry> entries_of(const Mesh& mesh, unsigned threads) {
     }
   });
   return entries;
+}
+
+IndexPart all_of(const Mesh& mesh, const IndexOptions& options) {
+  assert(options.threshold >= 1 && options.max_depth <= kMaxIndexDepth);
+  return all_of(entries_of(mesh, threads_for(options)), options);
 }
 
 }  // namespace
@@ -319,39 +311,36 @@ class IndexAssembler {
   std::uint32_t depth_ = 0;
 };
 
-namespace {
-
-IndexTree assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads, IndexTree tree) {
+IndexTree IndexTree::assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads) {
+  IndexTree tree;
+  if (all.entries.empty()) return tree;
+  tree.bounds_ = all.box;
   const std::unique_ptr<Chunk> root = ChunkBuilder(splitter).build(std::move(all), threads);
   IndexAssembler(tree, *root).fill(threads);
   return tree;
 }
 
-}  // namespace
-
 IndexTree IndexTree::of_triangles(const Mesh& mesh, const IndexOptions& options) {
-  assert(options.threshold >= 1 && options.max_depth <= kMaxIndexDepth);
-  IndexTree tree;
-  if (mesh.triangles.empty()) return tree;
-  const unsigned threads = threads_for(options);
-  IndexPart all = all_of(entries_of(mesh, threads), options);
-  tree.bounds_ = all.box;
-  const std::unique_ptr<NodeSplitter> splitter = make_splitter(mesh, all.box, options);
-  return assembled(*splitter, std::move(all), threads, std::move(tree));
+  if (mesh.triangles.empty()) return {};
+  IndexPart all = all_of(mesh, options);
+  const auto splitter = make_octree_splitter(mesh, all.box, options);
+  return assembled(*splitter, std::move(all), threads_for(options));
+}
+
+IndexTree IndexTree::of_triangles(const Mesh& mesh, const NodeSplitter& splitter,
+                                  const IndexOptions& options) {
+  return assembled(splitter, all_of(mesh, options), threads_for(options));
 }
 
 IndexTree IndexTree::of_boxes(std::span<const Box> boxes) {
-  IndexTree tree;
-  if (boxes.empty()) return tree;
   std::vector<IndexEntry> entries;
   entries.reserve(boxes.size());
   for (const Box& box : boxes) {
     entries.emplace_back(box, static_cast<std::uint32_t>(entries.size()));
   }
-  const IndexOptions options{.decomposition = Decomposition::kBvh, .threshold = 1, .threads = 1};
-  IndexPart all = all_of(std::move(entries), options);
-  tree.bounds_ = all.box;
-  return assembled(*make_bvh_splitter(options), std::move(all), 1, std::move(tree));
+  const IndexOptions options{.threshold = 1, .threads = 1};
+  const auto splitter = make_box_group_splitter(options);
+  return assembled(*splitter, all_of(std::move(entries), options), options.threads);
 }
 
 std::shared_ptr<const IndexedMesh> IndexedMesh::build(std::shared_ptr<const Mesh> mesh,

@@ -13,16 +13,11 @@
 
 namespace camway::scene {
 
-/// How triangles are distributed to the nodes of the tree. Queries return the same with all.
-enum class Decomposition : std::uint8_t {
-  kOctree,  ///< divides space into octants; a triangle goes to every octant that it lies in
-  kKdTree,  ///< divides space at the least surface area cost; a triangle goes to each side it is on
-  kBvh,     ///< divides triangles into groups of least surface area cost; their boxes may overlap
-};
+class NodeSplitter;
+struct IndexPart;
 
 /// Options of the build: when a node splits, the limits of the tree for any input, and the threads.
 struct IndexOptions {
-  Decomposition decomposition = Decomposition::kOctree;
   std::uint32_t threshold = 16;  ///< most triangles of a leaf that is not split [Limit: value >= 1]
   std::uint32_t max_depth = 16;  ///< most levels below the root [Limit: value <= kMaxIndexDepth]
   /// Most triangle entries in leaves per triangle of the mesh. A node whose split would exceed its
@@ -36,20 +31,26 @@ struct IndexOptions {
 inline constexpr std::uint32_t kMaxIndexDepth = 20;
 inline constexpr unsigned kMaxIndexThreads = 8;
 
-/// A spatial decomposition of items that have boxes (Ptacek & Johnstone 2006, section 3, for the
-/// octree). One structure serves all decompositions: a tree of wide nodes in flat arrays, with
-/// boxes of a byte per side. Each node keeps the tight box of its contents, so that queries skip
-/// empty space. Depth and duplication are bounded: items that no split separates (a fan of
-/// triangles at one vertex) stay in one leaf. `IndexWalk` traverses the tree.
+/// A spatial decomposition of items that have boxes: an octree over triangles (Ptacek & Johnstone
+/// 2006, section 3), or groups of boxes over meshes. One structure serves both, and any other tree
+/// that a node splitter makes: wide nodes in flat arrays, with boxes of a byte per side. Each node
+/// keeps the tight box of its contents, so that queries skip empty space. Depth and duplication are
+/// bounded: items that no split separates (a fan of triangles at one vertex) stay in one leaf.
+/// `IndexWalk` traverses the tree.
 /// Immutable. Thread-safe.
 class IndexTree {
  public:
   /// A tree without items.
   IndexTree() = default;
 
-  /// The tree over the triangles of `mesh`. The result depends on the mesh and the options only,
+  /// The octree over the triangles of `mesh`. The result depends on the mesh and the options only,
   /// not on the number of threads. Requires coordinates below geometry::kLargestCoordinate_m.
   static IndexTree of_triangles(const Mesh& mesh, const IndexOptions& options);
+
+  /// The tree that `splitter` makes of the triangles of `mesh`, to compare the octree with others.
+  /// Requires a splitter for this mesh and these options; otherwise as above.
+  static IndexTree of_triangles(const Mesh& mesh, const NodeSplitter& splitter,
+                                const IndexOptions& options);
 
   /// The tree over `boxes`, each in one leaf, usually of its own. Requires that none is empty.
   static IndexTree of_boxes(std::span<const geometry::Box> boxes);
@@ -78,6 +79,9 @@ class IndexTree {
   friend class IndexAssembler;
   friend class IndexWalk;
 
+  /// The tree of a part with all entries, which `splitter` divides.
+  static IndexTree assembled(const NodeSplitter& splitter, IndexPart all, unsigned threads);
+
   geometry::Box bounds_;
   std::vector<IndexNode> nodes_;           ///< nodes, the root first
   std::vector<std::uint32_t> leaf_begin_;  ///< leaf i holds references_[leaf_begin_[i] .. [i + 1])
@@ -88,7 +92,7 @@ class IndexTree {
 
 /// A mesh and the tree over its triangles.
 struct IndexedMesh {
-  /// Builds the tree of `mesh`, which it shares. Requires a mesh that is not null; otherwise as
+  /// Builds the octree of `mesh`, which it shares. Requires a mesh that is not null; otherwise as
   /// `IndexTree::of_triangles`.
   static std::shared_ptr<const IndexedMesh> build(std::shared_ptr<const Mesh> mesh,
                                                   const IndexOptions& options = {});

@@ -12,7 +12,7 @@
 #include "daemon/scene/index/index_tree.h"
 #include "daemon/scene/mesh/mesh.h"
 
-/// How the index is built: one builder for all decompositions, and a node splitter for each.
+/// How the trees are built: one builder for all, and a node splitter for each kind of tree.
 namespace camway::scene {
 
 /// A triangle in a part of the scene, with a box that holds the piece of it that lies there. Plain
@@ -83,7 +83,7 @@ struct IndexPart {
   IndexPart(IndexPart&&) noexcept = default;
   IndexPart& operator=(IndexPart&&) noexcept = default;
 
-  geometry::Box cell;               ///< the octant that it divides further; used by the octree only
+  geometry::Box cell;               ///< the octant that it divides further; unused without octants
   geometry::Box box;                ///< holds the boxes of the entries
   std::vector<IndexEntry> entries;  ///< in increasing order of triangles
   double budget = 0.0;              ///< most entries that the leaves below may have
@@ -103,12 +103,14 @@ class NodeSplitter {
   [[nodiscard]] virtual std::vector<IndexPart> split(IndexPart& part) const = 0;
 };
 
-/// Requires that `mesh` outlives the splitter and that `bounds` holds all of its triangles.
+/// Splits space into octants; a triangle goes to every octant that it lies in. Requires that `mesh`
+/// outlives the splitter and that `bounds` holds all of its triangles.
 std::unique_ptr<NodeSplitter> make_octree_splitter(const Mesh& mesh, const geometry::Box& bounds,
                                                    const IndexOptions& options);
-std::unique_ptr<NodeSplitter> make_kd_tree_splitter(const Mesh& mesh, const geometry::Box& bounds,
-                                                    const IndexOptions& options);
-std::unique_ptr<NodeSplitter> make_bvh_splitter(const IndexOptions& options);
+
+/// Splits boxes into groups of least surface area cost, without copies; the boxes of the groups may
+/// overlap. For the tree over the meshes of a scene, which move as wholes: their boxes overlap.
+std::unique_ptr<NodeSplitter> make_box_group_splitter(const IndexOptions& options);
 
 /// Cuts entries by a plane `x[axis] = at`.
 class TriangleCutter {

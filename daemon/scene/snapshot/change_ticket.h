@@ -7,9 +7,11 @@
 
 namespace camway::scene {
 
-/// The state of a scene change, from its begin to its end: pending, committed or cancelled. The
-/// thread that makes the change commits it; any thread may cancel it before. The first of the two
-/// wins, so a change that was reported as cancelled never takes effect. Copies share the state.
+/// Decides between commit and cancel of a scene change. A change is *begun*, then *committed* or
+/// *cancelled*. The thread that makes the change commits it; any thread may cancel it before. The
+/// first of the two wins, so a change that was reported as cancelled never takes effect. Copies
+/// share the state.
+///
 /// Thread-safe.
 class ChangeTicket {
  public:
@@ -25,20 +27,20 @@ class ChangeTicket {
 
   /// Commits the change. Returns false if it was cancelled: then it must change nothing.
   [[nodiscard]] bool try_commit() const {
-    return leave(State::kInForce) || shared_->state.load() == State::kInForce;
+    return leave(State::kCommitted) || shared_->state.load() == State::kCommitted;
   }
 
   [[nodiscard]] bool is_cancelled() const { return shared_->state.load() == State::kCancelled; }
   [[nodiscard]] std::stop_token stop() const { return shared_->stop.get_token(); }
 
  private:
-  enum class State { kBegun, kInForce, kCancelled };
+  enum class State { kBegun, kCommitted, kCancelled };
   struct Shared {
     std::atomic<State> state = State::kBegun;
     std::stop_source stop;
   };
 
-  /// Leaves the pending state. Returns whether it was pending.
+  /// Leaves the state kBegun. Returns false if the change was in another state.
   [[nodiscard]] bool leave(State next) const {
     State begun = State::kBegun;
     return shared_->state.compare_exchange_strong(begun, next);

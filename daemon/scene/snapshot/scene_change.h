@@ -80,9 +80,9 @@ class SceneHistory {
   /// Requires that `changed`, with `changes`, made `made.revision` from the newest revision.
   void add(SceneChanges changes, KeptRevision made);
 
-  /// Approximate memory that is kept for earlier revisions only. What the source of an object
-  /// shares with its predecessor, as an occupancy map does after a scan, counts once; a source that
-  /// was removed and came back counts twice. Above 0 only if there is a change.
+  /// Approximate memory that is kept for earlier revisions only. Memory that the source of an
+  /// object shares with its predecessor, as an occupancy map does after a scan, counts once; a
+  /// source that was removed and came back counts twice. Above 0 only if there is a change.
   [[nodiscard]] std::uint64_t bytes() const;
   /// Requires that there is a change.
   void forget_oldest();

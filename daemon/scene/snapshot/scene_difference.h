@@ -8,16 +8,18 @@
 
 namespace camway::scene {
 
-/// The difference of two revisions of a scene. Every triangle of the later one is in `index`, or is
-/// in the earlier one in the same place. The same holds of solids.
+/// The difference of two revisions of a scene, an earlier and a later one. Every triangle of the
+/// later revision is in `index`, or is in the same place in the earlier revision. Every solid of
+/// the later revision is in `solids`, or is in the same place in the earlier revision.
 struct SceneDifference {
-  /// Triangles that the later revision has and the earlier one has not, or has elsewhere.
+  /// Triangles of the later revision that the earlier revision does not have in the same place.
   SceneIndex index;
-  std::shared_ptr<const SceneSolids> solids;  ///< null if none of these has an inside
+  std::shared_ptr<const SceneSolids> solids;  ///< null if nothing that was added has an inside
   /// Boxes, of objects or of changed regions of an occupancy map, that hold all triangles of
   /// `index` and all space in `solids` that was not solid before.
   std::vector<geometry::Box> added;
-  /// Boxes of what the earlier revision has and the later one has not, or has elsewhere.
+  /// Boxes of everything in the earlier revision that the later revision does not have in the same
+  /// place.
   std::vector<geometry::Box> removed;
 
   bool other_bounds = false;  ///< whether the bounds that bodies must not leave differ
@@ -25,9 +27,10 @@ struct SceneDifference {
   [[nodiscard]] bool empty() const { return added.empty() && removed.empty() && !other_bounds; }
 };
 
-/// Computes the difference. Objects are equal, and so are bricks of an occupancy map that was not
-/// moved, if the two snapshots share them, as those made by `changed` do; rebuilt ones count as
-/// different. The cost depends on the number of objects, and of bricks in those that differ.
+/// Computes the difference. Two objects count as equal if the two snapshots share them, as
+/// snapshots made by `changed` do. The same holds for bricks of an occupancy map that was not
+/// moved. Objects and bricks that were rebuilt count as different. The cost depends on the number
+/// of objects, and on the number of bricks of the objects that differ.
 SceneDifference difference(const Snapshot& before, const Snapshot& after);
 
 }  // namespace camway::scene

@@ -84,10 +84,11 @@ std::vector<std::shared_ptr<const PlacedPart>> placed_parts(const ObjectSource& 
   }
   IndexOptions of_one = options;
   of_one.threads = 1;
-  for_each_chunk(chunk_threads(options.threads), missing.size(), [&](unsigned, std::size_t i) {
-    if (stop.stop_requested()) return;
-    parts[missing[i]] = placed(source.parts_O[missing[i]], placement, of_one);
-  });
+  base::for_each_chunk(base::chunk_threads(options.threads), missing.size(),
+                       [&](unsigned, std::size_t i) {
+                         if (stop.stop_requested()) return;
+                         parts[missing[i]] = placed(source.parts_O[missing[i]], placement, of_one);
+                       });
   return parts;
 }
 
@@ -106,20 +107,19 @@ bool has_own_voxels(const SceneObject& object, const ObjectOptions& options) {
          object.source->map_O->resolution_m() == *options.occupancy_resolution_m;
 }
 
-OccupancyMap::BuildResult mirror_of(const SceneObject& object, const ObjectOptions& options,
-                                    const SceneObject* before, const std::stop_token& stop) {
+MirrorMap::BuildResult mirror_of(const SceneObject& object, const ObjectOptions& options,
+                                 const SceneObject* before, const std::stop_token& stop) {
   if (has_own_voxels(object, options)) {
     const bool is_like_before = before != nullptr && has_own_voxels(*before, options);
-    return OccupancyMap::of_map(*object.source->map_O, object.source->bounds_O,
-                                options.mirror_voxels,
-                                is_like_before ? before->occupancy.get() : nullptr,
-                                is_like_before ? before->source->map_O.get() : nullptr, stop);
+    return MirrorMap::of_map(*object.source->map_O, object.source->bounds_O, options.mirror_voxels,
+                             is_like_before ? before->occupancy.get() : nullptr,
+                             is_like_before ? before->source->map_O.get() : nullptr, stop);
   }
   std::vector<const Mesh*> meshes;
   meshes.reserve(object.parts.size());
   for (const auto& part : object.parts) meshes.push_back(part->indexed->mesh.get());
-  return OccupancyMap::build(meshes, *options.occupancy_resolution_m, object.solid(),
-                             options.mirror_voxels, stop);
+  return MirrorMap::build(meshes, *options.occupancy_resolution_m, object.solid(),
+                          options.mirror_voxels, stop);
 }
 
 bool is_too_far(const geometry::Box& bounds) {
@@ -237,7 +237,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   assert(source);
   auto object = std::make_shared<SceneObject>();
   object->parts = placed_parts(*source, placement, options.index, before, stop);
-  if (stop.stop_requested()) return {nullptr, name + ": making it was called off"};
+  if (stop.stop_requested()) return {nullptr, name + ": making it was cancelled"};
   for (const auto& part : object->parts) {
     object->bounds_W.extend(part->indexed->tree.bounds());
     object->triangles += part->indexed->mesh->triangles.size();
@@ -250,7 +250,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   object->placement = placement;
   object->digest = digest_of(*object);
   if (options.occupancy_resolution_m) {
-    OccupancyMap::BuildResult mirror = mirror_of(*object, options, before, stop);
+    MirrorMap::BuildResult mirror = mirror_of(*object, options, before, stop);
     if (!mirror.map) return {nullptr, name + ": " + mirror.error, mirror.limit};
     object->occupancy = std::move(mirror.map);
   }

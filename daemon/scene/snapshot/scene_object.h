@@ -16,7 +16,7 @@
 #include "daemon/scene/mesh/mesh.h"
 #include "daemon/scene/mesh/placement.h"
 #include "daemon/scene/mesh/resource_limit.h"
-#include "daemon/scene/occupancy/occupancy_map.h"
+#include "daemon/scene/mirror/mirror_map.h"
 #include "daemon/scene/voxels/voxel_map.h"
 
 namespace camway::scene {
@@ -25,8 +25,8 @@ namespace camway::scene {
 struct ObjectOptions {
   IndexOptions index;
   std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: no field
-  std::optional<double> occupancy_resolution_m;                  ///< nothing: no occupancy mirror
-  std::uint64_t mirror_voxels = OccupancyMap::kUsualMostVoxels;  ///< limit for each object
+  std::optional<double> occupancy_resolution_m;               ///< nothing: no occupancy mirror
+  std::uint64_t mirror_voxels = MirrorMap::kUsualMostVoxels;  ///< limit for each object
   /// Bounds of the whole scene, which no body may leave, whatever a request says. Objects and
   /// digests do not depend on them.
   geometry::Bounds bounds = {};
@@ -52,7 +52,8 @@ struct ObjectSource {
 
   /// Memory that the source refers to, even if other sources refer to it too.
   [[nodiscard]] std::uint64_t memory_bytes() const;
-  /// The part of it that `other` does not refer to: for a map after a scan, what the scan changed.
+  /// Memory that the source refers to and `other` does not. For a map after a scan, that is the
+  /// memory of the parts that the scan changed.
   [[nodiscard]] std::uint64_t memory_bytes_beside(const ObjectSource& other) const;
 };
 
@@ -60,16 +61,18 @@ struct ObjectSource {
 std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, ImportReport report,
                                                 const ObjectOptions& options);
 
-/// The same for an occupancy map; `report` counts its faces. It has no distance field: a field
-/// depends on the whole map, so each scan would rebuild it, and measured on maps of buildings,
-/// planning is no more than a tenth faster with one. Requires that the map has a `faces`.
+/// Builds the content of an occupancy map; `report` counts its faces. The object has no distance
+/// field. A field depends on the whole map, so each scan would rebuild it; and planning in maps of
+/// buildings was measured to be no more than a tenth faster with a field. Requires that the map has
+/// a `faces`.
 std::shared_ptr<const ObjectSource> make_map_source(std::shared_ptr<const VoxelMap> map_O,
                                                     ImportReport report,
                                                     const ObjectOptions& options);
 
-/// The report that an import of this mesh would have made.
+/// Returns the report that an import of this mesh would have made.
 ImportReport report_of(const Mesh& mesh, std::string format);
-/// The same for the faces of a map. Requires that the map has a `faces`.
+/// Returns the report that an import of the faces of this map would have made. Requires that the
+/// map has a `faces`.
 ImportReport report_of(const VoxelMap& map, std::string format);
 
 /// A mesh of an object, placed in the world. Immutable.
@@ -86,7 +89,7 @@ struct SceneObject {
   std::vector<std::shared_ptr<const PlacedPart>> parts;  ///< the source's parts, in their order
   geometry::Box bounds_W;                                ///< bounds of all parts
   std::size_t triangles = 0;
-  std::shared_ptr<const OccupancyMap> occupancy;  ///< null if no resolution was given
+  std::shared_ptr<const MirrorMap> occupancy;  ///< null if no resolution was given
   /// Digest of the triangles in the world: `mesh_digest` for an object of one part, a digest of the
   /// parts' digests in their order for an occupancy map.
   std::string digest;

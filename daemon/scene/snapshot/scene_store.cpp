@@ -6,12 +6,12 @@
 #include <chrono>
 #include <utility>
 
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 
 namespace camway::scene {
 namespace {
 
-StoreResult cancelled() { return {nullptr, StoreFault::kCancelled, "it was called off"}; }
+StoreResult cancelled() { return {nullptr, StoreFault::kCancelled, "it was cancelled"}; }
 
 StoreResult not_kept(std::string_view scene, std::uint64_t revision, const SceneHistory& history) {
   const std::vector<KeptRevision> kept = history.revisions();

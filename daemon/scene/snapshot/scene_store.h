@@ -48,8 +48,8 @@ struct StoreResult {
 /// Thread-safe. Changes of one scene are serialised; different scenes change in parallel. The
 /// global lock is held only to publish a finished snapshot, so readers never wait for a build.
 /// Limits across scenes are checked on publication, so no limit is ever exceeded, but unfinished
-/// changes do not count. A change that is cancelled before (`ChangeTicket`, the change ticket)
-/// changes nothing.
+/// changes do not count. A change that is cancelled before it is committed (`ChangeTicket`) changes
+/// nothing.
 class SceneStore {
  public:
   explicit SceneStore(const SceneStoreLimits& limits = {}) : limits_(limits) {}
@@ -139,8 +139,8 @@ class SceneStore {
   /// `ChangeLock` is held.
   [[nodiscard]] std::uint64_t next_revision(std::string_view scene) const;
 
-  /// The fault of putting `next` in the place of the scene of its name; without an error if there
-  /// is none. This and the next two functions require that mutex_ is held.
+  /// Returns the fault that `next` would have in the place of the scene of its name; without an
+  /// error if it would have none. This and the next two functions require that mutex_ is held.
   [[nodiscard]] StoreResult over_limit(const Snapshot& next, const Load& load) const;
   /// Replaces a scene's load in `total_`; the load of no scene is empty.
   void count(const Load& before, const Load& after);

@@ -35,7 +35,7 @@ ShapeMesh sphere_mesh(double radius_m, double chord_error_m);
 /// [Limit: as for the sphere; 0 < height_m <= kLargestShapeM]
 ShapeMesh cylinder_mesh(double radius_m, double height_m, double chord_error_m);
 
-/// The faces between the cubes of a grid that contain a point and those that do not. A point on a
+/// The faces between cubes of a grid that contain a point and cubes that contain none. A point on a
 /// face may count for either side. The cubes have the edge `cell_m`, and one has its lowest corner
 /// at the origin. Exact up to rounding, 2^-52 of a coordinate. [Limit: 0 < cell_m <=
 /// kLargestShapeM; points within kMaxCloudCells of the origin on each axis]

@@ -94,7 +94,7 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
   snapshot->report = report_of(objects);
   std::vector<WholeMesh::Part> meshes;
   std::vector<std::shared_ptr<const IndexedMesh>> indexed;
-  std::vector<std::shared_ptr<const OccupancyMap>> maps;
+  std::vector<std::shared_ptr<const MirrorMap>> maps;
   std::vector<PlacedVoxelMap> solids;
   for (const auto& object : objects) {
     assert(object->occupancy || !options.occupancy_resolution_m);

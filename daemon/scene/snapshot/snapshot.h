@@ -16,7 +16,7 @@
 #include "daemon/scene/index/scene_index.h"
 #include "daemon/scene/mesh/resource_limit.h"
 #include "daemon/scene/mesh/whole_mesh.h"
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "daemon/scene/snapshot/scene_object.h"
 
 namespace camway::scene {
@@ -35,7 +35,8 @@ struct Snapshot {
   std::string name;
   std::uint64_t revision = 1;
   /// Digest of all triangles, 32 hexadecimal digits; equal objects in equal order have equal
-  /// digests. The digest of a single object is that object's, that of several a digest of theirs.
+  /// digests. A scene with one object has the digest of that object; a scene with several objects
+  /// has a digest of their digests.
   std::string digest;
   SceneObjects objects;
   ObjectOptions options;  ///< options that objects are built with, and bounds of the scene
@@ -63,11 +64,12 @@ struct SnapshotResult {
 std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revision,
                                          SceneObjects objects, const ObjectOptions& options);
 
-/// A scene with one object, which has the name of the scene, made from `mesh`.
+/// Makes a scene with one object, which is `mesh` and has the name of the scene.
 SnapshotResult make_snapshot(std::string name, Mesh mesh, const SnapshotOptions& options = {});
 
-/// The same from a file. Fails within milliseconds after a stop is requested while the file is read
-/// or an occupancy mirror is built.
+/// Makes a scene with one object, which is read from `file` and has the name of the scene. Fails
+/// within milliseconds after a stop is requested while the file is read or an occupancy mirror is
+/// built.
 SnapshotResult load_snapshot(std::string name, const std::filesystem::path& file,
                              const SnapshotOptions& options = {}, const std::stop_token& stop = {});
 

@@ -67,8 +67,8 @@ class BlockKey {
 
 /// A map from block keys to blocks. It stores regions of 8 x 8 x 8 blocks, which copies share until
 /// one of them changes a block there (copy on write). So the cost of a copy depends on the number
-/// of regions, that of a change on the blocks of its region. A value type. Const calls, and
-/// copying, are thread-safe.
+/// of regions, and the cost of a change depends on the number of blocks in its region. A value
+/// type. Const calls, and copying, are thread-safe.
 template <class Block>
 class BlockMap {
  public:

@@ -196,7 +196,7 @@ std::optional<std::vector<MeshPart>> parts_of(const VoxelSet& set, double voxel_
                                               std::size_t max_triangles) {
   std::vector<MeshPart> parts(bricks.size());
   std::atomic<std::size_t> triangles{0};
-  for_each_chunk(chunk_threads(0), bricks.size(), [&](unsigned, std::size_t i) {
+  base::for_each_chunk(base::chunk_threads(0), bricks.size(), [&](unsigned, std::size_t i) {
     if (triangles.load(std::memory_order_relaxed) > max_triangles) return;
     parts[i] = MeshPart::of(bricks[i], mesh_of_brick(set, voxel_m, bricks[i]));
     triangles += parts[i].mesh->triangles.size();

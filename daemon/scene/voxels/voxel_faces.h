@@ -11,15 +11,16 @@
 
 namespace camway::scene {
 
-/// The mesh of the faces between voxels of `set`, of edge `voxel_m`, and all others. Each is two
-/// triangles turned outwards that share vertices with their neighbours: a closed surface up to the
-/// rounding of i * voxel_m. Returns nothing if it would have more than `max_triangles`.
+/// Returns the mesh of the faces between the voxels of `set`, of edge `voxel_m`, and all other
+/// voxels. Each face is two triangles that point outwards and share vertices with their neighbours.
+/// So the mesh is a closed surface, up to the rounding of i * voxel_m. Returns nothing if it would
+/// have more than `max_triangles`.
 std::optional<Mesh> faces_of(const VoxelSet& set, double voxel_m, std::size_t max_triangles);
 
-/// The same faces, with a mesh of its own for each brick of 16 x 16 x 16 voxels that has any.
-/// Bricks share no vertices, but have equal coordinates where they meet. So a change of the set
-/// changes few bricks, and the others are shared. The bricks and their order follow from the set.
-/// A value type. Const calls are thread-safe.
+/// The faces of a set of voxels, with a mesh of its own for each brick of 16 x 16 x 16 voxels that
+/// has a face. Bricks share no vertices, but have equal coordinates where they meet. So a change of
+/// the set changes few bricks, and the others are shared. The bricks and their order follow from
+/// the set. A value type. Const calls are thread-safe.
 class VoxelFaces {
  public:
   /// A brick has 2^kBrickLevels blocks along an edge. Measured: larger bricks answer queries no

@@ -75,9 +75,9 @@ class VoxelMap {
                               UnknownSpace unknown, const VoxelMapLimits& limits = {},
                               const SensorModel& sensor = {});
 
-  /// The map with `blocks` in place of its own: equal to a map built from the same voxels, but
-  /// sharing unchanged parts, at a cost that depends on the change. Fails as `build`. Requires that
-  /// `blocks` leave no voxel unknown that is known here.
+  /// Returns the map with `blocks` in place of its own. The result is equal to a map built from the
+  /// same voxels, but shares the unchanged parts with this one. The cost depends on the change.
+  /// Fails as `build` does. Requires that `blocks` leave no voxel unknown that is known here.
   [[nodiscard]] VoxelMapResult with(std::span<const ScannedBlock> blocks) const;
 
   [[nodiscard]] double resolution_m() const { return resolution_m_; }

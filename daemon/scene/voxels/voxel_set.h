@@ -12,9 +12,9 @@
 
 namespace camway::scene {
 
-/// A set of voxels, stored as bits in blocks of 8 x 8 x 8. A look-up is one in a hash table, which
-/// neighbours can share. Copies share the regions that neither of them changes (`BlockMap`).
-/// A value type. Const calls are thread-safe.
+/// A set of voxels, stored as bits in blocks of 8 x 8 x 8. A look-up needs one look-up in a hash
+/// table; look-ups of neighbours can share it. Copies share the regions that neither of them
+/// changes (`BlockMap`). A value type. Const calls are thread-safe.
 class VoxelSet {
  public:
   /// Voxels lie between -kMostVoxels and kMostVoxels - 1 on each axis.

@@ -43,24 +43,24 @@ struct Core {
   void report_unanswerable(std::string_view channel, std::span<const std::uint8_t> message,
                            std::string_view reason);
 
-  /// Decodes `message`, which came in on `channel`. Returns nothing where it cannot be read, and
-  /// for a client id that is none: then `refuse` is called as by `on_malformed`. Requires that the
-  /// type begins with client_id and request_id.
+  /// Decodes `message`, which came in on `channel`. Returns nothing if the message cannot be read
+  /// or its client id is not valid. Then it calls `refuse` as `on_malformed` does. Requires that
+  /// the type begins with client_id and request_id.
   template <class Message, class Refuse>
   std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message,
                               const Refuse& refuse);
-  /// The same for messages whose senders get no answer: CAMWAY_ERROR says what is wrong with them.
+  /// Does the same for messages whose senders get no answer: publishes CAMWAY_ERROR with the fault.
   template <class Message>
   std::optional<Message> read(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Counts and logs a message that cannot be read. Calls `refuse(sender, reason)` where it names
-  /// its sender, a `wire::Sender`; publishes CAMWAY_ERROR where it does not. Does neither where
-  /// there were too many such messages lately.
+  /// Counts and logs a message that cannot be read. If the message names its sender
+  /// (`wire::Sender`), calls `refuse(sender, reason)`; otherwise publishes CAMWAY_ERROR. Does
+  /// neither if there were too many such messages lately.
   template <class Message, class Refuse>
   void on_malformed(const std::string& channel, std::span<const std::uint8_t> message,
                     std::string_view reason, const Refuse& refuse);
 
-  /// Queues `job`. Abandons, before it returns, the job that the queue refused or dropped.
+  /// Queues `job`. If the queue refuses or drops a job, abandons that job before it returns.
   void submit(Job job);
 
   /// Abandons the jobs that waited for too long.

@@ -40,9 +40,10 @@ using LogFields = std::initializer_list<LogField>;
 /// Thread-safe.
 ///
 /// As text: `[time] [camwayd] [info] answered client=a request=7 message="no way"`. As JSON: an
-/// object on each line with `time`, `level`, `event` and the fields, none of which has such a name.
-/// Control characters and bytes that are not UTF-8 are written in another form (`\x1b`), so that
-/// nobody can forge a line, or make a reader of logs take the log for binary data.
+/// object on each line with `time`, `level`, `event` and the fields. No field has one of these
+/// three names. Control characters and bytes that are not UTF-8 are written in another form
+/// (`\x1b`), so that nobody can forge a line, or make a reader of logs take the log for binary
+/// data.
 class Log {
  public:
   /// `out` must outlive this, and nothing else may write to it.

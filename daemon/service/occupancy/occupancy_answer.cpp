@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "daemon/messages/convert.h"
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::service {

@@ -12,9 +12,9 @@
 namespace camway::service {
 
 /// Returns an error about the values of a batch, which names list and index, or an empty text.
-/// Every number must be finite, except that a range, radius or distance of interest may be
-/// infinite, and must not be negative; a box's minimum must not exceed its maximum; a ray needs a
-/// direction; the length of a path must be a finite number.
+/// Every number must be finite. A range, radius or distance of interest must not be negative, but
+/// may be infinite; a box's minimum must not exceed its maximum; a ray needs a direction; the
+/// length of a path must be a finite number.
 std::string batch_fault(const occupancy_request_t& request);
 
 /// Answers a batch on the scene's occupancy map, with `utime` 0. If `deadline` strikes, begins no

@@ -27,9 +27,9 @@ class InFlight {
   /// Shortest period of progress reports.
   static constexpr std::chrono::milliseconds kLeastPeriod{100};
 
-  /// Adds a request. Returns its deadline, `deadline_s` from now, which `cancel` ends and to which
-  /// planning reports its progress. `progress_period_s` is the period of progress reports; none if
-  /// it is not above 0.
+  /// Adds a request. Returns its deadline, `deadline_s` from now. `cancel` makes the deadline
+  /// strike at once. Planning reports its progress to the deadline. `progress_period_s` is the
+  /// period of progress reports; none if it is not above 0.
   base::Deadline begin(const RequestKey& key, double deadline_s, double progress_period_s);
 
   /// Tells planning to stop. Returns false if no such request is in flight.

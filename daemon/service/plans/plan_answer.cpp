@@ -32,7 +32,7 @@ void append_warnings(const scene::ImportReport& report, const planning::PlanRequ
   for (const std::string& warning : scene::import_warnings(report, resolution_m)) append(warning);
 }
 
-/// Null if the result proves no path.
+/// Null if the result has no proved path.
 std::shared_ptr<const planning::WatchedPath> watchable_path(const planning::PlanRequest& request,
                                                             const planning::PlanResult& result) {
   std::optional<planning::WatchedPath> path = planning::WatchedPath::of(request, result);

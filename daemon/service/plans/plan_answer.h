@@ -20,8 +20,8 @@ namespace camway::service {
 /// Returns the header of an answer; with a null `snapshot`, of one that concerns no scene.
 AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
 
-/// An answer, and its path for watching: null unless the request asks for that and the answer
-/// proves a path.
+/// An answer, and its path for watching. The path is null unless the request asks for a watch and
+/// the answer has a proved path.
 struct Answered {
   plan_response_t wire;
   std::shared_ptr<const planning::WatchedPath> path;

@@ -145,7 +145,9 @@ void PlanService::on_missing_pages(std::span<const std::uint8_t> message) {
 }
 
 void PlanService::tick(Clock::time_point now) {
-  for (Watches::Taken& taken : watches_.take_taken()) put_in_force(std::move(taken), now);
+  for (Watches::Accepted& accepted : watches_.take_accepted()) {
+    put_in_force(std::move(accepted), now);
+  }
   plan_broken(now);
   plan_improvable(now);
   for (plan_progress_t& progress : in_flight_.take_due(now)) {
@@ -352,7 +354,7 @@ void PlanService::finish_again(const Replan& replan, const Replanned& done) {
     return;
   }
   --replanning_;
-  if (!watches_.ended(replan.key)) return;
+  if (!watches_.planned(replan.key)) return;
   core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
                                                      {"request", replan.key.request_id},
                                                      {"scene", answer.scene},
@@ -370,11 +372,11 @@ void PlanService::finish_again(const Replan& replan, const Replanned& done) {
 
 // Sends the pages although the client had them with the offer: it may have lost them since, and a
 // client that repeats the request gets them too.
-void PlanService::put_in_force(Watches::Taken taken, Clock::time_point now) {
-  const RequestKey& key = taken.answer.key;
-  cache_.replace(key, digest_of(*taken.answer.request), taken.pages);
-  send(key, std::move(taken.pages));
-  watches_.begin(taken.answer, now);
+void PlanService::put_in_force(Watches::Accepted accepted, Clock::time_point now) {
+  const RequestKey& key = accepted.answer.key;
+  cache_.replace(key, digest_of(*accepted.answer.request), accepted.pages);
+  send(key, std::move(accepted.pages));
+  watches_.begin(accepted.answer, now);
 }
 
 void PlanService::give_up(const Replan& replan) {

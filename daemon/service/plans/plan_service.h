@@ -21,9 +21,9 @@ namespace camway::service {
 ///
 /// Stages of a request: bytes checked, decoded, pages joined, looked up in the cache (answered from
 /// there, or ignored while it is being planned), scene looked up, queued, planned, encoded, cached,
-/// sent. Deadlines count from the arrival of the last page. All answers to requests that were read
-/// are cached, except `overloaded`, so that the same request can be sent again later; conflicts,
-/// whose ids belong to another request; and refusals before the look-up.
+/// sent. Deadlines count from the arrival of the last page. Answers to requests that were read are
+/// cached, with three exceptions: `overloaded`, so that the same request can be sent again later;
+/// conflicts, whose ids belong to another request; and refusals before the look-up in the cache.
 /// Not thread-safe: for the loop thread.
 class PlanService {
  public:
@@ -44,8 +44,8 @@ class PlanService {
   void on_cancel(std::span<const std::uint8_t> message);
   void on_missing_pages(std::span<const std::uint8_t> message);
 
-  /// Sends progress reports and questions for missing pages that are due by `now`. Has watched
-  /// paths that collide planned again.
+  /// Sends progress reports and questions for missing pages that are due by `now`. Begins to plan
+  /// watched paths that collide again.
   void tick(Clock::time_point now);
   /// Returns when `tick` is due next; the end of time if never.
   [[nodiscard]] Clock::time_point next_tick() const;
@@ -77,7 +77,7 @@ class PlanService {
   void watch(const Pending& pending, const Answered& answered);
   void plan_broken(Clock::time_point now);
   void plan_improvable(Clock::time_point now);
-  void put_in_force(Watches::Taken taken, Clock::time_point now);
+  void put_in_force(Watches::Accepted accepted, Clock::time_point now);
   void plan_again(const Watches::Request& watched, bool for_offer);
   void run_again(const Replan& replan);
   void finish_again(const Replan& replan, const Replanned& done);

@@ -51,11 +51,10 @@ struct Job {
 /// one of low priority four times its time. A client whose next job cannot start (its strand is
 /// busy, or its quota of workers is used) is skipped and keeps its turn.
 ///
-/// Ids are free, so a client that invents many of them would have as many turns. Therefore
-/// newcomers, clients none of whose jobs is remembered as finished, take turns like all others, but
-/// together get no more time than a few clients, and no more than half of the places in a full
-/// queue if others want them.
-/// Not thread-safe.
+/// Ids are free, so a client that invents many of them would have as many turns. A *newcomer* is a
+/// client none of whose jobs is remembered as finished. Newcomers take turns like all others. But
+/// all newcomers together get no more time than `newcomers_count_as` clients and, if others want
+/// places in a full queue, no more than half of them. Not thread-safe.
 class FairQueue {
  public:
   using Clock = Job::Clock;
@@ -86,12 +85,12 @@ class FairQueue {
     double charged_s = 0.0;
     bool of_newcomer = false;
   };
-  /// Returns whether a job may begin now. Checks the clients in turn until one has such a job: the
-  /// first one, if no job has a strand.
+  /// Returns whether a job may begin now. Checks the clients in turn until one has such a job. If
+  /// no job has a strand, that is the first client.
   [[nodiscard]] bool can_begin() const { return next().has_value(); }
   /// Removes and returns the next job. Requires `can_begin`.
   Begun pop();
-  /// Records how long a popped job took. To be called once for each.
+  /// Records how long a popped job took. Requires exactly one call for each popped job.
   void finish(const Begun& begun, Clock::duration took);
 
   /// Removes and returns the jobs that have expired by `now`.
@@ -103,8 +102,8 @@ class FairQueue {
 
   [[nodiscard]] bool empty() const { return expiries_.empty(); }
   [[nodiscard]] std::size_t size() const { return expiries_.size(); }
-  /// Returns about how many jobs are begun before this waiting one: exactly, if all take the same
-  /// time and no more arrive. Nothing if it does not wait.
+  /// Returns about how many jobs are begun before this waiting one. The number is exact if all jobs
+  /// take the same time and no more arrive. Returns nothing if the job does not wait.
   [[nodiscard]] std::optional<std::size_t> ahead_of(const std::string& client,
                                                     std::int64_t id) const;
   /// Returns the time at which the next job expires; the end of time if none does.

@@ -9,11 +9,11 @@
 
 namespace camway::service {
 
-/// The ids of clients that were served, within a limit: one half for clients that were served once,
-/// the other for clients that were served again since. So a client that invents ids displaces only
-/// ids that are as new as these. Each half drops its oldest id; one from the second half returns to
-/// the first (segmented LRU; Karedla, Love and Wherry, 1994).
-/// Not thread-safe.
+/// The ids of clients that were served, up to a limit. One half of the places is for clients that
+/// were served once, the other half for clients that were served again since then. So a client that
+/// invents ids displaces only ids that were served once. Each half drops its oldest id; one from
+/// the second half returns to the first (segmented LRU; Karedla, Love and Wherry, 1994). Not
+/// thread-safe.
 class KnownClients {
  public:
   /// [Limit: 2 <= most]

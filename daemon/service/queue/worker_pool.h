@@ -26,8 +26,8 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Queues `job`. Returns the job that is not run for want of room, this one or another, or this
-  /// one if the pool is closed.
+  /// Queues `job`. Returns the job for which there is no room: this one or another. If the pool is
+  /// closed, returns this one.
   [[nodiscard]] std::optional<FairQueue::Refused> submit(Job job);
 
   /// See `FairQueue`.

@@ -14,14 +14,14 @@
 
 namespace camway::service {
 
-/// Returns the pages that carry `bytes` as the export that `key` asked for: at least one.
+/// Divides `bytes` into the pages of the export that `key` asked for. Returns at least one page.
 Pages map_pages(const RequestKey& key, const std::vector<std::uint8_t>& bytes);
 
 /// Returns the answer to a client that asks for pages of an export that is not there.
 map_page_t no_such_map(const RequestKey& key);
 
-/// Exported maps that clients fetch page by page. To make room, forgets the one unused for longest.
-/// Not thread-safe.
+/// Exported maps that clients fetch page by page. To make room, forgets the map that was not used
+/// for the longest time. Not thread-safe.
 class MapExports {
  public:
   using Clock = std::chrono::steady_clock;

@@ -7,9 +7,10 @@
 
 namespace camway::service {
 
-/// Names the first member of a scene request that has a value but no effect with the request's
-/// operation or kind of object, in a sentence for the answer: its sender meant it. Empty if there
-/// is none, and for unknown operations and kinds.
+/// Returns a sentence for the answer that names the first member of a scene request which has a
+/// value but no effect with the request's operation or kind of object. The sender expects an
+/// effect, so such a request is refused. Empty if there is no such member, and for unknown
+/// operations and kinds.
 std::string idle_member(const scene_request_t& request);
 
 }  // namespace camway::service

@@ -25,9 +25,9 @@ class SceneRoots {
   [[nodiscard]] bool empty() const { return folders_.empty(); }
 
   /// Returns the regular file that `asked` names: relative to a root (the first root that has it
-  /// counts), or absolute and below one. Refuses a component "..", and a file that any links lead
-  /// out of the root. A user who may write below a root could still replace a folder by a link
-  /// between this call and the reading of the file, so roots are for trusted users only.
+  /// counts), or absolute and below one. Refuses a path with a component "..", and a path that
+  /// links lead out of the root. A user who may write below a root could still replace a folder by
+  /// a link between this call and the reading of the file, so roots are for trusted users only.
   [[nodiscard]] RootedFile resolve(std::string_view asked) const;
 
   /// Writes `bytes` as the file that `asked` names, in an existing folder below a root. Replaces a

@@ -188,11 +188,12 @@ void SceneService::tick(Clock::time_point now) {
     const Pending pending = unanswered_.at(deadlines_.begin()->second);
     deadlines_.erase(deadlines_.begin());
     if (!cancel_pending(pending)) continue;  // committed, and its answer is on the way
-    finish(*pending.request,
-           plain_scene_answer(*pending.request, scene_response_t::STATUS_TIMEOUT,
-                              "the deadline passed before the change was in force, and nothing was "
-                              "changed; allow more time with deadline_s (up to "
-                              "scenes.max_deadline_s)"));
+    finish(
+        *pending.request,
+        plain_scene_answer(*pending.request, scene_response_t::STATUS_TIMEOUT,
+                           "the deadline passed before the change was committed, and nothing was "
+                           "changed; allow more time with deadline_s (up to "
+                           "scenes.max_deadline_s)"));
   }
 }
 

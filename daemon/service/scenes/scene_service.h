@@ -21,15 +21,16 @@
 namespace camway::service {
 
 /// Lets clients query and change scenes. Queries are answered at once. Changes run on threads of
-/// their own, so that planning does not wait for the import of a large file: changes of different
-/// scenes in parallel, those of one scene one after the other, so that two moves of one client keep
-/// their order. Clients take turns as for planning (`FairQueue`), and no client uses all threads
-/// (if there are several), so that imports of one client leave room for moves of others.
-/// Not thread-safe: for the loop thread.
+/// their own, so that planning does not wait for the import of a large file. Changes of different
+/// scenes run in parallel. Changes of one scene run one after the other, so that two moves of one
+/// client keep their order. Clients take turns as for planning (`FairQueue`), and no client uses
+/// all threads (if there are several), so that imports of one client leave room for moves of
+/// others. Not thread-safe: for the loop thread.
 ///
-/// A change has a deadline from its receipt on, and can be cancelled. Then it is answered at once,
-/// whatever a worker is doing, and changes nothing; unless it is committed already, with its answer
-/// on the way.
+/// A change has a deadline, which counts from its receipt, and a client can cancel it. A change
+/// that is cancelled, or whose deadline passes, is answered at once, whatever a worker is doing,
+/// and changes nothing. A change that is committed cannot be cancelled any more; its answer is on
+/// the way.
 ///
 /// A change that is sent again, with equal ids and content, is not made again: it gets the same
 /// answer.
@@ -106,8 +107,8 @@ class SceneService {
   std::map<RequestKey, Pending> unanswered_;
   std::set<std::pair<Clock::time_point, RequestKey>> deadlines_;  ///< unanswered changes by time
   /// Changes that were cancelled and answered while a worker is still at them.
-  std::set<Request> left_behind_;  ///< called off and answered, but a worker is still at it
-  std::mutex writing_;             ///< see `SceneContext`
+  std::set<Request> left_behind_;
+  std::mutex writing_;  ///< see `SceneContext`
   WorkerPool workers_;
 };
 

@@ -302,7 +302,7 @@ class SceneOperation {
     }
     const std::lock_guard writing(context_.writing);
     if (!context_.ticket.try_commit()) {
-      return plain_scene_answer(request_, Answer::STATUS_CANCELLED, "it was called off");
+      return plain_scene_answer(request_, Answer::STATUS_CANCELLED, "it was cancelled");
     }
     const std::string fault = rules_.roots.write(request_.file, ".bt", bytes);
     return fault.empty() ? answer : invalid(fault);

@@ -12,9 +12,9 @@
 
 namespace camway::service {
 
-/// A transport that signs all outgoing messages, and drops, counts and logs (limited) incoming ones
-/// without a valid signature.
-/// Not thread-safe: for the thread that owns the transport.
+/// A transport that signs all outgoing messages. It drops incoming messages without a valid
+/// signature, counts them, and logs them within limits. Not thread-safe: for the thread that owns
+/// the transport.
 class AuthTransport final : public Transport {
  public:
   /// Numbers of messages by the reason why they were not trusted: the index is the

@@ -16,8 +16,8 @@ struct OpenedTransport {
 };
 
 /// Opens LCM at `url`, e.g. "udpm://239.255.76.67:7667?ttl=0". Works with every LCM provider that
-/// can send and receive. With a ttl of 0 receives from this host only; where that is not possible,
-/// calls `warn` once with the reason.
+/// can send and receive. With a ttl of 0, the transport receives from this host only. If that is
+/// not possible, calls `warn` once with the reason.
 OpenedTransport open_lcm_transport(const std::string& url,
                                    const std::function<void(const std::string&)>& warn = {});
 

@@ -15,11 +15,11 @@
 
 namespace camway::service {
 
-/// Queue of answers to send, a few pages at a time: a receiver's socket buffer holds only about
-/// three messages of full size with Debian's default of 212,992 bytes, so a long answer that is
-/// sent at once is lost. Channels take turns, page by page, and so do the answers on one channel: a
-/// long answer delays neither other clients nor the short answers behind it.
-/// Not thread-safe: for the loop thread.
+/// Queue of answers, which sends a few pages at a time. With Debian's default of 212,992 bytes, the
+/// socket buffer of a receiver holds only about three messages of full size, so a long answer that
+/// is sent at once is lost. Channels take turns, page by page, and so do the answers on one
+/// channel. So a long answer delays neither other clients nor the short answers behind it. Not
+/// thread-safe: for the loop thread.
 class Outbox {
  public:
   /// Bytes that may be sent before the next pause: two messages of full size.
@@ -44,8 +44,8 @@ class Outbox {
   explicit Outbox(Transport& transport) : Outbox(transport, Limits{}) {}
   Outbox(Transport& transport, const Limits& limits) : transport_(transport), limits_(limits) {}
 
-  /// Queues an answer, or those of its pages that `which` lists, unless that is empty. Returns
-  /// false if there is no room, or if this very answer is still waiting. Requires valid indices in
+  /// Queues an answer. If `which` is not empty, queues only the pages that it lists. Returns false
+  /// if there is no room, or if this very answer is still waiting. Requires valid indices in
   /// `which`.
   bool add(const std::string& channel, Pages pages, std::vector<std::size_t> which = {},
            Kind kind = Kind::kAnswer);

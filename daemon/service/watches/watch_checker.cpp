@@ -101,7 +101,8 @@ void WatchChecker::serve(const std::stop_token& stop) {
 WatchChecker::Collisions WatchChecker::check(const planning::WatchedPath& path,
                                              const SnapshotPointer& now) const {
   if (!now) return {path.everywhere()};
-  return path.collisions(*now, Deadline::after_s(kCheckBudget_s).watched(stop_, nullptr));
+  return path.collisions(collision::Obstacles(*now),
+                         Deadline::after_s(kCheckBudget_s).watched(stop_, nullptr));
 }
 
 void WatchChecker::update(const std::string& name, Scene& scene) {

@@ -17,11 +17,11 @@
 
 namespace camway::service {
 
-/// Keeps the collisions of watched paths up to date with their scenes, on a thread of its own. Of a
-/// change it checks only the differences: a path that was free is checked against what was added,
-/// where that can be near; a path that collided is checked from scratch if something near it was
-/// added or removed. Changes that arrive faster than they can be checked are checked together.
-/// Thread-safe.
+/// Keeps the collisions of watched paths up to date with their scenes, on a thread of its own.
+/// After a change it checks only the differences. A path that was free is checked against the added
+/// triangles, if these can be near it. A path that collided is checked from scratch if something
+/// near it was added or removed. Changes that arrive faster than they can be checked are checked
+/// together. Thread-safe.
 class WatchChecker {
  public:
   using Id = std::uint64_t;
@@ -34,10 +34,11 @@ class WatchChecker {
   struct News {
     std::string scene;
     std::uint64_t revision = 0;  ///< 0: the scene is gone, and all its paths count as colliding
-    /// The first verdict on a path, and new ones: on paths that were free and are not any more, and
-    /// on all paths that were not free and were checked again.
+    /// Holds the first verdict on each new path, a verdict on each path that was free and is not
+    /// free any more, and a verdict on each path that was not free and was checked again.
     std::vector<Verdict> verdicts;
-    /// The last news of this revision: verdicts on all other paths of the scene hold for it, too.
+    /// Whether these are the last news of this revision. Then the earlier verdicts on all other
+    /// paths of the scene hold for it, too.
     bool is_last = false;
   };
   /// Called on the checker's thread.

@@ -230,7 +230,7 @@ std::vector<Watches::Request> Watches::take_broken(std::size_t most, Clock::time
   return taken;
 }
 
-bool Watches::ended(const RequestKey& key) {
+bool Watches::planned(const RequestKey& key) {
   const auto position = watches_.find(key);
   if (position == watches_.end()) return false;
   position->second.planning = Planning::kNot;
@@ -430,18 +430,18 @@ void Watches::apply_offers(Watch& watch, const watched_path_t& path) {
   if (!watch.offer || !watch.offer->is_checked) return;
   const auto revision = static_cast<std::int64_t>(watch.offer->answer.proved_in->revision);
   if (path.taken_offer == revision) {
-    taken_.push_back({watch.offer->answer, watch.offer->pages});
+    accepted_.push_back({watch.offer->answer, watch.offer->pages});
     withdraw_offer(watch);
   } else if (path.wanted_offer == revision) {
     send_offer(watch);
   }
 }
 
-std::vector<Watches::Taken> Watches::take_taken() {
+std::vector<Watches::Accepted> Watches::take_accepted() {
   // A watch may have ended since.
-  std::erase_if(taken_,
-                [this](const Taken& taken) { return !watches_.contains(taken.answer.key); });
-  return std::exchange(taken_, {});
+  std::erase_if(accepted_,
+                [this](const Accepted& taken) { return !watches_.contains(taken.answer.key); });
+  return std::exchange(accepted_, {});
 }
 
 void Watches::make_news(Watch& watch, Clock::time_point now) {

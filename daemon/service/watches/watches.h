@@ -35,14 +35,16 @@ struct WatchableAnswer {
 
 /// The watched paths of all clients: their leases, their states, and which state each client knows.
 /// A path is watched until its lease ends, unless the client renews it. A new state is sent at
-/// once, and again with growing pauses until the client confirms it: so messages may be lost, and a
-/// client or the daemon may be restarted.
+/// once. It is repeated with growing pauses until the client confirms it. So the protocol tolerates
+/// lost messages, and restarts of the client or the daemon.
 ///
-/// A path that replaced a broken one stays in use when the obstacle goes. Therefore the first and
-/// the last of the paths before it are watched too: when one of them collides for less time than
-/// before, the request is planned again, one request at a time and each one rarely, and a better
-/// answer (`is_better`) is offered. The client decides whether to take it; an offer that a change
-/// breaks is withdrawn.
+/// When a path was replaced because it collided, the replacement stays in use even after the
+/// obstacle is gone. To notice that, two former paths are watched too: the first one and the most
+/// recent one. When a former path collides for less time than before, the request is planned again.
+/// Only one request is planned so at a time, and each request at most once per pause, which grows
+/// (`kFirstImprovePause`). If the new answer is better (`is_better`), the client is offered it and
+/// decides whether to accept it. An offer that a change breaks is withdrawn.
+///
 /// Not thread-safe: for the loop thread.
 class Watches {
  public:
@@ -64,8 +66,9 @@ class Watches {
 
   /// Sends the reports that are due, and ends leases.
   void tick(Clock::time_point now);
-  /// Returns when `tick`, `take_broken` or `take_improvable` has something to do next, apart from
-  /// work that is due already; the end of time if never.
+  /// Returns the next time at which `tick`, `take_broken` or `take_improvable` has work;
+  /// `time_point::max()` if there is none. Work of `take_broken` and `take_improvable` that is due
+  /// at `now` already is not counted.
   [[nodiscard]] Clock::time_point next_tick(Clock::time_point now) const;
 
   struct Request {
@@ -73,33 +76,34 @@ class Watches {
     std::shared_ptr<const plan_request_t> request;
   };
   /// Returns up to `most` requests whose paths collide now, to be planned again. Requires a call of
-  /// `ended` or `not_planned` for each.
+  /// `planned` or `not_planned` for each.
   std::vector<Request> take_broken(std::size_t most, Clock::time_point now);
-  /// The request was planned. Returns whether the path still collides, so that the answer is worth
-  /// sending; then requires a call of `begin` or `answered`.
-  bool ended(const RequestKey& key);
-  /// The request was not planned; it is tried again a little later.
+  /// Notes that the request was planned. Returns true if the path still collides: then the answer
+  /// should be sent, and `begin` or `answered` must be called.
+  bool planned(const RequestKey& key);
+  /// Notes that the request was not planned; it is tried again a little later.
   void not_planned(const RequestKey& key, Clock::time_point now);
-  /// The answer that was sent proves no path: the path before it remains watched.
+  /// Notes that the answer that was sent has no proved path. The previous path remains watched.
   void answered(const RequestKey& key, std::int64_t answer_revision, Clock::time_point now);
 
   /// Returns a request whose path is free, but for which there may be a better one by now. Requires
   /// a call of `offer`, `no_offer` or `not_improved` before the next is taken.
   std::optional<Request> take_improvable(Clock::time_point now);
-  /// The request was planned, with this answer: offers it, if it is better.
+  /// Notes that the request was planned, with this answer. Offers the answer to the client if it is
+  /// better.
   void offer(const WatchableAnswer& answer, Pages pages, Clock::time_point now);
-  /// The request was planned, and the answer proves no path.
+  /// Notes that the request was planned, and that the answer has no proved path.
   void no_offer(const RequestKey& key, Clock::time_point now);
-  /// The request was not planned; it is tried again later.
+  /// Notes that the request was not planned; it is tried again later.
   void not_improved(const RequestKey& key, Clock::time_point now);
 
-  /// An offer that a client took, which is the answer to its request from now on. Requires a call
-  /// of `begin` for each.
-  struct Taken {
+  /// An offer that a client accepted. Its answer is the answer to the request from now on.
+  struct Accepted {
     WatchableAnswer answer;
     Pages pages;
   };
-  std::vector<Taken> take_taken();
+  /// Returns the accepted offers and forgets them. Requires a call of `begin` for each.
+  std::vector<Accepted> take_accepted();
 
  private:
   enum class Planning : std::uint8_t { kNot, kWaits, kRuns };
@@ -171,14 +175,13 @@ class Watches {
   std::map<WatchChecker::Id, RequestKey> keys_;
   std::map<std::string, std::size_t> of_client_;
   std::size_t bytes_ = 0;
-  /// Revision for which all paths of a scene were checked.
-  std::map<std::string, std::uint64_t>
-      checked_;  ///< revision that all paths of a scene were brought to
+  /// Newest revision for which all watched paths of a scene were checked, by scene.
+  std::map<std::string, std::uint64_t> checked_;
   Times due_;
   Times broken_;      ///< to be planned again, not before that time
   Times improvable_;  ///< to be planned again in hope of a better path, not before that time
   std::optional<RequestKey> improving_;  ///< request that is being planned for a better path
-  std::vector<Taken> taken_;
+  std::vector<Accepted> accepted_;
   WatchChecker::Id next_id_ = 1;
   std::int64_t next_serial_;
   WatchChecker checker_;  ///< last: its thread ends before all above is destroyed

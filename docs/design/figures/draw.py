@@ -97,7 +97,7 @@ def snapshots():
     objects = [(60, "walls"), (250, "table"), (440, "crate at 4 m"), (630, "crate at 5 m")]
     for x, name in objects:
         new = name.endswith("5 m")
-        figure.box(x, 150, 160, 84, [name, "triangles in the world", "tree, distance field", "occupancy map"], "warm" if new else "box")
+        figure.box(x, 150, 160, 84, [name, "triangles in the world", "tree, distance field", "mirror"], "warm" if new else "box")
     for source, targets in ((220, (0, 1, 2)), (660, (0, 1, 3))):
         for i in targets:
             x = objects[i][0] + 80 + (14 if source > 400 else -14)
@@ -144,7 +144,7 @@ def rooms():
     figure.box(520, 280, 130, 44, ["daemon/paper", "the paper's method"])
     figure.box(230, 346, 420, 44, ["daemon/collision", "path and scene → collision intervals, or a proof that there is none"], "accent")
     figure.box(230, 412, 190, 56, ["daemon/motion", "path, body,", "spline, timing"], "accent")
-    figure.box(440, 412, 210, 56, ["daemon/scene", "mesh, voxels, index, field,", "occupancy, import, snapshot"], "warm")
+    figure.box(440, 412, 210, 56, ["daemon/scene", "mesh, voxels, index, field,", "mirror, import, snapshot"], "warm")
     figure.box(230, 490, 420, 40, ["daemon/geometry", "triangles, boxes, segments, hulls, with rounding bounds"])
     figure.box(230, 548, 420, 40, ["daemon/base", "deadlines, progress, work on all processors"])
     for top in (60, 126, 192):

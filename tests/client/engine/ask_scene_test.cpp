@@ -18,7 +18,7 @@
 namespace camway {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using testing_support::Bytes;
 using testing_support::FakeDaemon;
 using testing_support::quick;

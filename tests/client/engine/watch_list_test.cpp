@@ -24,7 +24,7 @@ using Kind = WatchEvent::Kind;
 constexpr std::int64_t kId = 7;
 
 /// A watch list whose messages and calls the test collects.
-class WatchListTest : public testing::Test {
+class WatchListTest : public ::testing::Test {
  protected:
   WatchListTest()
       : context_([] {

@@ -13,11 +13,12 @@
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 #include "tests/client/fake_daemon.h"
+#include "tests/support/random.h"
 
 namespace camway {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using testing_support::answer_pages;
 using testing_support::encode_all;
 
@@ -230,7 +231,7 @@ TEST(PlanPages, WhatHasNoFormIsNamed) {
 }
 
 TEST(PlanCollector, PutsPagesTogetherInAnyOrderWithRepetitions) {
-  std::mt19937 random(kSeed);
+  testing::Random random(kSeed);
   const std::vector<Bytes> pages = encode_all(answer_pages(wire_request(), 1000, 90));
   for (int round = 0; round < 50; ++round) {
     std::vector<Bytes> arriving = pages;
@@ -414,8 +415,8 @@ TEST(PlanCollector, DoesNotMixPagesOfTwoAnswers) {
 }
 
 TEST(PlanCollector, SurvivesBrokenMessages) {
-  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  std::mt19937 random(kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  testing::Random random(kSeed);
   const Bytes good = encode_all(answer_pages(wire_request(), 3, 3))[0];
   std::uniform_int_distribution<std::size_t> position(0, good.size() - 1);
   std::uniform_int_distribution<int> byte(0, 255);
@@ -505,7 +506,8 @@ TEST(OccupancyRequests, SplitALargeBatchWithoutLossOrReordering) {
     for (const auto& query : request.distances_m) ASSERT_EQ(query[0], number(distances++));
     for (const auto& query : request.sphere_paths_m) ASSERT_EQ(query[3], number(paths++));
   }
-  EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances, paths}), testing::Each(6000u));
+  EXPECT_THAT((std::vector{points, boxes, spheres, rays, distances, paths}),
+              ::testing::Each(6000u));
   // There are no more messages than needed: only the last may be less than nearly full.
   EXPECT_EQ(requests.size(), (6000u * (24 + 48 + 32 + 56 + 32 + 56) + 59'899) / 59'900);
 }

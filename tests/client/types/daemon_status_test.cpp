@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/random.h"
+
 namespace camway {
 namespace {
 
@@ -26,7 +28,7 @@ Latency counted(const std::vector<double>& seconds) {
 }
 
 TEST(Latency, QuantilesAreRightToAFifth) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> exponent(-16.0, 6.0);
   for (const std::size_t size : {1U, 2U, 10U, 1000U}) {
     std::vector<double> seconds(size);

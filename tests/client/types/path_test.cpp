@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/random.h"
+
 namespace camway {
 namespace {
 
@@ -44,7 +46,7 @@ std::array<long double, Dimension> bernstein_sum(
   return sum;
 }
 
-class PathTest : public testing::Test {
+class PathTest : public ::testing::Test {
  protected:
   PathTest() { RecordProperty("seed", static_cast<int>(kSeed)); }
 
@@ -66,11 +68,11 @@ class PathTest : public testing::Test {
     return segment;
   }
 
-  std::mt19937 random_{kSeed};
+  testing::Random random_{kSeed};
 };
 
 TEST_F(PathTest, AgreesWithTheBernsteinSum) {
-  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   for (int round = 0; round < 2000; ++round) {
     const double t0 = uniform(-5, 5);
     const Segment segment = random_segment(t0, t0 + uniform(0.1, 5));

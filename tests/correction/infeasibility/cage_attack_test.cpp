@@ -8,6 +8,7 @@
 #include "daemon/correction/infeasibility/cage.h"
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/search/tree_search.h"
+#include "tests/support/random.h"
 #include "tests/support/random_cages.h"
 
 namespace camway::correction {
@@ -33,14 +34,14 @@ motion::Body rectangle(double short_m, double long_m) {
 
 class Attack {
  public:
-  Attack(const RandomCage& cage, double short_m, std::mt19937_64& random)
+  Attack(const RandomCage& cage, double short_m, testing::Random& random)
       : cage_(cage),
         random_(random),
         index_(scene::SceneIndex::build(cage.mesh)),
         short_m_(short_m),
         long_m_(short_m * within(1.0, 2.0)),
         body_(rectangle(short_m, long_m_)),
-        space_(index_, body_, options_) {}
+        space_({collision::Obstacles(index_), body_, options_}) {}
 
   /// Searches a free pose with the centre on the box, which a proof excludes: at the centres of the
   /// holes, along their sides and diagonals, and near these.
@@ -71,7 +72,7 @@ class Attack {
     options.seed = random_();
     return !tree_way(space_, motion::signed_pose(from), motion::signed_pose(to), options,
                      base::Deadline::never())
-                .empty();
+                .guide.empty();
   }
 
  private:
@@ -117,7 +118,7 @@ class Attack {
   }
 
   const RandomCage& cage_;
-  std::mt19937_64& random_;
+  testing::Random& random_;
   scene::SceneIndex index_;
   double short_m_;
   double long_m_;
@@ -128,7 +129,7 @@ class Attack {
 
 /// Returns a side of the body a little below or above the widest hole between adjacent bars, of all
 /// faces or sometimes of one face.
-double side_near_a_hole(const RandomCage& cage, std::mt19937_64& random) {
+double side_near_a_hole(const RandomCage& cage, testing::Random& random) {
   const auto any = [&](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
   const auto hole_m = [&](const std::vector<double>& bars) {
     double widest_m = 0.0;
@@ -159,7 +160,7 @@ std::optional<Quat> exact_frame(const RandomCage& cage, const CageBox& found) {
 // If a cage counts as closed, exact arithmetic agrees, and there is neither a free pose on its
 // faces nor a way out. If it counts as open, there are both.
 TEST(Cage, NothingGetsOutOfRandomCages) {
-  std::mt19937_64 random = testing::seeded(41);
+  testing::Random random(41);
   testing::CageMaker maker(random);
   int closed = 0;
   int turned = 0;

@@ -13,6 +13,7 @@
 
 #include "daemon/correction/infeasibility/face_grid.h"
 #include "tests/support/cage_checker.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -384,7 +385,7 @@ TEST(Cage, FarFromTheOrigin) {
 // found only if its holes, measured independently, are narrower than the chord, and must be found
 // if they are narrower by more than the width of some cells.
 TEST(Cage, RandomCagesAgainstAnotherMeasure) {
-  std::mt19937_64 random = testing::seeded(17);
+  testing::Random random(17);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   int found_some = 0;
   int found_none = 0;

@@ -14,6 +14,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -118,21 +119,18 @@ struct Case {
   }
 };
 
-class Random {
+class RandomCases : public testing::Random {
  public:
-  explicit Random(std::uint64_t seed) : random_(testing::seeded(seed)) {}
+  using Random::Random;
 
-  double within(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  bool one_of(int n) { return std::uniform_int_distribution<int>(1, n)(random_) == 1; }
-  Vec3 vector() { return Vec3(within(-1, 1), within(-1, 1), within(-1, 1)); }
+  bool one_of(int n) { return integer(1, n) == 1; }
+  Vec3 vector() { return in_cube(1.0); }
   Vec3 signs() {
     Vec3 result;
     for (double& s : result) s = one_of(3) ? 0.0 : (one_of(2) ? 1.0 : -1.0);
     return result;
   }
-  int axis() { return std::uniform_int_distribution<int>(0, 2)(random_); }
+  int axis() { return integer(0, 2); }
 
   /// Makes a tetrahedron, or a parallelepiped that may be parallel to the axes.
   Case solid() {
@@ -144,7 +142,7 @@ class Random {
     } else {
       testing::add_cuboid(c.mesh, Vec3(-0.3, -0.5, -0.8), Vec3(0.3, 0.5, 0.8));
       Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-      if (!one_of(4)) turn = Eigen::AngleAxisd(within(0, 3), vector().normalized()).matrix();
+      if (!one_of(4)) turn = Eigen::AngleAxisd(uniform(0, 3), vector().normalized()).matrix();
       for (Vec3& vertex : c.mesh.vertices) vertex = turn * vertex + place;
     }
     c.triangles.resize(c.mesh.triangles.size());
@@ -152,9 +150,9 @@ class Random {
     c.axis = axis();
     const Vec3& a = c.mesh.vertices[0];
     const Vec3& b = c.mesh.vertices.back();
-    c.at = one_of(6) ? a[c.axis] : std::lerp(a[c.axis], b[c.axis], within(0.05, 0.95));
+    c.at = one_of(6) ? a[c.axis] : std::lerp(a[c.axis], b[c.axis], uniform(0.05, 0.95));
     if (one_of(2)) {
-      for (double& m : c.margin_m) m = one_of(3) ? 0.0 : within(0.001, 0.03);
+      for (double& m : c.margin_m) m = one_of(3) ? 0.0 : uniform(0.001, 0.03);
     }
     return c;
   }
@@ -169,7 +167,7 @@ class Random {
       const double low = box.min()[axes[k]] - 0.1;
       const double high = box.max()[axes[k]] + 0.1;
       const int count = one_of(2) ? 4 : 14;
-      for (int i = 0; i < count; ++i) c.lines[k].push_back(within(low, high));
+      for (int i = 0; i < count; ++i) c.lines[k].push_back(uniform(low, high));
     }
     const Vec3 zero = Vec3::Zero();
     const Polygon points = c.section(std::vector<Vec3>(c.mesh.vertices.size(), zero));
@@ -177,7 +175,7 @@ class Random {
     for (int i = 0; i < 6 && points.size() > 2; ++i) {
       const auto any = [&] {
         return points[static_cast<std::size_t>(
-            within(0, 0.999 * static_cast<double>(points.size())))];
+            uniform(0, 0.999 * static_cast<double>(points.size())))];
       };
       const Flat a = any();
       const Flat b = any();
@@ -185,7 +183,7 @@ class Random {
       if (a[1] == b[1]) continue;
       const Number x = a[0] + (b[0] - a[0]) * ((v - a[1]) / (b[1] - a[1]));
       double line = x.convert_to<double>();
-      for (int step = std::uniform_int_distribution<int>(0, 3)(random_); step > 0; --step) {
+      for (int step = integer(0, 3); step > 0; --step) {
         line = std::nextafter(line, one_of(2) ? 1e9 : -1e9);
       }
       if (std::abs(line - box.center()[axes[0]]) < 4.0) c.lines[0].push_back(line);
@@ -195,15 +193,12 @@ class Random {
       lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
     }
   }
-
- private:
-  std::mt19937_64 random_;
 };
 
 // Cells near arbitrarily rotated solids, next to lines that edges meet up to a few roundings, and
 // with uncertain vertices: exact arithmetic confirms every blocked cell.
 TEST(FaceGrid, BlocksNothingBesideASolid) {
-  Random random(31);
+  RandomCases random(31);
   std::array<int, 2> blocked{};
   for (int trial = 0; trial < 150; ++trial) {
     Case c = random.solid();
@@ -239,7 +234,7 @@ TEST(FaceGrid, BlocksNothingBesideASolid) {
 // One cell has a corner on a side of the section up to a few units of rounding and is otherwise
 // inside. It may be blocked only if all of it is inside.
 TEST(FaceGrid, RoundsToTheSafeSide) {
-  Random random(33);
+  RandomCases random(33);
   int blocked = 0;
   int cut = 0;
   for (int trial = 0; trial < 1500; ++trial) {
@@ -248,12 +243,12 @@ TEST(FaceGrid, RoundsToTheSafeSide) {
     const Polygon section = c.section(std::vector<Vec3>(c.mesh.vertices.size(), Vec3::Zero()));
     if (section.size() < 3) continue;
     const auto side =
-        static_cast<std::size_t>(random.within(0, 0.999 * static_cast<double>(section.size())));
+        static_cast<std::size_t>(random.uniform(0, 0.999 * static_cast<double>(section.size())));
     const Flat& a = section[side];
     const Flat& b = section[(side + 1) % section.size()];
     const double ax = a[0].convert_to<double>();
     const double ay = a[1].convert_to<double>();
-    const double v = std::lerp(ay, b[1].convert_to<double>(), random.within(0.3, 0.7));
+    const double v = std::lerp(ay, b[1].convert_to<double>(), random.uniform(0.3, 0.7));
     if (std::abs(b[1].convert_to<double>() - ay) < 0.1) continue;
     const Number x = a[0] + (b[0] - a[0]) * ((Number(v) - a[1]) / (b[1] - a[1]));
     double line = x.convert_to<double>();
@@ -283,13 +278,13 @@ TEST(FaceGrid, RoundsToTheSafeSide) {
 // Triangles in the plane of the face that share edges, overlap, or occur twice: each point of a
 // blocked cell is on one of them.
 TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
-  Random random(32);
+  RandomCases random(32);
   int blocked = 0;
   for (int trial = 0; trial < 120; ++trial) {
     Case c;
     c.axis = random.axis();
-    c.at = random.within(-1, 1);
-    const int count = static_cast<int>(random.within(1, 6));
+    c.at = random.uniform(-1, 1);
+    const int count = static_cast<int>(random.uniform(1, 6));
     for (int i = 0; i < count; ++i) {
       std::array<Vec3, 3> corners;
       for (Vec3& p : corners) {
@@ -303,7 +298,7 @@ TEST(FaceGrid, BlocksNothingBesideFlatTriangles) {
     }
     for (std::uint32_t t = 0; t < c.mesh.triangles.size(); ++t) c.triangles.push_back(t);
     if (random.one_of(2)) {
-      c.margin_m = Vec3::Constant(random.within(0.001, 0.02));
+      c.margin_m = Vec3::Constant(random.uniform(0.001, 0.02));
       c.margin_m[c.axis] = 0.0;
     }
     random.add_lines(c);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/support/closed_meshes.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/separation_checker.h"
 
@@ -229,7 +230,7 @@ TEST(Separation, SpaceFilledWithBricks) {
 }
 
 /// Returns sums of tetrahedra on a small lattice, with copies, holes and loose triangles.
-scene::Mesh random_mesh(std::mt19937_64& random) {
+scene::Mesh random_mesh(testing::Random& random) {
   std::uniform_int_distribution<int> lattice(0, 3);
   const auto vertex = [&] { return Vec3(lattice(random), lattice(random), lattice(random)); };
   scene::Mesh mesh;
@@ -281,7 +282,7 @@ bool some_surface_separates(const scene::Mesh& mesh, const Vec3& a, const Vec3& 
 
 TEST(Separation, RandomSurfacesAgainstLinearAlgebraAndTheChecker) {
   constexpr int kCases = 20'000;
-  std::mt19937_64 random = testing::seeded(41);
+  testing::Random random(41);
   // Half of the coordinates are those of vertices, so that rays pass through vertices and edges.
   std::uniform_int_distribution<int> quarter(-1, 13);
   const auto point = [&] {

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -25,7 +26,7 @@ struct Sides {
 // Cuboids that may contain or intersect each other. Coordinates are small integers, so rays often
 // pass through vertices and along edges and faces.
 TEST(SurfaceSides, AreTheSameExactlyInTheSameCuboids) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   std::uniform_int_distribution<int> corner(0, 8);
   for (int run = 0; run < 50; ++run) {
     std::vector<geometry::Box> boxes;

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/collision/detect.h"
 #include "daemon/correction/path/guide.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
@@ -43,7 +45,7 @@ BumpRow single(const Vec3& height) {
 }
 
 /// Returns random coefficients within the interval, with rotation.
-BumpRow any_row(std::mt19937_64& random) {
+BumpRow any_row(testing::Random& random) {
   std::uniform_real_distribution<double> off(-0.5, 0.5);
   BumpRow row{{2.0, 4.0, 8}, 2, {}};
   for (int k = 2; k <= 6; ++k) {
@@ -93,7 +95,7 @@ TEST(Attempt, TakesWhatIsFreeAndNothingElse) {
 }
 
 TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   const Problem problem = middle_problem();
   int taken = 0;
   int refused = 0;
@@ -126,7 +128,7 @@ TEST(Attempt, AgreesWithSamplesOfEveryTriangle) {
 // Pieces beyond the row keep their bits. Of a piece that the row cuts, the part beyond differs by
 // the rounding of cutting only.
 TEST(Attempt, KeepsKeyframesAndWhatIsBeyond) {
-  std::mt19937_64 random = testing::seeded(2);
+  testing::Random random(2);
   const SearchScene scene({});
   const FreeSpace space = scene.space();
   const Problem problem = middle_problem();
@@ -204,8 +206,9 @@ TEST(Attempt, OthersMayStayAndMustNotGrow) {
   const SearchScene scene(std::move(mesh));
   const FreeSpace space = scene.space();
   Problem problem = middle_problem();
-  const auto found = collision::detect_collisions(scene.index, problem.path.path(), scene.body, 0.0,
-                                                  6.0, scene.detect, Deadline::never());
+  const auto found =
+      collision::detect_collisions({collision::Obstacles(scene.index), scene.body, scene.detect},
+                                   problem.path.path(), 0.0, 6.0, Deadline::never());
   ASSERT_TRUE(found);
   ASSERT_EQ(found->size(), 2U);
   problem.interval = (*found)[1];
@@ -253,8 +256,9 @@ TEST(FirstNewCollision, IsTheFirstOfThemAll) {
   const SearchScene scene(std::move(mesh));
   const FreeSpace space = scene.space();
   Problem problem = middle_problem();
-  const auto all = collision::detect_collisions(scene.index, problem.path.path(), scene.body, 0.0,
-                                                6.0, scene.detect, Deadline::never());
+  const auto all =
+      collision::detect_collisions({collision::Obstacles(scene.index), scene.body, scene.detect},
+                                   problem.path.path(), 0.0, 6.0, Deadline::never());
   ASSERT_TRUE(all);
   ASSERT_EQ(all->size(), 3U);
   for (std::size_t known = 0; known <= 3; ++known) {

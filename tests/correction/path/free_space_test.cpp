@@ -5,13 +5,14 @@
 
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
 
 using namespace testing_search;  // NOLINT: the fixture of this file
 
-Vec3 anywhere(std::mt19937_64& random, double size_m) {
+Vec3 anywhere(testing::Random& random, double size_m) {
   std::uniform_real_distribution<double> place(-size_m, size_m);
   const double x = place(random);
   const double y = place(random);
@@ -19,9 +20,9 @@ Vec3 anywhere(std::mt19937_64& random, double size_m) {
   return {x, y, z};
 }
 
-motion::Pose any_pose(std::mt19937_64& random) {
+motion::Pose any_pose(testing::Random& random) {
   const Vec3 position = anywhere(random, 1.2);
-  return {position, testing::random_rotation(random)};
+  return {position, random.rotation()};
 }
 
 // Rounding of distances of a few metres.
@@ -29,7 +30,7 @@ const double kRounding_m = geometry::triangle_distance_error_m(8.0);
 
 TEST(FreeSpace, TheBallHoldsTheBodyInEveryOrientation) {
   std::string error;
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   for (const motion::Body& body :
        {motion::Body(testing::small_camera()), sphere(0.3),
         *motion::Body::make(motion::BoxShape{Vec3(0.5, 0, 0), Vec3(0.3, 0.2, 0.1)}, error),
@@ -52,7 +53,7 @@ TEST(FreeSpace, TheBallHoldsTheBodyInEveryOrientation) {
 }
 
 TEST(FreeSpace, KnowsOfPosesWhatAskingEveryTriangleTells) {
-  std::mt19937_64 random = testing::seeded(2);
+  testing::Random random(2);
   for (const double clearance_m : {0.0, 0.05}) {
     SearchScene scene(testing::scattered_triangles(random, 60, 0.3));
     scene.detect.clearance_m = clearance_m;
@@ -86,7 +87,7 @@ TEST(FreeSpace, KnowsOfPosesWhatAskingEveryTriangleTells) {
 TEST(FreeSpace, FirstHitIsTheFirst) {
   constexpr double kMargin_m = 0.01;
   constexpr double kStep_m = 2e-3;
-  std::mt19937_64 random = testing::seeded(3);
+  testing::Random random(3);
   SearchScene scene(testing::scattered_triangles(random, 40, 0.3));
   scene.detect.clearance_m = 0.02;
   FreeSpace space = scene.space();
@@ -113,7 +114,7 @@ TEST(FreeSpace, FirstHitIsTheFirst) {
 }
 
 TEST(FreeSpace, BallsAreToldApartExactlyAndMeasuredAbout) {
-  std::mt19937_64 random = testing::seeded(4);
+  testing::Random random(4);
   const SearchScene scene(testing::scattered_triangles(random, 60, 0.3));
   const FreeSpace space = scene.space();
   int free = 0;
@@ -136,14 +137,14 @@ TEST(FreeSpace, BallsAreToldApartExactlyAndMeasuredAbout) {
 
 // With a distance field the answers are the same, unless they are "far enough".
 TEST(FreeSpace, TheDistanceFieldChangesNoAnswerOfABall) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   const scene::SnapshotResult made =
       scene::make_snapshot("scattered", scattered_cuboids(random, 6, 0.5));
   ASSERT_TRUE(made.snapshot);
   const motion::Body body(testing::small_camera());
   const collision::DetectOptions detect;
-  const FreeSpace with(*made.snapshot, body, detect);
-  const FreeSpace without(made.snapshot->index, body, detect);
+  const FreeSpace with({collision::Obstacles(*made.snapshot), body, detect});
+  const FreeSpace without({collision::Obstacles(made.snapshot->index), body, detect});
   for (int run = 0; run < 500; ++run) {
     const Vec3 point_W = anywhere(random, 1.5);
     EXPECT_EQ(with.ball_gap_m(point_W, 0.1, 0.2), without.ball_gap_m(point_W, 0.1, 0.2));
@@ -167,13 +168,13 @@ TEST(FreeSpace, DistancesOfPosesCountMovingAndTurning) {
 // Bounds and scene are tested together: the nearer one counts.
 TEST(FreeSpace, MindsBoundsLikeTheScene) {
   const geometry::Bounds bounds{Vec3(-1, -0.9, -1.1), Vec3(1, 1.2, 0.8)};
-  std::mt19937_64 random = testing::seeded(19);
+  testing::Random random(19);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for (const motion::Body& body : {motion::Body(testing::small_camera()), sphere(0.2)}) {
     const SearchScene scene(scattered_cuboids(random, 4, 0.4), body);
     collision::Obstacles obstacles(scene.index);
     const FreeSpace alone = scene.space();
-    FreeSpace space(obstacles.within(bounds), scene.body, scene.detect);
+    FreeSpace space({obstacles.within(bounds), scene.body, scene.detect});
     const auto depth_m = [&](const motion::Pose& pose) {
       double least_m = std::numeric_limits<double>::infinity();
       for (const Triangle& part : body.triangles_C()) {
@@ -216,14 +217,14 @@ TEST(FreeSpace, MindsBoundsLikeTheScene) {
 // once to a pose within.
 TEST(FreeSpace, BringsPosesWithinBounds) {
   const geometry::Bounds bounds{Vec3(-1, -0.9, -1.1), Vec3(1, 1.2, 0.8)};
-  std::mt19937_64 random = testing::seeded(20);
+  testing::Random random(20);
   constexpr double kMargin_m = 0.05;
   int moved = 0;
   for (const motion::Body& body : {motion::Body(testing::small_camera()), sphere(0.2)}) {
     const SearchScene scene({}, body);
-    FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+    FreeSpace space({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
     for (int run = 0; run < 300; ++run) {
-      const motion::Pose pose = {anywhere(random, 4.0), testing::random_rotation(random)};
+      const motion::Pose pose = {anywhere(random, 4.0), random.rotation()};
       const motion::Pose inside = space.within_bounds(pose, kMargin_m);
       EXPECT_TRUE(space.is_free(inside, 0.99 * kMargin_m));
       if (inside.position == pose.position) continue;
@@ -245,7 +246,7 @@ TEST(FreeSpace, FindsWhereAMotionLeavesTheBounds) {
   const SearchScene scene({}, sphere(0.2));
   geometry::Bounds bounds;
   bounds.max_W.x() = 1.0;
-  FreeSpace space(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+  FreeSpace space({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
   const auto at = [](double x) { return motion::signed_pose({Vec3(x, 0, 0), Quat::Identity()}); };
   EXPECT_FALSE(space.first_hit(at(-1.0), at(0.7), 0.05));
   const std::optional<double> hit = space.first_hit(at(-1.0), at(1.0), 0.05);

@@ -5,6 +5,7 @@
 
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
@@ -29,7 +30,7 @@ CubicPath some_path() {
 }
 
 /// Returns a guide from the path's first keyframe to the second, over some poses far off the path.
-Guide some_guide(std::mt19937_64& random, const CubicPath& path, int poses, double off_m) {
+Guide some_guide(testing::Random& random, const CubicPath& path, int poses, double off_m) {
   std::uniform_real_distribution<double> place(-off_m, off_m);
   const SignedPose from = signed_pose_at(path, 0.0);
   const SignedPose to = signed_pose_at(path, 3.0);
@@ -65,7 +66,7 @@ TEST(SignedPoseAt, IsThePathsOwnAndContinuous) {
 }
 
 TEST(TimedGuide, BeginsAndEndsWithTheGuide) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   const SearchScene scene({});
   for (int run = 0; run < 20; ++run) {
     const CubicPath path = some_path();
@@ -125,7 +126,7 @@ TEST(TimedGuide, OfPosesThatAreAllTheSame) {
 }
 
 TEST(OffsetsTo, LeadToTheGuideAtEveryKnot) {
-  std::mt19937_64 random = testing::seeded(2);
+  testing::Random random(2);
   const SearchScene scene({});
   const FreeSpace space = scene.space();
   for (int run = 0; run < 20; ++run) {
@@ -189,7 +190,7 @@ struct BumpsCase {
   Offsets offsets;
 };
 
-BumpsCase bumps_case(std::mt19937_64& random, int count) {
+BumpsCase bumps_case(testing::Random& random, int count) {
   BumpsCase result;
   const SearchScene scene({});
   const Guide guide = some_guide(random, result.path, 4, 1.0);
@@ -200,7 +201,7 @@ BumpsCase bumps_case(std::mt19937_64& random, int count) {
 }
 
 TEST(BumpsFor, KeepKeyframesAndWhatIsBeyond) {
-  std::mt19937_64 random = testing::seeded(3);
+  testing::Random random(3);
   for (const int count : {4, 5, 8, 16, 33}) {
     const BumpsCase c = bumps_case(random, count);
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
@@ -224,7 +225,7 @@ TEST(BumpsFor, KeepKeyframesAndWhatIsBeyond) {
 // Variation diminishing: between two knots the addition is in the hull of the four coefficients
 // about them, which include the outer ones that keep the keyframes.
 TEST(BumpsFor, SwingNoFurtherThanTheCoefficients) {
-  std::mt19937_64 random = testing::seeded(4);
+  testing::Random random(4);
   for (const int count : {6, 8, 16, 33}) {
     const BumpsCase c = bumps_case(random, count);
     const motion::BumpRow row = bumps_for(c.offsets, Ends::kFree);
@@ -285,7 +286,7 @@ double length_m(const Guide& guide, const FreeSpace& space) {
 }
 
 TEST(Shortened, IsStraightInTheOpen) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   const SearchScene scene({});
   FreeSpace space = scene.space();
   const Guide guide = some_guide(random, some_path(), 20, 1.0);
@@ -294,7 +295,7 @@ TEST(Shortened, IsStraightInTheOpen) {
 
 TEST(Shortened, IsNoLongerAndStillFree) {
   constexpr double kMargin_m = 0.01;
-  std::mt19937_64 random = testing::seeded(6);
+  testing::Random random(6);
   int shorter = 0;
   int bent = 0;
   for (int run = 0; run < 200; ++run) {

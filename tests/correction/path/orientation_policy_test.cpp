@@ -2,6 +2,7 @@
 // The ladder under each orientation policy, on scenes in which the camera has to turn.
 #include <gtest/gtest.h>
 
+#include "daemon/collision/detect.h"
 #include "daemon/correction/ladder/ladder.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/orientation_oracle.h"
@@ -37,19 +38,20 @@ struct Outcome {
 
 Outcome corrected(const Case& c, const OrientationPolicy& policy, Objective objective) {
   const scene::SceneIndex index = scene::SceneIndex::build(c.mesh);
+  const collision::Query query{collision::Obstacles(index), c.body};
   LadderOptions options;
   options.orientation = policy;
   options.objective = objective;
   const CubicPath before = motion::interpolate_cubic(c.keyframes);
   const auto collisions = [&](const CubicPath& path) {
-    return collision::detect_collisions(index, path.path(), c.body, path.begin_s(), path.end_s(),
-                                        options.detect, Deadline::never())
+    return collision::detect_collisions(query, path.path(), path.begin_s(), path.end_s(),
+                                        Deadline::never())
         .value();
   };
   const std::vector<CollisionInterval> found = collisions(before);
   EXPECT_FALSE(found.empty()) << "nothing to correct";
-  Outcome outcome{correct_by_ladder(std::make_shared<const scene::Mesh>(c.mesh), index, c.body,
-                                    c.keyframes, before, found, options, Deadline::never()),
+  Outcome outcome{correct_by_ladder(std::make_shared<const scene::Mesh>(c.mesh), query, c.keyframes,
+                                    before, found, options, Deadline::never()),
                   before, false, 0.0, 0.0};
   const motion::Path now = outcome.result.path.path();
   outcome.is_free = collisions(outcome.result.path).empty();

@@ -6,6 +6,7 @@
 #include "daemon/motion/spline/bump.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/orientation_oracle.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -21,45 +22,36 @@ using std::numbers::pi;
 
 constexpr double kRounding_deg = testing::kOracleRounding_deg;
 
-class Random {
+class RandomPolicies : public testing::Random {
  public:
-  explicit Random(std::uint64_t seed) : generator_(testing::seeded(seed)) {}
+  using Random::Random;
 
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  Vec3 vector(double size) {
-    return {number(-size, size), number(-size, size), number(-size, size)};
-  }
   Quat turn(double largest_rad) {
-    return Quat(Eigen::AngleAxisd(number(0.0, largest_rad), vector(1.0).normalized()));
+    return Quat(Eigen::AngleAxisd(uniform(0.0, largest_rad), in_cube(1.0).normalized()));
   }
-  Pose pose() { return {vector(2.0), turn(pi)}; }
+  Pose pose() { return {in_cube(2.0), turn(pi)}; }
   OrientationPolicy policy() {
     OrientationPolicy policy;
     const std::array rules = {OrientationRule::kFree, OrientationRule::kLevel,
                               OrientationRule::kTarget};
-    policy.rule = rules[static_cast<std::size_t>(number(0.0, 2.999))];
-    policy.up_W = vector(1.0).normalized();
-    policy.target_W = vector(3.0);
-    policy.cone_rad = number(0.05, 1.5);
-    if (number(0.0, 1.0) < 0.5 || policy.rule == OrientationRule::kFree)
-      policy.max_turn_rad = number(0.01, 2.0);
+    policy.rule = rules[static_cast<std::size_t>(uniform(0.0, 2.999))];
+    policy.up_W = in_cube(1.0).normalized();
+    policy.target_W = in_cube(3.0);
+    policy.cone_rad = uniform(0.05, 1.5);
+    if (uniform(0.0, 1.0) < 0.5 || policy.rule == OrientationRule::kFree)
+      policy.max_turn_rad = uniform(0.01, 2.0);
     return policy;
   }
-
- private:
-  std::mt19937_64 generator_;
 };
 
 TEST(OrientationRule, RoomIsLeftExactlyWhereTheOracleSeesNoBreach) {
-  Random random(2401);
+  RandomPolicies random(2401);
   int broken = 0;
   constexpr int kPoses = 20000;
   for (int i = 0; i < kPoses; ++i) {
     const OrientationPolicy policy = random.policy();
     const Pose before = random.pose();
-    const Pose now{before.position + random.vector(0.5), random.turn(1.0) * before.orientation};
+    const Pose now{before.position + random.in_cube(0.5), random.turn(1.0) * before.orientation};
     const double room = rule_room(policy, now, before);
     const double breach_deg = testing::breach_deg(policy, now, before);
     broken += room < 0.0 ? 1 : 0;
@@ -74,15 +66,15 @@ TEST(OrientationRule, RoomIsLeftExactlyWhereTheOracleSeesNoBreach) {
 }
 
 TEST(OrientationRule, WhatIsAllowedMeetsTheRuleAndTurnsAboutThePivot) {
-  Random random(2402);
+  RandomPolicies random(2402);
   int met = 0;
   constexpr int kPoses = 5000;
   for (int i = 0; i < kPoses; ++i) {
     OrientationPolicy policy = random.policy();
     const bool is_single = policy.rule == OrientationRule::kFree || policy.max_turn_rad >= pi;
     const Pose before = random.pose();
-    const Pose wanted{before.position + random.vector(0.5), random.turn(2.5) * before.orientation};
-    const Vec3 pivot_C = random.vector(0.1);
+    const Pose wanted{before.position + random.in_cube(0.5), random.turn(2.5) * before.orientation};
+    const Vec3 pivot_C = random.in_cube(0.1);
     const Pose allowed = allowed_pose(policy, wanted, before, pivot_C);
     const double room = rule_room(policy, allowed, before);
     met += room >= 0.0 ? 1 : 0;
@@ -100,12 +92,12 @@ TEST(OrientationRule, WhatIsAllowedMeetsTheRuleAndTurnsAboutThePivot) {
 }
 
 TEST(OrientationRule, LeavesAPoseThatIsAllowedAsItIs) {
-  Random random(2403);
+  RandomPolicies random(2403);
   int same = 0;
   for (int i = 0; i < 2000; ++i) {
     const OrientationPolicy policy = random.policy();
     const Pose before = random.pose();
-    const Pose back = allowed_pose(policy, before, before, random.vector(0.1));
+    const Pose back = allowed_pose(policy, before, before, random.in_cube(0.1));
     EXPECT_EQ(back.position, before.position);
     EXPECT_EQ(back.orientation.coeffs(), before.orientation.coeffs());
     const Pose wanted{before.position, random.turn(0.05) * before.orientation};
@@ -138,23 +130,23 @@ TEST(OrientationRule, LevelMayLookStraightUpAndTurnAboutTheViewThere) {
   EXPECT_GE(rule_room(policy, turned_back, ahead), 0.0);
 }
 
-CubicPath random_path(Random& random) {
+CubicPath random_path(RandomPolicies& random) {
   std::vector<Keyframe> keyframes;
   Quat orientation = random.turn(pi);
   for (int i = 0; i < 4; ++i) {
-    keyframes.push_back({2.0 * i, {random.vector(2.0), orientation}});
+    keyframes.push_back({2.0 * i, {random.in_cube(2.0), orientation}});
     orientation = random.turn(0.8) * orientation;
   }
   return motion::interpolate_cubic(keyframes);
 }
 
-CubicPath with_random_bumps(const CubicPath& path, Random& random) {
-  const double size = std::exp(random.number(-6.0, -1.0));
+CubicPath with_random_bumps(const CubicPath& path, RandomPolicies& random) {
+  const double size = std::exp(random.uniform(-6.0, -1.0));
   motion::BumpRow row{{2.0, 4.0, 6}, 2, {}};
   for (int i = 0; i < 3; ++i) {
-    row.bumps.push_back(
-        {random.vector(size), 0.5 * Vec4(random.number(-size, size), random.number(-size, size),
-                                         random.number(-size, size), random.number(-size, size))});
+    row.bumps.push_back({random.in_cube(size),
+                         0.5 * Vec4(random.uniform(-size, size), random.uniform(-size, size),
+                                    random.uniform(-size, size), random.uniform(-size, size))});
   }
   return motion::with_bumps(path, {&row, 1});
 }
@@ -162,7 +154,7 @@ CubicPath with_random_bumps(const CubicPath& path, Random& random) {
 // Compares the proof with dense samples: no breach may be missed, and few paths may be refused
 // without one.
 TEST(OrientationRule, APathIsPassedOnlyIfNoSampleBreaksTheRule) {
-  Random random(2404);
+  RandomPolicies random(2404);
   int passed = 0;
   int refused = 0;
   int refused_for_nothing = 0;

@@ -6,6 +6,8 @@
 #include <map>
 #include <random>
 
+#include "tests/support/random.h"
+
 namespace camway::correction {
 namespace {
 
@@ -17,7 +19,7 @@ Cell neighbour(const Cell& cell, std::size_t step) {
 }
 
 TEST(CellNumbers, KeysTellCellsApartAndLeadToNeighbours) {
-  std::mt19937 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_int_distribution<std::int32_t> coordinate(2 - kFarthestCell, kFarthestCell - 2);
   for (int i = 0; i < 10'000; ++i) {
     const Cell cell = {coordinate(random), coordinate(random), coordinate(random)};
@@ -31,7 +33,7 @@ TEST(CellNumbers, KeysTellCellsApartAndLeadToNeighbours) {
 
 // A walk at random, some jumps among it; the oracle is a map.
 TEST(CellNumbers, AreThoseThatWereGiven) {
-  std::mt19937 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_int_distribution<std::int32_t> far(-kFarthestCell / 2, kFarthestCell / 2);
   std::uniform_int_distribution<std::size_t> any_step(0, kCellSteps - 1);
   CellNumbers numbers;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::correction {
@@ -20,16 +21,17 @@ struct Seen {
   explicit Seen(scene::Mesh mesh_W) : mesh(std::move(mesh_W)) {}
 
   [[nodiscard]] bool closed(const Vec3& from, double half_m = 0.5) const {
-    std::mt19937_64 random(7);
+    testing::Random random(7);
     bool first = false;
     for (int run = 0; run < 8; ++run) {
-      const Quat turn_W = run == 0 ? Quat::Identity() : testing::random_rotation(random);
+      const Quat turn_W = run == 0 ? Quat::Identity() : random.rotation();
       scene::Mesh turned = mesh;
       for (Vec3& vertex : turned.vertices) vertex = turn_W * vertex;
       const Vec3 half = Vec3::Constant(half_m);
       const scene::SceneIndex index = scene::SceneIndex::build(turned);
       const bool closed =
-          closed_corner(index, Box(-half, half), turn_W * from, kKeep_m).has_value();
+          closed_corner(collision::Obstacles(index), Box(-half, half), turn_W * from, kKeep_m)
+              .has_value();
       if (run == 0) first = closed;
       EXPECT_EQ(closed, first) << run;
     }

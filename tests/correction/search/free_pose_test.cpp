@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
@@ -34,10 +35,10 @@ void expect_free(const SearchScene& scene, const motion::Pose& from, const FreeP
 
 // A sphere that is `depth` into a wall has to move by that, and the margin.
 TEST(NearestFreePose, OffAWallOfAnyTilt) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   std::uniform_real_distribution<double> share(0.05, 1.0);
   for (int run = 0; run < 100; ++run) {
-    const Quat tilt = testing::random_rotation(random);
+    const Quat tilt = random.rotation();
     scene::Mesh mesh;
     add_rectangle(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0), tilt * Vec3(0, 100, 0));
     const SearchScene scene(std::move(mesh), sphere(kRadius_m));
@@ -78,10 +79,10 @@ TEST(NearestFreePose, OutOfACorner) {
 
 // A sphere in a thin wall, most of it on one side: that one is nearer, however the wall is tilted.
 TEST(NearestFreePose, StaysOnItsSideOfAWall) {
-  std::mt19937_64 random = testing::seeded(3);
+  testing::Random random(3);
   std::uniform_real_distribution<double> share(0.05, 0.9);
   for (int run = 0; run < 100; ++run) {
-    const Quat tilt = testing::random_rotation(random);
+    const Quat tilt = random.rotation();
     scene::Mesh mesh;
     add_rectangle(mesh, tilt * Vec3(-50, -50, 0), tilt * Vec3(100, 0, 0), tilt * Vec3(0, 100, 0));
     const SearchScene scene(std::move(mesh), sphere(kRadius_m));
@@ -126,7 +127,7 @@ TEST(NearestFreePose, WillDo) {
 
 // The oracle: poses at random, none of which may be free and clearly nearer.
 TEST(NearestFreePose, NothingNearerIsFree) {
-  std::mt19937_64 random = testing::seeded(4);
+  testing::Random random(4);
   const SearchScene scene(scattered_cuboids(random, 12, 0.6));
   FreeSpace space = scene.space();
   std::uniform_real_distribution<double> place(-1.0, 1.0);
@@ -137,7 +138,7 @@ TEST(NearestFreePose, NothingNearerIsFree) {
     const double x = place(random);
     const double y = place(random);
     const double z = place(random);
-    const motion::Pose pose{{x, y, z}, testing::random_rotation(random)};
+    const motion::Pose pose{{x, y, z}, random.rotation()};
     if (scene.distance_m(pose) > 0.0) continue;
     ++colliding;
     const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
@@ -189,7 +190,7 @@ TEST(NearestFreePose, NothingWhereTheBodyIsBuriedBeyondReach) {
 }
 
 TEST(NearestFreePose, IsFreeWhateverTheScene) {
-  std::mt19937_64 random = testing::seeded(2);
+  testing::Random random(2);
   const SearchScene scene(scattered_cuboids(random, 20, 0.6));
   FreeSpace space = scene.space();
   std::uniform_real_distribution<double> place(-1.0, 1.0);
@@ -198,7 +199,7 @@ TEST(NearestFreePose, IsFreeWhateverTheScene) {
     const double x = place(random);
     const double y = place(random);
     const double z = place(random);
-    const motion::Pose pose{{x, y, z}, testing::random_rotation(random)};
+    const motion::Pose pose{{x, y, z}, random.rotation()};
     if (scene.distance_m(pose) > 0.0) continue;
     ++colliding;
     const std::optional<FreePose> found = nearest_free_pose(space, pose, kMargin_m, kAny);
@@ -213,7 +214,7 @@ TEST(NearestFreePose, BackWithinBounds) {
   const SearchScene empty({}, sphere(kRadius_m));
   geometry::Bounds bounds;
   bounds.max_W = {1.0, 1.0, std::numeric_limits<double>::infinity()};
-  FreeSpace space(collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect);
+  FreeSpace space({collision::Obstacles(empty.index).within(bounds), empty.body, empty.detect});
   const auto found = nearest_free_pose(space, at({31, 41, 0}), kMargin_m, kAny);
   ASSERT_TRUE(found);
   const double inset_m = kRadius_m + kMargin_m;
@@ -226,7 +227,7 @@ TEST(NearestFreePose, BackWithinBounds) {
   scene::Mesh mesh;
   testing::add_cuboid(mesh, {0.5, 0.5, -0.1}, {1.5, 1.5, 0.1});
   const SearchScene scene(std::move(mesh), sphere(kRadius_m));
-  FreeSpace blocked(collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect);
+  FreeSpace blocked({collision::Obstacles(scene.index).within(bounds), scene.body, scene.detect});
   const auto beside = nearest_free_pose(blocked, at({31, 41, 0}), kMargin_m, kAny);
   ASSERT_TRUE(beside);
   EXPECT_GE(scene.distance_m(beside->pose), kMargin_m);

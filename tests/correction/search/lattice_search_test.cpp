@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
@@ -142,7 +143,7 @@ TEST(LatticeWay, StraightThroughTheOpen) {
 }
 
 TEST(LatticeWay, IsFreeForTheBall) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   const Vec3 from_W(-2.0, 0.03, 0.02);
   const Vec3 to_W(2.0, -0.05, 0.04);
   int found = 0;
@@ -298,7 +299,7 @@ TEST(LatticeWay, StopsAtTheDeadline) {
 }
 
 TEST(LatticeWay, IsTheSameEachTime) {
-  std::mt19937_64 random = testing::seeded(3);
+  testing::Random random(3);
   const SearchScene scene(scattered_cuboids(random, 14, 0.6));
   const LatticeOptions options{0.1, 0.15, 20000};
   const LatticeResult a =

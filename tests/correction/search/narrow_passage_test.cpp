@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/correction/search_scene.h"
+#include "tests/support/random.h"
 
 namespace camway::correction {
 namespace {
@@ -59,11 +60,11 @@ void expect_passed(const SearchScene& scene, const std::vector<NarrowPassage>& p
 
 // The diagonal of the hole is from 1.08 to 1.5 times the short side. The way is off its middle.
 TEST(NarrowPassages, LeadThroughHolesLittleWiderThanTheShortSide) {
-  std::mt19937_64 random = testing::seeded(4801);
+  testing::Random random(4801);
   std::uniform_real_distribution<double> off(-0.03, 0.03);
   for (int run = 0; run < 20; ++run) {
     SCOPED_TRACE(run);
-    const Quat turn_W = testing::random_rotation(random);
+    const Quat turn_W = random.rotation();
     const double hole_m = kShortSide_m * (1.08 + 0.02 * run) / std::sqrt(2.0);
     scene::Mesh mesh;
     add_plate(mesh, 0.0, hole_m);
@@ -74,8 +75,8 @@ TEST(NarrowPassages, LeadThroughHolesLittleWiderThanTheShortSide) {
     const double y_m = off(random);
     const std::vector<Vec3> way_W =
         turned({{x_m, 0.2, 1.5}, {x_m, y_m, 0.2}, {-x_m, y_m, -0.2}, {-x_m, 0.3, -1.5}}, turn_W);
-    const SignedPose from = motion::signed_pose({way_W.front(), testing::random_rotation(random)});
-    const SignedPose to = motion::signed_pose({way_W.back(), testing::random_rotation(random)});
+    const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
+    const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
     const std::vector<NarrowPassage> passages =
         narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
     expect_passed(scene, passages, {0.0}, turn_W);
@@ -94,11 +95,11 @@ void add_plate_with_hole(scene::Mesh& mesh, const std::vector<Vec3>& hole_W) {
 
 // The body fits where its middle is not in the middle of the hole.
 TEST(NarrowPassages, LeadThroughTrianglesAndSlits) {
-  std::mt19937_64 random = testing::seeded(4802);
+  testing::Random random(4802);
   std::uniform_real_distribution<double> off(-0.2, 0.2);
   for (int run = 0; run < 20; ++run) {
     SCOPED_TRACE(run);
-    const Quat turn_W = testing::random_rotation(random);
+    const Quat turn_W = random.rotation();
     const double ratio = 1.35 + 0.02 * run;  // of the side, or the length, to the short side
     const double side_m = ratio * kShortSide_m;
     scene::Mesh mesh;
@@ -121,8 +122,8 @@ TEST(NarrowPassages, LeadThroughTrianglesAndSlits) {
     const double y_m = off(random) * free_m;
     const std::vector<Vec3> way_W =
         turned({{0, 0.2, 1.5}, {0, y_m, 0.2}, {0, y_m, -0.2}, {0, 0.3, -1.5}}, turn_W);
-    const SignedPose from = motion::signed_pose({way_W.front(), testing::random_rotation(random)});
-    const SignedPose to = motion::signed_pose({way_W.back(), testing::random_rotation(random)});
+    const SignedPose from = motion::signed_pose({way_W.front(), random.rotation()});
+    const SignedPose to = motion::signed_pose({way_W.back(), random.rotation()});
     const std::vector<NarrowPassage> passages =
         narrow_passages(space, way_W, from, to, kMargin_m, Deadline::never());
     expect_passed(scene, passages, {0.0}, turn_W);

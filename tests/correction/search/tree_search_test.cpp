@@ -51,7 +51,7 @@ TEST(TreeWay, StraightWhereThatIsFree) {
   FreeSpace space = scene.space();
   const SignedPose from = at({0, 0, 1});
   const SignedPose to = at({0.3, 0, -1});
-  const Guide way = tree_way(space, from, to, options_from(from, to, 1), Deadline::never());
+  const Guide way = tree_way(space, from, to, options_from(from, to, 1), Deadline::never()).guide;
   EXPECT_TRUE(same(way, {from, to}));
 }
 
@@ -63,10 +63,10 @@ TEST(TreeWay, TurnsToGetThroughWithAnySeed) {
     SCOPED_TRACE(seed);
     FreeSpace space = slot.scene.space();
     const TreeOptions options = options_from(slot.from, slot.to, seed);
-    const Guide way = tree_way(space, slot.from, slot.to, options, Deadline::never());
+    const Guide way = tree_way(space, slot.from, slot.to, options, Deadline::never()).guide;
     expect_way(slot.scene, way, slot.from, slot.to);
     FreeSpace again = slot.scene.space();
-    EXPECT_TRUE(same(way, tree_way(again, slot.from, slot.to, options, Deadline::never())));
+    EXPECT_TRUE(same(way, tree_way(again, slot.from, slot.to, options, Deadline::never()).guide));
     if (first.empty()) first = way;
     different += same(first, way) ? 0 : 1;
   }
@@ -78,7 +78,8 @@ TEST(TreeWay, KeepsTheClearance) {
   slot.scene.detect.clearance_m = 0.015;
   FreeSpace space = slot.scene.space();
   const Guide way =
-      tree_way(space, slot.from, slot.to, options_from(slot.from, slot.to, 1), Deadline::never());
+      tree_way(space, slot.from, slot.to, options_from(slot.from, slot.to, 1), Deadline::never())
+          .guide;
   expect_way(slot.scene, way, slot.from, slot.to);
   EXPECT_GE(least_distance_m(slot.scene, space, way, 5e-3), 0.015 + kMargin_m);
 }
@@ -95,9 +96,9 @@ TEST(TreeWay, ArrivesWithTheSignThatWasAskedFor) {
   // Half way no orientation is between the two, so it takes samples that are turned.
   const SignedPose half{{0, 0, -0.5}, Vec4(0, 1, 0, 0)};
   options.about_W = {from.position, half.position};
-  const Guide first = tree_way(space, from, half, options, Deadline::never());
+  const Guide first = tree_way(space, from, half, options, Deadline::never()).guide;
   expect_way(scene, first, from, half);
-  const Guide second = tree_way(space, half, to, options, Deadline::never());
+  const Guide second = tree_way(space, half, to, options, Deadline::never()).guide;
   expect_way(scene, second, half, to);
 }
 
@@ -107,13 +108,13 @@ TEST(TreeWay, GivesUpWithinItsBounds) {
   FreeSpace space = closed.space();
   TreeOptions options = options_from(slot.from, slot.to, 1);
   options.max_samples = 300;
-  EXPECT_TRUE(tree_way(space, slot.from, slot.to, options, Deadline::never()).empty());
+  EXPECT_TRUE(tree_way(space, slot.from, slot.to, options, Deadline::never()).guide.empty());
   // Where there is a way, too: it takes more than one sample, or a moment.
   FreeSpace open = slot.scene.space();
   options.max_samples = 1;
-  EXPECT_TRUE(tree_way(open, slot.from, slot.to, options, Deadline::never()).empty());
+  EXPECT_TRUE(tree_way(open, slot.from, slot.to, options, Deadline::never()).guide.empty());
   options.max_samples = 3000;
-  EXPECT_TRUE(tree_way(open, slot.from, slot.to, options, Deadline::after_s(0.0)).empty());
+  EXPECT_TRUE(tree_way(open, slot.from, slot.to, options, Deadline::after_s(0.0)).guide.empty());
 }
 
 // Places further from the way than the reach are not tried: the gap is 3 m beside it.
@@ -125,7 +126,7 @@ TEST(TreeWay, LooksAlongTheWayThatItIsGiven) {
   options.max_samples = 400;
   FreeSpace space = scene.space();
   options.about_W = {from.position, {3.5, 0, 0.5}, {3.5, 0, -0.5}, to.position};
-  expect_way(scene, tree_way(space, from, to, options, Deadline::never()), from, to);
+  expect_way(scene, tree_way(space, from, to, options, Deadline::never()).guide, from, to);
 }
 
 }  // namespace

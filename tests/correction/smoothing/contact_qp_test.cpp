@@ -33,15 +33,15 @@ Case random_case(Draw& draw, int samples, int bounds_of_sample, double share_sof
   Case c;
   c.unforced = draw.points(samples, 1.0);
   const Eigen::MatrixXd shares =
-      Eigen::MatrixXd::NullaryExpr(samples, samples + 1, [&]() { return draw.number(-0.3, 1.0); });
+      Eigen::MatrixXd::NullaryExpr(samples, samples + 1, [&]() { return draw.uniform(-0.3, 1.0); });
   c.response = shares * shares.transpose() / samples;
   for (int s = 0; s < samples; ++s) {
     for (int i = 0; i < bounds_of_sample; ++i) {
       BoundConstraint bound;
       bound.sample = static_cast<std::size_t>(s);
       bound.direction = draw.stacked(1.0);
-      bound.bound_m = c.unforced.row(s).dot(bound.direction) + draw.number(-0.5, 0.5);
-      bound.compliance = draw.number(0.0, 1.0) < share_soft ? draw.number(0.2, 2.0) : 0.0;
+      bound.bound_m = c.unforced.row(s).dot(bound.direction) + draw.uniform(-0.5, 0.5);
+      bound.compliance = draw.uniform(0.0, 1.0) < share_soft ? draw.uniform(0.2, 2.0) : 0.0;
       c.bounds.push_back(bound);
     }
   }
@@ -154,7 +154,7 @@ TEST(ContactForces, FromAnyGuessAreTheSame) {
     Case cold = random_case(draw, 12, 2, 1.0);
     Case warm = cold;
     for (BoundConstraint& bound : warm.bounds)
-      bound.multiplier = draw.integer(0, 1) * draw.number(0.0, 3.0);
+      bound.multiplier = draw.integer(0, 1) * draw.uniform(0.0, 3.0);
     find_until_settled(cold);
     find_until_settled(warm);
     const double size = 1.0 + forces_of(cold).maxCoeff();
@@ -167,7 +167,7 @@ TEST(ContactForces, NeverGetWorseThanTheGuess) {
   for (int run = 0; run < 300; ++run) {
     Case c = random_case(draw, draw.integer(1, 20), draw.integer(1, 3), 0.5);
     for (BoundConstraint& bound : c.bounds)
-      bound.multiplier = draw.integer(0, 1) * draw.number(0.0, 1.0);
+      bound.multiplier = draw.integer(0, 1) * draw.uniform(0.0, 1.0);
     const double before = dual_of(c, forces_of(c));
     solve_qp(c.bounds, c.unforced, c.response, 1e-3);
     const double after = dual_of(c, forces_of(c));

@@ -48,7 +48,9 @@ struct Case {
   Vec4 reference;
   StackedPoint point;
 
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, policy); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect}, policy);
+  }
   [[nodiscard]] motion::Pose pose(const StackedPoint& at) const {
     return motion::pose_of(reference, unstacked(at, kLever_m));
   }
@@ -76,17 +78,17 @@ struct Case {
 
 Case random_case(Draw& draw) {
   Case c;
-  c.mesh = testing::scattered_triangles(draw.generator(), 12, 0.5);
+  c.mesh = testing::scattered_triangles(draw, 12, 0.5);
   c.index = scene::SceneIndex::build(c.mesh);
   if (draw.integer(0, 1) == 1) {
-    c.body = made(motion::BoxShape{draw.vector(0.2), Vec3(0.3, 0.2, 0.1)});
+    c.body = made(motion::BoxShape{draw.in_cube(0.2), Vec3(0.3, 0.2, 0.1)});
   }
-  c.detect.clearance_m = draw.integer(0, 1) * draw.number(0.0, 0.02);
+  c.detect.clearance_m = draw.integer(0, 1) * draw.uniform(0.0, 0.02);
   c.reference = geometry::wxyz(draw.turn(3.0));
   FreeSpace space = c.space();
   do {
-    c.point.head<3>() = draw.vector(1.5);
-    c.point.tail<4>() = kLever_m * draw.number(0.5, 2.0) * geometry::wxyz(draw.turn(3.0));
+    c.point.head<3>() = draw.in_cube(1.5);
+    c.point.tail<4>() = kLever_m * draw.uniform(0.5, 2.0) * geometry::wxyz(draw.turn(3.0));
   } while (!(space.gap_m(c.pose(c.point), 2.0 * kShort_m) > kShort_m));
   return c;
 }
@@ -164,8 +166,8 @@ TEST(Contacts, AreTheTightestOfATriangleWhereThereAreMany) {
   Case c = random_case(draw);
   motion::MeshShape shape;
   for (std::uint32_t i = 0; i < 3 * 40; i += 3) {
-    const Vec3 center_C = draw.vector(0.2);
-    for (int k = 0; k < 3; ++k) shape.vertices_C.push_back(center_C + draw.vector(0.05));
+    const Vec3 center_C = draw.in_cube(0.2);
+    for (int k = 0; k < 3; ++k) shape.vertices_C.push_back(center_C + draw.in_cube(0.05));
     shape.triangles.push_back({i, i + 1, i + 2});
   }
   std::map<std::uint32_t, std::vector<double>> rooms_m;
@@ -193,7 +195,7 @@ TEST(Contacts, LeaveOutWhatIsBeyondTheHorizon) {
   for (int run = 0; run < 50; ++run) {
     const Case c = random_case(draw);
     std::vector<ContactRow> expected = c.rows();
-    const double horizon_m = draw.number(0.1, 1.0);
+    const double horizon_m = draw.uniform(0.1, 1.0);
     std::erase_if(expected, [&](const ContactRow& row) { return row.room_m > horizon_m; });
     const std::vector<ContactRow> rows = c.rows(horizon_m);
     ASSERT_EQ(rows.size(), expected.size());
@@ -223,11 +225,11 @@ TEST(Contacts, OfASideAreOfEveryVertex) {
   Draw draw(4306);
   for (int run = 0; run < 100; ++run) {
     Case c = random_case(draw);
-    if (run % 2 == 0) c.body = made(motion::SphereShape{draw.vector(0.3), 0.15});
+    if (run % 2 == 0) c.body = made(motion::SphereShape{draw.in_cube(0.3), 0.15});
     geometry::Bounds bounds;
     bounds.min_W.y() = -4.0;
     bounds.max_W.z() = 3.0;
-    FreeSpace space(collision::Obstacles(c.index).within(bounds), c.body, c.detect, c.policy);
+    FreeSpace space({collision::Obstacles(c.index).within(bounds), c.body, c.detect}, c.policy);
     const std::vector<std::uint32_t> sides = {collision::Obstacles::number_of_side(1),
                                               collision::Obstacles::number_of_side(5)};
     std::vector<ContactRow> rows;

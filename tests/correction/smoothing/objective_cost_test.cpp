@@ -28,7 +28,9 @@ struct Case {
     testing::add_cuboid(mesh, {-50, -2, -50}, {50, -1, 50});
     index = scene::SceneIndex::build(mesh);
   }
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, {}); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect});
+  }
   [[nodiscard]] ObjectiveCost cost(Objective objective, const CubicPath& path,
                                    const CubicPath& original) const {
     FreeSpace space = this->space();
@@ -49,9 +51,9 @@ TEST(ObjectiveCost, IsWhatMeasuresSay) {
   Draw draw(6101);
   for (int run = 0; run < 50; ++run) {
     std::vector<motion::Keyframe> keyframes;
-    for (int i = 0; i < 4; ++i) keyframes.push_back({1.7 * i, {draw.vector(3.0), draw.turn(1.0)}});
+    for (int i = 0; i < 4; ++i) keyframes.push_back({1.7 * i, {draw.in_cube(3.0), draw.turn(1.0)}});
     const CubicPath path = testing::problem_of_gap(keyframes, 1).path;
-    keyframes[1].pose.position += draw.vector(1.0);
+    keyframes[1].pose.position += draw.in_cube(1.0);
     const CubicPath original = testing::problem_of_gap(keyframes, 1).path;
     const motion::PathMeasures measures = motion::measure(path.path(), original.path());
     const auto value = [&](Objective objective) { return c.cost(objective, path, original).value; };

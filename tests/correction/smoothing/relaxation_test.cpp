@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "daemon/collision/detect.h"
 #include "daemon/collision/near_quad.h"
 #include "daemon/correction/path/orientation_rule.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
@@ -42,7 +43,9 @@ struct Case {
   Problem problem;
 
   void build() { index = scene::SceneIndex::build(mesh); }
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(index, body, detect, policy); }
+  [[nodiscard]] FreeSpace space() const {
+    return FreeSpace({collision::Obstacles(index), body, detect}, policy);
+  }
   /// Returns the value of the objective; the lever arm is that of the relaxation.
   [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
     const double lever_m = 4.0 * space().ball_radius_m();
@@ -82,8 +85,9 @@ std::optional<Relaxed> correction_with(const Case& c, const Offsets& offsets, En
 Relaxed relaxed_fully(const Case& c, const Relaxed& free, Ends ends, Objective objective,
                       int steps = kEnough) {
   FreeSpace space = c.space();
-  Improvement improvement{objective, steps};
-  return relaxed(c.problem, free, ends, improvement, space, Deadline::never());
+  const Improvement improvement{objective};
+  base::Budget budget(steps);
+  return relaxed(c.problem, free, ends, improvement, budget, space, Deadline::never());
 }
 
 /// Returns equal inner coefficients.
@@ -122,24 +126,24 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
   swing.c.policy.max_turn_rad = max_turn_rad;
   while (!swing.free) {
     Case& c = swing.c;
-    c.mesh = testing::scattered_triangles(draw.generator(), 25, 0.4);
+    c.mesh = testing::scattered_triangles(draw, 25, 0.4);
     c.build();
     std::vector<Keyframe> keyframes;
-    for (int i = 0; i < 4; ++i) keyframes.push_back(at(1.5 * i, draw.vector(1.3), draw.turn(1.0)));
+    for (int i = 0; i < 4; ++i) keyframes.push_back(at(1.5 * i, draw.in_cube(1.3), draw.turn(1.0)));
     c.problem = testing::problem_of_gap(keyframes, static_cast<std::size_t>(draw.integer(0, 2)));
     c.detect.clearance_m = draw.integer(0, 1) * 0.01;
     swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
     // The parts that the swing left unchanged may collide and are not corrected.
     c.problem.foreign_collisions =
-        collision::detect_collisions(c.index, c.problem.path.path(), c.body,
-                                     c.problem.path.begin_s(), c.problem.path.end_s(), c.detect,
-                                     Deadline::never())
+        collision::detect_collisions({collision::Obstacles(c.index), c.body, c.detect},
+                                     c.problem.path.path(), c.problem.path.begin_s(),
+                                     c.problem.path.end_s(), Deadline::never())
             .value();
     std::erase_if(c.problem.foreign_collisions, [&](const collision::CollisionInterval& other) {
       return other.t_end_s > c.problem.gap_begin_s() && other.t_begin_s < c.problem.gap_end_s();
     });
     const int count = 8 << draw.integer(0, 2);
-    Offsets offsets = lifted(c.problem, count, draw.vector(1.5));
+    Offsets offsets = lifted(c.problem, count, draw.in_cube(1.5));
     for (motion::CubicPoint& point : offsets.at)
       point.image = draw.image(0.1 * std::min(1.0, max_turn_rad));
     swing.free = correction_with(c, offsets, swing.ends);
@@ -223,20 +227,22 @@ TEST(Relaxation, WithoutStepsChangesNothing) {
   const Relaxed result = relaxed_fully(swing.c, *swing.free, swing.ends, Objective::kClosest, 0);
   expect_same(result.candidate.path, swing.free->candidate.path);
   FreeSpace space = swing.c.space();
-  Improvement improvement{Objective::kClosest, 0};
-  EXPECT_FALSE(polished(swing.c.problem, kKnots, improvement, space, Deadline::never()));
-  EXPECT_EQ(improvement.steps_left, 0);
+  const Improvement improvement{Objective::kClosest};
+  base::Budget budget(0);
+  EXPECT_FALSE(polished(swing.c.problem, kKnots, improvement, budget, space, Deadline::never()));
+  EXPECT_EQ(budget.left(), 0);
 }
 
 TEST(Relaxation, AfterTheDeadlineChangesNothingAndDoesNoSteps) {
   Draw draw(4405);
   const Swing swing = random_swing(draw);
   FreeSpace space = swing.c.space();
-  Improvement improvement{Objective::kClosest, kEnough};
-  const Relaxed result =
-      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, space, Deadline::after_s(0.0));
+  const Improvement improvement{Objective::kClosest};
+  base::Budget budget(kEnough);
+  const Relaxed result = relaxed(swing.c.problem, *swing.free, swing.ends, improvement, budget,
+                                 space, Deadline::after_s(0.0));
   expect_same(result.candidate.path, swing.free->candidate.path);
-  EXPECT_EQ(improvement.steps_left, kEnough);
+  EXPECT_EQ(budget.left(), kEnough);
 }
 
 TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
@@ -246,11 +252,13 @@ TEST(Relaxation, DoesNoMoreStepsThanThereAreAndLeavesTheRest) {
     const Swing swing = random_swing(draw);
     for (const int steps : {1, 3, kEnough}) {
       FreeSpace space = swing.c.space();
-      Improvement improvement{Objective::kSmoothest, steps};
-      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, space, Deadline::never());
-      EXPECT_GE(improvement.steps_left, 0);
-      EXPECT_LT(improvement.steps_left, steps);
-      stopped_early += steps == kEnough && improvement.steps_left > 0 ? 1 : 0;
+      const Improvement improvement{Objective::kSmoothest};
+      base::Budget budget(steps);
+      relaxed(swing.c.problem, *swing.free, swing.ends, improvement, budget, space,
+              Deadline::never());
+      EXPECT_GE(budget.left(), 0);
+      EXPECT_LT(budget.left(), steps);
+      stopped_early += steps == kEnough && budget.left() > 0 ? 1 : 0;
     }
   }
   EXPECT_EQ(stopped_early, 20) << "one correction must not use up what all have";
@@ -344,8 +352,9 @@ TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
     ASSERT_TRUE(free);
     const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
     expect_keyframes_kept(c, result.candidate.path);
-    EXPECT_FALSE(collision::first_collision(c.index, result.candidate.path.path(), c.body, 0.0, 8.0,
-                                            c.detect, Deadline::never())
+    EXPECT_FALSE(collision::first_collision({collision::Obstacles(c.index), c.body, c.detect},
+                                            result.candidate.path.path(), 0.0, 8.0,
+                                            Deadline::never())
                      .interval);
     // The path passes above the plate, lower than at its beginning: it came down to it.
     const CubicPath& path = result.candidate.path;
@@ -376,10 +385,11 @@ TEST(Relaxation, PolishesWhatIsWornAndNothingElse) {
     c.problem.path = swing.free->candidate.path;
     // On coarser knots than before; some wide swings can only get worse on these.
     FreeSpace space = c.space();
-    Improvement improvement{Objective::kSmoothest, kEnough};
+    const Improvement improvement{Objective::kSmoothest};
+    base::Budget budget(kEnough);
     const std::optional<Candidate> better =
-        polished(c.problem, kKnots, improvement, space, Deadline::never());
-    EXPECT_LE(improvement.steps_left, kEnough);
+        polished(c.problem, kKnots, improvement, budget, space, Deadline::never());
+    EXPECT_LE(budget.left(), kEnough);
     if (!better) continue;
     ++found;
     expect_free(c, better->path);
@@ -445,9 +455,10 @@ TEST(Relaxation, PolishesNextToAShortGap) {
   c.problem.path =
       correction_with(c, lifted(c.problem, 12, {0, 0.5, 0}), Ends::kFixed).value().candidate.path;
   FreeSpace space = c.space();
-  Improvement improvement{Objective::kShortest, kEnough};
+  const Improvement improvement{Objective::kShortest};
+  base::Budget budget(kEnough);
   const std::optional<Candidate> better =
-      polished(c.problem, kKnots, improvement, space, Deadline::never());
+      polished(c.problem, kKnots, improvement, budget, space, Deadline::never());
   ASSERT_TRUE(better);
   expect_keyframes_kept(c, better->path);
   constexpr double kStraight_m = 6.5;
@@ -460,9 +471,10 @@ TEST(Relaxation, PolishesNothingThatIsAsGoodAsItGets) {
   c.build();
   c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
   FreeSpace space = c.space();
-  Improvement improvement{Objective::kClosest, kEnough};
-  EXPECT_FALSE(polished(c.problem, kKnots, improvement, space, Deadline::never()));
-  EXPECT_EQ(improvement.steps_left, kEnough);
+  const Improvement improvement{Objective::kClosest};
+  base::Budget budget(kEnough);
+  EXPECT_FALSE(polished(c.problem, kKnots, improvement, budget, space, Deadline::never()));
+  EXPECT_EQ(budget.left(), kEnough);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ Case random_case(Draw& draw) {
   c.knots = {c.problem.gap_begin_s(), c.problem.gap_end_s(), draw.integer(4, 24)};
   // A path other than the original.
   motion::BumpRow row{{c.problem.path.begin_s(), c.problem.path.end_s(), 9}, -1, {}};
-  for (int k = -1; k <= 10; ++k) row.bumps.push_back({draw.vector(0.5), draw.image(0.1)});
+  for (int k = -1; k <= 10; ++k) row.bumps.push_back({draw.in_cube(0.5), draw.image(0.1)});
   c.problem.path = motion::with_bumps(c.problem.path, std::vector{row});
   return c;
 }
@@ -73,7 +73,7 @@ TEST(FreeCoefficients, AreWhatTheRowOfBumpsAdds) {
     const CubicPath after =
         motion::with_bumps(c.problem.path, std::vector{bumps_for(offsets, ends)});
     for (int i = 0; i < 60; ++i) {
-      const double time_s = draw.number(c.problem.path.begin_s(), c.problem.path.end_s());
+      const double time_s = draw.uniform(c.problem.path.begin_s(), c.problem.path.end_s());
       const StackedPoint added = combined(free.at(time_s), variables);
       const StackedPoint now = stacked(after.at(time_s), kLever_m);
       const StackedPoint before = stacked(c.problem.path.at(time_s), kLever_m);

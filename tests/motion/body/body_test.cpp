@@ -15,8 +15,8 @@ namespace {
 using geometry::Triangle;
 using geometry::test::exact;
 using geometry::test::Rational;
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Camera kCamera{1.5, 1.0, 0.2};
@@ -54,7 +54,7 @@ double signed_volume(std::span<const Triangle> triangles) {
 
 BoxShape random_box(Random& random) {
   const auto size = [&] { return random.log_uniform(1e-3, 10.0); };
-  return {random.vector(2.0), {size(), size(), size()}};
+  return {random.normal_vector(2.0), {size(), size(), size()}};
 }
 
 std::vector<Vec3> corners(const BoxShape& box) {
@@ -143,7 +143,7 @@ TEST(Body, OfABoxIsTheHullOfItsCornersAndTheMeshOfItsTriangles) {
 TEST(Body, SlackCoversTheRoundingOfCorners) {
   Random random(123);
   for (int i = 0; i < 300; ++i) {
-    const BoxShape box{random.vector(random.log_uniform(1e-3, 1e6)),
+    const BoxShape box{random.normal_vector(random.log_uniform(1e-3, 1e6)),
                        Vec3::Constant(random.log_uniform(1e-9, 1.0))};
     const Body body = made(box);
     // Expected lower and upper corner, compared with the half-spaces' own corners.
@@ -181,7 +181,7 @@ TEST(Body, OfPiecesHasASolidForEachWithVolume) {
   ConvexShape shape;
   for (const int count : {1, 2, 3, 4, 20}) {
     shape.pieces_C.emplace_back();
-    for (int i = 0; i < count; ++i) shape.pieces_C.back().push_back(random.vector(1.0));
+    for (int i = 0; i < count; ++i) shape.pieces_C.back().push_back(random.normal_vector(1.0));
   }
   const Body body = made(shape);
   EXPECT_EQ(body.solids_C().size(), 2U);

@@ -9,8 +9,8 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
 TEST(Camera, CornersOfARightAngleCamera) {
   const Corners corners = near_corners_C({std::numbers::pi / 2.0, std::numbers::pi / 3.0, 0.3});
@@ -33,7 +33,7 @@ TEST(Camera, CornersFollowThePose) {
   Random random(31);
   for (int i = 0; i < 100; ++i) {
     const Corners corners_C = near_corners_C({1.2, 0.9, 0.1});
-    const Pose pose{random.vector(5.0), random.rotation()};
+    const Pose pose{random.normal_vector(5.0), random.rotation()};
     const Corners corners = corners_W(corners_C, pose);
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3 expected = pose.orientation * corners_C[k] + pose.position;

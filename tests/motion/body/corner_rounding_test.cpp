@@ -20,10 +20,11 @@ TEST(CornerRounding, HoldsAgainstFiftyDigits) {
     const double place_m = random.log_uniform(1e-3, 1e6);
     const double size_m = random.log_uniform(1e-3, 10.0);
     Segment segment{0.0, 1.0, {}, {}};
-    for (Vec3& point : segment.position) point = random.vector(place_m);
+    for (Vec3& point : segment.position) point = random.normal_vector(place_m);
     const double spread = random.log_uniform(1e-6, 3.0);
-    const Vec4 about = random.unit_four_vector();
-    for (Vec4& point : segment.orientation) point = about + spread * random.unit_four_vector();
+    const Vec4 about = geometry::wxyz(random.rotation());
+    for (Vec4& point : segment.orientation)
+      point = about + spread * geometry::wxyz(random.rotation());
     const Corners corners_C =
         near_corners_C({random.uniform(0.2, 2.5), random.uniform(0.2, 2.5), size_m});
     const double u = random.uniform(0.0, 1.0);

@@ -8,8 +8,8 @@
 namespace camway::motion {
 namespace {
 
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
 Path straight(double length_m, double duration_s) {
   const std::vector<Keyframe> keyframes = {
@@ -35,7 +35,7 @@ TEST(Measures, BendingEnergyIsTheIntegral) {
   for (int round = 0; round < 50; ++round) {
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 5; ++i)
-      keyframes.push_back({1.3 * i, {random.vector(2.0), random.rotation()}});
+      keyframes.push_back({1.3 * i, {random.normal_vector(2.0), random.rotation()}});
     const Path path = interpolate(keyframes);
     double sum = 0.0;
     constexpr int kSteps = 4000;

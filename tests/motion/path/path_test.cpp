@@ -6,7 +6,7 @@
 namespace camway::motion {
 namespace {
 
-using test::Random;
+using testing::Random;
 
 Path path_of(Random& random, int segments) {
   std::vector<Segment> parts;

@@ -7,9 +7,9 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 /// Evaluates by the power basis, independently of the implementation.
 template <class Value, std::size_t N>

@@ -60,8 +60,8 @@ TEST(Stretch, ReachHoldsAgainstFiftyDigits) {
     const double place_m = random.log_uniform(1e-3, 1e6);
     const double path_m = random.log_uniform(1e-6, 1e3);
     Segment segment = random_segment(random, random.log_uniform(1e-6, 3.0));
-    const Vec3 place = random.vector(place_m);
-    for (Vec3& point : segment.position) point = place + random.vector(path_m);
+    const Vec3 place = random.normal_vector(place_m);
+    for (Vec3& point : segment.position) point = place + random.normal_vector(path_m);
     const Corners corners_C = near_corners_C(
         {random.uniform(0.2, 2.5), random.uniform(0.2, 2.5), random.log_uniform(1e-3, 10.0)});
     const double width = random.log_uniform(1e-16, 1.0);
@@ -98,7 +98,7 @@ TEST(Stretch, AtOneInstantReachIsRounding) {
   double worst = 0.0;
   for (int run = 0; run < 2'000; ++run) {
     Segment segment = random_segment(random, random.log_uniform(1e-3, 1.0));
-    const Vec3 place = random.vector(random.log_uniform(1e-3, 1e6));
+    const Vec3 place = random.normal_vector(random.log_uniform(1e-3, 1e6));
     for (Vec3& point : segment.position) point += place;
     const Corners corners_C = near_corners_C({1.5, 1.0, random.log_uniform(1e-3, 10.0)});
     const double radius_m = body_radius_m(corners_C);
@@ -162,8 +162,8 @@ TEST(Stretch, OfRestIsRounding) {
   Random random(20264);
   Segment segment;
   segment.t1_s = 1.0;
-  segment.position.fill(random.vector(1e3));
-  segment.orientation.fill(random.unit_four_vector());
+  segment.position.fill(random.normal_vector(1e3));
+  segment.orientation.fill(geometry::wxyz(random.rotation()));
   const Stretch stretch = SegmentMotion(segment).around(0.0, 1.0);
   EXPECT_EQ(stretch.eye_W, segment.position[0]);
   EXPECT_EQ(stretch.travel_m, 0.0);
@@ -213,9 +213,9 @@ TEST(Stretch, OfNumbersWithoutMeaningHasNoFiniteReach) {
 
 TEST(Stretch, StandingAtAPoseIsThatPose) {
   Random random(20267);
-  const Pose pose{random.vector(3.0), random.rotation()};
+  const Pose pose{random.normal_vector(3.0), random.rotation()};
   const Stretch stretch = standing_at(pose);
-  const Vec3 point_C = random.vector(1.0);
+  const Vec3 point_C = random.normal_vector(1.0);
   EXPECT_LE((placed(stretch, point_C) - (pose.position + pose.orientation * point_C)).norm(),
             stretch.reach_m(point_C.norm()));
   EXPECT_LE(stretch.reach_m(1.0), 200.0 * kEpsilon * (1.0 + pose.position.norm()));

@@ -6,13 +6,13 @@
 namespace camway::motion {
 namespace {
 
-using test::Random;
+using testing::Random;
 
 TEST(TimeOrigin, GivesEachTimeOfThePathBackBitForBit) {
   Random random(3401);
   int far = 0;
   for (int round = 0; round < 20000; ++round) {
-    const double first_s = (random.coin() ? 1.0 : -1.0) * random.log_uniform(1e-6, 1e10);
+    const double first_s = (random.chance(0.5) ? 1.0 : -1.0) * random.log_uniform(1e-6, 1e10);
     const double duration_s = random.log_uniform(1e-3, 1e5);
     const TimeOrigin origin = TimeOrigin::of(first_s, first_s + duration_s);
     far += origin.s != 0.0 ? 1 : 0;

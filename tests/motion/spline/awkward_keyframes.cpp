@@ -25,8 +25,8 @@ std::vector<Keyframe> nearly_opposite(Random& random) {
   std::vector<Pose> poses = {{Vec3::Zero(), random.rotation()}};
   for (int i = 1; i < 12; ++i) {
     const double angle_rad = std::numbers::pi - random.log_uniform(1e-9, 1e-2);
-    poses.push_back(
-        {random.vector(2.0), poses.back().orientation * turned(random.vector(1.0), angle_rad)});
+    poses.push_back({random.normal_vector(2.0),
+                     poses.back().orientation * turned(random.normal_vector(1.0), angle_rad)});
   }
   return with_times(poses);
 }
@@ -42,10 +42,11 @@ std::vector<Keyframe> half_turns() {
 std::vector<Keyframe> clusters(Random& random) {
   std::vector<Pose> poses;
   for (int i = 0; i < 6; ++i) {
-    const Pose centre{random.vector(3.0), turned(random.vector(1.0), random.uniform(0.0, 1.0))};
+    const Pose centre{random.normal_vector(3.0),
+                      turned(random.normal_vector(1.0), random.uniform(0.0, 1.0))};
     for (int k = 0; k < 3; ++k)
-      poses.push_back({centre.position + random.vector(1e-6),
-                       centre.orientation * turned(random.vector(1.0), 1e-6)});
+      poses.push_back({centre.position + random.normal_vector(1e-6),
+                       centre.orientation * turned(random.normal_vector(1.0), 1e-6)});
   }
   return with_times(poses);
 }

@@ -8,18 +8,18 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 CubicPath random_path(Random& random, int keyframes) {
   std::vector<Keyframe> tour;
   double time_s = random.uniform(-5.0, 5.0);
   geometry::Quat orientation = random.rotation();
   for (int i = 0; i < keyframes; ++i) {
-    tour.push_back({time_s, {random.vector(3.0), orientation}});
+    tour.push_back({time_s, {random.normal_vector(3.0), orientation}});
     time_s += random.log_uniform(0.2, 3.0);
-    orientation = orientation * test::turned(random.vector(1.0), random.uniform(0.1, 1.5));
+    orientation = orientation * test::turned(random.normal_vector(1.0), random.uniform(0.1, 1.5));
   }
   return interpolate_cubic(tour);
 }
@@ -29,7 +29,8 @@ BumpRow random_row(Random& random, const CubicPath& path, double image_size) {
   const double end_s = begin_s + random.uniform(0.1, 2.0);
   BumpRow row{{begin_s, end_s, random.integer(1, 9)}, random.integer(-3, 3), {}};
   for (int i = random.integer(1, 6); i > 0; --i) {
-    row.bumps.push_back({random.vector(0.5), image_size * random.unit_four_vector()});
+    row.bumps.push_back(
+        {random.normal_vector(0.5), image_size * geometry::wxyz(random.rotation())});
   }
   return row;
 }
@@ -78,7 +79,7 @@ TEST(Bump, AddsTheBSplineOfItsCoefficients) {
 TEST(Bump, KeepsThePathSmooth) {
   Random random(813);
   for (int round = 0; round < 100; ++round) {
-    SCOPED_TRACE(testing::Message() << "round " << round);
+    SCOPED_TRACE(::testing::Message() << "round " << round);
     const CubicPath path = random_path(random, 6);
     const std::vector<BumpRow> rows = {random_row(random, path, 0.05),
                                        random_row(random, path, 0.05)};
@@ -93,7 +94,7 @@ TEST(Bump, KeepsThePathSmooth) {
 TEST(Bump, KeepsThePathSmoothWhereKnotsAreNear) {
   Random random(817);
   for (int round = 0; round < 200; ++round) {
-    SCOPED_TRACE(testing::Message() << "round " << round);
+    SCOPED_TRACE(::testing::Message() << "round " << round);
     const CubicPath path = random_path(random, 6);
     const auto places = std::make_shared<KnotPlaces>();
     for (const CubicPiece& piece : path.pieces) places->taken_s.push_back(piece.t0_s);

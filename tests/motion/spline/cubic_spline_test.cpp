@@ -8,9 +8,9 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 std::vector<double> random_knots(Random& random, int count) {
   std::vector<double> knots = {random.normal()};
@@ -46,8 +46,8 @@ constexpr double kReproduced = 1e-12;
 TEST(CubicSpline, ReproducesLines) {
   Random random(71);
   const std::vector<double> knots = random_knots(random, 30);
-  const Vec4 a = random.unit_four_vector();
-  const Vec4 b = random.unit_four_vector();
+  const Vec4 a = geometry::wxyz(random.rotation());
+  const Vec4 b = geometry::wxyz(random.rotation());
   const auto line = [&](double t) { return Vec4(a + t * b); };
   EXPECT_LT(error_of_spline(knots, EndCondition::kNatural, line), kReproduced);
   EXPECT_LT(error_of_spline(knots, EndCondition::kBessel, line), kReproduced);
@@ -57,8 +57,8 @@ TEST(CubicSpline, ReproducesParabolasWithBesselEndsOnly) {
   Random random(72);
   for (const int count : {3, 4, 30}) {
     const std::vector<double> knots = random_knots(random, count);
-    const Vec4 a = random.unit_four_vector();
-    const Vec4 b = random.unit_four_vector();
+    const Vec4 a = geometry::wxyz(random.rotation());
+    const Vec4 b = geometry::wxyz(random.rotation());
     const auto parabola = [&](double t) { return Vec4(a + t * t * b); };
     EXPECT_LT(error_of_spline(knots, EndCondition::kBessel, parabola), kReproduced);
     EXPECT_GT(error_of_spline(knots, EndCondition::kNatural, parabola), 1e-6);
@@ -85,7 +85,7 @@ TEST(CubicSpline, SecondDerivativesAgreeAtKnots) {
   for (const EndCondition ends : {EndCondition::kNatural, EndCondition::kBessel}) {
     const std::vector<double> knots = random_knots(random, 200);
     std::vector<Vec3> points;
-    for (std::size_t i = 0; i < knots.size(); ++i) points.push_back(random.vector(1.0));
+    for (std::size_t i = 0; i < knots.size(); ++i) points.push_back(random.normal_vector(1.0));
     const std::vector<Vec3> slopes = spline_slopes<Vec3>(knots, points, ends);
     for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
       const double before_s = knots[i] - knots[i - 1];

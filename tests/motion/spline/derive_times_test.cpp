@@ -8,8 +8,8 @@ namespace camway::motion {
 namespace {
 
 using geometry::Quat;
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
 const Quat kLevel = Quat::Identity();
 
@@ -68,7 +68,7 @@ TEST(DeriveTimes, SignOfTheQuaternionDoesNotMatter) {
   std::vector<Pose> poses = test::random_poses(random, 50);
   const std::vector<double> expected_s = derive_times_s(poses);
   for (Pose& pose : poses) {
-    if (random.coin()) pose.orientation.coeffs() = -pose.orientation.coeffs();
+    if (random.chance(0.5)) pose.orientation.coeffs() = -pose.orientation.coeffs();
   }
   EXPECT_EQ(derive_times_s(poses), expected_s);
 }
@@ -88,8 +88,8 @@ TEST(DeriveTimes, ClustersAmongMetresStillIncrease) {
   Random random(53);
   std::vector<Pose> poses;
   for (int i = 0; i < 2000; ++i) {
-    poses.push_back({random.vector(3.0), random.rotation()});
-    poses.push_back({poses.back().position + random.vector(1e-9), poses.back().orientation});
+    poses.push_back({random.normal_vector(3.0), random.rotation()});
+    poses.push_back({poses.back().position + random.normal_vector(1e-9), poses.back().orientation});
   }
   expect_increasing_from_zero(derive_times_s(poses));
 }

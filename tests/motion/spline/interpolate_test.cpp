@@ -6,6 +6,7 @@
 #include "tests/motion/random_motion.h"
 #include "tests/motion/smooth_joins.h"
 #include "tests/motion/spline/awkward_keyframes.h"
+#include "tests/support/case_name.h"
 
 namespace camway::motion {
 namespace {
@@ -15,18 +16,18 @@ using test::expect_smooth;
 using test::expect_smooth_join;
 using test::kEpsilon;
 using test::longest;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 /// Bound on the error of orientations at keyframes, in radians: a dozen quaternion products, a root
 /// and a division.
 constexpr double kOrientationRounding_rad = 64.0 * kEpsilon;
 
-class Interpolate : public testing::TestWithParam<test::AwkwardKeyframes> {};
+class Interpolate : public ::testing::TestWithParam<test::AwkwardKeyframes> {};
 
-INSTANTIATE_TEST_SUITE_P(Awkward, Interpolate, testing::ValuesIn(test::awkward_keyframes()),
-                         [](const auto& param_info) { return param_info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Awkward, Interpolate, ::testing::ValuesIn(test::awkward_keyframes()),
+                         testing::name_of_case);
 
 void expect_keyframes_met(const Path& path, const std::vector<Keyframe>& keyframes) {
   EXPECT_EQ(path.begin_s(), keyframes.front().time_s);
@@ -117,7 +118,7 @@ TEST_P(Interpolate, IsTheSameMotionFromEveryWorldFrame) {
   Random random(61);
   const Path path = interpolate(GetParam().keyframes);
   for (int repeat = 0; repeat < 8; ++repeat) {
-    const Vec3 shift = random.vector(10.0);
+    const Vec3 shift = random.normal_vector(10.0);
     const Difference seen =
         difference_after_moving_the_world(GetParam().keyframes, random.rotation(), shift);
     expect_only_rounding(seen, path, shift.norm());
@@ -130,7 +131,7 @@ TEST_P(Interpolate, SignsOfQuaternionsDoNotMatter) {
   for (int repeat = 0; repeat < 8; ++repeat) {
     std::vector<Keyframe> signs = GetParam().keyframes;
     for (Keyframe& keyframe : signs) {
-      if (random.coin()) keyframe.pose.orientation.coeffs() *= -1.0;
+      if (random.chance(0.5)) keyframe.pose.orientation.coeffs() *= -1.0;
     }
     const Difference seen =
         difference(path, interpolate(signs),
@@ -148,8 +149,8 @@ std::vector<test::AwkwardKeyframes> without_half_turns() {
   return sets;
 }
 
-INSTANTIATE_TEST_SUITE_P(Awkward, InterpolateReversible, testing::ValuesIn(without_half_turns()),
-                         [](const auto& param_info) { return param_info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Awkward, InterpolateReversible, ::testing::ValuesIn(without_half_turns()),
+                         testing::name_of_case);
 
 TEST_P(InterpolateReversible, ReversedKeyframesReverseTheMotion) {
   const Path path = interpolate(GetParam().keyframes);
@@ -176,8 +177,8 @@ TEST_P(Interpolate, IsBitIdenticalWhenRepeated) {
 
 TEST(InterpolateRandom, HasAllPropertiesByTheThousand) {
   Random random(68);
-  for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
-    SCOPED_TRACE(testing::Message() << "set " << i);
+  for (int i = 0; i < 3000 && !::testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE(::testing::Message() << "set " << i);
     const std::vector<Keyframe> keyframes =
         test::with_times(test::random_poses(random, random.integer(2, 16)));
     const Path path = interpolate(keyframes);
@@ -186,7 +187,7 @@ TEST(InterpolateRandom, HasAllPropertiesByTheThousand) {
     for (const Segment& segment : path.segments())
       EXPECT_GT(smallest_orientation_weight(segment), 0.0);
     if (i % 10 != 0) continue;
-    const Vec3 shift = random.vector(10.0);
+    const Vec3 shift = random.normal_vector(10.0);
     expect_only_rounding(difference_after_moving_the_world(keyframes, random.rotation(), shift),
                          path, shift.norm());
   }
@@ -210,7 +211,7 @@ TEST(InterpolateTwo, TurnsAboutOneAxis) {
   Random random(64);
   for (int repeat = 0; repeat < 100; ++repeat) {
     const Quat start = random.rotation();
-    const Vec3 axis = random.vector(1.0).normalized();
+    const Vec3 axis = random.normal_vector(1.0).normalized();
     const double angle_rad = random.uniform(0.01, 3.14);
     const std::vector<Keyframe> keyframes = {
         {0.0, {Vec3::Zero(), start}, KeyframeOrigin::kGiven},

@@ -8,7 +8,7 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
+using testing::Random;
 
 /// Returns a B-spline by the recursion of Cox and de Boor, in long double: order 1 to 4 on the
 /// knots from `first`.
@@ -90,7 +90,7 @@ TEST(KnotRow, KeepsToPlacesAndStaysInOrder) {
     for (int i = 0; i < 20; ++i) {
       const double at_s = row.spacing_s() * random.integer(0, row.count);
       places->taken_s.push_back(places->origin.nearest_s(
-          at_s + (random.coin() ? 1 : -1) * random.log_uniform(1e-9, 1e-3)));
+          at_s + (random.chance(0.5) ? 1 : -1) * random.log_uniform(1e-9, 1e-3)));
     }
     std::ranges::sort(places->taken_s);
     ASSERT_TRUE(row.fits());

@@ -10,9 +10,9 @@ namespace {
 
 using geometry::Quat;
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
@@ -101,7 +101,7 @@ TEST(QuaternionSpline, StaysNearTheShortestTurns) {
     std::vector<Quat> rotations = {random.rotation()};
     for (int i = 1; i < 10; ++i)
       rotations.push_back(rotations.back() *
-                          test::turned(random.vector(1.0), random.uniform(0.2, 2.0)));
+                          test::turned(random.normal_vector(1.0), random.uniform(0.2, 2.0)));
     const std::vector<OrientationPiece> pieces = spline_through(rotations);
     for (std::size_t i = 0; i + 1 < rotations.size(); ++i) {
       const double step_rad = test::rotation_angle_rad(rotations[i], rotations[i + 1]);
@@ -142,7 +142,7 @@ TEST(AlignedOrientations, NeighboursTakeTheShorterWay) {
   Random random(95);
   std::vector<Vec4> given;
   for (int i = 0; i < 500; ++i)
-    given.push_back(random.uniform(0.5, 2.0) * random.unit_four_vector());
+    given.push_back(random.uniform(0.5, 2.0) * geometry::wxyz(random.rotation()));
   const std::vector<Vec4> aligned = aligned_orientations(given);
   for (std::size_t i = 0; i < aligned.size(); ++i) {
     EXPECT_NEAR(aligned[i].norm(), 1.0, 4.0 * kEpsilon);
@@ -165,8 +165,8 @@ TEST(AlignedOrientations, HalfTurnsHaveTheSameSenseInEveryFrame) {
       const Quat frame = random.rotation();
       Quat from = frame * start;
       Quat to = frame * start * test::turned(axis, std::numbers::pi);
-      if (random.coin()) from.coeffs() *= -1.0;
-      if (random.coin()) to.coeffs() *= -1.0;
+      if (random.chance(0.5)) from.coeffs() *= -1.0;
+      if (random.chance(0.5)) to.coeffs() *= -1.0;
       const std::vector<Vec4> aligned =
           aligned_orientations(std::vector<Vec4>{geometry::wxyz(from), geometry::wxyz(to)});
       const Vec4 turn = quaternion::multiply(quaternion::conjugate(aligned[0]), aligned[1]);

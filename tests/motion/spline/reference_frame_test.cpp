@@ -11,18 +11,18 @@ namespace camway::motion {
 namespace {
 
 using test::kEpsilon;
-using test::Random;
 using test::Vec3;
 using test::Vec4;
+using testing::Random;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// Returns random orientations within about `spread` of one, or all over S³ for a large spread.
 std::vector<Vec4> random_orientations(Random& random, int count, double spread) {
-  const Vec4 centre = random.unit_four_vector();
+  const Vec4 centre = geometry::wxyz(random.rotation());
   std::vector<Vec4> orientations;
   for (int i = 0; i < count; ++i)
-    orientations.push_back((centre + spread * random.unit_four_vector()).normalized());
+    orientations.push_back((centre + spread * geometry::wxyz(random.rotation())).normalized());
   return aligned_orientations(orientations);
 }
 
@@ -68,8 +68,8 @@ TEST(MinNormPoint, IsNoLongerThanAnyPointOfTheHull) {
 
 TEST(MinNormPoint, OfTwoIsTheirMiddle) {
   Random random(83);
-  const Vec4 a = random.unit_four_vector();
-  const Vec4 b = random.unit_four_vector();
+  const Vec4 a = geometry::wxyz(random.rotation());
+  const Vec4 b = geometry::wxyz(random.rotation());
   EXPECT_LT((geometry::min_norm_point(std::vector<Vec4>{a, b}) - 0.5 * (a + b)).norm(),
             4.0 * kEpsilon);
   EXPECT_EQ(geometry::min_norm_point(std::vector<Vec4>{a, a, a}), a);
@@ -79,7 +79,7 @@ TEST(LeastDot, IsThatOfDenseSamplesOfTheArcs) {
   Random random(84);
   for (int i = 0; i < 300; ++i) {
     const std::vector<Vec4> q = random_orientations(random, 4, 3.0);
-    const Vec4 r = random.unit_four_vector();
+    const Vec4 r = geometry::wxyz(random.rotation());
     double sampled = 2.0;
     constexpr int kSamples = 2000;
     for (std::size_t k = 0; k + 1 < q.size(); ++k) {
@@ -106,7 +106,7 @@ TEST(ReferenceFrame, IsTheBestOfAllInAHemisphere) {
     ASSERT_GT(least, 0.0);
     for (int k = 0; k < 200; ++k) {
       const Vec4 other =
-          (r + random.log_uniform(1e-4, 1.0) * random.unit_four_vector()).normalized();
+          (r + random.log_uniform(1e-4, 1.0) * geometry::wxyz(random.rotation())).normalized();
       EXPECT_LE(least_dot_with_polygon(other, q), least + 8.0 * kEpsilon);
     }
   }
@@ -121,7 +121,7 @@ TEST(ReferenceFrame, IsNearTheBestOfARandomSearch) {
       const std::vector<Vec4> q = random_orientations(random, count, 1e3);
       double best = -1.0;
       for (int k = 0; k < 20'000; ++k)
-        best = std::max(best, least_dot_with_polygon(random.unit_four_vector(), q));
+        best = std::max(best, least_dot_with_polygon(geometry::wxyz(random.rotation()), q));
       const double clearance_rad = std::acos(-least_dot_with_polygon(reference_frame(q), q));
       const double best_rad = std::acos(-best);
       EXPECT_GE(clearance_rad, best_rad - 1.5 * kDegree_rad) << count << " orientations";
@@ -136,7 +136,7 @@ TEST(ReferenceFrame, IsNearTheBestOfARandomSearch) {
 TEST(ReferenceFrame, KeepsARightAngleFromTenTurns) {
   Random random(87);
   for (const double step_deg : {7.0, 20.0, 45.0, 90.0, 120.0}) {
-    for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(0, 0, 1), random.vector(1.0)}) {
+    for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(0, 0, 1), random.normal_vector(1.0)}) {
       const std::vector<Vec4> q = turns_about(axis, 10.0, step_deg);
       const double clearance_rad = std::acos(-least_dot_with_polygon(reference_frame(q), q));
       // The linear terms that break ties move r by their weight, 1e-3, times the rest of the mean.
@@ -154,7 +154,7 @@ TEST(ReferenceFrame, MovesWithTheWorldFrameAndTheSign) {
     sets.push_back(random_orientations(random, random.integer(2, 40), i % 2 == 0 ? 0.65 : 1e3));
   for (const std::vector<Vec4>& q : sets) {
     const Vec4 r = reference_frame(q);
-    const Vec4 g = random.unit_four_vector();
+    const Vec4 g = geometry::wxyz(random.rotation());
     std::vector<Vec4> moved;
     for (const Vec4& p : q) moved.push_back(quaternion::multiply(g, p));
     // The nearest point of a hull is determined to the square root of rounding at worst; these sets

@@ -6,7 +6,7 @@
 namespace camway::motion {
 namespace {
 
-using test::Random;
+using testing::Random;
 
 /// Returns the largest factor over dense samples.
 double sampled_stretch(const Segment& segment, const RateLimits& limits) {

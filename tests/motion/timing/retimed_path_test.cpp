@@ -7,7 +7,7 @@ namespace camway::motion {
 namespace {
 
 using geometry::Vec3;
-using test::Random;
+using testing::Random;
 
 CubicPath random_path(Random& random, int count) {
   return interpolate_cubic(test::with_times(test::random_poses(random, count)));
@@ -32,7 +32,7 @@ double deviation_m(const CubicPath& path, const CubicPath& slowed, const TimeLaw
 TEST(RetimedPath, IsSmoothAndMeetsThePathAtTheKnots) {
   Random random(3301);
   for (int round = 0; round < 30; ++round) {
-    SCOPED_TRACE(testing::Message() << "round " << round);
+    SCOPED_TRACE(::testing::Message() << "round " << round);
     const CubicPath path = random_path(random, random.integer(2, 9));
     const TimeLaw law = TimeLaw::within(path.path(), kBiting, random.log_uniform(0.02, 0.5));
     ASSERT_GT(law.stretch(), 1.0);

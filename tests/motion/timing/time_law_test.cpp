@@ -8,8 +8,8 @@ namespace camway::motion {
 namespace {
 
 using geometry::Quat;
-using test::Random;
 using test::Vec3;
+using testing::Random;
 
 double square(double value) { return value * value; }
 
@@ -31,9 +31,9 @@ RateLimits biting_limits(Random& random, const Path& path) {
   RateLimits limits;
   do {
     limits = {};
-    if (random.coin()) limits.speed_m_per_s = random.log_uniform(0.2, 5.0);
-    if (random.coin()) limits.acceleration_m_per_s2 = random.log_uniform(0.05, 5.0);
-    if (random.coin()) limits.turn_rate_rad_per_s = random.log_uniform(0.2, 5.0);
+    if (random.chance(0.5)) limits.speed_m_per_s = random.log_uniform(0.2, 5.0);
+    if (random.chance(0.5)) limits.acceleration_m_per_s2 = random.log_uniform(0.05, 5.0);
+    if (random.chance(0.5)) limits.turn_rate_rad_per_s = random.log_uniform(0.2, 5.0);
   } while (!(largest_stretch(path, limits) > 1.05));
   return limits;
 }
@@ -134,7 +134,7 @@ TEST(TimeLaw, BrakesBeforeItHasToAndAcceleratesAfterwards) {
 TEST(TimeLaw, MeetsAllLimitsAtItsKnots) {
   Random random(3202);
   for (int round = 0; round < 60; ++round) {
-    SCOPED_TRACE(testing::Message() << "round " << round);
+    SCOPED_TRACE(::testing::Message() << "round " << round);
     const Path path = random_path(random, random.integer(2, 8));
     const RateLimits limits = biting_limits(random, path);
     const TimeLaw law = TimeLaw::within(path, limits, random.log_uniform(0.02, 1.0));
@@ -162,7 +162,7 @@ TEST(TimeLaw, MeetsAllLimitsAtItsKnots) {
 TEST(TimeLaw, IsSmoothNeverFasterAndNoLongerThanStretchingAllTimesAlike) {
   Random random(3203);
   for (int round = 0; round < 60; ++round) {
-    SCOPED_TRACE(testing::Message() << "round " << round);
+    SCOPED_TRACE(::testing::Message() << "round " << round);
     const Path path = random_path(random, random.integer(2, 8));
     const RateLimits limits = biting_limits(random, path);
     const TimeLaw law = TimeLaw::within(path, limits, random.log_uniform(0.02, 1.0));

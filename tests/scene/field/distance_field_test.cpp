@@ -7,11 +7,11 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <random>
 
 #include "daemon/scene/field/surface_cells.h"
 #include "tests/scene/test_meshes.h"
 #include "tests/scene/voxels/voxel_oracle.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::scene {
@@ -32,12 +32,12 @@ oracle::Real true_distance_m(const Mesh& mesh, const Vec3& point) {
   return least;
 }
 
-double uniform(std::mt19937_64& random, double low, double high) {
+double uniform(testing::Random& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
 /// Returns a point in the bounds of the mesh, extended by a quarter of their size on each side.
-Vec3 point_about(std::mt19937_64& random, const Box& bounds) {
+Vec3 point_about(testing::Random& random, const Box& bounds) {
   Vec3 point;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     point[axis] = uniform(random, -0.25, 1.25);
@@ -46,7 +46,7 @@ Vec3 point_about(std::mt19937_64& random, const Box& bounds) {
 }
 
 /// Moves some coordinates of `point` to a face between cells, or an ulp to either side of it.
-Vec3 snapped_to_faces(std::mt19937_64& random, const CellGrid& grid, Vec3 point) {
+Vec3 snapped_to_faces(testing::Random& random, const CellGrid& grid, Vec3 point) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (random() % 2 == 0) continue;
     const double face = std::round(grid.in_cells(point)[axis]);
@@ -59,7 +59,7 @@ Vec3 snapped_to_faces(std::mt19937_64& random, const CellGrid& grid, Vec3 point)
 
 /// Returns by how much the bound is below the distance, on average and in cells. Fails if it is
 /// above.
-double checked_mean_loss(std::mt19937_64& random, const Mesh& mesh, const DistanceField& field,
+double checked_mean_loss(testing::Random& random, const Mesh& mesh, const DistanceField& field,
                          int points) {
   const Box bounds = mesh.bounds();
   const double resolution_m = field.statistics().resolution_m;
@@ -69,7 +69,7 @@ double checked_mean_loss(std::mt19937_64& random, const Mesh& mesh, const Distan
     Vec3 point = point_about(random, bounds);
     if (i % 4 == 1) point = snapped_to_faces(random, *grid, point);
     if (i % 4 == 2) point = mesh.vertices[random() % mesh.vertices.size()];
-    if (i % 8 == 3) point += 3.0 * resolution_m * oracle::random_direction(random);
+    if (i % 8 == 3) point += 3.0 * resolution_m * random.direction();
     const oracle::Real distance_m = true_distance_m(mesh, point);
     const double bound_m = field.clearance_at_least_m(point);
     EXPECT_GE(bound_m, 0.0);
@@ -79,7 +79,7 @@ double checked_mean_loss(std::mt19937_64& random, const Mesh& mesh, const Distan
   return loss_m / points / resolution_m;
 }
 
-void expect_never_more(std::mt19937_64& random, const Mesh& mesh, int points) {
+void expect_never_more(testing::Random& random, const Mesh& mesh, int points) {
   const DistanceFieldResult result = DistanceField::build(mesh);
   ASSERT_TRUE(result.field) << result.why_off;
   EXPECT_EQ(result.why_off, "");
@@ -87,15 +87,15 @@ void expect_never_more(std::mt19937_64& random, const Mesh& mesh, int points) {
 }
 
 /// Returns triangles of sizes from a thousandth of the scene to the whole scene.
-Mesh soup(std::mt19937_64& random, int triangles, double size_m, const Vec3& middle) {
+Mesh soup(testing::Random& random, int triangles, double size_m, const Vec3& middle) {
   std::vector<Triangle> result;
   for (int i = 0; i < triangles; ++i) {
-    const double edge_m = size_m * oracle::log_uniform(random, 1e-3, 0.5);
-    const Vec3 at = middle + size_m * (0.5 * oracle::random_direction(random));
+    const double edge_m = size_m * random.log_uniform(1e-3, 0.5);
+    const Vec3 at = middle + size_m * (0.5 * random.direction());
     Triangle t{at, at, at};
-    for (Vec3& vertex : t) vertex += edge_m * oracle::random_direction(random);
+    for (Vec3& vertex : t) vertex += edge_m * random.direction();
     if (i % 10 == 0) t[2] = t[1];
-    if (i % 10 == 1) t[2] = t[1] + 1e-9 * edge_m * oracle::random_direction(random);
+    if (i % 10 == 1) t[2] = t[1] + 1e-9 * edge_m * random.direction();
     result.push_back(t);
   }
   return mesh_of_triangles(result);
@@ -120,26 +120,26 @@ Mesh room(double scale, double thickness_m, const Vec3& corner) {
 }
 
 TEST(DistanceField, IsNeverMoreThanTheDistanceInSoups) {
-  std::mt19937_64 random = testing::seeded(1);
+  testing::Random random(1);
   for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
-    const double size_m = oracle::log_uniform(random, 1e-3, 1e3);
+    const double size_m = random.log_uniform(1e-3, 1e3);
     expect_never_more(random, soup(random, 1 + trial % 25, size_m, Vec3::Zero()), 400);
   }
 }
 
 TEST(DistanceField, IsNeverMoreThanTheDistanceFarFromTheOrigin) {
-  std::mt19937_64 random = testing::seeded(2);
+  testing::Random random(2);
   for (int trial = 0; trial < 30; ++trial) {
     SCOPED_TRACE(trial);
-    const double size_m = oracle::log_uniform(random, 1e-3, 1e3);
-    const Vec3 middle = 1e6 * oracle::random_direction(random);
+    const double size_m = random.log_uniform(1e-3, 1e3);
+    const Vec3 middle = 1e6 * random.direction();
     expect_never_more(random, soup(random, 10, size_m, middle), 400);
   }
 }
 
 TEST(DistanceField, IsNeverMoreThanTheDistanceBetweenWalls) {
-  std::mt19937_64 random = testing::seeded(3);
+  testing::Random random(3);
   for (const double thickness_m : {0.0, 1e-9, 1e-4, 0.1}) {
     for (const double scale : {1e-3, 1.0, 10.0}) {
       const double wall_m = thickness_m * scale;
@@ -151,7 +151,7 @@ TEST(DistanceField, IsNeverMoreThanTheDistanceBetweenWalls) {
 
 /// Walls exactly in faces between cells belong to the cells of both sides.
 TEST(DistanceField, IsNeverMoreThanTheDistanceToWallsBetweenCells) {
-  std::mt19937_64 random = testing::seeded(4);
+  testing::Random random(4);
   const Mesh outside = room(1.0, 0.0, Vec3::Zero());
   const DistanceFieldResult first = DistanceField::build(outside);
   ASSERT_TRUE(first.field);
@@ -169,7 +169,7 @@ TEST(DistanceField, IsNeverMoreThanTheDistanceToWallsBetweenCells) {
 }
 
 TEST(DistanceField, IsNeverMoreThanTheDistanceToOneTriangle) {
-  std::mt19937_64 random = testing::seeded(5);
+  testing::Random random(5);
   const Vec3 a(0.3, 0.1, 0.2);
   const Vec3 b(1.7, 0.4, -0.9);
   const Vec3 c(0.2, 2.1, 0.4);
@@ -181,7 +181,7 @@ TEST(DistanceField, IsNeverMoreThanTheDistanceToOneTriangle) {
 }
 
 TEST(DistanceField, LosesLessThanACellAndAHalf) {
-  std::mt19937_64 random = testing::seeded(6);
+  testing::Random random(6);
   Mesh mesh = room(1.0, 0.05, Vec3::Zero());
   testing::add_cuboid(mesh, {1.0, 1.0, 0.0}, {2.0, 1.6, 0.7});
   const DistanceFieldResult result = DistanceField::build(mesh);
@@ -227,7 +227,7 @@ TEST(DistanceField, KnowsNothingOfPointsThatAreNotFinite) {
 }
 
 TEST(DistanceField, StaysWithinTheMemoryAllowed) {
-  std::mt19937_64 random = testing::seeded(7);
+  testing::Random random(7);
   const Mesh mesh = soup(random, 200, 10.0, Vec3::Zero());
   double coarser_m = kInfinity;
   for (const std::size_t limit : {3000U, 10'000U, 50'000U}) {
@@ -245,7 +245,7 @@ TEST(DistanceField, StaysWithinTheMemoryAllowed) {
 }
 
 TEST(DistanceField, IsTheSameForAnyNumberOfThreads) {
-  std::mt19937_64 random = testing::seeded(8);
+  testing::Random random(8);
   const Mesh mesh = soup(random, 3000, 10.0, Vec3::Zero());
   DistanceFieldOptions options;
   options.threads = 1;
@@ -289,17 +289,16 @@ TEST(DistanceField, IsOffWhereTheSceneFillsItsBox) {
 
 /// The allowed effort makes the cells coarse; otherwise these scenes would take minutes.
 TEST(DistanceField, SpendsBoundedEffortOnHostileScenes) {
-  std::mt19937_64 random = testing::seeded(10);
+  testing::Random random(10);
   constexpr std::size_t kCopies = 100'000;
   const Triangle huge{Vec3(-50, -40, -30), Vec3(50, 45, -20), Vec3(-10, 30, 60)};
   std::vector<Triangle> copies(kCopies, huge);
   std::vector<Triangle> fan;
   std::vector<Triangle> dust{huge};
   for (std::size_t i = 0; i < kCopies; ++i) {
-    fan.push_back({Vec3::Zero(), 50.0 * oracle::random_direction(random),
-                   50.0 * oracle::random_direction(random)});
-    const Vec3 at = 50.0 * oracle::random_direction(random);
-    dust.push_back({at, at + 1e-4 * oracle::random_direction(random), at});
+    fan.push_back({Vec3::Zero(), 50.0 * random.direction(), 50.0 * random.direction()});
+    const Vec3 at = 50.0 * random.direction();
+    dust.push_back({at, at + 1e-4 * random.direction(), at});
   }
   for (const std::vector<Triangle>* triangles : {&copies, &fan, &dust}) {
     const Mesh mesh = mesh_of_triangles(*triangles);

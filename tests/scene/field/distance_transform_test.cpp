@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
-#include <random>
 #include <vector>
+
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -67,7 +67,7 @@ std::vector<int> brute_force(const Size& size, const std::vector<std::uint8_t>& 
   return squared;
 }
 
-std::vector<std::uint8_t> random_marks(std::mt19937_64& random, std::size_t cells,
+std::vector<std::uint8_t> random_marks(testing::Random& random, std::size_t cells,
                                        std::uint64_t one_in) {
   std::vector<std::uint8_t> marks(cells);
   for (std::uint8_t& mark : marks) mark = random() % one_in == 0 ? 1 : 0;
@@ -75,8 +75,7 @@ std::vector<std::uint8_t> random_marks(std::mt19937_64& random, std::size_t cell
 }
 
 TEST(DistanceTransform, IsExact) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (const Size& size : {Size{1, 1, 1}, Size{7, 1, 1}, Size{1, 9, 1}, Size{1, 1, 8},
                            Size{31, 9, 6}, Size{32, 8, 7}, Size{33, 21, 5}, Size{65, 6, 30}}) {
     for (const std::uint64_t one_in : {2U, 20U, 300U, 3000U}) {
@@ -101,7 +100,7 @@ TEST(DistanceTransform, StopsAtItsReach) {
 }
 
 TEST(DistanceTransform, IsTheSameForAnyNumberOfThreads) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const Size size{70, 41, 33};
   const std::vector<std::uint8_t> marks = random_marks(random, count(size), 2000);
   const std::vector<int> expected = transformed(size, marks, 1);

@@ -7,10 +7,10 @@
 #include <iostream>
 #include <limits>
 #include <numeric>
-#include <random>
 
 #include "tests/scene/test_meshes.h"
 #include "tests/scene/voxels/voxel_oracle.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -79,22 +79,20 @@ void expect_marks_as_clipping_says(const Mesh& mesh, const CellGrid& grid) {
 }
 
 TEST(MarkTouchedCells, AgreesWithClippingEveryCell) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
-    const double resolution_m = oracle::log_uniform(random, 1e-5, 10.0);
+    const double resolution_m = random.log_uniform(1e-5, 10.0);
     const Mesh mesh = oracle::random_mesh(random, resolution_m, 1);
     expect_marks_as_clipping_says(mesh, grid_about(0.0, resolution_m));
   }
 }
 
 TEST(MarkTouchedCells, AgreesWithClippingFarFromTheOrigin) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 20; ++trial) {
     SCOPED_TRACE(trial);
-    const double resolution_m = oracle::log_uniform(random, 1e-5, 10.0);
+    const double resolution_m = random.log_uniform(1e-5, 10.0);
     Mesh mesh = oracle::random_mesh(random, resolution_m, 1);
     for (Vec3& vertex : mesh.vertices) vertex += Vec3::Constant(1e6);
     expect_marks_as_clipping_says(mesh, grid_about(1e6, resolution_m));
@@ -133,11 +131,10 @@ TEST(MarkTouchedCells, MarksTheCellBeyondAFaceWithinTheMargin) {
 }
 
 TEST(MarkTouchedCells, LooksAtNoMoreCellsThanTheEffortForetells) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   double fullest = 0.0;
   for (int trial = 0; trial < 500; ++trial) {
-    const double resolution_m = oracle::log_uniform(random, 1e-3, 10.0);
+    const double resolution_m = random.log_uniform(1e-3, 10.0);
     const Mesh mesh = oracle::random_mesh(random, resolution_m, 1);
     const std::vector<std::uint8_t> marks = marks_of(mesh, grid_about(0.0, resolution_m));
     const double effort = surface_extent(mesh, 1).effort(resolution_m);
@@ -158,7 +155,7 @@ TEST(SurfaceExtent, OfATriangleWithSides3And4And5) {
 }
 
 TEST(SurfaceCells, AreTheSameForAnyNumberOfThreads) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 1.0, 5000);
   const CellGrid grid = grid_about(0.0, 1.0);
   for (const unsigned threads : {2U, 7U}) {

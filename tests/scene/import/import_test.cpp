@@ -22,13 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 using geometry::Triangle;
 using geometry::Vec3;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class Import : public testing::Test {
+class Import : public ::testing::Test {
  protected:
   Import() {
-    const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) /
+    const ::testing::TestInfo* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) /
               ("camway_" + std::string(info->name()) + "_" + std::to_string(getpid()));
     fs::create_directories(folder_);
   }

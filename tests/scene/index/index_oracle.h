@@ -18,8 +18,6 @@
 namespace camway::scene {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr std::array kDecompositions = {Decomposition::kOctree, Decomposition::kKdTree,
-                                               Decomposition::kBvh};
 
 inline std::optional<std::uint32_t> brute_first_intersection(const SceneIndex& tree,
                                                              const geometry::Triangle& t) {

@@ -15,7 +15,7 @@ namespace {
 using geometry::Quat;
 using geometry::RandomTriangles;
 using geometry::Vec3;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 using Real = long double;
 using RealVec3 = Eigen::Matrix<Real, 3, 1>;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "daemon/scene/snapshot/scene_difference.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/voxels/map_scan.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::scene {
@@ -32,7 +32,7 @@ struct Case {
   ObjectOptions options;
 };
 
-std::vector<Case> cases(std::mt19937_64& random) {
+std::vector<Case> cases(testing::Random& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::string fault;
   const Placement elsewhere =
@@ -49,7 +49,7 @@ std::vector<Case> cases(std::mt19937_64& random) {
 }
 
 /// Returns the scan of a sensor there: walls of rooms of 3 m, and rays without a return.
-std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
+std::vector<Vec3> sight(testing::Random& random, const Vec3& origin) {
   std::normal_distribution<double> normal;
   std::vector<Vec3> points;
   for (int i = 0; i < 60; ++i) {
@@ -109,7 +109,7 @@ std::string exported(const Snapshot& scene) {
   return out.str();
 }
 
-void expect_equal_answers(const Snapshot& a, const Snapshot& b, std::mt19937_64& random) {
+void expect_equal_answers(const Snapshot& a, const Snapshot& b, testing::Random& random) {
   ASSERT_EQ(a.digest, b.digest);
   ASSERT_TRUE(a.index.has_same_trees_as(b.index));
   ASSERT_EQ(a.index.statistics(), b.index.statistics());
@@ -191,7 +191,7 @@ void expect_told(const Snapshot& before, const Snapshot& now) {
 }
 
 TEST(ScannedScene, IsTheSceneThatIsMadeAnewOfTheSameVoxels) {
-  std::mt19937_64 random = testing::seeded(77401);
+  testing::Random random(77401);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::size_t shared = 0;
   for (const Case& at : cases(random)) {
@@ -221,7 +221,7 @@ TEST(ScannedScene, IsTheSceneThatIsMadeAnewOfTheSameVoxels) {
 
 /// Revisions that are restored have the mirror and the trees that they had.
 TEST(ScannedScene, CanBeBuiltAgain) {
-  std::mt19937_64 random = testing::seeded(77402);
+  testing::Random random(77402);
   const Case at = cases(random).front();
   auto map = VoxelMap::build(kResolutionM, {}, {}, at.unknown).map;
   std::shared_ptr<const Snapshot> scene = after(empty_scene(at), put(map, at));

@@ -15,7 +15,7 @@ using geometry::Quat;
 using geometry::RandomTriangles;
 using geometry::Triangle;
 using geometry::Vec3;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Kind = SceneChange::Kind;
 
 ObjectOptions mirrored() {

@@ -9,6 +9,7 @@
 
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace camway::scene {
@@ -47,7 +48,7 @@ std::multiset<double> firsts(const std::vector<Vec3>& points) {
 }
 
 TEST(SceneDifference, IsWhatComparingAllObjectsSays) {
-  std::mt19937_64 random = testing::seeded(5311);
+  testing::Random random(5311);
   std::uniform_real_distribution<double> place(-10.0, 10.0);
   SceneStore store;
   store.put(assemble("room", 1, {}, {}));

@@ -5,13 +5,12 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <iostream>
 #include <new>
 #include <optional>
-#include <random>
 
 #include "daemon/scene/snapshot/scene_change.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
+#include "tests/support/random.h"
 
 namespace {
 
@@ -47,7 +46,7 @@ using Kind = SceneChange::Kind;
 constexpr std::uint64_t kSeed = 1503;
 
 /// Returns a sphere of some thousand triangles, or a map of as many voxels.
-std::shared_ptr<const ObjectSource> random_source(std::mt19937_64& random) {
+std::shared_ptr<const ObjectSource> random_source(testing::Random& random) {
   ObjectOptions options;
   if (random() % 2 == 0) options.field.reset();
   if (random() % 3 != 0) {
@@ -66,7 +65,7 @@ std::shared_ptr<const ObjectSource> random_source(std::mt19937_64& random) {
 }
 
 /// Returns a map after a scan of a solid wall: some of its blocks differ.
-std::shared_ptr<const ObjectSource> scanned(std::mt19937_64& random, const VoxelMap& map) {
+std::shared_ptr<const ObjectSource> scanned(testing::Random& random, const VoxelMap& map) {
   std::vector<ScannedBlock> blocks;
   for (int i = static_cast<int>(random() % 5); i >= 0; --i) {
     const auto at = [&] { return static_cast<std::int32_t>(random() % 60); };
@@ -82,7 +81,7 @@ std::shared_ptr<const ObjectSource> scanned(std::mt19937_64& random, const Voxel
   return make_map_source(next, report_of(*next, "OctoMap"), {});
 }
 
-SceneChange random_change(std::mt19937_64& random, const Snapshot& scene) {
+SceneChange random_change(testing::Random& random, const Snapshot& scene) {
   SceneChange change;
   change.object = std::string(1, static_cast<char>('a' + random() % 4));
   const SceneObject* const object = scene.find(change.object);
@@ -99,8 +98,7 @@ SceneChange random_change(std::mt19937_64& random, const Snapshot& scene) {
 
 /// Compares the reported bytes of a history with the memory that its destruction frees.
 TEST(SceneHistory, KeepsWhatItsBytesSay) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 20; ++trial) {
     std::shared_ptr<const Snapshot> scene = assemble("room", 1, {}, {});
     const int before = static_cast<int>(random() % 4);
@@ -130,7 +128,7 @@ TEST(SceneHistory, KeepsWhatItsBytesSay) {
 
 /// Many revisions of a map that scans change a little take little more memory than the map.
 TEST(SceneHistory, KeepsOfScansWhatTheyChanged) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   VoxelSet voxels;
   voxels.insert(VoxelCube{{0, 0, 0}, 256});
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;

@@ -13,13 +13,13 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 
 namespace camway::scene {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::shared_ptr<const Snapshot> revision_of(std::string name, std::uint64_t revision) {
   auto snapshot = std::make_shared<Snapshot>();
@@ -91,7 +91,7 @@ TEST(SceneStore, WhatIsCalledOffChangesNothing) {
         store.put(revision_of("hall", 1), {}, off)}) {
     EXPECT_EQ(result.snapshot, nullptr);
     EXPECT_EQ(result.fault, StoreFault::kCancelled);
-    EXPECT_THAT(result.error, HasSubstr("called off"));
+    EXPECT_THAT(result.error, HasSubstr("cancelled"));
   }
   EXPECT_FALSE(store.remove("room", off));
   EXPECT_EQ(store.find("room"), before);

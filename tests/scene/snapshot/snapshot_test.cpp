@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using geometry::Triangle;
 using geometry::Vec3;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const Triangle kTriangle = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
 const Triangle kOther = {Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)};
@@ -27,7 +27,7 @@ TEST(MeshDigest, IsOfTheTrianglesNotOfTheirStorage) {
   shared.vertices = {kOther[0], kOther[1], kOther[2], kTriangle[0], kTriangle[1], kTriangle[2]};
   shared.triangles = {{3, 4, 5}, {0, 1, 2}};
   EXPECT_EQ(mesh_digest(separate), mesh_digest(shared));
-  EXPECT_THAT(mesh_digest(separate), testing::MatchesRegex("[0-9a-f]{32}"));
+  EXPECT_THAT(mesh_digest(separate), ::testing::MatchesRegex("[0-9a-f]{32}"));
 }
 
 TEST(MeshDigest, TellsEveryChangeApart) {
@@ -110,7 +110,7 @@ TEST(MakeSnapshot, SaysWhichSceneCannotBeMirrored) {
 
 TEST(LoadSnapshot, ReadsAFileOrNamesIt) {
   const fs::path file =
-      fs::path(testing::TempDir()) / ("camway_snapshot_" + std::to_string(getpid()) + ".off");
+      fs::path(::testing::TempDir()) / ("camway_snapshot_" + std::to_string(getpid()) + ".off");
   std::ofstream(file) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   SnapshotOptions options;
   options.import.scale = 2.0;

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/random.h"
+
 namespace camway::scene {
 namespace {
 
@@ -24,7 +26,7 @@ std::shared_ptr<const VoxelMap> empty_map(const SensorModel& sensor) {
 }
 
 /// Returns the scan of a sensor in a room of 4 m, with rays without a return.
-std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
+std::vector<Vec3> sight(testing::Random& random, const Vec3& origin) {
   std::normal_distribution<double> normal;
   std::vector<Vec3> points;
   for (int i = 0; i < 300; ++i) {
@@ -41,8 +43,7 @@ std::vector<Vec3> sight(std::mt19937_64& random, const Vec3& origin) {
 
 /// The oracle for a series of scans is OctoMap itself, with one tree that is never copied.
 TEST(Scanned, IsWhatOctoMapMakesOfTheSameScans) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const double max_range_m : {std::numeric_limits<double>::infinity(), 3.0}) {
     SensorModel sensor;
@@ -118,7 +119,7 @@ TEST(Scanned, BeginsWithTheCertaintyOfAMapThatWasRead) {
 /// The same, but map and tree begin with a file whose content counts as certain.
 TEST(Scanned, GoesOnFromWhatWasReadAsOctoMapDoes) {
   std::cout << "seed " << kSeed + 1 << '\n';
-  std::mt19937_64 random(kSeed + 1);
+  testing::Random random(kSeed + 1);
   octomap::OcTree tree(kResolutionM);
   VoxelSet occupied;
   VoxelSet free;

@@ -7,10 +7,10 @@
 #include <array>
 #include <iostream>
 #include <map>
-#include <random>
 #include <vector>
 
 #include "tests/scene/voxels/voxel_sample.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -28,8 +28,7 @@ long double volume_sixfold(const Mesh& mesh) {
 }
 
 TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed + 2);
+  testing::Random random(kSeed + 2);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
     std::size_t faces = 0;
@@ -64,7 +63,7 @@ TEST(SkinOf, IsClosedAndHasTheFacesThatNoNeighbourCovers) {
 }
 
 TEST(SkinOf, DependsOnTheSetOnly) {
-  std::mt19937_64 random(kSeed + 3);
+  testing::Random random(kSeed + 3);
   for (int trial = 0; trial < 20; ++trial) {
     const VoxelSample sample(random);
     VoxelSet other;
@@ -94,7 +93,7 @@ Corners sorted_triangles(const Mesh& mesh) {
 }
 
 TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
-  std::mt19937_64 random(kSeed + 5);
+  testing::Random random(kSeed + 5);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
     const Mesh whole = *faces_of(sample.set, 0.1, 1'000'000);
@@ -118,7 +117,7 @@ TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
 /// before.
 TEST(VoxelFaces, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
   std::cout << "seed " << kSeed + 6 << '\n';
-  std::mt19937_64 random(kSeed + 6);
+  testing::Random random(kSeed + 6);
   int shared = 0;
   int others = 0;
   for (int trial = 0; trial < 30; ++trial) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tests/scene/voxels/voxel_oracle.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -30,8 +31,7 @@ std::set<Voxel> touched(const VoxelGrid& grid, const Triangle& triangle) {
 
 /// Every coordinate maps to OctoMap's voxel, also within an ulp of a face.
 TEST(VoxelGrid, MapsCoordinatesAsOctoMapDoes) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (const double resolution_m : {0.05, 0.1, 1.0 / 3.0, 0.07, 2.5, 1e-3}) {
     const VoxelGrid grid(resolution_m);
     const octomap::OcTree tree(resolution_m);
@@ -40,7 +40,7 @@ TEST(VoxelGrid, MapsCoordinatesAsOctoMapDoes) {
       double coordinate_m = index(random) * resolution_m;
       if (i % 4 == 1) coordinate_m = std::nextafter(coordinate_m, -HUGE_VAL);
       if (i % 4 == 2) coordinate_m = std::nextafter(coordinate_m, HUGE_VAL);
-      if (i % 4 == 3) coordinate_m += oracle::log_uniform(random, 1e-12, 1.0) * resolution_m;
+      if (i % 4 == 3) coordinate_m += random.log_uniform(1e-12, 1.0) * resolution_m;
       const std::optional<std::int32_t> voxel = grid.voxel_of(coordinate_m);
       ASSERT_TRUE(voxel.has_value());
       ASSERT_EQ(*voxel + 32768, static_cast<int>(tree.coordToKey(coordinate_m))) << coordinate_m;
@@ -65,7 +65,7 @@ TEST(VoxelGrid, KnowsWhereTheKeysEnd) {
 }
 
 TEST(VoxelGrid, BoxesOfChildrenNestBitForBit) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 7.1}) {
     const VoxelGrid grid(resolution_m);
     for (int i = 0; i < 2000; ++i) {
@@ -95,11 +95,10 @@ TEST(ForEachVoxelTouched, FaceEdgeAndCornerTouchAllNeighbours) {
 
 /// Finds every voxel of exact clipping, and no voxel beyond the stated error.
 TEST(ForEachVoxelTouched, AgreesWithClippingEveryVoxel) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::size_t on_border = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const double resolution_m = oracle::log_uniform(random, 1e-3, 10.0);
+    const double resolution_m = random.log_uniform(1e-3, 10.0);
     const VoxelGrid grid(resolution_m);
     const Mesh mesh = oracle::random_mesh(random, resolution_m, 1);
     const Triangle triangle = mesh.triangle(0);
@@ -148,7 +147,7 @@ TEST(ForEachVoxelTouched, StopsWhenToldAndRefusesWhatKeysCannotHold) {
 }
 
 TEST(ForEachVoxelTouched, LeavesOutWhatIsNotWanted) {
-  std::mt19937_64 random(7707);
+  testing::Random random(7707);
   const VoxelGrid grid(0.25);
   for (int trial = 0; trial < 200; ++trial) {
     const Mesh mesh = oracle::random_mesh(random, grid.resolution_m(), 1);

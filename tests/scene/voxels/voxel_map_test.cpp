@@ -8,13 +8,13 @@
 
 #include <cmath>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <limits>
 #include <random>
 
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/snapshot/snapshot.h"
+#include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
 namespace camway::scene {
@@ -29,7 +29,7 @@ constexpr std::uint64_t kSeed = 77201;
 constexpr double kResolutionM = 0.25;
 
 /// Returns a tree with free and occupied voxels, some of them pruned.
-octomap::OcTree random_tree(std::mt19937_64& random) {
+octomap::OcTree random_tree(testing::Random& random) {
   octomap::OcTree tree(kResolutionM);
   std::uniform_real_distribution<double> anywhere(-2.5, 2.5);
   for (int i = 0; i < 120; ++i) {
@@ -85,8 +85,7 @@ ImportResult imported(octomap::OcTree& tree, const std::string& name,
 }
 
 TEST(MapImport, ReadsWhatOctoMapWrote) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (const std::string name : {"map.bt", "map.ot", "MAP.BT"}) {
     octomap::OcTree tree = random_tree(random);
     const ImportResult result = imported(tree, name == "MAP.BT" ? "x.bt" : name);
@@ -100,7 +99,7 @@ TEST(MapImport, ReadsWhatOctoMapWrote) {
 }
 
 TEST(MapImport, TurnsAndScalesLikeAMesh) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   octomap::OcTree tree = random_tree(random);
   for (const UpAxis up : {UpAxis::kZToY, UpAxis::kYToZ}) {
     const ImportResult result = imported(tree, "map.bt", {.scale = 4.0, .up = up});
@@ -130,8 +129,7 @@ TEST(MapImport, ReadsTreesWithColours) {
 }
 
 TEST(MapImport, WhateverIsInAFileGetsAnAnswer) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   octomap::OcTree tree = random_tree(random);
   const TemporaryFolder folder;
   for (const std::string name : {"good.bt", "good.ot"}) {
@@ -159,7 +157,7 @@ TEST(MapImport, WhateverIsInAFileGetsAnAnswer) {
 }
 
 TEST(VoxelMap, UnknownSpaceFillsTheBoxAndALayerAboutIt) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   octomap::OcTree tree = random_tree(random);
   const ImportResult as_free = imported(tree, "map.bt");
   const ImportResult as_occupied = imported(tree, "map.bt", {.unknown = UnknownSpace::kOccupied});
@@ -195,8 +193,7 @@ TEST(VoxelMap, RefusesWhatIsTooLarge) {
 
 /// A point is in the solid exactly if OctoMap calls its voxel occupied, unless rounding hides it.
 TEST(SceneSolids, HoldWhatIsInAnOccupiedVoxelWhereverTheMapIs) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   octomap::OcTree tree = random_tree(random);
   const ImportResult import = imported(tree, "map.bt");
@@ -229,7 +226,7 @@ TEST(SceneSolids, HoldWhatIsInAnOccupiedVoxelWhereverTheMapIs) {
 }
 
 TEST(Snapshot, OfAMapHasItsVoxelsInTheMirror) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   octomap::OcTree tree = random_tree(random);
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "map.bt").string();

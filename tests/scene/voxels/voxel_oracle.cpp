@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/random.h"
+
 namespace camway::scene::oracle {
 namespace {
 
@@ -166,28 +168,16 @@ std::vector<Voxel> voxels_around(const Mesh& mesh, double resolution_m, int marg
   return voxels;
 }
 
-double log_uniform(std::mt19937_64& random, double low, double high) {
-  return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(random));
-}
-
-geometry::Vec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(random);
-  const double y = normal(random);
-  const double z = normal(random);
-  return geometry::Vec3(x, y, z).normalized();
-}
-
-Mesh random_mesh(std::mt19937_64& random, double resolution_m, int triangles) {
+Mesh random_mesh(testing::Random& random, double resolution_m, int triangles) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   Mesh mesh;
   for (int i = 0; i < triangles; ++i) {
-    const geometry::Vec3 center = 3.0 * resolution_m * random_direction(random);
-    const double size_m = resolution_m * log_uniform(random, 0.01, 10.0);
+    const geometry::Vec3 center = 3.0 * resolution_m * random.direction();
+    const double size_m = resolution_m * random.log_uniform(0.01, 10.0);
     const bool flat = unit(random) < 0.2;  // in a plane of one coordinate
     const Eigen::Index flat_axis = static_cast<Eigen::Index>(random() % 3);
     for (int corner = 0; corner < 3; ++corner) {
-      geometry::Vec3 vertex = center + size_m * unit(random) * random_direction(random);
+      geometry::Vec3 vertex = center + size_m * unit(random) * random.direction();
       if (flat) vertex[flat_axis] = center[flat_axis];
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const bool on_face = flat && axis == flat_axis ? size_m > resolution_m : unit(random) < 0.2;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <random>
 #include <vector>
 
 #include "daemon/geometry/types.h"
 #include "daemon/scene/mesh/mesh.h"
 #include "daemon/scene/voxels/voxel_grid.h"
+#include "tests/support/random.h"
 
 /// Slow and simple oracles for the occupancy map, in extended precision (64-bit mantissa). Share no
 /// code with the map.
@@ -41,10 +41,6 @@ std::vector<Voxel> voxels_around(const Mesh& mesh, double resolution_m, int marg
 
 /// Returns a mesh of few triangles, with sizes log-uniform between a hundredth of a voxel and ten
 /// voxels, and with vertices often exactly on voxel faces, edges and corners.
-Mesh random_mesh(std::mt19937_64& random, double resolution_m, int triangles);
-
-/// Returns a log-uniform number in [low, high].
-double log_uniform(std::mt19937_64& random, double low, double high);
-geometry::Vec3 random_direction(std::mt19937_64& random);
+Mesh random_mesh(testing::Random& random, double resolution_m, int triangles);
 
 }  // namespace camway::scene::oracle

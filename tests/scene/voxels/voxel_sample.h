@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <set>
 
 #include "daemon/scene/voxels/voxel_set.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 
@@ -17,7 +17,7 @@ struct VoxelSample {
   VoxelSet set;
   VoxelReference reference;
 
-  explicit VoxelSample(std::mt19937_64& random) {
+  explicit VoxelSample(testing::Random& random) {
     const std::int32_t far = static_cast<std::int32_t>(random() % 3) * (VoxelSet::kMostVoxels - 40);
     const auto near = [&](int reach) {
       return static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * reach)) - reach;

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <iostream>
 #include <iterator>
-#include <random>
 #include <vector>
 
 #include "tests/scene/voxels/voxel_sample.h"
+#include "tests/support/random.h"
 
 namespace camway::scene {
 namespace {
@@ -17,8 +17,7 @@ namespace {
 constexpr std::uint64_t kSeed = 77101;
 
 TEST(VoxelSet, HoldsWhatWasPutIn) {
-  std::cout << "seed " << kSeed << '\n';
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
     const VoxelSample sample(random);
     ASSERT_EQ(voxels_of(sample.set), sample.reference);
@@ -52,7 +51,7 @@ VoxelSet complement_in(const VoxelSet::Range& range, const VoxelSet& set) {
 }
 
 TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
-  std::mt19937_64 random(kSeed + 1);
+  testing::Random random(kSeed + 1);
   for (int trial = 0; trial < 100; ++trial) {
     const VoxelSample sample(random);
     VoxelSet::Range range;
@@ -85,7 +84,7 @@ TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
 /// Copies that are changed separately are compared with sets that share nothing.
 TEST(VoxelSet, CopiesGoTheirOwnWays) {
   std::cout << "seed " << kSeed + 4 << '\n';
-  std::mt19937_64 random(kSeed + 4);
+  testing::Random random(kSeed + 4);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<VoxelSample> samples{VoxelSample(random)};
     for (int step = 0; step < 8; ++step) {

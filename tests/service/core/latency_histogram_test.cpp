@@ -8,13 +8,15 @@
 #include <numeric>
 #include <random>
 
+#include "tests/support/random.h"
+
 namespace camway::service {
 namespace {
 
 constexpr std::uint64_t kSeed = 20261122;
 
 TEST(LatencyHistogram, EveryDurationIsWithinTheBoundsOfItsBucket) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   // From below the first bound to above the last.
   std::uniform_real_distribution<double> exponent(-20.0, 10.0);
   for (int trial = 0; trial < 10'000; ++trial) {

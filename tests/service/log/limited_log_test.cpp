@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "tests/support/captured_log.h"
+#include "tests/support/random.h"
 
 namespace camway::service {
 namespace {
@@ -62,7 +62,7 @@ TEST(LimitedLog, NoStretchOfTimeHoldsMoreThanTheLimitsSayAndNothingIsForgotten) 
   constexpr double kRate = 10.0;
   constexpr double kBurst = 5.0;
   LimitedLog limited(log.log(), LogLevel::kInfo, "x", {kRate, kBurst});
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::vector<Time> logged;
   Time now = kBegin;
   std::size_t before = 0;

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <deque>
-#include <random>
 #include <string>
+
+#include "tests/support/random.h"
 
 namespace camway::service {
 namespace {
@@ -34,8 +35,8 @@ TEST(KnownClients, AFloodOfIdsForgetsOnlyThoseThatCameOnce) {
 
 /// Compares with two lists that are searched linearly.
 TEST(KnownClients, AgreesWithTheRuleWrittenOut) {
-  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  std::mt19937_64 random(kSeed);
+  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
+  testing::Random random(kSeed);
   constexpr std::size_t kHalf = 5;
   KnownClients known(2 * kHalf);
   std::deque<std::string> once;  // the newest first

@@ -11,6 +11,7 @@
 
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
+#include "tests/support/random.h"
 
 namespace camway::service {
 namespace {
@@ -23,7 +24,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kPage = wire::kUploadPageBytes;
 
 Bytes some_bytes(std::size_t size, unsigned seed) {
-  std::mt19937 random(seed);
+  testing::Random random(seed);
   Bytes bytes(size);
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
   return bytes;
@@ -63,7 +64,7 @@ TEST(Checksum, IsThatOfTheStandard) {
 }
 
 TEST(Checksum, JoinsThoseOfTwoParts) {
-  std::mt19937 random(31);
+  testing::Random random(31);
   for (int round = 0; round < 200; ++round) {
     const Bytes whole = some_bytes(1 + random() % 3000, static_cast<unsigned>(random()));
     const std::size_t cut = random() % (whole.size() + 1);
@@ -97,7 +98,7 @@ TEST(Uploads, PutsPagesTogetherInAnyOrder) {
   const Bytes whole = some_bytes(10 * kPage + 17, 1);
   std::vector<int> order;
   for (int i = 0; i < 11; ++i) order.insert(order.end(), {i, i});  // each comes twice
-  std::mt19937 random(2);
+  testing::Random random(2);
   std::shuffle(order.begin(), order.end(), random);
   Uploads uploads({});
   std::size_t answers = 0;

@@ -9,6 +9,8 @@
 
 #include <camway/plan_request_t.hpp>
 
+#include "tests/support/random.h"
+
 namespace camway::service {
 namespace {
 
@@ -56,7 +58,7 @@ TEST(AnswerQuality, WhatWasAskedForComesBeforeTheObjective) {
 }
 
 TEST(AnswerQuality, NeverBothWays) {
-  std::mt19937_64 random(20060619);
+  testing::Random random(20060619);
   std::uniform_real_distribution<double> number(0.0, 1.0);
   std::uniform_int_distribution<int> few(0, 1);
   const auto any = [&] {

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <random>
 
 #include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"
 
@@ -82,7 +85,7 @@ class WatchCheckerTest : public ::testing::Test {
 
   [[nodiscard]] std::uint64_t revision() const { return store_.find("room")->revision; }
 
-  std::mt19937_64 random_ = testing::seeded(9107);
+  testing::Random random_{9107};
   scene::SceneStore store_;
   std::map<WatchChecker::Id, std::shared_ptr<const WatchedPath>> paths_;
   Told told_;
@@ -100,14 +103,13 @@ TEST_F(WatchCheckerTest, KnowsWhatCheckingFromScratchSaysAfterAnyChanges) {
     for (int i = round % 3; i >= 0; --i) {
       const std::string name(1, static_cast<char>('a' + random_() % 6));
       const auto kind = static_cast<SceneChange::Kind>(random_() % 3);
-      change(
-          kind, name, {size(random_), size(random_), size(random_)},
-          at({place(random_), place(random_), place(random_)}, testing::random_rotation(random_)));
+      change(kind, name, {size(random_), size(random_), size(random_)},
+             at({place(random_), place(random_), place(random_)}, random_.rotation()));
     }
     ASSERT_TRUE(told_.wait_for(revision(), paths_.size()));
     const auto now = store_.find("room");
     for (const auto& [id, path] : paths_) {
-      const auto truth = path->collisions(*now, Deadline::never());
+      const auto truth = path->collisions(collision::Obstacles(*now), Deadline::never());
       const auto said = told_.of(id);
       ASSERT_EQ(said.empty(), truth.empty()) << "path " << id << " in round " << round;
       if (!truth.empty()) {
@@ -151,13 +153,23 @@ TEST_F(WatchCheckerTest, ASceneThatIsGoneLeavesNothingProved) {
 }
 
 TEST_F(WatchCheckerTest, EndsWhileScenesChange) {
+  int watched = 0;
+  std::atomic<int> told_too_late = 0;
   for (int round = 0; round < 20; ++round) {
-    WatchChecker checker(store_, [](const WatchChecker::News&) {});
-    watch_random(checker, 1);
-    change(SceneChange::Kind::kPut, "a", Vec3::Ones(), at({0, 0, 0}));
-    checker.forget(1, "room");
-    change(SceneChange::Kind::kRemove, "a");
+    const auto is_over = std::make_shared<std::atomic<bool>>(false);
+    {
+      WatchChecker checker(store_, [is_over, &told_too_late](const WatchChecker::News&) {
+        told_too_late += *is_over ? 1 : 0;
+      });
+      watched += watch_random(checker, 1) ? 1 : 0;
+      change(SceneChange::Kind::kPut, "a", Vec3::Ones(), at({0, 0, 0}));
+      checker.forget(1, "room");
+      change(SceneChange::Kind::kRemove, "a");
+    }
+    *is_over = true;
   }
+  EXPECT_GT(watched, 10);
+  EXPECT_EQ(told_too_late, 0);
 }
 
 }  // namespace

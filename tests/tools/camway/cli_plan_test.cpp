@@ -187,7 +187,7 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
   const auto response = parse_plan_response(run.out, "stdout");
   ASSERT_TRUE(response.value) << response.error;
   ASSERT_EQ(response.value->corrections.size(), response.value->collisions.size());
-  EXPECT_NE(response.value->corrections.at(0).rung, correction::Rung::kNone);
+  EXPECT_NE(response.value->corrections.at(0).kind, correction::CorrectionKind::kNone);
   EXPECT_TRUE(response.value->measures_before);
   EXPECT_TRUE(response.value->measures);
   EXPECT_THAT(run.err, HasSubstr("\n  0."));

@@ -151,8 +151,8 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
 }
 
 TEST(FloorPlan, WritesBothFiles) {
-  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_test.svg",
-                           fs::path(testing::TempDir()) / "floor_plan_test.png"};
+  const PictureFiles files{fs::path(::testing::TempDir()) / "floor_plan_test.svg",
+                           fs::path(::testing::TempDir()) / "floor_plan_test.png"};
   ASSERT_EQ(draw_floor_plan(through_the_wall(), files), "");
   const std::string png = contents(files.png);
   ASSERT_GT(png.size(), 1000U);
@@ -160,13 +160,13 @@ TEST(FloorPlan, WritesBothFiles) {
   EXPECT_EQ(big_endian(png, 16), 1600U);
   EXPECT_GT(big_endian(png, 20), 500U);
   const std::string svg = contents(files.svg);
-  EXPECT_THAT(svg, testing::HasSubstr("<svg"));
-  EXPECT_THAT(svg, testing::HasSubstr("</svg>"));
+  EXPECT_THAT(svg, ::testing::HasSubstr("<svg"));
+  EXPECT_THAT(svg, ::testing::HasSubstr("</svg>"));
 }
 
 /// Returns the number of strokes in the collision colour in the SVG.
 std::size_t collision_strokes(const FloorPlan& plan) {
-  const fs::path file = fs::path(testing::TempDir()) / "floor_plan_count.svg";
+  const fs::path file = fs::path(::testing::TempDir()) / "floor_plan_count.svg";
   EXPECT_EQ(draw_floor_plan(plan, {file, {}}), "");
   const std::string svg = contents(file);
   std::size_t count = 0;
@@ -190,7 +190,7 @@ TEST(FloorPlan, ShowsEveryCollision) {
 }
 
 TEST(FloorPlan, SurvivesAlmostNothing) {
-  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_empty.svg", {}};
+  const PictureFiles files{fs::path(::testing::TempDir()) / "floor_plan_empty.svg", {}};
   EXPECT_EQ(draw_floor_plan({}, files), "");
   FloorPlan only_keyframe;
   only_keyframe.keyframes = {keyframe(0, {0, 0, 0}, motion::KeyframeOrigin::kGiven)};
@@ -200,19 +200,19 @@ TEST(FloorPlan, SurvivesAlmostNothing) {
 
 /// Collisions are drawn on the left, and without a path there is nothing to draw.
 TEST(FloorPlan, TwoPlansSideBySide) {
-  const PictureFiles files{fs::path(testing::TempDir()) / "floor_plan_two.svg",
-                           fs::path(testing::TempDir()) / "floor_plan_two.png"};
+  const PictureFiles files{fs::path(::testing::TempDir()) / "floor_plan_two.svg",
+                           fs::path(::testing::TempDir()) / "floor_plan_two.png"};
   ASSERT_EQ(draw_side_by_side(through_the_wall(), files), "");
   EXPECT_EQ(big_endian(contents(files.png), 16), 920U);
-  EXPECT_THAT(contents(files.svg), testing::HasSubstr("rgb(83.5%,36.9%,0%)"));
+  EXPECT_THAT(contents(files.svg), ::testing::HasSubstr("rgb(83.5%,36.9%,0%)"));
   EXPECT_EQ(draw_side_by_side({}, files), "");
 }
 
 TEST(FloorPlan, FailureNamesTheFile) {
   EXPECT_THAT(draw_floor_plan(through_the_wall(), {"/nonexistent/plan.svg", {}}),
-              testing::HasSubstr("/nonexistent/plan.svg"));
+              ::testing::HasSubstr("/nonexistent/plan.svg"));
   EXPECT_THAT(draw_floor_plan(through_the_wall(), {{}, "/nonexistent/plan.png"}),
-              testing::HasSubstr("/nonexistent/plan.png"));
+              ::testing::HasSubstr("/nonexistent/plan.png"));
 }
 
 TEST(FloorPlan, SamplesIncludeBothEnds) {

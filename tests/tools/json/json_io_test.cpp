@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/collision/obstacles.h"
+#include "tests/support/random.h"
 #include "tools/camway/replay/compare.h"
 #include "tools/json/json_angle.h"
 
@@ -225,7 +226,7 @@ TEST(JsonRequest, SaysHowToReadTheScene) {
 }
 
 TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
-  std::mt19937_64 random(20260801);
+  testing::Random random(20260801);
   RecordProperty("seed", 20260801);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> exponent(-300, 300);
@@ -247,7 +248,7 @@ TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
 }
 
 /// Returns any finite double, with every exponent equally likely.
-double any_double(std::mt19937_64& random) {
+double any_double(testing::Random& random) {
   for (;;) {
     const double value = std::bit_cast<double>(random());
     if (std::isfinite(value)) return value;
@@ -255,29 +256,29 @@ double any_double(std::mt19937_64& random) {
 }
 
 /// Returns an angle that reads back as the same bits from degrees.
-double any_angle(std::mt19937_64& random) {
+double any_angle(testing::Random& random) {
   return radians(std::uniform_real_distribution<double>(0, 180)(random));
 }
 
-motion::PathMeasures any_measures(std::mt19937_64& random) {
+motion::PathMeasures any_measures(testing::Random& random) {
   const auto number = [&] { return any_double(random); };
   return {number(), number(),          number(),          number(),
           number(), any_angle(random), any_angle(random), number()};
 }
 
 /// Adds a random subset of the fields about correction.
-void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
+void add_any_report(planning::PlanResult& result, testing::Random& random) {
   const auto number = [&] { return any_double(random); };
   result.corrections.resize(random() % 4);
   for (correction::Correction& correction : result.corrections) {
     correction.interval = {number(), number()};
-    correction.rung = static_cast<correction::Rung>(random() % 5);
+    correction.kind = static_cast<correction::CorrectionKind>(random() % 5);
     correction.t_begin_s = number();
     correction.t_end_s = number();
     correction.moved_m = number();
     correction.turned_rad = any_angle(random);
     const auto count = [&] { return static_cast<std::int32_t>(random() >> 33); };
-    if (correction.rung == correction::Rung::kNone) {
+    if (correction.kind == correction::CorrectionKind::kNone) {
       correction.tried = {count(), count(), count(), count()};
     }
   }
@@ -305,7 +306,7 @@ void add_any_report(planning::PlanResult& result, std::mt19937_64& random) {
   for (std::uint32_t& triangle : proof.triangles) triangle = static_cast<std::uint32_t>(random());
 }
 
-planning::PlanResult any_result(std::mt19937_64& random) {
+planning::PlanResult any_result(testing::Random& random) {
   const auto number = [&] { return any_double(random); };
   planning::PlanResult result;
   result.status = static_cast<planning::Status>(random() % 7);
@@ -354,7 +355,7 @@ planning::PlanResult any_result(std::mt19937_64& random) {
 }
 
 TEST(JsonResponse, IsReadBackBitForBit) {
-  std::mt19937_64 random(42);
+  testing::Random random(42);
   RecordProperty("seed", 42);
   for (int i = 0; i < 2000; ++i) {
     const planning::PlanResult result = any_result(random);
@@ -411,7 +412,7 @@ TEST(JsonResponse, RefusesToWriteWhatJsonCannotHold) {
 }
 
 TEST(JsonResponse, NamesTheFieldAtFaultWhenRead) {
-  std::mt19937_64 random(7);
+  testing::Random random(7);
   planning::PlanResult result = any_result(random);
   while (result.path.segments().size() < 2 || result.keyframes.empty()) result = any_result(random);
   const std::string good = *write_plan_response(result).value;
@@ -485,7 +486,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   planning::PlanResult result;
   correction::Correction correction;
   correction.interval = {2.25, 2.75, collision::Witness{}};
-  correction.rung = correction::Rung::kGoRound;
+  correction.kind = correction::CorrectionKind::kGoRound;
   correction.t_begin_s = 2.0;
   correction.t_end_s = 3.0;
   correction.moved_m = 0.125;
@@ -600,8 +601,7 @@ TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
 // rounding of each of the two factors. In any case it is written as the same text again.
 TEST(JsonAngle, DegreesReadBack) {
   constexpr unsigned kSeed = 11;
-  RecordProperty("seed", kSeed);
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   std::uniform_real_distribution<double> angle(0, std::numbers::pi);
   int exact = 0;
   for (int i = 0; i < 100'000; ++i) {

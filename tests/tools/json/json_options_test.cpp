@@ -6,12 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
-#include <limits>
+#include <cstddef>
 #include <numbers>
-#include <random>
+#include <optional>
 #include <string>
+#include <type_traits>
 
+#include "tests/messages/plan_samples.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
@@ -19,6 +20,7 @@ namespace {
 
 using correction::Objective;
 using correction::OrientationRule;
+using planning::FieldSpec;
 using planning::PlanOptions;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -125,63 +127,72 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
   }
 }
 
-/// Returns the text of options with every field, as a client might write it.
-std::string text_of(const PlanOptions& options) {
-  const correction::OrientationPolicy& orientation = options.orientation;
-  std::string policy = R"("policy": "free")";
-  if (orientation.rule == OrientationRule::kKeep) policy = R"("policy": "keep")";
-  if (orientation.rule == OrientationRule::kLevel) {
-    const geometry::Vec3& up = orientation.up_W;
-    policy = fmt::format(R"("policy": "level", "up": [{}, {}, {}])", up.x(), up.y(), up.z());
+/// Writes options as the members of a JSON object.
+struct OptionText {
+  std::string& text;
+
+  template <class Member>
+  void operator()(const FieldSpec& spec, const Member& member) const {
+    const std::string value = value_of(spec, member);
+    if (value.empty()) return;
+    text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ", ", spec.file_name(), value);
   }
-  if (orientation.rule == OrientationRule::kTarget) {
-    const geometry::Vec3& at = orientation.target_W;
-    policy = fmt::format(R"("policy": "target", "target": [{}, {}, {}], "cone_deg": {})", at.x(),
-                         at.y(), at.z(), degrees(orientation.cone_rad));
+
+ private:
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  static std::string value_of(const FieldSpec&, Number value) { return fmt::format("{}", value); }
+  /// A limit that is not there is left out.
+  static std::string value_of(const FieldSpec& spec, double value) {
+    if (std::isinf(value)) return {};
+    return fmt::format("{}", spec.is_angle() ? degrees(value) : value);
   }
-  return fmt::format(
-      R"({{"objective": "{}", "orientation": {{{}, "max_turn_deg": {}}},
-          "limits": {{"speed": {}, "acceleration": {}, "turn_rate_deg": {}, "retime": {}}},
-          "max_shrink": {}, "repair_keyframes": {}, "seed": {}}})",
-      kObjectives[static_cast<std::size_t>(options.objective)].first, policy,
-      degrees(orientation.max_turn_rad), options.limits.speed_m_per_s,
-      options.limits.acceleration_m_per_s2, degrees(options.limits.turn_rate_rad_per_s),
-      options.limits.may_retime, options.max_shrink, options.repair_keyframes, options.seed);
-}
+  static std::string value_of(const FieldSpec& spec, const std::optional<double>& value) {
+    return value ? value_of(spec, *value) : "";
+  }
+  template <base::NamedEnum Enum>
+  static std::string value_of(const FieldSpec&, Enum value) {
+    return fmt::format("\"{}\"", base::name_of(value));
+  }
+  static std::string value_of(const FieldSpec&, const geometry::Vec3& point) {
+    return fmt::format("[{}, {}, {}]", point.x(), point.y(), point.z());
+  }
+  static std::string value_of(const FieldSpec&, const geometry::Bounds& bounds) {
+    const auto side = [&](std::size_t i) {
+      return std::isinf(bounds.limit_m(i)) ? "null" : fmt::format("{}", bounds.limit_m(i));
+    };
+    return fmt::format(R"({{"min": [{}, {}, {}], "max": [{}, {}, {}]}})", side(0), side(1), side(2),
+                       side(3), side(4), side(5));
+  }
+  static std::string value_of(const FieldSpec&, const correction::MotionLimits& limits) {
+    std::string members;
+    planning::visit_limits(OptionText{members}, limits);
+    return "{" + members + "}";
+  }
+  static std::string value_of(const FieldSpec&, const correction::OrientationPolicy& policy) {
+    std::string members;
+    const OptionText write{members};
+    const auto write_used = [&](const FieldSpec& spec, const auto& member) {
+      const bool is_target = spec.name == "target" || spec.name == "cone";
+      if (spec.name == "up" && policy.rule != OrientationRule::kLevel) return;
+      if (is_target && policy.rule != OrientationRule::kTarget) return;
+      write(spec, member);
+    };
+    planning::visit_orientation(write_used, policy);
+    return "{" + members + "}";
+  }
+};
 
 TEST(JsonOptions, WhatIsWrittenIsReadBitForBit) {
-  constexpr unsigned kSeed = 2026;
-  RecordProperty("seed", kSeed);
-  std::mt19937_64 random(kSeed);
-  std::uniform_real_distribution<double> number(-50, 50);
-  const auto angle = [&] { return radians(std::abs(number(random))); };
+  testing::Random random(testing::kSeed);
   for (int i = 0; i < 2000; ++i) {
-    PlanOptions options;
-    options.objective = static_cast<Objective>(random() % 4);
-    options.orientation.rule = static_cast<OrientationRule>(random() % 4);
-    const geometry::Vec3 at(number(random), number(random), number(random));
-    if (options.orientation.rule == OrientationRule::kLevel) {
-      options.orientation.up_W = planning::direction_of(at);
-    }
-    if (options.orientation.rule == OrientationRule::kTarget) {
-      options.orientation.target_W = at;
-      options.orientation.cone_rad = angle();
-    }
-    options.orientation.max_turn_rad = angle();
-    options.limits = {std::abs(number(random)), std::abs(number(random)), angle(),
-                      random() % 2 == 0};
-    options.max_shrink = std::abs(number(random)) / 50;
-    options.repair_keyframes = random() % 2 == 0;
-    options.seed = 1 + random() % std::numeric_limits<std::int64_t>::max();
-    const auto parsed = options_of(text_of(options));
+    const PlanOptions options = testing::sample_options(random);
+    std::string text;
+    planning::visit_options(OptionText{text}, options);
+    const auto parsed = options_of("{" + text + "}");
     ASSERT_TRUE(parsed.value) << parsed.error;
-    ASSERT_EQ(*parsed.value, options) << "seed " << kSeed << ", trial " << i;
-  }
-}
-
-TEST(JsonOptions, EveryObjectiveHasItsName) {
-  for (std::size_t i = 0; i < kObjectives.size(); ++i) {
-    EXPECT_EQ(kObjectives[i].second, static_cast<Objective>(i));
+    ASSERT_EQ(*parsed.value, options)
+        << "seed " << testing::kSeed << ", trial " << i << ": " << text;
   }
 }
 

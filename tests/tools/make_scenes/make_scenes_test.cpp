@@ -33,7 +33,7 @@ std::map<std::string, std::string> files_below(const fs::path& folder) {
 }
 
 TEST(MakeScenes, WritesTheCommittedBytes) {
-  const fs::path folder = fs::path(testing::TempDir()) / "make_scenes_test";
+  const fs::path folder = fs::path(::testing::TempDir()) / "make_scenes_test";
   fs::remove_all(folder);
   const std::string command =
       std::string(CAMWAY_MAKE_SCENES_BINARY) + " --out '" + folder.string() + "' > /dev/null";
@@ -95,9 +95,9 @@ TEST(MakeScenes, RequestsDoWhatTheirNamesSay) {
     const scene::SceneIndex index = scene::SceneIndex::build(mesh_of(entry.scene));
     for (const Request& request : entry.requests) {
       const motion::Path path = path_of(request);
-      const auto found =
-          collision::detect_collisions(index, path, motion::Body(corners_of(request)),
-                                       path.begin_s(), path.end_s(), {}, base::Deadline::never());
+      const auto found = collision::detect_collisions(
+          {collision::Obstacles(index), motion::Body(corners_of(request))}, path, path.begin_s(),
+          path.end_s(), base::Deadline::never());
       ASSERT_TRUE(found.has_value());
       double colliding_s = 0.0;
       for (const collision::CollisionInterval& c : *found) colliding_s += c.t_end_s - c.t_begin_s;

@@ -18,7 +18,8 @@ TEST(ClientRequest, EveryOptionReachesTheDaemon) {
   testing::Random random(testing::kSeed);
   for (int trial = 0; trial < 200; ++trial) {
     SCOPED_TRACE(::testing::Message() << "seed " << testing::kSeed << ", trial " << trial);
-    const planning::PlanRequest request = testing::sample_request(2, random);
+    planning::PlanRequest request = testing::sample_request(2, random);
+    request.options = testing::sample_options(random);
     const auto pages = to_pages(to_client_request(request, "room"), "me", 7);
     ASSERT_EQ(pages.size(), 1U);
     const auto page = wire::decode<plan_request_t>(pages[0]);

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <set>
 #include <vector>
+
+#include "tests/support/random.h"
 
 namespace camway::wire {
 namespace {
@@ -31,7 +32,7 @@ envelope_t message(std::int64_t counter, std::int64_t utime = kNow, std::int64_t
 }
 
 TEST(ReplayGuard, NothingIsNewTwiceHoweverMessagesOvertakeEachOther) {
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   ReplayGuard guard(open_limits(), kNow);
   std::set<std::int64_t> taken;
   std::int64_t front = 0;

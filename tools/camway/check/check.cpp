@@ -82,9 +82,9 @@ Parsed<CheckInput> read_input(const CheckFlags& flags) {
 }
 
 PathSearch search(const CheckInput& input) {
-  return search_path(collision::Obstacles(*input.snapshot).within(input.bounds), input.path,
-                     *input.body, planning::detect_options(input.request.options),
-                     base::Deadline::after_s(input.request.options.deadline_s));
+  return search_path({collision::Obstacles(*input.snapshot).within(input.bounds), *input.body,
+                      planning::detect_options(input.request.options)},
+                     input.path, base::Deadline::after_s(input.request.options.deadline_s));
 }
 
 ExitCode run_check(const CheckFlags& flags) {

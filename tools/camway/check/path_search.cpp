@@ -37,15 +37,8 @@ void merge_touching(std::vector<CollisionInterval>& intervals) {
 
 class Searcher {
  public:
-  Searcher(const collision::Obstacles& obstacles, const motion::Path& path,
-           const motion::Body& body, const collision::DetectOptions& options,
-           const base::Deadline& deadline)
-      : obstacles_(obstacles),
-        path_(path),
-        body_(body),
-        options_(options),
-        deadline_(deadline),
-        bridges_(planning::bridges(path)) {}
+  Searcher(const collision::Query& query, const motion::Path& path, const base::Deadline& deadline)
+      : query_(query), path_(path), deadline_(deadline), bridges_(planning::bridges(path)) {}
 
   PathSearch run() {
     PathSearch search;
@@ -71,8 +64,7 @@ class Searcher {
 
   // Returns false if the deadline came first.
   bool search_part(double begin_s, double end_s, std::vector<CollisionInterval>& found) const {
-    const auto intervals =
-        collision::detect_collisions(obstacles_, path_, body_, begin_s, end_s, options_, deadline_);
+    const auto intervals = collision::detect_collisions(query_, path_, begin_s, end_s, deadline_);
     if (intervals) found.insert(found.end(), intervals->begin(), intervals->end());
     return intervals.has_value();
   }
@@ -83,9 +75,8 @@ class Searcher {
     for (; next_bridge_ < bridges_.size(); ++next_bridge_) {
       const planning::Bridge& bridge = bridges_[next_bridge_];
       if (bridge.time_s > end_s) return true;
-      const auto hits =
-          collision::detect_collisions(obstacles_, bridge.path, body_, bridge.path.begin_s(),
-                                       bridge.path.end_s(), options_, deadline_);
+      const auto hits = collision::detect_collisions(query_, bridge.path, bridge.path.begin_s(),
+                                                     bridge.path.end_s(), deadline_);
       if (!hits) return false;
       if (!hits->empty()) found.push_back({bridge.time_s, bridge.time_s, hits->front().witness});
     }
@@ -93,21 +84,18 @@ class Searcher {
   }
 
   [[nodiscard]] planning::Certificate certificate() const {
-    planning::Certificate all =
-        planning::certificate_of_free(obstacles_, path_, body_, options_, deadline_);
+    planning::Certificate all = planning::certificate_of_free(query_, path_, deadline_);
     for (const planning::Bridge& bridge : bridges_) {
       const planning::Certificate one =
-          planning::certificate_of_free(obstacles_, bridge.path, body_, options_, deadline_);
+          planning::certificate_of_free(query_, bridge.path, deadline_);
       all.clearance_lower_bound_m =
           std::min(all.clearance_lower_bound_m, one.clearance_lower_bound_m);
     }
     return all;
   }
 
-  const collision::Obstacles& obstacles_;
+  const collision::Query& query_;
   const motion::Path& path_;
-  const motion::Body& body_;
-  const collision::DetectOptions& options_;
   const base::Deadline& deadline_;
   const std::vector<planning::Bridge> bridges_;  ///< in order of time
   std::size_t next_bridge_ = 0;
@@ -115,10 +103,9 @@ class Searcher {
 
 }  // namespace
 
-PathSearch search_path(const collision::Obstacles& obstacles, const motion::Path& path,
-                       const motion::Body& body, const collision::DetectOptions& options,
+PathSearch search_path(const collision::Query& query, const motion::Path& path,
                        const base::Deadline& deadline) {
-  return Searcher(obstacles, path, body, options, deadline).run();
+  return Searcher(query, path, deadline).run();
 }
 
 }  // namespace camway::tools

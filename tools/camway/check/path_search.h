@@ -30,8 +30,7 @@ struct PathSearch {
 /// that a deadline keeps the results before it. Intervals on both sides of a border of two parts
 /// are not joined over the joining distance (`collision::DetectOptions::gap_m`). Requires a path in
 /// which `planning::find_fault` and `find_jump` find nothing.
-PathSearch search_path(const collision::Obstacles& obstacles, const motion::Path& path,
-                       const motion::Body& body, const collision::DetectOptions& options,
+PathSearch search_path(const collision::Query& query, const motion::Path& path,
                        const base::Deadline& deadline);
 
 }  // namespace camway::tools

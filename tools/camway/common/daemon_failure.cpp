@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 
 namespace camway::tools {
 namespace {
@@ -40,7 +40,7 @@ CLI::Option* add_timeout(CLI::App& command, std::optional<double>& timeout_s) {
                   fmt::format("How long to wait for the daemon's answer, seconds [{:g}; some 10 "
                               "where no daemon is heard]",
                               ClientOptions{}.deadline_s))
-      ->check(service::between(0.01, 86'400.0));
+      ->check(cli_support::between(0.01, 86'400.0));
 }
 
 void use_timeout(const std::optional<double>& timeout_s, ClientOptions& options) {

@@ -15,8 +15,9 @@ namespace camway::tools {
 /// Declares `--timeout-s` of a command that talks to a daemon.
 CLI::Option* add_timeout(CLI::App& command, std::optional<double>& timeout_s);
 
-/// Makes a client wait for this time even if it hears no daemon, because one may be about to start.
-/// Without a timeout, changes nothing: the client gives up earlier if it hears no daemon.
+/// If `timeout_s` is set, makes a client wait that long even if it hears no daemon, because a
+/// daemon may be starting. Otherwise does not change `options`: the client then gives up early if
+/// it hears no daemon.
 void use_timeout(const std::optional<double>& timeout_s, ClientOptions& options);
 
 /// Prints a failure of the daemon on standard error, with the flags that may help. `key_file` is

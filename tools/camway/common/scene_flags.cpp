@@ -4,7 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/camway/common/commands.h"
 
@@ -18,14 +18,14 @@ CLI::Option* add_flags(CLI::App& command, SceneFlags& flags, const std::string& 
           "--scale", flags.reading.scale,
           "Metres per unit of the scene file (0.0254 for inches); multiplies coordinates [" +
               first + "1]")
-      ->check(service::above_0());
-  service::add_choice(
+      ->check(cli_support::above_0());
+  cli_support::add_choice(
       command, "--up", flags.reading.up, scene::kUpAxes,
       "Turn the axes: z-to-y for a file with Z up and keyframes with Y up, y-to-z for "
       "the reverse [" +
           first + "as-in-file]")
       ->type_name("AXES");
-  service::add_choice(
+  cli_support::add_choice(
       command, "--unknown", flags.reading.unknown, scene::kUnknownSpaces,
       "What an OctoMap (.bt, .ot) knows nothing of counts as free or occupied [" + first + "free]")
       ->type_name("STATE");

@@ -31,12 +31,12 @@ struct SceneFlags {
 /// a required one.
 CLI::Option* add_scene_flags(CLI::App& command, SceneFlags& flags);
 
-/// Adds these flags to a command that reads a request, whose scene and reading options are the
-/// defaults of the flags.
+/// Adds these flags to a command that reads a request. A flag that is not given takes its value
+/// from the request.
 void add_request_scene_flags(CLI::App& command, SceneFlags& flags);
 
-/// Warns that `scale`, `up` and `unknown` of a request have no effect, because the command uses
-/// another scene: the daemon's, or that of --scene.
+/// Prints a warning if the request has `scale`, `up` or `unknown`. Call it in a command that uses a
+/// scene which the daemon has loaded: these options then have no effect.
 void warn_of_reading(const std::string& request_file, const RequestFile& request);
 
 /// Returns the name of an axis conversion on the command line: as-in-file, z-to-y or y-to-z.

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/process/options.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
@@ -93,7 +93,7 @@ void add_doctor_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--timeout-s", flags->questions.timeout_s,
                    "How long to listen for a daemon, seconds")
-      ->check(service::between(0.0, 3600.0))
+      ->check(cli_support::between(0.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--json", flags->json, "Print JSON, for machines");
   command->footer("Changes nothing. Notes and warnings are no problems.\n" +

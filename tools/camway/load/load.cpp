@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/plan.h"
 #include "daemon/process/scene_argument.h"
 #include "lcmtypes/wire/channels.h"
@@ -201,15 +201,15 @@ ExitCode run_command(LoadFlags flags) {
 
 void add_run_flags(CLI::App& command, LoadFlags& flags) {
   command.add_option("--clients", flags.run.clients, "Clients that ask at the same time")
-      ->check(service::whole_number(1, 256))
+      ->check(cli_support::whole_number(1, 256))
       ->capture_default_str();
   command.add_option("--seconds", flags.run.seconds, "How long to begin requests")
-      ->check(service::between(0.1, 1e7))
+      ->check(cli_support::between(0.1, 1e7))
       ->capture_default_str();
   command
       .add_option("--requests", flags.run.requests,
                   "Stop after so many requests of all clients together; 0: only by time")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->capture_default_str();
   add_key_file(command, flags.key_file);
   command.add_option("--url", flags.run.url, "LCM network [LCM_DEFAULT_URL]");
@@ -221,17 +221,17 @@ void add_memory_flags(CLI::App& command, LoadFlags& flags) {
   CLI::Option* pid = command
                          .add_option("--daemon-pid", flags.run.daemon_pid,
                                      "Process of the daemon on this machine: watch its memory")
-                         ->check(service::above_0());
+                         ->check(cli_support::above_0());
   command
       .add_option("--warm-up-s", flags.warm_up_s,
                   "With --daemon-pid: growth counts from then on, when caches are full")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->needs(pid)
       ->capture_default_str();
   command
       .add_option("--max-growth-percent", flags.max_growth_percent,
                   "With --daemon-pid: more growth of its memory is a negative outcome")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->needs(pid);
 }
 
@@ -253,7 +253,7 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--occupancy", flags->occupancy_queries,
                    "Ask the scene's occupancy map instead, in batches of so many queries of all "
                    "kinds")
-      ->check(service::whole_number(1, 1'000'000))
+      ->check(cli_support::whole_number(1, 1'000'000))
       ->excludes("--request");
   add_run_flags(*command, *flags);
   add_memory_flags(*command, *flags);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/occupancy/occupancy_mirror.h"
+#include "daemon/scene/mirror/occupancy_mirror.h"
 #include "tools/camway/load/load_run.h"
 
 namespace camway::tools {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
@@ -124,7 +124,7 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   CLI::Option* file = add_scene_flags(*command, flags->scene);
   CLI::Option* resolution =
       command->add_option("--resolution", flags->resolution_m, "Edge of a voxel, with --scene")
-          ->check(service::above_0())
+          ->check(cli_support::above_0())
           ->type_name("METRES");
   CLI::Option* daemon =
       command
@@ -143,7 +143,7 @@ void add_occupancy_command(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--deadline-s", flags->deadline_s,
                    "How long the daemon may take for each message of queries, seconds; 0: its own")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->needs(daemon)
       ->capture_default_str();
   add_queries(*command, flags->queries);

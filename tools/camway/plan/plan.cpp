@@ -5,28 +5,22 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "daemon/command_line/command_line.h"
 #include "daemon/planning/quaternion_order.h"
 #include "daemon/planning/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"
+#include "tools/camway/plan/option_flags.h"
 #include "tools/camway/plan/plan_summary.h"
-#include "tools/json/json_angle.h"
 #include "tools/json/json_io.h"
-#include "tools/json/json_options.h"
 #include "tools/support/output_file.h"
 
 namespace camway::tools {
@@ -40,14 +34,7 @@ struct PlanFlags {
   std::vector<std::string> requests;
   std::string response;
   std::string response_dir;
-  std::optional<planning::Method> method;
-  std::optional<double> deadline_s;
-  std::optional<double> clearance_m;
-  std::optional<correction::Objective> objective;
-  std::optional<double> max_turn_deg;
-  std::optional<double> max_shrink;
-  std::optional<std::uint64_t> seed;
-  bool repair_keyframes = false;
+  OptionFlags options;
   bool no_timing = false;
 };
 
@@ -85,38 +72,6 @@ ExitCode exit_code_of(Status status) {
   return ExitCode::kOurFault;
 }
 
-/// Returns the spelling of a member: the flag if a flag set it.
-planning::FieldSpelling spelling_with(std::map<std::string, std::string, std::less<>> flags,
-                                      planning::FieldSpelling otherwise) {
-  return [flags = std::move(flags), otherwise = std::move(otherwise)](std::string_view path) {
-    const auto flag = flags.find(path);
-    return flag == flags.end() ? otherwise(path) : flag->second;
-  };
-}
-
-/// Applies the options of the command line, which override those of the request.
-void apply(const PlanFlags& flags, planning::PlanRequest& request) {
-  planning::PlanOptions& options = request.options;
-  std::map<std::string, std::string, std::less<>> said;
-  const auto set = [&said](const auto& flag, auto& value, const char* path, const char* name) {
-    if (!flag) return;
-    value = *flag;
-    said[path] = name;
-  };
-  set(flags.method, options.method, "options.method", "--method");
-  set(flags.deadline_s, options.deadline_s, "options.deadline_s", "--deadline-s");
-  set(flags.clearance_m, options.clearance_m, "options.clearance", "--clearance");
-  set(flags.objective, options.objective, "options.objective", "--objective");
-  set(flags.max_shrink, options.max_shrink, "options.max_shrink", "--max-shrink");
-  set(flags.seed, options.seed, "options.seed", "--seed");
-  if (flags.max_turn_deg) {
-    options.orientation.max_turn_rad = radians(*flags.max_turn_deg);
-    said["options.orientation.max_turn"] = "--max-turn-deg";
-  }
-  if (flags.repair_keyframes) options.repair_keyframes = true;
-  request.spelling = spelling_with(std::move(said), std::move(request.spelling));
-}
-
 /// Returns warnings about the request, a sentence each.
 std::vector<std::string> warnings_of(const RequestFile& request) {
   if (request.says_xyzw) return {};
@@ -132,7 +87,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     answer.result = invalid(request.error);
     return answer;
   }
-  apply(flags, *request.value);
+  flags.options.apply(*request.value);
   if (const auto fault = planning::validate(*request.value)) {
     answer.result = invalid(file + ": " + fault->message);
     answer.result.keyframe = fault->keyframe;
@@ -295,41 +250,6 @@ ExitCode run_plan(const PlanFlags& flags) {
   return ExitCode::kInvalidInput;
 }
 
-/// Adds the flags that override options of the request.
-void add_option_flags(CLI::App& command, PlanFlags& flags) {
-  static constexpr std::array<std::pair<std::string_view, planning::Method>, 2> kMethods{
-      {{"ladder", planning::Method::kLadder},
-       {"keyframe_insertion", planning::Method::kKeyframeInsertion}}};
-  service::add_choice(
-      command, "--method", flags.method, kMethods,
-      "How a colliding path is corrected: ladder (move, turn, go round; the default) or "
-      "keyframe_insertion (the paper's); these flags go before the request's options")
-      ->type_name("METHOD");
-  command
-      .add_option("--deadline-s", flags.deadline_s,
-                  "Seconds after which planning stops with what it has")
-      ->check(service::above_0());
-  command
-      .add_option("--clearance", flags.clearance_m, "Distance to keep from the scene, in metres")
-      ->check(service::at_least_0());
-  service::add_choice(command, "--objective", flags.objective, kObjectives,
-                      "What a corrected path is improved for")
-      ->type_name("OBJECTIVE");
-  command
-      .add_option("--max-turn-deg", flags.max_turn_deg,
-                  "Most degrees that corrections may turn the camera")
-      ->check(service::between(0.0, 180.0));
-  command
-      .add_option("--max-shrink", flags.max_shrink,
-                  "By what share the near distance may be made smaller where nothing else helps")
-      ->check(service::at_least_0());  // below 1: planning::validate
-  command.add_option("--seed", flags.seed, "Of the searches for ways round")
-      ->check(service::whole_number(1));
-  command.add_flag("--repair-keyframes", flags.repair_keyframes,
-                   "Move given keyframes that collide to the nearest free pose instead of refusing "
-                   "the request");
-}
-
 }  // namespace
 
 void add_plan_command(CLI::App& app, ExitCode& exit_code) {
@@ -349,7 +269,7 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
                    "scene is loaded once, a table goes to standard output")
       ->excludes(response)
       ->type_name("DIR");
-  add_option_flags(*command, *flags);
+  flags->options.add_to(*command);
   command->add_flag("--no-timing", flags->no_timing,
                     "Leave timing_ms out, so that two responses compare byte by byte");
   command->footer(
@@ -358,11 +278,12 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
       "sphere, convex or mesh (\"body\": {\"type\": \"box\", \"size\": [x, y, z]}, metres, in the "
       "camera's frame). options.clearance asks for a distance to keep, in metres; "
       "options.orientation and options.limits say how corrections may turn the camera and how fast "
-      "it may move; README.md lists all options. Fields that are unknown are refused, but for "
-      "comment and those that begin with '_'. Each collision of the response has a witness: time, "
-      "object, triangle, feature of the body, depth, point; corrections say what became of it, and "
-      "how "
-      "hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
+      "it may move; docs/requests.md explains all options. Fields that are unknown are refused, "
+      "but "
+      "for comment and those that begin with '_'. Each collision of the response has a witness: "
+      "time, object, triangle, feature of the body, depth, point; corrections say what became of "
+      "it, "
+      "and how hard that was tried where nothing helped. Keyframes that were repaired are marked.\n"
       "A response is written for invalid input too when --response or --response-dir is given.\n"
       "Example: camway plan --request scenes/requests/office-graze-door.json --response out.json");
   command->callback([flags, &exit_code] { exit_code = run_plan(*flags); });

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/planning/effort_text.h"
+#include "daemon/planning/message.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {
 namespace {
 
 using correction::Correction;
-using correction::Rung;
+using correction::CorrectionKind;
 using planning::PlanResult;
 using planning::Status;
 
@@ -44,16 +44,16 @@ std::string extent(const Correction& correction) {
 
 std::string deed(const Correction& correction) {
   const std::string text = extent(correction);
-  switch (correction.rung) {
-    case Rung::kMove:
+  switch (correction.kind) {
+    case CorrectionKind::kMove:
       return text.empty() ? "moved" : text.substr(2);
-    case Rung::kTurn:
+    case CorrectionKind::kTurn:
       return text.empty() ? "turned" : text.substr(2);
-    case Rung::kGoRound:
+    case CorrectionKind::kGoRound:
       return "goes another way" + text;
-    case Rung::kShrink:
+    case CorrectionKind::kShrink:
       return "near distance made smaller" + text;
-    case Rung::kNone:
+    case CorrectionKind::kNone:
       break;
   }
   return "not corrected";
@@ -99,7 +99,7 @@ std::string meetings(const PlanResult& result, const std::vector<std::size_t>& c
 
 /// Returns whether one change of the path corrected both collisions.
 bool is_same_change(const Correction& a, const Correction& b) {
-  return a.rung != Rung::kNone && a.rung == b.rung && a.t_begin_s == b.t_begin_s &&
+  return a.kind != CorrectionKind::kNone && a.kind == b.kind && a.t_begin_s == b.t_begin_s &&
          a.t_end_s == b.t_end_s && a.moved_m == b.moved_m && a.turned_rad == b.turned_rad;
 }
 

@@ -69,7 +69,7 @@ bool same_names(std::vector<planning::WitnessNames> a, std::vector<planning::Wit
 /// Compares corrections except for the witness, which is part of the collision.
 bool same_correction(const correction::Correction& a, const correction::Correction& b) {
   return same(a.interval.t_begin_s, b.interval.t_begin_s) &&
-         same(a.interval.t_end_s, b.interval.t_end_s) && a.rung == b.rung &&
+         same(a.interval.t_end_s, b.interval.t_end_s) && a.kind == b.kind &&
          same(a.t_begin_s, b.t_begin_s) && same(a.t_end_s, b.t_end_s) &&
          same(a.moved_m, b.moved_m) && same(a.turned_rad, b.turned_rad);
 }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "daemon/command_line/command_line.h"
+#include "daemon/cli_support/flag_checks.h"
 #include "daemon/process/scene_argument.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "lcmtypes/wire/channels.h"
@@ -163,13 +163,13 @@ void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
   command
       .add_option("--threads", flags.run.threads,
                   "Requests planned at the same time; the output does not depend on it")
-      ->check(service::whole_number(1, 256))
+      ->check(cli_support::whole_number(1, 256))
       ->capture_default_str();
   command
       .add_option("--tolerance-m", flags.run.tolerance_m,
                   "Count paths that stay this many metres from each other as equal; 0: only the "
                   "same bits")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->capture_default_str();
   command.add_option("--responses", flags.responses_dir, "Folder for the response to each request")
       ->type_name("DIR");
@@ -184,13 +184,13 @@ void add_publish_flags(CLI::App& command, ReplayFlags& flags) {
   command
       .add_option("--speed", flags.publishing.speed,
                   "With --publish: times the recorded speed; 0 for as fast as possible")
-      ->check(service::at_least_0())
+      ->check(cli_support::at_least_0())
       ->needs(publish)
       ->capture_default_str();
   command
       .add_option("--wait-s", flags.publishing.wait_s,
                   "With --publish: seconds to wait for answers after the last request")
-      ->check(service::between(0.0, 1e6))
+      ->check(cli_support::between(0.0, 1e6))
       ->needs(publish)
       ->capture_default_str();
   command

@@ -3,15 +3,17 @@
 
 #include <array>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
+
+#include "tests/support/random.h"
 
 /// Mesh files in every encoding that a format allows, made from a fixed seed, for tests and as the
 /// corpus of the fuzzer.
 namespace camway::scene::testing {
 
-using Random = std::mt19937_64;
+using camway::testing::Random;
+
 inline constexpr std::uint64_t kMeshSeed = 20061127;
 
 struct TriangleSoup {

@@ -5,6 +5,7 @@
 
 #include "daemon/scene/import/readers/mesh_reader.h"
 #include "tests/scene/import/readers/mesh_files.h"
+#include "tests/support/random.h"
 
 namespace camway::scene::testing {
 namespace {
@@ -37,7 +38,7 @@ template <class Write>
 void expect_all_same(Numbers numbers, std::string_view extension, Write write) {
   Random random(kMeshSeed);
   for (int trial = 0; trial < kTrials; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << kMeshSeed << ", trial " << trial);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
     const TriangleSoup soup = random_soup(random, numbers);
     expect_same(soup, extension, write(soup, random));
     if (::testing::Test::HasFatalFailure()) return;

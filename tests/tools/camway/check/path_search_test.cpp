@@ -10,6 +10,7 @@
 #include "daemon/geometry/triangle_intersection.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/snapshot/snapshot.h"
+#include "tests/support/random.h"
 #include "tests/tools/camway/replay/log_builder.h"
 
 namespace camway::tools {
@@ -28,7 +29,7 @@ constexpr double kEnds_s = 0.02;
 /// Rounding of a time up to 100 s that is converted to a parameter of a segment and back.
 constexpr double kRounding_s = 1e-12;
 
-scene::Mesh dust_mesh(std::mt19937_64& random) {
+scene::Mesh dust_mesh(testing::Random& random) {
   std::uniform_real_distribution<double> coordinate(-3.0, 3.0);
   scene::Mesh mesh;
   for (std::uint32_t i = 0; i < 900; i += 3) {
@@ -43,7 +44,7 @@ scene::Mesh dust_mesh(std::mt19937_64& random) {
   return mesh;
 }
 
-motion::Path random_path(std::mt19937_64& random, std::size_t count = 5) {
+motion::Path random_path(testing::Random& random, std::size_t count = 5) {
   std::uniform_real_distribution<double> coordinate(-3.0, 3.0);
   std::vector<motion::Keyframe> keyframes(count);
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
@@ -87,8 +88,7 @@ std::vector<double> touching_times_s(const scene::Mesh& mesh, const motion::Path
 
 // A search in parts misses no collision, and finds only those of a search of the whole path.
 TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
-  RecordProperty("seed", kSeed);
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const scene::Mesh mesh = dust_mesh(random);
   const auto made = scene::make_snapshot("dust", mesh);
   ASSERT_TRUE(made.snapshot) << made.error;
@@ -99,9 +99,11 @@ TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
   for (int trial = 0; trial < 10; ++trial) {
     SCOPED_TRACE(trial);
     const motion::Path path = random_path(random);
-    const auto whole = collision::detect_collisions(*made.snapshot, path, body, path.begin_s(),
-                                                    path.end_s(), options, Deadline::never());
-    const PathSearch search = search_path(*made.snapshot, path, body, options, Deadline::never());
+    const auto whole =
+        collision::detect_collisions({collision::Obstacles(*made.snapshot), body, options}, path,
+                                     path.begin_s(), path.end_s(), Deadline::never());
+    const PathSearch search =
+        search_path({collision::Obstacles(*made.snapshot), body, options}, path, Deadline::never());
     ASSERT_TRUE(whole);
     ASSERT_TRUE(search.complete);
     EXPECT_EQ(search.searched_until_s, path.end_s());
@@ -124,19 +126,20 @@ TEST(PathSearch, FindsWhatASearchOfTheWholeFinds) {
 // Collisions found before the deadline are kept. The test does not depend on the machine's speed:
 // it searches for a deadline between two of them.
 TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
-  RecordProperty("seed", kSeed);
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const auto made = scene::make_snapshot("dust", dust_mesh(random));
   ASSERT_TRUE(made.snapshot) << made.error;
   const motion::Body body{motion::Camera{1.5, 1.2, 0.3}};
   const motion::Path path = random_path(random, 100);
   const Deadline clock = Deadline::never();
-  const PathSearch all = search_path(*made.snapshot, path, body, {}, Deadline::never());
+  const PathSearch all =
+      search_path({collision::Obstacles(*made.snapshot), body}, path, Deadline::never());
   double deadline_s = clock.elapsed_ms() / 2000.0;
   ASSERT_TRUE(all.complete);
   PathSearch some;
   for (int attempt = 0; attempt < 50; ++attempt) {
-    some = search_path(*made.snapshot, path, body, {}, Deadline::after_s(deadline_s));
+    some = search_path({collision::Obstacles(*made.snapshot), body}, path,
+                       Deadline::after_s(deadline_s));
     if (!some.complete && !some.collisions.empty()) break;
     deadline_s *= some.complete ? 0.5 : 1.7;
   }
@@ -161,10 +164,11 @@ TEST(PathSearch, ADeadlineLeavesWhatWasFoundBeforeIt) {
 TEST(PathSearch, ADeadlineThatHasPassedLeavesNothingKnown) {
   const auto made = scene::make_snapshot("wall", wall_mesh());
   ASSERT_TRUE(made.snapshot) << made.error;
-  std::mt19937_64 random(kSeed);
+  testing::Random random(kSeed);
   const motion::Path path = random_path(random);
   const PathSearch search =
-      search_path(*made.snapshot, path, motion::Body{motion::Camera{}}, {}, Deadline::after_s(0.0));
+      search_path({collision::Obstacles(*made.snapshot), motion::Body{motion::Camera{}}}, path,
+                  Deadline::after_s(0.0));
   EXPECT_FALSE(search.complete);
   EXPECT_FALSE(search.certificate.certified);
   EXPECT_EQ(search.searched_until_s, path.begin_s());

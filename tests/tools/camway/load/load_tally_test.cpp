@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/messages/plan_samples.h"
+#include "tests/support/random.h"
 
 namespace camway::tools {
 namespace {
@@ -123,7 +124,7 @@ TEST(Percentiles, AreThoseOfTheSortedValues) {
   EXPECT_EQ(percentiles({3.0f}).p999, 3.0);
   std::vector<float> values;
   for (int i = 1; i <= 1000; ++i) values.push_back(static_cast<float>(i));
-  std::shuffle(values.begin(), values.end(), std::mt19937(kSeed));
+  std::shuffle(values.begin(), values.end(), testing::Random(kSeed));
   const Percentiles p = percentiles(values);
   EXPECT_EQ(p.p50, 500.0);
   EXPECT_EQ(p.p99, 990.0);

@@ -10,7 +10,7 @@ namespace camway::tools {
 namespace {
 
 using correction::Correction;
-using correction::Rung;
+using correction::CorrectionKind;
 using planning::PlanResult;
 using planning::Status;
 using ::testing::EndsWith;
@@ -18,10 +18,11 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-Correction corrected(double begin_s, double end_s, Rung rung, double moved_m, double turned_rad) {
+Correction corrected(double begin_s, double end_s, CorrectionKind kind, double moved_m,
+                     double turned_rad) {
   Correction correction;
   correction.interval = {begin_s, end_s};
-  correction.rung = rung;
+  correction.kind = kind;
   correction.moved_m = moved_m;
   correction.turned_rad = turned_rad;
   return correction;
@@ -40,10 +41,11 @@ PlanResult result_with(std::vector<Correction> corrections) {
 }
 
 TEST(PlanSummary, SaysWhatEachCorrectionDid) {
-  PlanResult result = result_with(
-      {corrected(2.314, 2.649, Rung::kMove, 0.1234, 0.0), corrected(3, 4, Rung::kTurn, 0.0, 0.0698),
-       corrected(5, 6, Rung::kGoRound, 1.26, 0.5), corrected(7, 8, Rung::kShrink, 0.0, 0.0),
-       corrected(9, 10, Rung::kNone, 0.0, 0.0)});
+  PlanResult result = result_with({corrected(2.314, 2.649, CorrectionKind::kMove, 0.1234, 0.0),
+                                   corrected(3, 4, CorrectionKind::kTurn, 0.0, 0.0698),
+                                   corrected(5, 6, CorrectionKind::kGoRound, 1.26, 0.5),
+                                   corrected(7, 8, CorrectionKind::kShrink, 0.0, 0.0),
+                                   corrected(9, 10, CorrectionKind::kNone, 0.0, 0.0)});
   result.collisions[0].witness.emplace();
   result.collision_names[0] = {"sofa_04", "edge 2"};
   result.collisions[4].witness.emplace();
@@ -59,9 +61,10 @@ TEST(PlanSummary, SaysWhatEachCorrectionDid) {
 }
 
 TEST(PlanSummary, LeavesRoundingOutAndLargeNumbersWhole) {
-  const PlanResult result = result_with({corrected(1, 2, Rung::kMove, 0.046, 2e-16),
-                                         corrected(3, 4, Rung::kGoRound, 123.4, 2.1),
-                                         corrected(5.001, 5.002, Rung::kTurn, 1e-15, 1e-9)});
+  const PlanResult result =
+      result_with({corrected(1, 2, CorrectionKind::kMove, 0.046, 2e-16),
+                   corrected(3, 4, CorrectionKind::kGoRound, 123.4, 2.1),
+                   corrected(5.001, 5.002, CorrectionKind::kTurn, 1e-15, 1e-9)});
   EXPECT_THAT(
       plan_summary(result, nullptr),
       EndsWith(
@@ -71,7 +74,7 @@ TEST(PlanSummary, LeavesRoundingOutAndLargeNumbersWhole) {
 }
 
 TEST(PlanSummary, BeginsWithStatusMessageAndTimes) {
-  PlanResult result = result_with({corrected(1, 2, Rung::kMove, 0.1, 0.1)});
+  PlanResult result = result_with({corrected(1, 2, CorrectionKind::kMove, 0.1, 0.1)});
   result.timing.load_scene_ms = 1234.0;
   result.timing.total_ms = 1.25;
   EXPECT_THAT(plan_summary(result, nullptr),
@@ -80,9 +83,10 @@ TEST(PlanSummary, BeginsWithStatusMessageAndTimes) {
 
 // A detour replaces the whole path between two keyframes, for all collisions in it.
 TEST(PlanSummary, HasALineForEachChangeOfThePath) {
-  PlanResult result = result_with(
-      {corrected(1, 2, Rung::kGoRound, 0.5, 0.0), corrected(2.5, 2.75, Rung::kMove, 0.1, 0.0),
-       corrected(3, 4, Rung::kGoRound, 0.5, 0.0), corrected(5, 5, Rung::kGoRound, 0.5, 0.0)});
+  PlanResult result = result_with({corrected(1, 2, CorrectionKind::kGoRound, 0.5, 0.0),
+                                   corrected(2.5, 2.75, CorrectionKind::kMove, 0.1, 0.0),
+                                   corrected(3, 4, CorrectionKind::kGoRound, 0.5, 0.0),
+                                   corrected(5, 5, CorrectionKind::kGoRound, 0.5, 0.0)});
   for (const std::size_t i : {0U, 2U, 3U}) result.collisions[i].witness.emplace();
   result.collision_names[0] = {"sofa", "edge 2"};
   result.collision_names[2] = {"lamp", "inside"};
@@ -94,8 +98,8 @@ TEST(PlanSummary, HasALineForEachChangeOfThePath) {
 }
 
 TEST(PlanSummary, SaysHowHardItTried) {
-  PlanResult result =
-      result_with({corrected(1, 2, Rung::kNone, 0, 0), corrected(3, 4, Rung::kNone, 0, 0)});
+  PlanResult result = result_with(
+      {corrected(1, 2, CorrectionKind::kNone, 0, 0), corrected(3, 4, CorrectionKind::kNone, 0, 0)});
   result.corrections[0].tried = {14, 1, 20000, 0};
   EXPECT_THAT(
       plan_summary(result, nullptr),
@@ -105,7 +109,7 @@ TEST(PlanSummary, SaysHowHardItTried) {
 }
 
 TEST(PlanSummary, ManyCollisionsOfOneChangeAreCounted) {
-  const std::vector<Correction> six(6, corrected(1, 2, Rung::kGoRound, 4.2, 0.0));
+  const std::vector<Correction> six(6, corrected(1, 2, CorrectionKind::kGoRound, 4.2, 0.0));
   PlanResult result = result_with(six);
   for (std::size_t i = 0; i < six.size(); ++i) {
     result.corrections[i].interval = {static_cast<double>(i), static_cast<double>(i) + 0.5};
@@ -119,7 +123,8 @@ TEST(PlanSummary, ManyCollisionsOfOneChangeAreCounted) {
 
 TEST(PlanSummary, CutsLongLists) {
   std::vector<Correction> corrections;
-  for (int i = 0; i < 23; ++i) corrections.push_back(corrected(i, i + 1, Rung::kMove, 0.1 * i, 0));
+  for (int i = 0; i < 23; ++i)
+    corrections.push_back(corrected(i, i + 1, CorrectionKind::kMove, 0.1 * i, 0));
   const PlanResult result = result_with(std::move(corrections));
   const std::string text = plan_summary(result, nullptr);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 21);

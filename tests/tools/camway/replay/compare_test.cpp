@@ -147,7 +147,8 @@ TEST(Compare, SeesWhatCorrectionDid) {
   EXPECT_EQ(difference_after([](Result& b) { b.corrections.clear(); }), "corrections 1 -> 0");
   EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].interval.t_end_s = 0.75; }),
             "corrections");
-  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].rung = correction::Rung::kTurn; }),
+  EXPECT_EQ(difference_after(
+                [](Result& b) { b.corrections[0].kind = correction::CorrectionKind::kTurn; }),
             "corrections");
   EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_begin_s = -0.0; }), "corrections");
   EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_end_s = 1.0; }), "corrections");

@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include <lcm/lcm-cpp.hpp>
 
+#include "tests/support/random.h"
 #include "tests/tools/camway/replay/log_builder.h"
 
 namespace camway::tools {
@@ -15,13 +14,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<std::uint8_t> any_data(std::mt19937& random, std::size_t size) {
+std::vector<std::uint8_t> any_data(testing::Random& random, std::size_t size) {
   std::vector<std::uint8_t> data(size);
   for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random());
   return data;
 }
 
-LogBuilder any_log(std::mt19937& random, int count) {
+LogBuilder any_log(testing::Random& random, int count) {
   LogBuilder log;
   for (int i = 0; i < count; ++i) {
     log.add_event("CHANNEL_" + std::to_string(i), any_data(random, random() % 60));
@@ -40,7 +39,7 @@ std::vector<LogEvent> read(const TemporaryFolder& folder, const std::string& byt
 
 TEST(EventLog, ReadsWhatLcmWrites) {
   const TemporaryFolder folder;
-  std::mt19937 random(1);
+  testing::Random random(1);
   std::vector<std::vector<std::uint8_t>> written;
   {
     lcm::LogFile log(folder.file("log"), "w");
@@ -72,7 +71,7 @@ TEST(EventLog, ReadsWhatLcmWrites) {
 
 TEST(EventLog, UsesEveryGoodEventOfALogCutAtAnyByte) {
   const TemporaryFolder folder;
-  std::mt19937 random(2);
+  testing::Random random(2);
   const LogBuilder log = any_log(random, 6);
   for (std::size_t length = 0; length <= log.bytes().size(); ++length) {
     std::size_t whole = 0;  // events that end at or before the cut
@@ -97,7 +96,7 @@ TEST(EventLog, UsesEveryGoodEventOfALogCutAtAnyByte) {
 
 TEST(EventLog, DoesNotTrustLengths) {
   const TemporaryFolder folder;
-  std::mt19937 random(3);
+  testing::Random random(3);
   const LogBuilder log = any_log(random, 3);
   const std::size_t channel_length_at = log.offsets()[1] + 20;
   const std::size_t data_length_at = log.offsets()[1] + 24;
@@ -115,7 +114,7 @@ TEST(EventLog, DoesNotTrustLengths) {
 
 TEST(EventLog, StopsWhereThereIsNoEvent) {
   const TemporaryFolder folder;
-  std::mt19937 random(4);
+  testing::Random random(4);
   std::string bytes = any_log(random, 3).bytes();
   bytes += "this is text and no event, longer than the head of one";
   LogSummary summary;
@@ -126,8 +125,7 @@ TEST(EventLog, StopsWhereThereIsNoEvent) {
 TEST(EventLog, SurvivesRandomDamage) {
   const TemporaryFolder folder;
   constexpr unsigned kSeed = 5;
-  RecordProperty("seed", kSeed);
-  std::mt19937 random(kSeed);
+  testing::Random random(kSeed);
   const LogBuilder log = any_log(random, 8);
   for (int i = 0; i < 300; ++i) {
     std::string bytes = log.bytes();

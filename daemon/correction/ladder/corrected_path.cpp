@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/corrected_path.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace camway::correction {
+
+using motion::CubicPath;
+
+namespace {
+
+std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& part,
+                                                     const motion::TimeOrigin& origin,
+                                                     double ball_radius_m) {
+  motion::KnotPlaces places{origin, {part.path.begin_s()}, 0.0};
+  double size_m = 0.0;
+  for (const motion::CubicPiece& piece : part.path.pieces) {
+    places.taken_s.push_back(piece.t1_s);
+    size_m = std::max(size_m, piece.position[3].cwiseAbs().maxCoeff());
+  }
+  const double gap_s = part.gap_end_s() - part.gap_begin_s();
+  const double chord_m =
+      (part.path.at(part.gap_end_s()).position - part.path.at(part.gap_begin_s()).position).norm();
+  // If the camera only turns, corrections move it by about its own size.
+  places.same_s = motion::least_piece_s(gap_s, std::max(chord_m, ball_radius_m), size_m);
+  return std::make_shared<const motion::KnotPlaces>(std::move(places));
+}
+
+}  // namespace
+
+CorrectedPath::CorrectedPath(const CubicPath& interpolated,
+                             const std::vector<motion::Keyframe>& keyframes,
+                             const CorrectionLimits& limits, const base::Deadline& deadline)
+    : interpolated_(interpolated),
+      limits_(limits),
+      whole_deadline_(deadline),
+      deadline_(deadline),
+      path_(interpolated) {
+  for (const motion::Keyframe& keyframe : keyframes) keyframes_s_.push_back(keyframe.time_s);
+  leave_time_for_the_rest();
+}
+
+void CorrectedPath::leave_time_for_the_rest() {
+  const auto pieces = static_cast<double>(path_.pieces.size());
+  deadline_ = whole_deadline_.sooner_by_s(limits_.rest_s_per_piece * pieces);
+}
+
+Problem CorrectedPath::part_about(std::size_t gap, const motion::TimeOrigin& origin,
+                                  double ball_radius_m) const {
+  const std::size_t first = gap == 0 ? 0 : gap - 1;
+  const std::size_t last = std::min(gap + 2, keyframes_s_.size() - 1);
+  Problem part;
+  part.path = path_.around(keyframes_s_[first], keyframes_s_[last]);
+  part.original = interpolated_.around(keyframes_s_[first], keyframes_s_[last]);
+  part.keyframes_s.assign(keyframes_s_.begin() + static_cast<std::ptrdiff_t>(first),
+                          keyframes_s_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  part.gap = gap - first;
+  part.has_path_begin = first == 0;
+  part.has_path_end = last + 1 == keyframes_s_.size();
+  part.interval = {keyframes_s_[gap], keyframes_s_[gap + 1]};
+  part.places = places_for(part, origin, ball_radius_m);
+  return part;
+}
+
+bool CorrectedPath::take(const Candidate& candidate) {
+  std::set<double> fresh_s;
+  for (const double time_s : keyframes_of(candidate)) {
+    if (!inserted_s_.contains(time_s)) fresh_s.insert(time_s);
+  }
+  const auto most = static_cast<std::size_t>(limits_.max_inserted_keyframes);
+  if (inserted_s_.size() + fresh_s.size() > most) return false;
+  inserted_s_.merge(fresh_s);
+  path_.replace(candidate.path);
+  leave_time_for_the_rest();
+  return true;
+}
+
+void CorrectedPath::count_refused(const Candidate& candidate) {
+  refused_keyframes_ += keyframes_of(candidate).size();
+}
+
+std::optional<std::size_t> CorrectedPath::needed_keyframes() const {
+  if (refused_keyframes_ == 0) return std::nullopt;
+  return inserted_s_.size() + refused_keyframes_;
+}
+
+std::vector<double> CorrectedPath::keyframes_of(const Candidate& candidate) const {
+  std::vector<double> times_s;
+  for (const motion::BumpRow& row : candidate.rows) {
+    const double near_s = 0.5 * row.knots.spacing_s();
+    for (std::size_t i = 0; i < row.bumps.size(); ++i) {
+      const double peak_s = row.knots.knot_s(row.first + static_cast<int>(i));
+      if (counts(peak_s, near_s, row.bumps[i])) times_s.push_back(peak_s);
+    }
+  }
+  return times_s;
+}
+
+bool CorrectedPath::counts(double peak_s, double near_s, const motion::CubicPoint& bump) const {
+  const double moved_m = bump.position.norm() + 4.0 * limits_.body_radius_m * bump.image.norm();
+  if (moved_m < limits_.tolerance_m) return false;
+  const auto next = std::ranges::lower_bound(keyframes_s_, peak_s - near_s);
+  const bool is_there = next != keyframes_s_.end() && *next <= peak_s + near_s;
+  return !is_there && interpolated_.begin_s() < peak_s && peak_s < interpolated_.end_s();
+}
+
+std::pair<double, double> CorrectedPath::range_of(const Candidate& candidate) const {
+  double begin_s = interpolated_.end_s();
+  double end_s = interpolated_.begin_s();
+  for (const motion::BumpRow& row : candidate.rows) {
+    begin_s = std::min(begin_s, row.begin_s());
+    end_s = std::max(end_s, row.end_s());
+  }
+  return {std::max(begin_s, interpolated_.begin_s()), std::min(end_s, interpolated_.end_s())};
+}
+
+void CorrectedPath::mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const {
+  const auto after_begin = std::ranges::upper_bound(keyframes_s_, begin_s);
+  auto gap = static_cast<std::size_t>(after_begin - keyframes_s_.begin());
+  for (gap -= gap > 0 ? 1 : 0; gap < gaps.size() && keyframes_s_[gap] < end_s; ++gap) {
+    gaps[gap] = true;
+  }
+}
+
+}  // namespace camway::correction

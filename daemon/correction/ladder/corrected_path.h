@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "daemon/base/deadline.h"
+#include "daemon/correction/path/candidate.h"
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/motion/path/time_origin.h"
+#include "daemon/motion/spline/cubic_path.h"
+
+namespace camway::correction {
+
+/// Limits of the corrections of a path.
+struct CorrectionLimits {
+  int max_inserted_keyframes = 0;  ///< for the whole path [Limit: 0 <= value]
+  double tolerance_m = 0.0;        ///< a bump that moves the body by less is no keyframe
+  double body_radius_m = 0.0;      ///< largest distance of a body point from the eye
+  /// Time that the stages after the corrections take for each piece of the path.
+  /// [Limit: 0 <= value] [Units: seconds]
+  double rest_s_per_piece = 0.0;
+};
+
+/// A path while it is corrected: takes candidates as long as their bumps, counted as inserted
+/// keyframes, stay within the limit.
+///
+/// A bump counts as a keyframe at its peak, unless a given keyframe is there already, the peak is
+/// off the path, or the bump moves the body by less than the tolerance.
+/// Not thread-safe.
+class CorrectedPath {
+ public:
+  /// Refers to `interpolated` and `deadline`, which must outlive it. Requires `interpolated` to
+  /// meet `keyframes`. `deadline`: the end of the corrections and of the stages after them.
+  CorrectedPath(const motion::CubicPath& interpolated,
+                const std::vector<motion::Keyframe>& keyframes, const CorrectionLimits& limits,
+                const base::Deadline& deadline);
+
+  [[nodiscard]] const motion::CubicPath& path() const { return path_; }
+  /// Returns the path, and ends this object.
+  [[nodiscard]] motion::CubicPath release() && { return std::move(path_); }
+  [[nodiscard]] const motion::CubicPath& interpolated() const { return interpolated_; }
+  /// Times of the given keyframes, increasing.
+  [[nodiscard]] const std::vector<double>& keyframes_s() const { return keyframes_s_; }
+  /// The end of the corrections. It leaves time for the later stages, and is moved forward where
+  /// the path gains pieces.
+  [[nodiscard]] const base::Deadline& deadline() const { return deadline_; }
+
+  /// Returns the part of the path that may change for the interval between keyframes `gap` and
+  /// `gap + 1`, as a problem without collisions. Knots of bumps coincide with joints of the path or
+  /// keep away from them. `ball_radius_m`: radius of a ball that holds the body.
+  [[nodiscard]] Problem part_about(std::size_t gap, const motion::TimeOrigin& origin,
+                                   double ball_radius_m) const;
+
+  /// Replaces a part of the path by `candidate` and returns true; returns false if that would
+  /// exceed the limit of inserted keyframes.
+  bool take(const Candidate& candidate);
+
+  /// Counts the keyframes of a candidate that `take` refused.
+  void count_refused(const Candidate& candidate);
+
+  /// Returns the time range that `candidate` changes, within the path.
+  [[nodiscard]] std::pair<double, double> range_of(const Candidate& candidate) const;
+
+  /// Marks, in a list with one entry for each interval between keyframes, those that overlap the
+  /// time range in more than an end.
+  void mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const;
+
+  /// Times of the inserted keyframes, increasing.
+  [[nodiscard]] const std::set<double>& inserted_s() const { return inserted_s_; }
+  /// Returns the number of inserted keyframes that all candidates would need; nothing if none was
+  /// refused.
+  [[nodiscard]] std::optional<std::size_t> needed_keyframes() const;
+
+ private:
+  [[nodiscard]] std::vector<double> keyframes_of(const Candidate& candidate) const;
+  [[nodiscard]] bool counts(double peak_s, double near_s, const motion::CubicPoint& bump) const;
+
+  void leave_time_for_the_rest();
+
+  const motion::CubicPath& interpolated_;
+  const CorrectionLimits limits_;
+  const base::Deadline& whole_deadline_;
+  base::Deadline deadline_;
+  std::vector<double> keyframes_s_;
+  motion::CubicPath path_;
+  std::set<double> inserted_s_;
+  std::size_t refused_keyframes_ = 0;
+};
+
+}  // namespace camway::correction

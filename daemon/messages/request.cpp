@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include <utility>
+
+#include "daemon/messages/body.h"
+#include "daemon/messages/convert.h"
+#include "daemon/messages/fields.h"
+#include "daemon/messages/names.h"
+
+namespace camway::service {
+namespace {
+
+using correction::OrientationPolicy;
+using correction::OrientationRule;
+using geometry::Vec3;
+using planning::FieldSpec;
+
+bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
+
+/// Returns an error about a member that has a value but no effect: its sender meant it.
+std::string idle_member(const plan_request_t& wire) {
+  if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {
+    return "max_inserted_keyframes: is " + std::to_string(wire.max_inserted_keyframes) +
+           ", which does not count beside correct_nothing; leave it 0";
+  }
+  for (std::size_t i = 0; wire.has_times == 0 && i < wire.keyframes.size(); ++i) {
+    if (wire.keyframes[i].time_s != 0.0) {
+      return "keyframes[" + std::to_string(i) +
+             "].time_s: is not 0, and does not count without has_times; set that, or leave all "
+             "times 0";
+    }
+  }
+  return {};
+}
+
+/// Returns an error about a member of an orientation that has a value but no effect with this rule.
+std::string idle_member(const orientation_t& wire, OrientationRule rule) {
+  if (rule != OrientationRule::kLevel && !is_zero(wire.up)) {
+    return "orientation.up: counts only with the policy LEVEL; leave it zero";
+  }
+  if (rule != OrientationRule::kTarget && !is_zero(wire.target_m)) {
+    return "orientation.target_m: counts only with the policy TARGET; leave it zero";
+  }
+  if (rule != OrientationRule::kTarget && wire.cone_rad != 0.0) {
+    return "orientation.cone_rad: counts only with the policy TARGET; leave it 0";
+  }
+  if (wire.has_max_turn == 0 && wire.max_turn_rad != 0.0) {
+    return "orientation.max_turn_rad: counts only with has_max_turn; set that, or leave it 0";
+  }
+  return {};
+}
+
+/// Reads options. Only an exact 0 asks for the default: NaN and negative values go on to
+/// `planning::validate`. Keeps the first error.
+struct OptionReader {
+  std::string& error;
+
+  template <class Number, class Wire>
+  requires std::is_arithmetic_v<Number> && std::is_arithmetic_v<Wire>
+  void operator()(const FieldSpec&, Number& mine, Wire wire) const {
+    if (wire != 0 || mine == 0) read(wire, mine);
+  }
+  void operator()(const FieldSpec&, std::optional<double>& mine, double wire) const {
+    if (wire != 0.0) mine = wire;
+  }
+  template <base::NamedEnum Enum>
+  void operator()(const FieldSpec& spec, Enum& mine, std::int8_t wire) const {
+    if (!base::value_of<Enum>(wire)) refuse(spec, std::to_string(wire));
+    read(wire, mine);
+  }
+  template <base::NamedEnum Enum>
+  void operator()(const FieldSpec& spec, Enum& mine, const std::string& wire) const {
+    const std::optional<Enum> named = base::value_of<Enum>(wire);
+    if (!named && !wire.empty()) refuse(spec, "'" + wire + "'");
+    mine = named.value_or(mine);
+  }
+  void operator()(const FieldSpec&, geometry::Bounds& mine, const bounds_t& wire) const {
+    mine = bounds_of(wire);
+  }
+  void operator()(const FieldSpec&, correction::MotionLimits& mine,
+                  const motion_limits_t& wire) const {
+    planning::visit_limits(*this, mine, wire);
+  }
+  void operator()(const FieldSpec& spec, OrientationPolicy& mine, const orientation_t& wire) const {
+    const auto rule = base::value_of<OrientationRule>(wire.policy);
+    std::string fault = rule ? idle_member(wire, *rule) : "";
+    if (!rule) refuse(spec, std::to_string(wire.policy), ".policy");
+    if (error.empty()) error = std::move(fault);
+    mine.rule = rule.value_or(mine.rule);
+    if (!is_zero(wire.up)) {
+      read(wire.up, mine.up_W);
+      mine.up_W = planning::direction_of(mine.up_W);
+    }
+    read(wire.target_m, mine.target_W);
+    (*this)(spec, mine.cone_rad, wire.cone_rad);
+    if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
+  }
+
+  void refuse(const FieldSpec& spec, const std::string& value, const char* member = "") const {
+    if (error.empty())
+      error = std::string(spec.wire_name()) + member + ": " + value + " is unknown";
+  }
+};
+
+/// Writes options. Infinity means no limit on the wire, too.
+struct OptionWriter {
+  template <class Mine, class Wire>
+  void operator()(const FieldSpec&, const Mine& mine, Wire& wire) const {
+    ToWire{}(mine, wire);
+  }
+  void operator()(const FieldSpec&, const std::optional<double>& mine, double& wire) const {
+    wire = mine.value_or(0.0);
+  }
+  template <base::NamedEnum Enum>
+  void operator()(const FieldSpec&, Enum mine, std::string& wire) const {
+    wire = base::name_of(mine);
+  }
+  /// Writes the members that the rule uses.
+  void operator()(const FieldSpec&, const OrientationPolicy& mine, orientation_t& wire) const {
+    put(mine.rule, wire.policy);
+    if (mine.rule == OrientationRule::kLevel) put(mine.up_W, wire.up);
+    if (mine.rule == OrientationRule::kTarget) {
+      put(mine.target_W, wire.target_m);
+      wire.cone_rad = mine.cone_rad;
+    }
+    wire.has_max_turn = 1;
+    wire.max_turn_rad = mine.max_turn_rad;
+  }
+};
+
+}  // namespace
+
+double deadline_of(double wire_s, const DeadlineLimits& limits) {
+  const double deadline_s = wire_s == 0.0 ? limits.default_s : wire_s;
+  return deadline_s > limits.max_s ? limits.max_s : deadline_s;
+}
+
+ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits) {
+  const FromWire io;
+  planning::PlanRequest request;
+  request.scene = wire.scene;
+  io(request.camera, wire.camera);
+  ConvertedBody body = body_of(wire.body);
+  if (!body.error.empty()) return {std::nullopt, std::move(body.error)};
+  request.body = std::move(body.shape);
+
+  std::string error = idle_member(wire);
+  visit_options(OptionReader{error}, request.options, wire);
+  if (!error.empty()) return {std::nullopt, std::move(error)};
+  request.options.deadline_s = deadline_of(wire.deadline_s, limits);
+  if (wire.correct_nothing != 0) request.options.max_inserted_keyframes = 0;
+
+  request.has_times = wire.has_times != 0;
+  request.spelling = wire_spelling(wire);
+  io(request.keyframes, wire.keyframes);
+  for (motion::Keyframe& keyframe : request.keyframes) {
+    keyframe.origin = motion::KeyframeOrigin::kGiven;
+    keyframe.is_repaired = false;
+  }
+  return {std::move(request), {}};
+}
+
+plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids) {
+  const ToWire io;
+  plan_request_t wire{};
+  wire.client_id = ids.client_id;
+  wire.request_id = ids.request_id;
+  wire.utime = ids.utime;
+  wire.num_pages = 1;
+  wire.scene = request.scene;
+  // The wire has no near quadrilateral other than the camera's, so one that is given as the body
+  // goes as the camera.
+  const auto* camera = request.body ? std::get_if<motion::Camera>(&*request.body) : nullptr;
+  io(camera == nullptr ? request.camera : *camera, wire.camera);
+  if (request.body) wire.body = wire_body(*request.body);
+  visit_options(OptionWriter{}, request.options, wire);
+  wire.correct_nothing = request.options.max_inserted_keyframes == 0 ? 1 : 0;
+  wire.has_times = request.has_times ? 1 : 0;
+  io(request.keyframes, wire.keyframes);
+  for (keyframe_t& keyframe : wire.keyframes) {
+    if (!request.has_times) keyframe.time_s = 0.0;
+  }
+  wire::set_counts(wire);
+  return wire;
+}
+
+}  // namespace camway::service

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace camway::planning {
+
+/// The interval of numbers that a member of a request may have. NaN is in no range.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool excludes_least = false;
+  bool excludes_most = false;
+  bool excludes_infinity = false;
+
+  [[nodiscard]] bool any() const { return least > -std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] bool holds(double value) const;
+};
+
+inline constexpr Range kAboveZero{.least = 0.0, .excludes_least = true};
+
+/// Describes a member of a request. `visit_options` and the functions like it are tables of these
+/// descriptions. The code that reads, writes, checks or documents requests follows the tables.
+struct FieldSpec {
+  std::string_view name;  ///< name in paths (`FieldSpelling`): "turn_rate"
+  /// Name in structs, on the wire and in the client, if not `name`: "turn_rate_rad_per_s".
+  std::string_view wire = {};
+  std::string_view file = {};  ///< name in request files, if not `name`: "turn_rate_deg"
+  std::string_view unit = {};  ///< unit in messages about a value
+  Range range = {};
+  /// Text of the default in documents, if it is not the initial value of the member.
+  std::string_view unset = {};
+  std::string_view help = {};  ///< meaning, as a cell of a Markdown table
+  bool has_section = false;    ///< whether the page of requests explains it in a section
+
+  [[nodiscard]] constexpr std::string_view wire_name() const { return wire.empty() ? name : wire; }
+  [[nodiscard]] constexpr std::string_view file_name() const { return file.empty() ? name : file; }
+  /// Returns whether the member is an angle: in degrees in files, in radians in memory.
+  [[nodiscard]] constexpr bool is_angle() const { return file_name().ends_with("_deg"); }
+  /// Returns whether messages about a value are in degrees: if it is an angle with a largest one.
+  [[nodiscard]] bool is_told_in_degrees() const;
+  /// Returns the range in words: "at least 0 and below 1", "from 1e-06 to 1e+06", "between 0 and
+  /// 180 degrees".
+  [[nodiscard]] std::string range_text() const;
+};
+
+}  // namespace camway::planning

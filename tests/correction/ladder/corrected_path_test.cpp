@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/ladder/corrected_path.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "daemon/motion/spline/interpolate.h"
+
+namespace camway::correction {
+namespace {
+
+using motion::BumpRow;
+using motion::CubicPath;
+using motion::KnotRow;
+
+std::vector<motion::Keyframe> straight_keyframes() {
+  std::vector<motion::Keyframe> keyframes;
+  for (const double time_s : {0.0, 10.0, 20.0, 30.0}) {
+    keyframes.push_back({time_s, {{time_s, 0, 0}, geometry::Quat::Identity()}});
+  }
+  return keyframes;
+}
+
+class CorrectedPathTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] CorrectedPath with_limit(int most) const {
+    return {interpolated_, keyframes_, {most, /*tolerance_m=*/0.01, /*body_radius_m=*/0.1}, never_};
+  }
+
+  // A candidate with one bump of this height, whose peak is at `peak_s`.
+  [[nodiscard]] static Candidate bump(const CorrectedPath& corrected, double peak_s,
+                                      double height_m) {
+    const motion::CubicPoint peak{{0, height_m, 0}, geometry::Vec4::Zero()};
+    const std::vector<BumpRow> rows = {{KnotRow::about(peak_s, 1.0, nullptr), 2, {peak}}};
+    return {motion::with_bumps(corrected.path(), rows), rows};
+  }
+
+  const base::Deadline never_ = base::Deadline::never();
+  const std::vector<motion::Keyframe> keyframes_ = straight_keyframes();
+  const CubicPath interpolated_ = motion::interpolate_cubic(keyframes_);
+};
+
+TEST_F(CorrectedPathTest, TakesCandidatesUpToTheLimitAndCountsTheRest) {
+  CorrectedPath corrected = with_limit(2);
+  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 15.0, 0.5)));
+  EXPECT_FALSE(corrected.needed_keyframes());
+  const Candidate third = bump(corrected, 25.0, 0.5);
+  const double before_m = corrected.path().at(25.0).position.y();
+  EXPECT_FALSE(corrected.take(third));
+  EXPECT_EQ(corrected.path().at(25.0).position.y(), before_m);
+  corrected.count_refused(third);
+  EXPECT_EQ(corrected.needed_keyframes(), 3u);
+  EXPECT_EQ(corrected.inserted_s(), (std::set<double>{5.0, 15.0}));
+}
+
+TEST_F(CorrectedPathTest, CountsABumpAtTheSameTimeOnce) {
+  CorrectedPath corrected = with_limit(1);
+  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.2)));
+  EXPECT_EQ(corrected.inserted_s().size(), 1u);
+}
+
+TEST_F(CorrectedPathTest, CountsNoBumpThatIsSmallOrAtAKeyframe) {
+  CorrectedPath corrected = with_limit(0);
+  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.005)));
+  EXPECT_TRUE(corrected.take(bump(corrected, 10.2, 0.5)));
+  EXPECT_FALSE(corrected.take(bump(corrected, 5.0, 0.5)));
+}
+
+TEST_F(CorrectedPathTest, APartHasTheIntervalAndItsNeighbours) {
+  const CorrectedPath corrected = with_limit(1);
+  const Problem first = corrected.part_about(0, {}, 0.1);
+  EXPECT_EQ(first.gap, 0u);
+  EXPECT_TRUE(first.has_path_begin);
+  EXPECT_FALSE(first.has_path_end);
+  EXPECT_EQ(first.keyframes_s, (std::vector<double>{0.0, 10.0, 20.0}));
+  const Problem middle = corrected.part_about(1, {}, 0.1);
+  EXPECT_EQ(middle.gap, 1u);
+  EXPECT_EQ(middle.gap_begin_s(), 10.0);
+  EXPECT_EQ(middle.gap_end_s(), 20.0);
+  EXPECT_EQ(middle.path.begin_s(), 0.0);
+  EXPECT_EQ(middle.path.end_s(), 30.0);
+}
+
+TEST_F(CorrectedPathTest, RangesOfCandidatesEndWithThePath) {
+  const CorrectedPath corrected = with_limit(9);
+  const auto [begin_s, end_s] = corrected.range_of(bump(corrected, 15.0, 0.5));
+  EXPECT_DOUBLE_EQ(begin_s, 13.0);
+  EXPECT_DOUBLE_EQ(end_s, 17.0);
+  EXPECT_EQ(corrected.range_of(bump(corrected, 29.0, 0.5)).second, 30.0);
+}
+
+TEST_F(CorrectedPathTest, MarksIntervalsThatOverlapInMoreThanAnEnd) {
+  const CorrectedPath corrected = with_limit(1);
+  std::vector<bool> gaps(3);
+  corrected.mark_gaps(10.0, 20.0, gaps);
+  EXPECT_EQ(gaps, (std::vector<bool>{false, true, false}));
+  corrected.mark_gaps(19.0, 21.0, gaps);
+  EXPECT_EQ(gaps, (std::vector<bool>{false, true, true}));
+}
+
+}  // namespace
+}  // namespace camway::correction

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/planning/request.h"
+
+namespace camway::tools {
+
+/// The flags of `camway plan` that override options of a request. `planning::visit_options` has
+/// them: each option that is a number, a name or a switch has a flag, and so has
+/// `orientation.max_turn`.
+/// Not thread-safe.
+class OptionFlags {
+ public:
+  /// Adds the flags to `command`, which must not outlive this object.
+  void add_to(CLI::App& command);
+
+  /// Overrides the options whose flags were given. Errors about these options name the flag.
+  /// Requires that the command line was parsed.
+  void apply(planning::PlanRequest& request) const;
+
+ private:
+  planning::PlanOptions options_;
+  std::map<std::string, CLI::Option*, std::less<>> flags_;  ///< by path: "options.clearance"
+};
+
+}  // namespace camway::tools
