@@ -191,9 +191,10 @@ void measure_detection(const Decomposition& tree, const Questions& asked, Measur
   m.certify_s = warm_s([&] {
     std::size_t colliding = 0;
     for (const BenchRequest& request : asked.requests) {
-      const bool free = testing::certified_intervals(*tree.index(), request.path, request.camera,
-                                                     default_options())
-                            .empty();
+      const bool free =
+          testing::certified_intervals(collision::Obstacles(*tree.index()), request.path,
+                                       request.camera, default_options())
+              .empty();
       colliding += free ? 0U : 1U;
     }
     answers.colliding_paths = colliding;

@@ -88,7 +88,7 @@ std::vector<std::shared_ptr<const WatchedPath>> free_paths(const scene::Snapshot
              Vec3(normal(random), 0.1 * normal(random), normal(random));
     }
     const WatchedPath path(motion::interpolate(keyframes), body, detect);
-    if (path.collisions(scene, base::Deadline::never()).empty()) {
+    if (path.collisions(collision::Obstacles(scene), base::Deadline::never()).empty()) {
       paths.push_back(std::make_shared<const WatchedPath>(path));
     }
   }
