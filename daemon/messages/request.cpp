@@ -49,6 +49,19 @@ std::string idle_member(const orientation_t& wire, OrientationRule rule) {
   return {};
 }
 
+/// Returns an error about a limit that has a value and no effect.
+std::string idle_member(const bounds_t& wire) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool is_min = wire.has_min[axis] == 0 && wire.min_m[axis] != 0.0;
+    if (!is_min && (wire.has_max[axis] != 0 || wire.max_m[axis] == 0.0)) continue;
+    const std::string side = is_min ? "min" : "max";
+    const std::string at = "[" + std::to_string(axis) + "]";
+    return "bounds." + side + "_m" + at + ": counts only with has_" + side + at +
+           "; set that, or leave it 0";
+  }
+  return {};
+}
+
 /// Reads options. Only an exact 0 asks for the default: NaN and negative values go on to
 /// `planning::validate`. Keeps the first error.
 struct OptionReader {
@@ -56,7 +69,14 @@ struct OptionReader {
 
   template <class Number, class Wire>
   requires std::is_arithmetic_v<Number> && std::is_arithmetic_v<Wire>
-  void operator()(const FieldSpec&, Number& mine, Wire wire) const {
+  void operator()(const FieldSpec& spec, Number& mine, Wire wire) const {
+    if (std::is_unsigned_v<Number> && !std::is_same_v<Number, bool> && wire < Wire{}) {
+      if (error.empty()) {
+        error = std::string(spec.wire_name()) + ": is " + std::to_string(wire) + "; it must be " +
+                spec.range_text();
+      }
+      return;
+    }
     if (wire != 0 || mine == 0) read(wire, mine);
   }
   void operator()(const FieldSpec&, std::optional<double>& mine, double wire) const {
@@ -74,6 +94,7 @@ struct OptionReader {
     mine = named.value_or(mine);
   }
   void operator()(const FieldSpec&, geometry::Bounds& mine, const bounds_t& wire) const {
+    if (error.empty()) error = idle_member(wire);
     mine = bounds_of(wire);
   }
   void operator()(const FieldSpec&, correction::MotionLimits& mine,

@@ -140,6 +140,10 @@ TEST(WireConvert, WhatWouldNotCountIsRefusedByName) {
       {"keyframes[1].time_s: ", [](plan_request_t& r) { r.keyframes[1].time_s = 0.5; }},
       {"keyframes[0].time_s: ",
        [](plan_request_t& r) { r.keyframes[0].time_s = std::numeric_limits<double>::quiet_NaN(); }},
+      {"bounds.min_m[0]: ", [](plan_request_t& r) { r.bounds.min_m[0] = 14.0; }},
+      {"bounds.max_m[2]: ",
+       [](plan_request_t& r) { r.bounds.max_m[2] = std::numeric_limits<double>::quiet_NaN(); }},
+      {"seed: is -1; it must be at least 1", [](plan_request_t& r) { r.seed = -1; }},
       {"orientation.up: ", [](plan_request_t& r) { r.orientation.up[2] = 1.0; }},
       {"orientation.up: ",
        [](plan_request_t& r) {

@@ -67,9 +67,10 @@ bool CollisionList::any_without_way() const {
 }
 
 std::vector<std::size_t> CollisionList::open_in(std::size_t gap) const {
-  const auto same_gap = std::ranges::equal_range(list_, gap, {}, &ListedCollision::gap);
+  // Not std::ranges::equal_range: Clang 14 cannot compile its result with the library of GCC 12.
+  const auto first = std::ranges::lower_bound(list_, gap, {}, &ListedCollision::gap);
   std::vector<std::size_t> open;
-  for (auto listed = same_gap.begin(); listed != same_gap.end(); ++listed) {
+  for (auto listed = first; listed != list_.end() && listed->gap == gap; ++listed) {
     if (listed->is_open()) open.push_back(static_cast<std::size_t>(listed - list_.begin()));
   }
   return open;
