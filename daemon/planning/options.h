@@ -35,6 +35,7 @@ inline constexpr double kMaxCoordinate_m = 1e9;  ///< doubles still resolve 0.1 
 /// it.
 inline constexpr double kLeastChordError_m = 1e-5;
 inline constexpr double kLeastIntervalTolerance_m = 1e-9;  ///< rounding far from the origin
+inline constexpr double kMostIntervalTolerance_m = kMaxCoordinate_m;  ///< squares must not overflow
 /// Range of speeds from which times may be derived. A speed beyond it is a mistake of units.
 inline constexpr double kLeastDefaultSpeed_m_per_s = 1e-6;
 inline constexpr double kMostDefaultSpeed_m_per_s = 1e6;
@@ -49,7 +50,7 @@ struct PlanOptions {
   /// [Limit: kLeastChordError_m <= value] [Units: metres]
   double chord_error_m = 0.005;
   /// The ends of collision intervals are bracketed to within this much motion of a corner.
-  /// [Limit: kLeastIntervalTolerance_m <= value] [Units: metres]
+  /// [Limit: kLeastIntervalTolerance_m <= value <= kMostIntervalTolerance_m] [Units: metres]
   double interval_tolerance_m = 1e-3;
   /// Required clearance: the body collides where it is nearer to the scene than this.
   /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
@@ -102,7 +103,7 @@ inline constexpr FieldSpec kChordError{
         "surface from the true one"};
 inline constexpr FieldSpec kIntervalTolerance{
     .name = "interval_tolerance_m",
-    .range = {.least = kLeastIntervalTolerance_m, .excludes_infinity = true},
+    .range = {.least = kLeastIntervalTolerance_m, .most = kMostIntervalTolerance_m},
     .help =
         "accuracy of the ends of collision intervals, as a distance: no point of the body moves "
         "farther between the true and the reported end; for bodies below a centimetre use a "

@@ -129,8 +129,11 @@ template <class Number>
 Fault check_number(const std::string& group, const FieldSpec& spec, Number value) {
   if (!spec.range.any() || spec.range.holds(static_cast<double>(value))) return std::nullopt;
   std::string said = fmt::format("{}", value);
-  if (spec.is_told_in_degrees()) {
-    said = fmt::format("{:.6g} degrees", static_cast<double>(value) * (180.0 / std::numbers::pi));
+  if (spec.is_angle()) {
+    // In both units, as files have degrees and messages radians.
+    const auto angle_rad = static_cast<double>(value);
+    said = fmt::format("{:.6g} degrees ({:.6g} rad)", angle_rad * (180.0 / std::numbers::pi),
+                       angle_rad);
   }
   if (!spec.unit.empty()) said += fmt::format(" {}", spec.unit);
   const std::string range = spec.range_text();

@@ -48,7 +48,7 @@ void members(Io& io, Is<NamedInterval> auto& collision) {
     if constexpr (std::same_as<Io, JsonReader>) witness.emplace();
     group.need("time", witness->time_s);
     group.need("object", collision.names.object);
-    group.need("triangle", TriangleOrSide(witness->triangle));
+    group.need("triangle", TriangleOrSide{witness->triangle});
     group.need("feature", collision.names.feature);
     group.need("depth", witness->depth_m);
     group.need("point", witness->point_W);
@@ -68,9 +68,9 @@ void members(Io& io, Is<correction::Correction> auto& correction) {
   io.need("t_begin", correction.interval.t_begin_s);
   io.need("t_end", correction.interval.t_end_s);
   io.need("method", correction.kind);
-  io.need("changed", Both(correction.t_begin_s, correction.t_end_s));
+  io.need("changed", Both{correction.t_begin_s, correction.t_end_s});
   io.need("moved_m", correction.moved_m);
-  io.need("turned_deg", Angle(correction.turned_rad));
+  io.need("turned_deg", Angle{correction.turned_rad});
   io.line(5);
   io.may("tried", correction.tried, correction.kind == correction::CorrectionKind::kNone);
 }
@@ -82,9 +82,9 @@ void members(Io& io, Is<motion::PathMeasures> auto& measures) {
   io.need("bending_energy_m2_per_s3", measures.bending_energy_m2_per_s3);
   io.need("largest_speed_m_per_s", measures.largest_speed_m_per_s);
   io.need("largest_acceleration_m_per_s2", measures.largest_acceleration_m_per_s2);
-  io.need("largest_turn_rate_deg_per_s", Angle(measures.largest_turn_rate_rad_per_s));
+  io.need("largest_turn_rate_deg_per_s", Angle{measures.largest_turn_rate_rad_per_s});
   io.need("largest_turn_acceleration_deg_per_s2",
-          Angle(measures.largest_turn_acceleration_rad_per_s2));
+          Angle{measures.largest_turn_acceleration_rad_per_s2});
   io.need("clearance_lower_bound_m", measures.clearance_lower_bound_m);
 }
 
@@ -92,7 +92,7 @@ template <class Io>
 void members(Io& io, Is<planning::SlowedStretch> auto& stretch) {
   io.need("t_begin", stretch.t_begin_s);
   io.need("t_end", stretch.t_end_s);
-  io.need("given", Both(stretch.given_t_begin_s, stretch.given_t_end_s));
+  io.need("given", Both{stretch.given_t_begin_s, stretch.given_t_end_s});
 }
 
 template <class Io>

@@ -243,7 +243,7 @@ TEST_F(CliPlan, NamesTheOptionAtFault) {
   EXPECT_THAT(error_of(R"({"orientation": {"policy": "target"}})"),
               HasSubstr("R.json: options.orientation.target: is missing"));
   EXPECT_THAT(error_of(R"({"limits": {"turn_rate_deg": 0}})"),
-              HasSubstr("R.json: options.limits.turn_rate_deg: is 0; it must be above 0"));
+              HasSubstr("R.json: options.limits.turn_rate_deg: is 0 degrees (0 rad); it must be above 0"));
   EXPECT_THAT(error_of(R"({"max_shrink": 1})"),
               HasSubstr("R.json: options.max_shrink: is 1; it must be at least 0 and below 1"));
   EXPECT_THAT(error_of(R"({"objectiv": "closest"})"), HasSubstr("options.objectiv: is unknown"));
