@@ -150,6 +150,10 @@ CLI::Validator between(double least, double most) {
                      [=](double value) { return value >= least && value <= most; });
 }
 
+CLI::Validator number_in(const std::string& range, const std::function<bool(double)>& holds) {
+  return number_that("a number " + range, range, holds);
+}
+
 CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   const bool is_open = most == std::numeric_limits<std::int64_t>::max();
   const std::string range =
@@ -160,7 +164,10 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
     const long long value = std::strtoll(text.c_str(), &end, 10);
     const bool is_number = !text.empty() && end == text.c_str() + text.size() && errno == 0;
     if (is_number && value >= least && value <= most) return std::string();
-    return fmt::format("must be a whole number, {}, not '{}'", range, text);
+    // A number that is too large has to be told of the end that is left out.
+    return errno == ERANGE
+               ? fmt::format("must be a whole number, {} to {}, not '{}'", least, most, text)
+               : fmt::format("must be a whole number, {}, not '{}'", range, text);
   };
   return CLI::Validator(check, range);
 }

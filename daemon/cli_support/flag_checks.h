@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ std::string command_line_fault(const CLI::App& app, const CLI::ParseError& error
 CLI::Validator above_0();
 CLI::Validator at_least_0();
 CLI::Validator between(double least, double most);
+/// Passes numbers that `holds` accepts; `range` says in words which these are: "from 1 to 5".
+CLI::Validator number_in(const std::string& range, const std::function<bool(double)>& holds);
 CLI::Validator whole_number(std::int64_t least,
                             std::int64_t most = std::numeric_limits<std::int64_t>::max());
 CLI::Validator one_of(const std::vector<std::string>& words);

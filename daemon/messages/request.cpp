@@ -70,7 +70,8 @@ struct OptionReader {
   template <class Number, class Wire>
   requires std::is_arithmetic_v<Number> && std::is_arithmetic_v<Wire>
   void operator()(const FieldSpec& spec, Number& mine, Wire wire) const {
-    if (std::is_unsigned_v<Number> && !std::is_same_v<Number, bool> && wire < Wire{}) {
+    constexpr bool kIsUnsigned = std::is_unsigned_v<Number> && !std::is_same_v<Number, bool>;
+    if (kIsUnsigned && wire < Wire{}) {
       if (error.empty()) {
         error = std::string(spec.wire_name()) + ": is " + std::to_string(wire) + "; it must be " +
                 spec.range_text();

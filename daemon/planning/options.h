@@ -93,7 +93,7 @@ inline constexpr FieldSpec kDeadline{
 inline constexpr FieldSpec kClearance{
     .name = "clearance",
     .wire = "clearance_m",
-    .range = {.least = 0.0, .excludes_infinity = true},
+    .range = {.least = 0.0, .most = kMaxCoordinate_m},
     .help = "least distance between body and scene, metres; less counts as a collision"};
 inline constexpr FieldSpec kChordError{
     .name = "chord_error_m",

@@ -214,10 +214,6 @@ std::optional<InvalidRequest> check_options(const PlanRequest& request) {
   FirstFault members("options.");
   visit_options(members, options);
   if (auto fault = members.take()) return fault;
-  if (options.clearance_m > kMaxCoordinate_m) {
-    return invalid("options.clearance", fmt::format("is {}; it must be at most {:g}",
-                                                    options.clearance_m, kMaxCoordinate_m));
-  }
   if (options.default_speed_m_per_s && request.has_times) {
     return invalid("options.default_speed",
                    "counts only where keyframes have no times, and these have");

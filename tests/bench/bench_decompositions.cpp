@@ -113,7 +113,7 @@ struct Case {
   std::vector<BenchRequest> requests;
 };
 
-// What the decompositions of a scene are asked.
+// The queries that the decompositions of a scene answer.
 struct Questions {
   explicit Questions(const std::vector<BenchRequest>& all) : requests(all), bodies(poses_on(all)) {
     for (const BenchRequest& request : requests) {

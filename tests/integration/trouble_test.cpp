@@ -127,7 +127,6 @@ TEST_F(TroubleTest, MalformedMessagesAreAnsweredAndCounted) {
 
 TEST_F(TroubleTest, RandomBytesDoNotHurt) {
   constexpr std::uint32_t kSeed = 20061121;
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   start_daemon();
   testing::Random random(kSeed);
   Stranger stranger;

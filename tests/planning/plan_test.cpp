@@ -16,11 +16,13 @@
 namespace camway::planning {
 namespace {
 
-using namespace testing_plan;  // NOLINT: the fixture of this file
 using geometry::Quat;
 using geometry::Vec3;
 using scene::Mesh;
 using scene::Snapshot;
+using testing_plan::bulging_tour;
+using testing_plan::planned;
+using testing_plan::snapshot_of;
 
 // Returns a column that the bulging tour grazes.
 std::shared_ptr<const Snapshot> column_scene() {

@@ -11,10 +11,12 @@
 namespace camway::planning {
 namespace {
 
-using namespace testing_plan;  // NOLINT: the fixture of this file
 using geometry::Quat;
 using geometry::Vec3;
 using scene::Mesh;
+using testing_plan::bulging_tour;
+using testing_plan::planned;
+using testing_plan::snapshot_of;
 
 /// Six plates about a point, turned, with slits along all edges that no camera fits through. No
 /// surface is closed, so there is no proof that there is no path.

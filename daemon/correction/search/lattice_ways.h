@@ -25,7 +25,7 @@ enum class Lattices {
   kFinest,
 };
 
-/// What is done with the ways of `for_each_lattice_way`.
+/// Receives the ways of `for_each_lattice_way`.
 struct LatticeWayUse {
   /// Uses a way, which joins `from_W` to `to_W`. The search ends if it returns true.
   std::function<bool(const std::vector<geometry::Vec3>& way_W)> use;

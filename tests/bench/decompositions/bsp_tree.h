@@ -21,7 +21,7 @@ struct BspOptions {
 
 inline constexpr std::uint32_t kMaxBspDepth = 64;
 
-/// What a query looked at.
+/// The numbers of nodes and triangles that a query visited.
 struct QueryCost {
   std::uint64_t nodes = 0;      ///< inner nodes and leaves
   std::uint64_t triangles = 0;  ///< entries of the leaves, duplicates included

@@ -26,7 +26,7 @@ class Decomposition {
   /// As `scene::SceneIndex::any_within`.
   [[nodiscard]] virtual bool any_within(std::span<const geometry::Triangle> body,
                                         double distance_m) const = 0;
-  /// What `any_within` looks at.
+  /// Returns the numbers of nodes and triangles that `any_within` visits.
   [[nodiscard]] virtual QueryCost cost_within(std::span<const geometry::Triangle> body,
                                               double distance_m) const = 0;
   /// Whether the body touches any triangle.

@@ -5,6 +5,7 @@
 #include "tests/scene/index/index_bounds.h"
 #include "tests/scene/index/index_queries.h"
 #include "tests/scene/test_meshes.h"
+#include "tests/support/case_name.h"
 
 namespace camway::scene {
 namespace {
@@ -21,12 +22,12 @@ INSTANTIATE_TEST_SUITE_P(
                       QueryCase{"BoxHierarchySoup", 513, false, 8, build_box_hierarchy},
                       QueryCase{"BoxHierarchyGrid", 514, true, 2, build_box_hierarchy},
                       QueryCase{"ManyMeshes", 522, false, 2, build_box_hierarchy, 97}),
-    [](const auto& instance) { return std::string(instance.param.name); });
+    testing::name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(Others, IndexBounds,
                          ::testing::Values(TreeKind{"KdTree", build_kd_tree},
                                            TreeKind{"BoxHierarchy", build_box_hierarchy}),
-                         name_of);
+                         testing::name_of_case);
 
 }  // namespace
 }  // namespace camway::scene

@@ -1,63 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/decompositions/kd_tree_split.h"
 
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
+
+#include "daemon/scene/index/binary_splitter.h"
 
 namespace camway::bench {
 
 using geometry::Box;
+using scene::BinSplit;
 using scene::half_area_m2;
 using scene::IndexEntry;
 using scene::IndexPart;
+using scene::SplitBins;
 
 namespace {
 
-constexpr std::size_t kBins = 16;
-
-/// Cost of one more split for a query, in tests of entries.
-constexpr double kSplitCost = 1.0;
-
-/// A plane to split at: the end of bin `bin` of an axis.
-struct Split {
-  int axis = 0;
-  std::size_t bin = 0;
-  std::size_t below = 0;                                     ///< entries of the lower side
-  double cost_m2 = std::numeric_limits<double>::infinity();  ///< area times entries, both sides
-};
-
-/// Sixteen equal intervals of one side of a box.
-class Bins {
- public:
-  Bins(const Box& box, int axis) : low_(box.min()[axis]), size_(box.sizes()[axis]) {}
-
-  [[nodiscard]] bool usable() const { return size_ > 0.0; }
-  [[nodiscard]] std::size_t bin_of(double x) const {
-    const double bin = (x - low_) / size_ * static_cast<double>(kBins);
-    return static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(kBins - 1)));
-  }
-  /// The plane at the end of `bin`.
-  [[nodiscard]] double end_of(std::size_t bin) const {
-    return low_ + size_ * (static_cast<double>(bin + 1) / static_cast<double>(kBins));
-  }
-
- private:
-  double low_;
-  double size_;
-};
-
-bool pays(const Split& split, const IndexPart& part) {
-  return split.cost_m2 <
-         (static_cast<double>(part.entries.size()) - kSplitCost) * half_area_m2(part.box);
-}
-
 /// Counts the entries that begin, and those that end, in each bin: their sums are the numbers of
 /// entries on both sides of a plane.
-void try_axis(const IndexPart& part, const Bins& bins, int axis, Split& best) {
-  std::array<std::size_t, kBins> begins{};
-  std::array<std::size_t, kBins> ends{};
+void try_axis(const IndexPart& part, const SplitBins& bins, int axis, BinSplit& best) {
+  std::array<std::size_t, scene::kSplitBins> begins{};
+  std::array<std::size_t, scene::kSplitBins> ends{};
   const auto k = static_cast<std::size_t>(axis);
   for (const IndexEntry& entry : part.entries) {
     ++begins[bins.bin_of(entry.low_m[k])];
@@ -65,7 +29,7 @@ void try_axis(const IndexPart& part, const Bins& bins, int axis, Split& best) {
   }
   std::size_t below = 0;
   std::size_t above = part.entries.size();
-  for (std::size_t i = 0; i + 1 < kBins; ++i) {
+  for (std::size_t i = 0; i + 1 < scene::kSplitBins; ++i) {
     below += begins[i];
     above -= ends[i];
     Box low = part.box;
@@ -79,67 +43,24 @@ void try_axis(const IndexPart& part, const Bins& bins, int axis, Split& best) {
   }
 }
 
-/// The best split across the longest side of the part or, if none pays there, across any side.
-Split best_split(const IndexPart& part) {
-  Eigen::Index longest = 0;
-  part.box.sizes().maxCoeff(&longest);
-  Split best;
-  for (int i = 0; i < 3; ++i) {
-    const int axis = (static_cast<int>(longest) + i) % 3;
-    const Bins bins(part.box, axis);
-    if (bins.usable()) try_axis(part, bins, axis, best);
-    if (i == 0 && pays(best, part)) break;
-  }
-  return best;
-}
-
-/// Splits parts in two until a node is full, always the part of highest cost. Binned surface area
-/// heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies", section
-/// 3.3; for k-d trees Wald & Havran 2006). Deviation: a node has up to eight children at once.
-class KdTreeSplitter : public scene::NodeSplitter {
+/// Splits space, and cuts triangles (Wald & Havran 2006, "On building fast kd-trees for ray
+/// tracing, and on doing that in O(N log N)").
+class KdTreeSplitter : public scene::BinarySplitter {
  public:
   KdTreeSplitter(const scene::Mesh& mesh, const Box& bounds, const scene::IndexOptions& options)
-      : options_(options), cutter_(mesh, bounds) {}
-
-  [[nodiscard]] std::vector<IndexPart> split(IndexPart& part) const override {
-    if (!may_split(part) || part.depth >= options_.max_depth) return {};
-    std::vector<IndexPart> parts;
-    parts.reserve(scene::kNodeWidth);
-    parts.push_back(std::move(part));
-    while (parts.size() < scene::kNodeWidth) {
-      const auto costliest = std::max_element(
-          parts.begin(), parts.end(),
-          [&](const IndexPart& a, const IndexPart& b) { return urgency(a) < urgency(b); });
-      if (!may_split(*costliest)) break;
-      std::optional<IndexPart> upper = split_in_two(*costliest);
-      costliest->is_final = !upper;
-      if (upper) parts.insert(costliest + 1, std::move(*upper));
-    }
-    if (parts.size() == 1) {
-      part = std::move(parts.front());
-      return {};
-    }
-    for (IndexPart& child : parts) ++child.depth;
-    return parts;
-  }
+      : BinarySplitter(options), cutter_(mesh, bounds) {}
 
  private:
-  [[nodiscard]] bool may_split(const IndexPart& part) const {
-    return !part.is_final && part.entries.size() > options_.threshold;
-  }
-  [[nodiscard]] double urgency(const IndexPart& part) const {
-    if (!may_split(part)) return -1.0;
-    return half_area_m2(part.box) * static_cast<double>(part.entries.size());
-  }
-
-  /// Moves the upper side out of `part` and returns it. Returns nothing if no split pays.
-  [[nodiscard]] std::optional<IndexPart> split_in_two(IndexPart& part) const {
-    const Split best = best_split(part);
+  [[nodiscard]] std::optional<IndexPart> split_in_two(IndexPart& part) const override {
+    const BinSplit best =
+        scene::best_split(part, part.box, [&](const SplitBins& bins, int axis, BinSplit& best_yet) {
+          try_axis(part, bins, axis, best_yet);
+        });
     if (!pays(best, part)) return std::nullopt;
     std::array<IndexPart, 2> sides;
     sides[0].entries.reserve(best.below);
     sides[1].entries.reserve(part.entries.size() - best.below + best.below / 4);
-    deal_to_sides(part, best.axis, Bins(part.box, best.axis).end_of(best.bin), sides);
+    deal_to_sides(part, best.axis, SplitBins(part.box, best.axis).end_of(best.bin), sides);
     const auto lower = static_cast<double>(sides[0].entries.size());
     const auto upper = static_cast<double>(sides[1].entries.size());
     if (lower == 0.0 || upper == 0.0 || lower + upper > part.budget) return std::nullopt;
@@ -169,7 +90,6 @@ class KdTreeSplitter : public scene::NodeSplitter {
     }
   }
 
-  scene::IndexOptions options_;
   scene::TriangleCutter cutter_;
 };
 

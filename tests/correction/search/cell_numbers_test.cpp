@@ -43,8 +43,7 @@ TEST(CellNumbers, AreThoseThatWereGiven) {
     const CellNumbers::Around around = numbers.around(cell);
     for (std::size_t step = 0; step < kCellSteps; ++step) {
       const auto known = given.find(neighbour(cell, step));
-      ASSERT_EQ(around[step], known == given.end() ? CellNumbers::kNone : known->second)
-          << "seed " << kSeed << ", " << i;
+      ASSERT_EQ(around[step], known == given.end() ? CellNumbers::kNone : known->second) << i;
     }
     const std::size_t step = any_step(random);
     around[step] = i;

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "tests/scene/index/index_queries.h"
 
 /// For any input a tree stays small and shallow, and answers. `index_bounds.cpp` has the tests; a
@@ -15,10 +13,6 @@ struct TreeKind {
   const char* name;
   BuildIndexedMesh build;
 };
-
-inline std::string name_of(const ::testing::TestParamInfo<TreeKind>& instance) {
-  return instance.param.name;
-}
 
 class IndexBounds : public ::testing::TestWithParam<TreeKind> {
  protected:

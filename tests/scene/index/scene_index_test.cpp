@@ -8,6 +8,7 @@
 
 #include "tests/scene/index/index_queries.h"
 #include "tests/scene/test_meshes.h"
+#include "tests/support/case_name.h"
 
 namespace camway::scene {
 namespace {
@@ -24,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(
                       QueryCase{"TwoMeshes", 521, false, 8, IndexedMesh::build, 2},
                       QueryCase{"ManyMeshes", 522, false, 2, IndexedMesh::build, 97},
                       QueryCase{"MeshEach", 523, true, 4, IndexedMesh::build, 500}),
-    [](const auto& instance) { return std::string(instance.param.name); });
+    testing::name_of_case);
 
 TEST(SceneIndex, ThresholdAndDepthAreObeyed) {
   RandomTriangles random(507);

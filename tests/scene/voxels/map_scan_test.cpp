@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
-#include <iostream>
 #include <limits>
 #include <random>
 #include <vector>
@@ -118,7 +117,6 @@ TEST(Scanned, BeginsWithTheCertaintyOfAMapThatWasRead) {
 
 /// The same, but map and tree begin with a file whose content counts as certain.
 TEST(Scanned, GoesOnFromWhatWasReadAsOctoMapDoes) {
-  std::cout << "seed " << kSeed + 1 << '\n';
   testing::Random random(kSeed + 1);
   octomap::OcTree tree(kResolutionM);
   VoxelSet occupied;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <map>
 #include <vector>
 
@@ -116,7 +115,6 @@ TEST(VoxelFaces, HasTheFacesOfTheWholeByBricks) {
 /// After any changes the faces equal those made from scratch, and share all equal bricks with those
 /// before.
 TEST(VoxelFaces, UpdatedIsMadeAnewAndSharesWhatIsEqual) {
-  std::cout << "seed " << kSeed + 6 << '\n';
   testing::Random random(kSeed + 6);
   int shared = 0;
   int others = 0;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <iterator>
 #include <vector>
 
@@ -83,7 +82,6 @@ TEST(VoxelSet, TheComplementInARangeIsWhatIsMissingThere) {
 
 /// Copies that are changed separately are compared with sets that share nothing.
 TEST(VoxelSet, CopiesGoTheirOwnWays) {
-  std::cout << "seed " << kSeed + 4 << '\n';
   testing::Random random(kSeed + 4);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<VoxelSample> samples{VoxelSample(random)};

@@ -216,7 +216,6 @@ TEST(FairQueue, AJobThatWaitsCanBeTakenOut) {
 }
 
 TEST(FairQueue, KnowsHowManyAreAheadIfNoMoreCome) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   testing::Random random(kSeed);
   for (int trial = 0; trial < 100; ++trial) {
     FairQueue queue(wide());
@@ -358,7 +357,6 @@ TEST(FairQueue, AClientHasNoMoreWorkersThanItsPart) {
 /// Compares with a simple model: one job of each strand at a time, each client's in order, of each
 /// client at most its quota; and a worker is idle only if no job may begin.
 TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   testing::Random random(kSeed);
   FairQueue queue({.jobs = 60, .jobs_of_a_client = 60, .running_of_a_client = 2});
   std::map<std::pair<std::string, std::string>, std::deque<std::int64_t>> waiting;
@@ -399,7 +397,6 @@ TEST(FairQueue, StrandsKeepTheirOrderWhateverHappens) {
 
 // Checks invariants: no job is lost or doubled.
 TEST(FairQueue, EveryJobLeavesOnceWhateverHappens) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   testing::Random random(kSeed);
   FairQueue queue({.jobs = 20, .jobs_of_a_client = 6});
   std::deque<FairQueue::Begun> running;

@@ -35,7 +35,6 @@ TEST(KnownClients, AFloodOfIdsForgetsOnlyThoseThatCameOnce) {
 
 /// Compares with two lists that are searched linearly.
 TEST(KnownClients, AgreesWithTheRuleWrittenOut) {
-  SCOPED_TRACE(::testing::Message() << "seed " << kSeed);
   testing::Random random(kSeed);
   constexpr std::size_t kHalf = 5;
   KnownClients known(2 * kHalf);

@@ -242,8 +242,9 @@ TEST_F(CliPlan, NamesTheOptionAtFault) {
               HasSubstr("R.json: options.orientation.up: has length 0, which is no direction"));
   EXPECT_THAT(error_of(R"({"orientation": {"policy": "target"}})"),
               HasSubstr("R.json: options.orientation.target: is missing"));
-  EXPECT_THAT(error_of(R"({"limits": {"turn_rate_deg": 0}})"),
-              HasSubstr("R.json: options.limits.turn_rate_deg: is 0 degrees (0 rad); it must be above 0"));
+  EXPECT_THAT(
+      error_of(R"({"limits": {"turn_rate_deg": 0}})"),
+      HasSubstr("R.json: options.limits.turn_rate_deg: is 0 degrees (0 rad); it must be above 0"));
   EXPECT_THAT(error_of(R"({"max_shrink": 1})"),
               HasSubstr("R.json: options.max_shrink: is 1; it must be at least 0 and below 1"));
   EXPECT_THAT(error_of(R"({"objectiv": "closest"})"), HasSubstr("options.objectiv: is unknown"));
@@ -392,7 +393,11 @@ TEST_F(CliPlan, DoesNotOverwriteARequestWithItsResponse) {
 TEST_F(CliPlan, SaysWhatAFlagMustBeInWords) {
   const std::pair<std::vector<std::string>, const char*> kCases[] = {
       {{"--up", "zup"}, "--up: must be one of as-in-file, z-to-y, y-to-z, not 'zup'"},
-      {{"--deadline-s", "-1"}, "--deadline-s: must be a number above 0, not '-1'"},
+      {{"--deadline-s", "-1"}, "--deadline-s: must be a number above 0 and finite, not '-1'"},
+      {{"--chord-error-m", "0"}, "must be a number at least 1e-05 and finite, not '0'"},
+      {{"--max-shrink", "1"}, "--max-shrink: must be a number at least 0 and below 1, not '1'"},
+      {{"--seed", "18446744073709551615"},
+       "--seed: must be a whole number, 1 to 9223372036854775807"},
       {{"--objective", "savest"}, "did you mean safest? (see camway plan --help)"},
       {{"--respons", "P.json"}, "'--respons' is no flag of camway plan; did you mean --response?"},
   };

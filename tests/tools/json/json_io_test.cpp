@@ -227,7 +227,6 @@ TEST(JsonRequest, SaysHowToReadTheScene) {
 
 TEST(JsonRequest, NormalisesQuaternionsOfAnyLengthAndKeepsTheBitsOfUnitOnes) {
   testing::Random random(20260801);
-  RecordProperty("seed", 20260801);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> exponent(-300, 300);
   for (int i = 0; i < 2000; ++i) {
@@ -356,7 +355,6 @@ planning::PlanResult any_result(testing::Random& random) {
 
 TEST(JsonResponse, IsReadBackBitForBit) {
   testing::Random random(42);
-  RecordProperty("seed", 42);
   for (int i = 0; i < 2000; ++i) {
     const planning::PlanResult result = any_result(random);
     const auto text = write_plan_response(result);

@@ -191,8 +191,7 @@ TEST(JsonOptions, WhatIsWrittenIsReadBitForBit) {
     planning::visit_options(OptionText{text}, options);
     const auto parsed = options_of("{" + text + "}");
     ASSERT_TRUE(parsed.value) << parsed.error;
-    ASSERT_EQ(*parsed.value, options)
-        << "seed " << testing::kSeed << ", trial " << i << ": " << text;
+    ASSERT_EQ(*parsed.value, options) << "trial " << i << ": " << text;
   }
 }
 

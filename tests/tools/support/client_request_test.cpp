@@ -17,7 +17,7 @@ namespace {
 TEST(ClientRequest, EveryOptionReachesTheDaemon) {
   testing::Random random(testing::kSeed);
   for (int trial = 0; trial < 200; ++trial) {
-    SCOPED_TRACE(::testing::Message() << "seed " << testing::kSeed << ", trial " << trial);
+    SCOPED_TRACE(::testing::Message() << "trial " << trial);
     planning::PlanRequest request = testing::sample_request(2, random);
     request.options = testing::sample_options(random);
     const auto pages = to_pages(to_client_request(request, "room"), "me", 7);

@@ -43,7 +43,7 @@ TEST(ReplayGuard, NothingIsNewTwiceHoweverMessagesOvertakeEachOther) {
     const std::int64_t counter = front - back;
     const Verdict verdict = guard.take(message(counter), kNow);
     if (verdict == Verdict::kNew) {
-      ASSERT_TRUE(taken.insert(counter).second) << "seed " << kSeed << ", number " << counter;
+      ASSERT_TRUE(taken.insert(counter).second) << "number " << counter;
     } else {
       ASSERT_EQ(verdict, Verdict::kReplayed);
       const std::int64_t highest = *taken.rbegin();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -38,16 +37,10 @@ std::string description_of(const FieldSpec& spec) {
   return text;
 }
 
-/// Returns the part of the range that the command line checks. `planning::validate` checks the
-/// rest.
 CLI::Validator check_of(const FieldSpec& spec) {
-  const planning::Range& range = spec.range;
-  const bool is_closed = !range.excludes_least && !range.excludes_most;
-  if (is_closed && std::isfinite(range.most)) {
-    return spec.is_angle() ? cli_support::between(degrees(range.least), degrees(range.most))
-                           : cli_support::between(range.least, range.most);
-  }
-  return range.excludes_least ? cli_support::above_0() : cli_support::at_least_0();
+  return cli_support::number_in(spec.range_text(), [spec](double value) {
+    return spec.range.holds(spec.is_angle() ? radians(value) : value);
+  });
 }
 
 /// Adds the flag of one option, which sets `member`. Returns null for an option without a flag.
