@@ -6,7 +6,7 @@
 #include "daemon/messages/fields.h"
 #include "lcmtypes/wire/layout.h"
 
-namespace camway::service {
+namespace camway::messages {
 
 using planning::PlanResult;
 
@@ -215,4 +215,4 @@ plan_response_t plain_answer(std::int32_t status, std::string_view message,
   return wire;
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -10,7 +10,7 @@
 
 #include "lcmtypes/wire/layout.h"
 
-namespace camway::service {
+namespace camway::messages {
 namespace {
 
 using geometry::Vec3;
@@ -146,4 +146,4 @@ ConvertedBody body_of(const body_t& wire) {
   }
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

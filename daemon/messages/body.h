@@ -8,7 +8,7 @@
 
 #include "daemon/motion/body/body.h"
 
-namespace camway::service {
+namespace camway::messages {
 
 /// Returns the message for a body. A near quadrilateral has its size in the request's camera.
 body_t wire_body(const motion::BodyShape& shape);
@@ -22,4 +22,4 @@ struct ConvertedBody {
 /// Sizes and counts are checked by `planning::validate`.
 ConvertedBody body_of(const body_t& wire);
 
-}  // namespace camway::service
+}  // namespace camway::messages

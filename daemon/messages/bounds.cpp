@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace camway::service {
+namespace camway::messages {
 
 bounds_t wire_bounds(const geometry::Bounds& bounds) {
   bounds_t wire{};
@@ -27,4 +27,4 @@ geometry::Bounds bounds_of(const bounds_t& wire) {
   return bounds;
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

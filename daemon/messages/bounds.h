@@ -5,11 +5,11 @@
 
 #include "daemon/geometry/bounds.h"
 
-namespace camway::service {
+namespace camway::messages {
 
 bounds_t wire_bounds(const geometry::Bounds& bounds);
 
 /// Converts without a check; `geometry::fault_in` checks the numbers.
 geometry::Bounds bounds_of(const bounds_t& wire);
 
-}  // namespace camway::service
+}  // namespace camway::messages

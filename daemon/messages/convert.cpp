@@ -5,7 +5,7 @@
 
 #include <camway/occupancy_response_t.hpp>
 
-namespace camway::service {
+namespace camway::messages {
 
 std::string_view status_name(std::int32_t wire_status) {
   if (const auto status = base::value_of<planning::Status>(wire_status)) {
@@ -39,4 +39,4 @@ static_assert(static_cast<int>(correction::OrientationRule::kTarget) == orientat
 static_assert(static_cast<int>(correction::CorrectionKind::kShrink) == correction_t::SHRINK);
 static_assert(static_cast<int>(motion::KeyframeOrigin::kInserted) == keyframe_t::ORIGIN_INSERTED);
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -9,13 +9,13 @@
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 
 /// Conversions between messages and the structs of planning. They check the form only;
 /// `planning::validate` checks the values. Functions without state.
 /// Thread-safe.
-namespace camway::service {
+namespace camway::messages {
 
 /// Limits of the time that a request may take from its receipt to the end of planning.
 struct DeadlineLimits {
@@ -82,4 +82,4 @@ std::string_view status_name(std::int32_t wire_status);
 /// characters of UTF-8.
 std::string clipped(std::string_view text, std::size_t max_bytes);
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -21,7 +21,7 @@
 /// one list of pairs: a function `pair(io, mine, wire)` that calls `io(mine.member, wire.member)`
 /// for each member. It serves both directions: `io` is `ToWire` or `FromWire`. Structs whose
 /// members have the same names need no list.
-namespace camway::service {
+namespace camway::messages {
 
 template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
@@ -142,4 +142,4 @@ struct FromWire {
   }
 };
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace camway::service {
+namespace camway::messages {
 namespace {
 
 using Name = std::pair<std::string_view, std::string_view>;
@@ -66,4 +66,4 @@ planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
   };
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

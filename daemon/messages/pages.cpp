@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-namespace camway::service {
+namespace camway::messages {
 
 template <class Message>
 typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
@@ -35,7 +35,7 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
 
 template <class Message>
 typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(const Message& page,
-                                                                              Bytes header) {
+                                                                              wire::Bytes header) {
   const auto same_ids = [&](const Partial& partial) {
     const auto held = std::find_if(partial.pages.begin(), partial.pages.end(),
                                    [](const std::optional<Message>& p) { return p.has_value(); });
@@ -114,4 +114,4 @@ Message PageAssembly<Message>::join(Partial partial) {
 template class PageAssembly<plan_request_t>;
 template class PageAssembly<plan_response_t>;
 
-}  // namespace camway::service
+}  // namespace camway::messages

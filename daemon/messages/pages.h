@@ -14,12 +14,7 @@
 
 #include "lcmtypes/wire/pages.h"
 
-namespace camway::service {
-
-using Bytes = std::vector<std::uint8_t>;
-
-using wire::count_pages;
-using wire::encode_pages;
+namespace camway::messages {
 
 /// Joins pages to messages, in whatever order and however often they arrive. Holds a bounded number
 /// of bytes of incomplete messages; where a new page does not fit, drops the message that waited
@@ -72,7 +67,7 @@ class PageAssembly {
 
  private:
   struct Partial {
-    Bytes header;  ///< encoded members that are equal on all pages
+    wire::Bytes header;  ///< encoded members that are equal on all pages
     std::vector<std::optional<Message>> pages;
     std::size_t missing = 0;
     std::size_t bytes = 0;
@@ -81,7 +76,7 @@ class PageAssembly {
   };
   using Position = typename std::list<Partial>::iterator;
 
-  Position find_or_begin(const Message& page, Bytes header);
+  Position find_or_begin(const Message& page, wire::Bytes header);
   void forget(Position position);
   /// Returns how many messages were dropped.
   std::size_t make_room(Position keep);
@@ -95,4 +90,4 @@ class PageAssembly {
 extern template class PageAssembly<plan_request_t>;
 extern template class PageAssembly<plan_response_t>;
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -6,7 +6,7 @@
 #include "daemon/messages/fields.h"
 #include "daemon/messages/names.h"
 
-namespace camway::service {
+namespace camway::messages {
 namespace {
 
 using correction::OrientationPolicy;
@@ -205,4 +205,4 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   return wire;
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -9,7 +9,7 @@
 #include "daemon/messages/convert.h"
 #include "lcmtypes/wire/layout.h"
 
-namespace camway::service {
+namespace camway::messages {
 
 scene_info_t scene_info_of(const scene::Snapshot& snapshot) {
   scene_info_t info{};
@@ -53,4 +53,4 @@ scene_change_t change_on_wire(const scene::KeptRevision& kept) {
   return wire;
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -7,7 +7,7 @@
 
 #include "daemon/scene/snapshot/scene_store.h"
 
-namespace camway::service {
+namespace camway::messages {
 
 /// Conversions of scenes to messages. Texts that are too long for the wire are clipped.
 
@@ -17,4 +17,4 @@ scene_object_t object_on_wire(const scene::SceneObject& object);
 
 scene_change_t change_on_wire(const scene::KeptRevision& kept);
 
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace camway::service {
+namespace camway::messages {
 
 bool is_scene_name(std::string_view name) {
   const auto allowed = [](char c) {
@@ -14,4 +14,4 @@ bool is_scene_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), allowed);
 }
 
-}  // namespace camway::service
+}  // namespace camway::messages

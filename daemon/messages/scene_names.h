@@ -5,7 +5,7 @@
 
 #include "lcmtypes/wire/layout.h"
 
-namespace camway::service {
+namespace camway::messages {
 
 /// Returns whether `name` satisfies `kSceneNameRule`.
 bool is_scene_name(std::string_view name);
@@ -16,4 +16,4 @@ static_assert(wire::kMaxSceneNameBytes == 128);
 /// Requirement of `scene::VoxelGrid::valid_resolution`, in metres.
 inline constexpr char kResolutionRule[] = "must be from 1e-9 to 1e9 m";
 
-}  // namespace camway::service
+}  // namespace camway::messages

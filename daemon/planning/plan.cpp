@@ -9,15 +9,15 @@
 
 #include "daemon/collision/detect.h"
 #include "daemon/correction/path/free_space.h"
-#include "daemon/planning/check.h"
-#include "daemon/planning/correct.h"
-#include "daemon/planning/meet_limits.h"
-#include "daemon/planning/message.h"
-#include "daemon/planning/prepare.h"
-#include "daemon/planning/search_changes.h"
-#include "daemon/planning/shrink.h"
-#include "daemon/planning/stage_times.h"
-#include "daemon/planning/way_beyond.h"
+#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/correct.h"
+#include "daemon/planning/stages/meet_limits.h"
+#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/prepare.h"
+#include "daemon/planning/stages/search_changes.h"
+#include "daemon/planning/stages/shrink.h"
+#include "daemon/planning/stages/stage_times.h"
+#include "daemon/planning/stages/way_beyond.h"
 
 namespace camway::planning {
 

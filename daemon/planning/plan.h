@@ -2,8 +2,8 @@
 #pragma once
 
 #include "daemon/base/deadline.h"
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/snapshot/snapshot.h"
 
 namespace camway::planning {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "daemon/planning/check.h"
+#include "daemon/planning/stages/check.h"
 
 namespace camway::planning {
 namespace {

@@ -9,8 +9,8 @@
 #include "daemon/collision/detect.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/path.h"
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/snapshot/scene_difference.h"
 
 namespace camway::planning {

@@ -7,20 +7,20 @@
 #include <algorithm>
 #include <utility>
 
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "daemon/scene/mirror/occupancy_mirror.h"
 #include "daemon/service/scenes/scene_rules.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 std::string text_of(const geometry::Vec3& point) {
   return fmt::format("{:.3g},{:.3g},{:.3g}", point.x(), point.y(), point.z());
 }
 
-void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, Log& log) {
+void log_scene(const scene::Snapshot& snapshot, const SceneArgument& scene, service::Log& log) {
   const scene::ImportReport& report = snapshot.report;
   log.info("scene read", {{"scene", snapshot.name},
                           {"file", scene.file.string()},
@@ -201,4 +201,4 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
   return result.snapshot;
 }
 
-}  // namespace camway::service
+}  // namespace camway::process

@@ -7,18 +7,18 @@
 #include <stop_token>
 #include <vector>
 
-#include "daemon/process/scene_argument.h"
+#include "daemon/process/settings/scene_argument.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 
-namespace camway::service {
+namespace camway::process {
 
 /// The scenes that command line and configuration name, in a store that may hold others too.
 /// Not thread-safe.
 class ConfiguredScenes {
  public:
   /// `store` must outlive this.
-  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<Log> log)
+  ConfiguredScenes(scene::SceneStore& store, std::shared_ptr<service::Log> log)
       : store_(store), log_(std::move(log)) {}
 
   /// Makes the store hold `wanted`, and removes the scenes of earlier calls that are no longer
@@ -68,9 +68,9 @@ class ConfiguredScenes {
   void remove_all_but(const std::vector<SceneArgument>& wanted);
 
   scene::SceneStore& store_;
-  std::shared_ptr<Log> log_;
+  std::shared_ptr<service::Log> log_;
   std::vector<Held> held_;
   std::string fault_;
 };
 
-}  // namespace camway::service
+}  // namespace camway::process

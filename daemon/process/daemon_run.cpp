@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "daemon/planning/plan.h"
-#include "daemon/process/metrics_text.h"
+#include "daemon/process/metrics/metrics_text.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/process/service_manager.h"
 #include "daemon/service/scenes/upload_file.h"
@@ -17,7 +17,7 @@
 #include "daemon/service/transport/auth_transport.h"
 #include "daemon/service/transport/lcm_transport.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 constexpr int kExitLcm = 1;
@@ -47,7 +47,7 @@ class LatestStatus {
 };
 
 /// Writes the counts of distrusted messages into the status.
-void add_distrusted(const AuthTransport::Distrusted& counts, status_t& status) {
+void add_distrusted(const service::AuthTransport::Distrusted& counts, status_t& status) {
   const auto count = [&](wire::Distrust why) { return counts.at(static_cast<std::size_t>(why)); };
   status.unsigned_messages = count(wire::Distrust::kUnsigned);
   status.broken_envelopes = count(wire::Distrust::kBroken);
@@ -72,15 +72,15 @@ std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::st
 
 /// Opens the page for Prometheus, if the options ask for one.
 OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& latest,
-                            const std::shared_ptr<Log>& log) {
+                            const std::shared_ptr<service::Log>& log) {
   if (options.metrics.port == 0) return {};
   HttpContent content;
   content.path = "/metrics";
   content.type = "text/plain; version=0.0.4; charset=utf-8";
   content.text = [&latest] { return metrics_text(latest.get()); };
   // Used by the page's thread alone, since limited logs are not thread-safe.
-  const auto crowded =
-      std::make_shared<LimitedLog>(log, LogLevel::kWarn, "metrics", options.service.log_limits);
+  const auto crowded = std::make_shared<service::LimitedLog>(log, service::LogLevel::kWarn,
+                                                             "metrics", options.service.log_limits);
   content.full = [crowded, most = options.metrics_limits.connections] {
     crowded->write("the page of metrics has as many connections as it may",
                    {{"metrics.connections", most}});
@@ -89,18 +89,18 @@ OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& la
 }
 
 /// Returns the exit code for the outcome of a run. Ends the process itself after kAbandoned.
-int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
+int exit_code_of(service::RunOutcome outcome, const std::string& url, service::Log& log) {
   switch (outcome) {
-    case RunOutcome::kDrained:
+    case service::RunOutcome::kDrained:
       return EXIT_SUCCESS;
-    case RunOutcome::kAbandoned:
+    case service::RunOutcome::kAbandoned:
       std::_Exit(EXIT_SUCCESS);
-    case RunOutcome::kPrefixTaken:
+    case service::RunOutcome::kPrefixTaken:
       return kExitPrefix;
-    case RunOutcome::kNotSubscribed:
-      log.error("LCM takes no subscription", {{"url", url}, {"hint", multicast_hint()}});
+    case service::RunOutcome::kNotSubscribed:
+      log.error("LCM takes no subscription", {{"url", url}, {"hint", service::multicast_hint()}});
       return kExitLcm;
-    case RunOutcome::kTransportBroken:
+    case service::RunOutcome::kTransportBroken:
       log.error("LCM failed", {{"url", url}});
       return kExitLcm;
   }
@@ -110,13 +110,13 @@ int exit_code_of(RunOutcome outcome, const std::string& url, Log& log) {
 }  // namespace
 
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, const std::shared_ptr<Log>& log) {
+          ConfiguredScenes& configured, const std::shared_ptr<service::Log>& log) {
   if (const std::string other = url_of_environment(); !other.empty() && other != options.lcm_url) {
     log->warn("LCM_DEFAULT_URL is set, but does not count",
               {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
   }
-  const OpenedTransport opened =
-      open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
+  const service::OpenedTransport opened =
+      service::open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
         log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
       });
   if (!opened.transport) {
@@ -130,14 +130,16 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
                {{"setting", options.where("auth.key_file")}, {"reason", auth_error}});
     return kExitBadInput;
   }
-  std::optional<AuthTransport> signing;
+  std::optional<service::AuthTransport> signing;
   if (auth) {
     signing.emplace(*opened.transport, auth, options.auth.required,
-                    LimitedLog(log, LogLevel::kWarn, "distrusted", options.service.log_limits));
+                    service::LimitedLog(log, service::LogLevel::kWarn, "distrusted",
+                                        options.service.log_limits));
     log->info("messages are signed",
               {{"unsigned_ones", options.auth.required ? "dropped" : "accepted"}});
   }
-  Transport& transport = signing ? static_cast<Transport&>(*signing) : *opened.transport;
+  service::Transport& transport =
+      signing ? static_cast<service::Transport&>(*signing) : *opened.transport;
   LatestStatus latest;
   const OpenedHttpPage metrics = open_metrics(options, latest, log);
   if (!metrics.error.empty()) {
@@ -146,7 +148,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   }
   const ServiceManager manager = ServiceManager::from_environment();
   ReloadRecord reloads;
-  ServiceHooks hooks;
+  service::ServiceHooks hooks;
   hooks.ready = [&] { manager.ready("serving"); };
   hooks.stopping = [&] { manager.stopping(); };
   hooks.alive = [&] { manager.alive(); };
@@ -163,16 +165,15 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     if (metrics.page) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();
-  const Planner planner = [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
-                             const base::Deadline& deadline) {
-    return planning::plan(snapshot, request, deadline);
-  };
-  if (const std::size_t files = remove_left_upload_files(); files > 0) {
+  const service::Planner planner =
+      [](const scene::Snapshot& snapshot, const planning::PlanRequest& request,
+         const base::Deadline& deadline) { return planning::plan(snapshot, request, deadline); };
+  if (const std::size_t files = service::remove_left_upload_files(); files > 0) {
     log->info("removed uploads that a daemon left behind", {{"files", files}});
   }
-  ServiceConfig config = options.service;
+  service::ServiceConfig config = options.service;
   config.claim_window = options.share_prefix ? std::chrono::milliseconds(0) : kClaimWindow;
-  Service service(transport, scenes, std::move(config), planner, log, std::move(hooks));
+  service::Service service(transport, scenes, std::move(config), planner, log, std::move(hooks));
   log->info("serving", {{"url", options.lcm_url},
                         {"prefix", options.service.prefix},
                         {"workers", options.service.workers},
@@ -189,4 +190,4 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   return exit_code_of(service.run(), options.lcm_url, *log);
 }
 
-}  // namespace camway::service
+}  // namespace camway::process

@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "daemon/process/configured_scenes.h"
-#include "daemon/process/options.h"
 #include "daemon/process/reloader.h"
+#include "daemon/process/settings/options.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 
-namespace camway::service {
+namespace camway::process {
 
 /// Serves `scenes` over LCM until SIGTERM or SIGINT, and reports to the service manager. At SIGHUP
 /// reads its configuration again (`read_again`, on another thread), which changes the `configured`
@@ -17,6 +17,6 @@ namespace camway::service {
 /// drain limit, since its threads cannot be joined: ends the process with code 0. Requires that
 /// `block_reload_signal` and `block_stop_signals` were called before any other thread began.
 int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneStore& scenes,
-          ConfiguredScenes& configured, const std::shared_ptr<Log>& log);
+          ConfiguredScenes& configured, const std::shared_ptr<service::Log>& log);
 
-}  // namespace camway::service
+}  // namespace camway::process

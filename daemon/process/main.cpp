@@ -6,9 +6,9 @@
 
 #include "daemon/base/standard_streams.h"
 #include "daemon/process/configured_scenes.h"
-#include "daemon/process/daemon_command_line.h"
 #include "daemon/process/daemon_run.h"
 #include "daemon/process/process_signals.h"
+#include "daemon/process/settings/daemon_command_line.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/service/log/log.h"
 #include "daemon/version/build_info.h"
@@ -20,7 +20,7 @@ constexpr int kExitBadInput = 2;
 
 int run(int argc, char** argv) {
   using namespace camway;
-  const service::ParsedOptions parsed = service::parse_daemon_options(argc, argv);
+  const process::ParsedOptions parsed = process::parse_daemon_options(argc, argv);
   if (!(std::cout << parsed.text).flush()) {
     std::cerr << "camwayd: standard output cannot be written\n";
     return kExitFault;
@@ -33,15 +33,15 @@ int run(int argc, char** argv) {
                                                   parsed.options->log_level);
   log->info("starting", {{"version", service::version_text()}});
 
-  service::block_reload_signal();  // a reload that is asked for now comes after the scenes
+  process::block_reload_signal();  // a reload that is asked for now comes after the scenes
   scene::SceneStore scenes(parsed.options->store);
-  service::ConfiguredScenes configured(scenes, log);
+  process::ConfiguredScenes configured(scenes, log);
   // A stop signal while scenes are being read ends the process at once: no client depends on it
   // yet.
   if (!configured.update(parsed.options->scenes)) return kExitBadInput;
-  service::block_stop_signals();
-  const auto read_again = [=] { return service::parse_daemon_options(argc, argv); };
-  return service::serve(*parsed.options, read_again, scenes, configured, log);
+  process::block_stop_signals();
+  const auto read_again = [=] { return process::parse_daemon_options(argc, argv); };
+  return process::serve(*parsed.options, read_again, scenes, configured, log);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 sigset_t set_of(std::initializer_list<int> signals) {
@@ -45,4 +45,4 @@ SignalWaiter::~SignalWaiter() {
   pthread_kill(waiter_.native_handle(), SIGINT);
 }
 
-}  // namespace camway::service
+}  // namespace camway::process

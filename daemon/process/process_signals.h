@@ -5,7 +5,7 @@
 #include <functional>
 #include <thread>
 
-namespace camway::service {
+namespace camway::process {
 
 /// Blocks SIGHUP, so that it does not end the process but waits for a `SignalWaiter`. Requires, as
 /// does `block_stop_signals`, that no other thread has begun: threads inherit the mask.
@@ -27,4 +27,4 @@ class SignalWaiter {
   std::jthread waiter_;
 };
 
-}  // namespace camway::service
+}  // namespace camway::process

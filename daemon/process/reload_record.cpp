@@ -3,7 +3,7 @@
 
 #include "lcmtypes/wire/layout.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 /// Returns the beginning of UTF-8 `text`, cut between characters.
@@ -40,4 +40,4 @@ void ReloadRecord::add_to(status_t& status) const {
   status.reload_failed = has_failed_ ? 1 : 0;
 }
 
-}  // namespace camway::service
+}  // namespace camway::process

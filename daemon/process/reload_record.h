@@ -8,7 +8,7 @@
 
 #include <camway/status_t.hpp>
 
-namespace camway::service {
+namespace camway::process {
 
 /// Outcome of the reloads of the configuration, for the status.
 /// Thread-safe.
@@ -31,4 +31,4 @@ class ReloadRecord {
   bool has_failed_ = false;  ///< whether the last reload failed
 };
 
-}  // namespace camway::service
+}  // namespace camway::process

@@ -6,10 +6,10 @@
 #include <exception>
 #include <utility>
 
-#include "daemon/process/daemon_settings.h"
+#include "daemon/process/settings/daemon_settings.h"
 #include "daemon/service/core/core.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 constexpr std::string_view kFailed = "reload failed, all stays as it was";
@@ -23,7 +23,7 @@ std::string_view unquoted(std::string_view value) {
 }  // namespace
 
 Reloader::Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes, ReloadRecord& record,
-                   const ServiceManager& manager, std::shared_ptr<Log> log,
+                   const ServiceManager& manager, std::shared_ptr<service::Log> log,
                    std::shared_ptr<wire::MessageAuth> auth, std::chrono::milliseconds look_every)
     : running_(std::move(running)),
       read_(std::move(read)),
@@ -57,7 +57,7 @@ void Reloader::serve(const std::stop_token& stop) {
       reload(work);
     } catch (const std::exception& error) {
       log_->error(kFailed, {{"reason", error.what()}});
-      record_.failed(utime_now(), error.what());
+      record_.failed(service::utime_now(), error.what());
     }
     if (stop.stop_requested()) return;  // the manager is told that we stop
     was_called_off = work.stop_requested();
@@ -103,7 +103,7 @@ void Reloader::reload(const std::stop_token& stop) {
   ParsedOptions parsed = read_();
   for (const std::string& fault : parsed.faults) log_->error(kFailed, {{"reason", fault}});
   if (!parsed.options) {
-    record_.failed(utime_now(), fmt::format("{}", fmt::join(parsed.faults, "; ")));
+    record_.failed(service::utime_now(), fmt::format("{}", fmt::join(parsed.faults, "; ")));
     return;
   }
   wire::MessageKeys::Read keys;
@@ -111,7 +111,7 @@ void Reloader::reload(const std::stop_token& stop) {
   if (!keys.error.empty()) {
     const std::string setting = running_.where("auth.key_file");
     log_->error(kFailed, {{"setting", setting}, {"reason", keys.error}});
-    record_.failed(utime_now(), setting + ": " + keys.error);
+    record_.failed(service::utime_now(), setting + ": " + keys.error);
     return;
   }
   if (!scenes_.update(parsed.options->scenes, stop)) {
@@ -121,7 +121,7 @@ void Reloader::reload(const std::stop_token& stop) {
     }
     log_->error("reload failed, not all scenes could be taken over, so no setting is",
                 {{"reason", scenes_.fault()}});
-    record_.failed(utime_now(), scenes_.fault());
+    record_.failed(service::utime_now(), scenes_.fault());
     return;
   }
   if (keys.keys) {
@@ -149,4 +149,4 @@ void Reloader::take_over(const DaemonOptions& next) {
   log_->set_level(next.log_level);
 }
 
-}  // namespace camway::service
+}  // namespace camway::process

@@ -10,13 +10,13 @@
 #include <thread>
 
 #include "daemon/process/configured_scenes.h"
-#include "daemon/process/daemon_command_line.h"
 #include "daemon/process/reload_record.h"
 #include "daemon/process/service_manager.h"
+#include "daemon/process/settings/daemon_command_line.h"
 #include "daemon/service/log/log.h"
 #include "lcmtypes/wire/auth/message_auth.h"
 
-namespace camway::service {
+namespace camway::process {
 
 /// Reads the configuration again while the daemon serves, on a thread of its own. Applies scenes,
 /// log level and the content of the key file, and logs which other changes need a restart. Keeps
@@ -30,7 +30,7 @@ class Reloader {
   /// `scenes`, `record` and `manager` must outlive this; nobody else may use `scenes` meanwhile.
   /// Files of watched scenes are checked every `look_every`.
   Reloader(DaemonOptions running, Read read, ConfiguredScenes& scenes, ReloadRecord& record,
-           const ServiceManager& manager, std::shared_ptr<Log> log,
+           const ServiceManager& manager, std::shared_ptr<service::Log> log,
            std::shared_ptr<wire::MessageAuth> auth = nullptr,
            std::chrono::milliseconds look_every = std::chrono::seconds(1));
   /// Cancels the reading of a scene, if one is being read.
@@ -61,7 +61,7 @@ class Reloader {
   ConfiguredScenes& scenes_;
   ReloadRecord& record_;
   const ServiceManager& manager_;
-  std::shared_ptr<Log> log_;
+  std::shared_ptr<service::Log> log_;
   std::shared_ptr<wire::MessageAuth> auth_;  ///< null if messages are not signed
   const std::chrono::milliseconds look_every_;
   std::mutex mutex_;  ///< guards requested_, work_ and may_cancel_
@@ -72,4 +72,4 @@ class Reloader {
   std::jthread thread_;     ///< last: uses all above
 };
 
-}  // namespace camway::service
+}  // namespace camway::process

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <ctime>
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 /// Timeout of states that the manager has to know.
@@ -92,4 +92,4 @@ void ServiceManager::send(const std::string& state, std::chrono::milliseconds pa
   ::close(fd);
 }
 
-}  // namespace camway::service
+}  // namespace camway::process

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace camway::service {
+namespace camway::process {
 
 /// Reports the state of the daemon to the service manager, by the protocol of sd_notify(3): one
 /// datagram to a Unix socket for each state, which needs no library; systemd is one manager that
@@ -41,4 +41,4 @@ class ServiceManager {
   std::optional<std::chrono::microseconds> watchdog_;
 };
 
-}  // namespace camway::service
+}  // namespace camway::process

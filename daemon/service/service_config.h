@@ -11,8 +11,8 @@ namespace camway::service {
 
 /// Configuration of the service: of its core and of each of its services.
 struct ServiceConfig : CoreConfig, PlanConfig, SceneConfig {
-  DeadlineLimits occupancy_deadline;  ///< deadlines of batches of occupancy queries
-  WatchLimits watches;                ///< `watch.paths` and others
+  messages::DeadlineLimits occupancy_deadline;  ///< deadlines of batches of occupancy queries
+  WatchLimits watches;                          ///< `watch.paths` and others
 };
 
 }  // namespace camway::service

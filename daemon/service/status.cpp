@@ -50,7 +50,7 @@ void add_scenes(const scene::SceneStore& store, status_t& status) {
   status.total_scenes = static_cast<std::int32_t>(scenes.size());
   std::size_t size = static_cast<std::size_t>(status.getEncodedSize());
   for (const std::shared_ptr<const scene::Snapshot>& snapshot : scenes) {
-    scene_info_t info = scene_info_of(*snapshot);
+    scene_info_t info = messages::scene_info_of(*snapshot);
     size += static_cast<std::size_t>(info._getEncodedSizeNoHash());
     if (size > wire::kMaxMessageBytes) break;
     status.scenes.push_back(std::move(info));

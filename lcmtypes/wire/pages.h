@@ -14,12 +14,15 @@
 /// a request, which stands on page 0 alone. Daemon and client cut and join by this.
 namespace camway::wire {
 
+/// A message as it is encoded.
+using Bytes = std::vector<std::uint8_t>;
+
 /// Encodes `whole` as messages of at most `kMaxMessageBytes`: as many list elements on each page as
 /// fit, in order; `page` and `num_pages` are set, `whole`'s own values do not matter. The same
 /// message gives the same bytes. Requires counts that agree with their lists, a body within the
 /// limits of `layout.h`, and less than 2 GB in all, since LCM counts bytes in an int.
 template <class Message>
-std::vector<std::vector<std::uint8_t>> encode_pages(const Message& whole);
+std::vector<Bytes> encode_pages(const Message& whole);
 
 /// Returns the number of pages that `encode_pages` makes, without making or copying them, so that
 /// an answer that is too long needs no memory. Same requirements.
@@ -33,7 +36,7 @@ std::string page_fault(const Message& page);
 /// Returns the members that all pages of a message have in common, encoded: all but `page`,
 /// `utime`, body and lists.
 template <class Message>
-std::vector<std::uint8_t> page_head(const Message& page);
+Bytes page_head(const Message& page);
 
 /// Returns page 0 without its lists, as page 0 of 1. `append_page` then adds the lists of each page
 /// in order, page 0 included.

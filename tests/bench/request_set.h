@@ -9,7 +9,7 @@
 
 #include "daemon/motion/body/camera.h"
 #include "daemon/motion/path/path.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::bench {

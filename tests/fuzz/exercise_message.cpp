@@ -28,7 +28,7 @@
 #include "client/messages/status.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/pages.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/service/core/answer_cache.h"
@@ -57,13 +57,13 @@ std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
 }
 
 void exercise(const plan_request_t& message) {
-  service::PageAssembly<plan_request_t> pages;
+  messages::PageAssembly<plan_request_t> pages;
   const auto outcome = pages.add(message);
   promise(outcome.whole.has_value() + !outcome.error.empty() + (pages.half_received() > 0) == 1,
           "a page completes a message, waits or is refused");
   if (!outcome.whole) return;
   static_cast<void>(service::digest_of(*outcome.whole));
-  const service::ConvertedRequest converted = service::from_wire(*outcome.whole);
+  const messages::ConvertedRequest converted = messages::from_wire(*outcome.whole);
   promise(converted.request.has_value() == converted.error.empty(), "a request or a reason");
   if (converted.request) static_cast<void>(planning::validate(*converted.request));
 }
@@ -96,7 +96,7 @@ void exercise(const upload_page_t& message) {
 
 /// Processes an answer like `camway replay` and like a client.
 void exercise(const plan_response_t& message, std::span<const std::uint8_t> bytes) {
-  const service::ConvertedResult converted = service::from_wire(message);
+  const messages::ConvertedResult converted = messages::from_wire(message);
   promise(converted.result.has_value() == converted.error.empty(), "a result or a reason");
   PlanCollector collector(message.client_id, message.request_id);
   collector.take(bytes);

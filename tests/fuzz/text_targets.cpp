@@ -4,7 +4,7 @@
 
 #include "daemon/messages/pages.h"
 #include "daemon/planning/plan.h"
-#include "daemon/process/config_file.h"
+#include "daemon/process/settings/config_file.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fuzz/targets.h"
 #include "tests/messages/plan_samples.h"
@@ -98,12 +98,11 @@ std::vector<FuzzBytes> session_seeds() {
   FuzzBytes log;
   for (std::int64_t id = 1; id <= 3; ++id) {
     const planning::PlanRequest request = *tools::parse_plan_request(kRequest, "seed").value;
-    const service::AnswerHeader header{{"tester", id, 0}, request.scene, 1, ""};
-    for (const FuzzBytes& page : service::encode_pages(service::to_wire(request, header.ids))) {
+    const messages::AnswerHeader header{{"tester", id, 0}, request.scene, 1, ""};
+    for (const FuzzBytes& page : wire::encode_pages(messages::to_wire(request, header.ids))) {
       append_event("CAMWAY_PLAN_REQUEST", page, log);
     }
-    for (const FuzzBytes& page :
-         service::encode_pages(service::to_wire(planned(request), header))) {
+    for (const FuzzBytes& page : wire::encode_pages(messages::to_wire(planned(request), header))) {
       append_event("CAMWAY_PLAN_RESPONSE_tester", page, log);
     }
     append_event("OTHER", {1, 2, 3}, log);
@@ -113,8 +112,8 @@ std::vector<FuzzBytes> session_seeds() {
 
 bool exercise_config(std::span<const std::uint8_t> bytes) {
   const MemoryFile file(bytes);
-  service::DaemonOptions options = service::default_options();
-  const std::vector<std::string> faults = service::read_config_file(file.path(), options);
+  process::DaemonOptions options = process::default_options();
+  const std::vector<std::string> faults = process::read_config_file(file.path(), options);
   for (const std::string& fault : faults) {
     promise(fault.starts_with(file.path()), "a fault names the file");
   }

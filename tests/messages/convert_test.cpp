@@ -11,7 +11,7 @@
 #include "tests/messages/plan_samples.h"
 #include "tests/support/random.h"
 
-namespace camway::service {
+namespace camway::messages {
 namespace {
 
 using testing::kSeed;
@@ -546,4 +546,4 @@ TEST(WireConvert, LongTextsAreCutBetweenCharacters) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::messages

@@ -9,8 +9,10 @@
 #include "lcmtypes/wire/check.h"
 #include "tests/messages/plan_samples.h"
 
-namespace camway::service {
+namespace camway::messages {
 namespace {
+
+using wire::Bytes;
 
 using testing::below;
 using testing::kSeed;
@@ -50,8 +52,8 @@ TEST(WirePages, EveryPageFitsAndTogetherTheyAreTheWhole) {
   for (const std::size_t segments : {0U, 1U, 100U, 125U, 126U, 1000U, 5000U}) {
     SCOPED_TRACE(segments);
     const plan_response_t whole = to_wire(sample_result(segments, random), kHeader);
-    std::vector<Bytes> pages = encode_pages(whole);
-    ASSERT_EQ(count_pages(whole), pages.size());
+    std::vector<Bytes> pages = wire::encode_pages(whole);
+    ASSERT_EQ(wire::count_pages(whole), pages.size());
     for (const Bytes& page : pages) ASSERT_LE(page.size(), wire::kMaxMessageBytes);
     // Elements have 336 bytes: a page except the last wastes less than one of them.
     for (std::size_t i = 0; i + 1 < pages.size(); ++i) {
@@ -70,9 +72,9 @@ TEST(WirePages, AProofOfManyTrianglesComesInPages) {
   planning::Infeasibility& proof = result.infeasibility.emplace();
   for (std::uint32_t i = 0; i < 100'000; ++i) proof.triangles.push_back(3 * i);
   const plan_response_t whole = to_wire(result, kHeader);
-  const std::vector<Bytes> pages = encode_pages(whole);
+  const std::vector<Bytes> pages = wire::encode_pages(whole);
   EXPECT_EQ(pages.size(), 7U);
-  EXPECT_EQ(count_pages(whole), pages.size());
+  EXPECT_EQ(wire::count_pages(whole), pages.size());
   for (const Bytes& page : pages) ASSERT_LE(page.size(), wire::kMaxMessageBytes);
   const std::optional<plan_response_t> back = joined<plan_response_t>(pages);
   ASSERT_TRUE(back);
@@ -84,7 +86,7 @@ TEST(WirePages, RequestsComeInPagesToo) {
   for (const std::size_t keyframes : {0U, 900U, 1000U, 20'000U}) {
     SCOPED_TRACE(keyframes);
     const plan_request_t whole = request_of(keyframes, 5, random);
-    std::vector<Bytes> pages = encode_pages(whole);
+    std::vector<Bytes> pages = wire::encode_pages(whole);
     for (const Bytes& page : pages) ASSERT_LE(page.size(), wire::kMaxMessageBytes);
     std::shuffle(pages.begin(), pages.end(), random);
     const std::optional<plan_request_t> back = joined<plan_request_t>(pages);
@@ -98,7 +100,7 @@ TEST(WirePages, TheBodyGoesOnPageZero) {
   planning::PlanRequest request = sample_request(5000, random);
   request.body = testing::largest_body(random);
   const plan_request_t whole = to_wire(request, {"tester", 5, 0});
-  std::vector<Bytes> pages = encode_pages(whole);
+  std::vector<Bytes> pages = wire::encode_pages(whole);
   ASSERT_GT(pages.size(), 5U);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     ASSERT_LE(pages[i].size(), wire::kMaxMessageBytes);
@@ -117,7 +119,7 @@ TEST(WirePages, ABodyOnALaterPageDoesNotCount) {
   planning::PlanRequest request = sample_request(1800, random);
   request.body = motion::SphereShape{{1, 2, 3}, 0.5};
   const plan_request_t whole = to_wire(request, {"tester", 5, 0});
-  std::vector<Bytes> pages = encode_pages(whole);
+  std::vector<Bytes> pages = wire::encode_pages(whole);
   ASSERT_EQ(pages.size(), 2U);
   auto later = decoded<plan_request_t>(pages[1]);
   later.body = whole.body;
@@ -140,23 +142,23 @@ TEST(WirePages, TheLargestRequestFitsThePagesAllowed) {
   whole.body = to_wire(request, {}).body;
   whole.keyframes.resize(planning::kMaxKeyframes);
   whole.num_keyframes = static_cast<std::int32_t>(whole.keyframes.size());
-  EXPECT_LE(encode_pages(whole).size(), static_cast<std::size_t>(wire::kMaxRequestPages));
+  EXPECT_LE(wire::encode_pages(whole).size(), static_cast<std::size_t>(wire::kMaxRequestPages));
 }
 
 TEST(WirePages, SameMessageSameBytes) {
   Random random(kSeed);
   const plan_response_t whole = to_wire(sample_result(700, random), kHeader);
-  EXPECT_EQ(encode_pages(whole), encode_pages(plan_response_t(whole)));
+  EXPECT_EQ(wire::encode_pages(whole), wire::encode_pages(plan_response_t(whole)));
   plan_response_t page_of_another = whole;
   page_of_another.page = 3;
   page_of_another.num_pages = 9;
-  EXPECT_EQ(encode_pages(page_of_another), encode_pages(whole));
+  EXPECT_EQ(wire::encode_pages(page_of_another), wire::encode_pages(whole));
 }
 
 TEST(PageAssembly, PagesMayComeTwice) {
   Random random(kSeed);
   const plan_request_t whole = request_of(3000, 5, random);
-  const std::vector<Bytes> pages = encode_pages(whole);
+  const std::vector<Bytes> pages = wire::encode_pages(whole);
   ASSERT_EQ(pages.size(), 4U);
   PageAssembly<plan_request_t> assembly;
   for (const std::size_t page : {0U, 0U, 2U, 1U, 2U}) {
@@ -169,7 +171,7 @@ TEST(PageAssembly, PagesMayComeTwice) {
 
 TEST(PageAssembly, ALaterTimeOfSendingIsStillTheSameMessage) {
   Random random(kSeed);
-  const std::vector<Bytes> pages = encode_pages(request_of(1800, 5, random));
+  const std::vector<Bytes> pages = wire::encode_pages(request_of(1800, 5, random));
   ASSERT_EQ(pages.size(), 2U);
   PageAssembly<plan_request_t> assembly;
   EXPECT_FALSE(assembly.add(decoded<plan_request_t>(pages[0])).whole);
@@ -180,10 +182,10 @@ TEST(PageAssembly, ALaterTimeOfSendingIsStillTheSameMessage) {
 
 TEST(PageAssembly, AnotherMessageUnderTheSameIdsBeginsAnew) {
   Random random(kSeed);
-  const std::vector<Bytes> old_pages = encode_pages(request_of(1800, 5, random));
+  const std::vector<Bytes> old_pages = wire::encode_pages(request_of(1800, 5, random));
   plan_request_t other = request_of(1800, 5, random);
   other.scene = "elsewhere";
-  const std::vector<Bytes> new_pages = encode_pages(other);
+  const std::vector<Bytes> new_pages = wire::encode_pages(other);
   PageAssembly<plan_request_t> assembly;
   EXPECT_FALSE(assembly.add(decoded<plan_request_t>(old_pages[0])).whole);
   EXPECT_FALSE(assembly.add(decoded<plan_request_t>(new_pages[1])).whole);
@@ -198,7 +200,7 @@ TEST(PageAssembly, GivesUpTheOneThatWaitedLongest) {
   PageAssembly<plan_request_t> assembly({.max_messages = 3, .max_bytes = std::size_t{1} << 30});
   std::vector<std::vector<Bytes>> messages;
   for (std::int64_t id = 0; id < 4; ++id) {
-    messages.push_back(encode_pages(request_of(2500, id, random)));
+    messages.push_back(wire::encode_pages(request_of(2500, id, random)));
     ASSERT_EQ(messages.back().size(), 3U);
     // A second page for message 0 makes message 1 the one that has waited longest.
     if (id == 3) {
@@ -219,7 +221,7 @@ TEST(PageAssembly, HoldsABoundedNumberOfBytes) {
   constexpr std::size_t kMaxBytes = 200'000;
   PageAssembly<plan_request_t> assembly({.max_messages = 1000, .max_bytes = kMaxBytes});
   for (std::int64_t id = 0; id < 50; ++id) {
-    const std::vector<Bytes> pages = encode_pages(request_of(1800, id, random));
+    const std::vector<Bytes> pages = wire::encode_pages(request_of(1800, id, random));
     EXPECT_FALSE(assembly.add(decoded<plan_request_t>(pages[0])).whole);
     EXPECT_LE(assembly.half_received() * (wire::kMaxMessageBytes - 500), kMaxBytes);
   }
@@ -247,7 +249,7 @@ TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
   Random random(kSeed);
   const plan_request_t whole = to_wire(sample_request(3000, random), {"asker", 5, 0});
   std::vector<plan_request_t> pages;
-  for (const Bytes& bytes : encode_pages(whole)) {
+  for (const Bytes& bytes : wire::encode_pages(whole)) {
     pages.push_back(*wire::decode<plan_request_t>(bytes).message);
   }
   ASSERT_GT(pages.size(), 3U);
@@ -274,4 +276,4 @@ TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::messages

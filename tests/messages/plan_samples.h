@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/messages/random_messages.h"
 

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
-#include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
+#include "daemon/planning/result/witness_names.h"
+#include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/way_beyond.h"
 #include "daemon/planning/watched_path.h"
-#include "daemon/planning/way_beyond.h"
-#include "daemon/planning/witness_names.h"
 #include "daemon/scene/snapshot/scene_difference.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"

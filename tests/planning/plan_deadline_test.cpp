@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
+#include "daemon/planning/stages/check.h"
 #include "tests/support/scenes.h"
 
 namespace camway::planning {

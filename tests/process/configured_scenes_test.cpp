@@ -10,7 +10,7 @@
 #include "tests/support/captured_log.h"
 #include "tests/support/temporary_folder.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 using testing::CapturedLog;
@@ -209,4 +209,4 @@ TEST_F(ConfiguredScenesTest, ASceneThatAClientUnloadedStaysUnloaded) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::process

@@ -7,7 +7,7 @@
 
 #include "lcmtypes/wire/layout.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 status_t status_of(const ReloadRecord& record) {
@@ -49,4 +49,4 @@ TEST(ReloadRecord, CutsALongReasonBetweenCharacters) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::process

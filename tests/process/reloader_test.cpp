@@ -15,7 +15,7 @@
 #include "tests/support/slow_mesh.h"
 #include "tests/support/temporary_folder.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 using ::testing::HasSubstr;
@@ -69,10 +69,10 @@ class ReloaderTest : public ::testing::Test {
 TEST_F(ReloaderTest, TakesOverScenesAndLogLevel) {
   DaemonOptions next = running_;
   next.scenes = {scene_of("hall")};
-  next.log_level = LogLevel::kDebug;
+  next.log_level = service::LogLevel::kDebug;
   const std::string said = reload([&] { return ParsedOptions{next, {}, {}}; });
   EXPECT_THAT(said, HasSubstr("info reloaded setting setting=log.level value=debug"));
-  EXPECT_EQ(log_.log()->level(), LogLevel::kDebug);
+  EXPECT_EQ(log_.log()->level(), service::LogLevel::kDebug);
   EXPECT_NE(store_.find("hall"), nullptr);
   EXPECT_EQ(store_.find("room"), nullptr);
 }
@@ -92,7 +92,7 @@ TEST_F(ReloaderTest, ReadsAWatchedFileAgainWhenItChanges) {
   EXPECT_EQ(store_.find("room")->index.size(), 2U);
   EXPECT_EQ(store_.find("room")->revision, 2U);
   DaemonOptions next = running_;
-  next.log_level = LogLevel::kDebug;
+  next.log_level = service::LogLevel::kDebug;
   EXPECT_THAT(reload([&] {
                 return ParsedOptions{next, {}, {}};
               }),
@@ -169,7 +169,7 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
   EXPECT_NE(store_.find("room"), nullptr);
 
   DaemonOptions next = running_;
-  next.log_level = LogLevel::kError;
+  next.log_level = service::LogLevel::kError;
   next.scenes = {scene_of("hall")};
   next.scenes.back().file = "/nowhere.obj";
   EXPECT_THAT(reload([&] {
@@ -178,7 +178,7 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
               HasSubstr("not all scenes could be taken over"));
   EXPECT_EQ(status().failed_reloads, 2);
   EXPECT_THAT(status().failed_reload, HasSubstr("scene 'hall': "));
-  EXPECT_EQ(log_.log()->level(), LogLevel::kInfo);
+  EXPECT_EQ(log_.log()->level(), service::LogLevel::kInfo);
   EXPECT_NE(store_.find("room"), nullptr);
 
   EXPECT_THAT(reload([]() -> ParsedOptions { throw std::runtime_error("boo"); }),
@@ -195,4 +195,4 @@ TEST_F(ReloaderTest, KeepsWhatItHasIfTheConfigurationIsBad) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::process

@@ -11,7 +11,7 @@
 #include "tests/support/notify_socket.h"
 #include "tests/support/temporary_folder.h"
 
-namespace camway::service {
+namespace camway::process {
 namespace {
 
 using namespace std::chrono_literals;
@@ -95,4 +95,4 @@ TEST(ServiceManager, HeedsTheEnvironmentThatIsMeantForIt) {
 }
 
 }  // namespace
-}  // namespace camway::service
+}  // namespace camway::process

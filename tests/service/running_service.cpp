@@ -85,7 +85,7 @@ RunningService::~RunningService() {
 }
 
 void RunningService::send(const plan_request_t& request) {
-  for (service::Bytes& page : service::encode_pages(request)) {
+  for (service::Bytes& page : wire::encode_pages(request)) {
     send_on(channels.plan_request(), std::move(page));
   }
 }
@@ -97,7 +97,7 @@ void RunningService::send_on(const std::string& channel, service::Bytes bytes) {
 std::optional<plan_response_t> RunningService::answer_to(const plan_request_t& request,
                                                          std::size_t skip_pages) {
   const std::string channel = channels.plan_response(request.client_id);
-  service::PageAssembly<plan_response_t> assembly;
+  messages::PageAssembly<plan_response_t> assembly;
   for (std::size_t seen = skip_pages;; ++seen) {
     const std::optional<service::Bytes> bytes = transport.message_on(channel, seen);
     if (!bytes) return std::nullopt;
@@ -124,7 +124,7 @@ service::RunOutcome RunningService::wait_for_end() {
 
 plan_request_t request_with(std::int64_t request_id, std::size_t keyframes) {
   Random random(kSeed + static_cast<std::uint64_t>(request_id));
-  return service::to_wire(sample_request(keyframes, random), {"tester", request_id, 0});
+  return messages::to_wire(sample_request(keyframes, random), {"tester", request_id, 0});
 }
 
 plan_request_t request_of(const std::string& client, std::int64_t request_id) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/scene_object.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "tests/support/random.h"

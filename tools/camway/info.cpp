@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "tools/camway/common/commands.h"

@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/bounds_text.h"
+#include "daemon/process/settings/bounds_text.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
@@ -69,7 +69,7 @@ using Flags = std::shared_ptr<SceneCommandFlags>;
 /// Returns the box that no body may leave in the scene.
 std::string bounds_note(const SceneInfo& scene) {
   const geometry::Bounds bounds = from_client_bounds(scene.body_bounds);
-  return bounds.any() ? ", bodies within " + service::bounds_text(bounds) : std::string();
+  return bounds.any() ? ", bodies within " + process::bounds_text(bounds) : std::string();
 }
 
 void print_scene(const SceneInfo& scene) {
@@ -233,7 +233,7 @@ ExitCode run_load(const SceneCommandFlags& flags) {
   if (!mesh) return ExitCode::kInvalidInput;
   Bounds bounds;
   if (!flags.bounds.empty()) {
-    const service::ParsedBounds parsed = service::parse_bounds(flags.bounds);
+    const process::ParsedBounds parsed = process::parse_bounds(flags.bounds);
     if (!parsed.bounds) {
       print_error("--bounds: " + parsed.error);
       return ExitCode::kInvalidInput;
@@ -461,7 +461,7 @@ void add_load(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
       ->add_option("--bounds", flags->bounds,
                    "What no body may leave in it, whatever a request says, metres; a number that "
                    "is left out is no limit, as in -3..3/0..2.6/.. [no limits]")
-      ->type_name(service::kBoundsForm);
+      ->type_name(process::kBoundsForm);
   command->callback([flags, &exit_code] { exit_code = run_load(*flags); });
 }
 

@@ -18,7 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/bounds_text.h"
+#include "daemon/process/settings/bounds_text.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
@@ -56,7 +56,7 @@ OrderedJson scene_json(const SceneInfo& scene) {
           {"triangles", scene.num_triangles},
           {"bounds_min_m", scene.bounds_min_m},
           {"bounds_max_m", scene.bounds_max_m},
-          {"body_bounds", service::bounds_text(from_client_bounds(scene.body_bounds))},
+          {"body_bounds", process::bounds_text(from_client_bounds(scene.body_bounds))},
           {"occupancy_resolution_m", scene.occupancy_resolution_m}};
 }
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/import/import.h"
 #include "tools/json/json_document.h"
 

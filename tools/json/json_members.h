@@ -15,7 +15,7 @@
 
 #include "daemon/base/named_enum.h"
 #include "daemon/collision/obstacles.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
 #include "tools/json/json_options.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 
 namespace camway::tools {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {

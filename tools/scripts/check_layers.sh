@@ -88,8 +88,8 @@ LC_ALL=C exec awk '
       fault("FCL, Embree and CGAL are for tests and benchmarks")
     } else if (file ~ /^sodium/ && FILENAME != "lcmtypes/wire/auth/message_keys.cpp" && here != "tests") {
       fault("libsodium is for lcmtypes/wire/auth/message_keys.cpp")
-    } else if (file == "microhttpd.h" && FILENAME != "daemon/process/http_page.cpp") {
-      fault("libmicrohttpd is for daemon/process/http_page.cpp")
+    } else if (file == "microhttpd.h" && FILENAME != "daemon/process/metrics/http_page.cpp") {
+      fault("libmicrohttpd is for daemon/process/metrics/http_page.cpp")
     } else if (file ~ /^spdlog\// && FILENAME != "daemon/service/log/log.cpp") {
       fault("spdlog is for daemon/service/log/log.cpp")
     } else {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 
 namespace camway::tools {
 

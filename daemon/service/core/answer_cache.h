@@ -9,7 +9,7 @@
 
 #include <camway/plan_request_t.hpp>
 
-#include "daemon/messages/answer_pages.h"
+#include "daemon/service/transport/answer_pages.h"
 
 namespace camway::service {
 

@@ -17,8 +17,8 @@ std::int64_t utime_now() {
   return std::chrono::duration_cast<std::chrono::microseconds>(since_1970).count();
 }
 
-Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store,
-           CoreConfig core_config, std::shared_ptr<Log> service_log)
+Core::Core(Transport& inner_transport, const scene::SceneStore& scene_store, CoreConfig core_config,
+           std::shared_ptr<Log> service_log)
     : config(std::move(core_config)),
       channels{config.prefix},
       scenes(scene_store),
@@ -61,9 +61,10 @@ std::string Core::refusal_text(Refusal why) const {
 
 bool Core::note_malformed(std::string_view channel, std::size_t size, std::string_view reason) {
   ++counters.malformed;
-  limited_log.malformed.write(
-      "malformed message",
-      {{"channel", channel}, {"bytes", size}, {"reason", clipped(reason, wire::kMaxTextBytes)}});
+  limited_log.malformed.write("malformed message",
+                              {{"channel", channel},
+                               {"bytes", size},
+                               {"reason", messages::clipped(reason, wire::kMaxTextBytes)}});
   return malformed_answers.take(TokenBucket::Clock::now());
 }
 
@@ -73,7 +74,7 @@ void Core::report_unanswerable(std::string_view channel, std::span<const std::ui
   error.utime = utime_now();
   error.channel = channel;
   error.size_bytes = static_cast<std::int64_t>(message.size());
-  error.message = clipped(reason, wire::kMaxTextBytes);
+  error.message = messages::clipped(reason, wire::kMaxTextBytes);
   outbox.add(channels.error(), std::make_shared<const std::vector<Bytes>>(1, wire::encode(error)),
              {}, Outbox::Kind::kRefusal);
 }

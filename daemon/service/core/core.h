@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "daemon/base/deadline.h"
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "daemon/service/core/config.h"

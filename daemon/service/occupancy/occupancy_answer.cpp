@@ -157,7 +157,7 @@ occupancy_response_t plain_occupancy_answer(const occupancy_request_t& request, 
   answer.client_id = request.client_id;
   answer.request_id = request.request_id;
   answer.status = status;
-  answer.message = clipped(message, wire::kMaxTextBytes);
+  answer.message = messages::clipped(message, wire::kMaxTextBytes);
   answer.scene = request.scene;
   return answer;
 }

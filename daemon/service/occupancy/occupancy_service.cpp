@@ -109,7 +109,7 @@ void OccupancyService::begin(const Request& request,
                              std::shared_ptr<const scene::Snapshot> snapshot) {
   const std::stop_source stop;
   flights_.insert_or_assign(key_of(*request), Flight{request, stop});
-  const double deadline_s = deadline_of(request->deadline_s, deadline_);
+  const double deadline_s = messages::deadline_of(request->deadline_s, deadline_);
   const auto deadline = base::Deadline::after_s(deadline_s).watched(stop.get_token(), nullptr);
   Job work;
   work.client = request->client_id;
@@ -152,7 +152,7 @@ void OccupancyService::send(occupancy_response_t answer) {
                                     {{"client", answer.client_id},
                                      {"request", answer.request_id},
                                      {"scene", answer.scene},
-                                     {"status", status_name(answer.status)},
+                                     {"status", messages::status_name(answer.status)},
                                      {"queries", queries_of(answer)},
                                      {"message", answer.message}});
   const bool was_asked_of_a_map = answer.status == occupancy_response_t::STATUS_OK;

@@ -11,9 +11,9 @@
 #include <camway/occupancy_response_t.hpp>
 
 #include "daemon/base/deadline.h"
-#include "daemon/messages/answer_pages.h"
 #include "daemon/messages/convert.h"
 #include "daemon/service/core/core.h"
+#include "daemon/service/transport/answer_pages.h"
 
 namespace camway::service {
 
@@ -25,7 +25,8 @@ namespace camway::service {
 class OccupancyService {
  public:
   /// `core` must outlive the service; `deadline` applies to batches.
-  OccupancyService(Core& core, const DeadlineLimits& deadline) : core_(core), deadline_(deadline) {}
+  OccupancyService(Core& core, const messages::DeadlineLimits& deadline)
+      : core_(core), deadline_(deadline) {}
 
   /// Handles a message on the occupancy request channel. Throws only if memory runs out.
   void on_message(std::span<const std::uint8_t> message);
@@ -55,7 +56,7 @@ class OccupancyService {
   void send(occupancy_response_t answer);
 
   Core& core_;
-  const DeadlineLimits deadline_;
+  const messages::DeadlineLimits deadline_;
   std::map<RequestKey, Flight> flights_;
 };
 

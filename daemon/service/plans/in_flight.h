@@ -13,7 +13,7 @@
 #include <camway/plan_progress_t.hpp>
 
 #include "daemon/base/deadline.h"
-#include "daemon/messages/answer_pages.h"
+#include "daemon/service/transport/answer_pages.h"
 
 namespace camway::service {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "daemon/planning/quaternion_order.h"
-#include "daemon/planning/witness_names.h"
+#include "daemon/planning/request/quaternion_order.h"
+#include "daemon/planning/result/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
 
 namespace camway::service {
@@ -41,8 +41,8 @@ std::shared_ptr<const planning::WatchedPath> watchable_path(const planning::Plan
 
 }  // namespace
 
-AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
-  AnswerHeader header;
+messages::AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot) {
+  messages::AnswerHeader header;
   header.ids = {request.client_id, request.request_id, utime_now()};
   header.scene = request.scene;
   if (snapshot != nullptr) {
@@ -53,45 +53,46 @@ AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* sna
 }
 
 Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                   const plan_request_t& wire, const DeadlineLimits& limits,
+                   const plan_request_t& wire, const messages::DeadlineLimits& limits,
                    const base::Deadline& deadline) {
   std::string error;
   try {
-    const ConvertedRequest converted = from_wire(wire, limits);
+    const messages::ConvertedRequest converted = messages::from_wire(wire, limits);
     if (!converted.request) {
-      return {plain_answer(plan_response_t::STATUS_INVALID, converted.error,
-                           header_of(wire, &snapshot)),
+      return {messages::plain_answer(plan_response_t::STATUS_INVALID, converted.error,
+                                     header_of(wire, &snapshot)),
               nullptr};
     }
     planning::PlanResult result = planner(snapshot, *converted.request, deadline);
     planning::name_witnesses(snapshot.mesh, *converted.request, result);
     append_warnings(snapshot.report, *converted.request, result);
-    return {to_wire(result, header_of(wire, &snapshot)),
+    return {messages::to_wire(result, header_of(wire, &snapshot)),
             wire.watch_lease_s > 0.0 ? watchable_path(*converted.request, result) : nullptr};
   } catch (const std::exception& exception) {
     error = exception.what();
   } catch (...) {
     error = "unknown exception";
   }
-  return {plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
-                       header_of(wire, &snapshot)),
+  return {messages::plain_answer(plan_response_t::STATUS_INTERNAL_ERROR, "internal error: " + error,
+                                 header_of(wire, &snapshot)),
           nullptr};
 }
 
 Pages encode_answer(plan_response_t& answer, int most_pages) {
-  const std::size_t pages = count_pages(answer);
+  const std::size_t pages = wire::count_pages(answer);
   if (pages > static_cast<std::size_t>(most_pages)) {
-    const AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
-                              answer.scene,
-                              answer.scene_revision,
-                              answer.scene_digest};
-    answer = plain_answer(plan_response_t::STATUS_LIMIT,
-                          fmt::format("the answer takes {} pages, more than the {} allowed "
-                                      "(queue.answer_pages); ask for parts of the path",
-                                      pages, most_pages),
-                          header);
+    const messages::AnswerHeader header{{answer.client_id, answer.request_id, answer.utime},
+                                        answer.scene,
+                                        answer.scene_revision,
+                                        answer.scene_digest};
+    answer =
+        messages::plain_answer(plan_response_t::STATUS_LIMIT,
+                               fmt::format("the answer takes {} pages, more than the {} allowed "
+                                           "(queue.answer_pages); ask for parts of the path",
+                                           pages, most_pages),
+                               header);
   }
-  return std::make_shared<const std::vector<Bytes>>(encode_pages(answer));
+  return std::make_shared<const std::vector<Bytes>>(wire::encode_pages(answer));
 }
 
 }  // namespace camway::service

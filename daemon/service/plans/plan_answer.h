@@ -7,18 +7,18 @@
 #include <camway/plan_response_t.hpp>
 
 #include "daemon/base/deadline.h"
-#include "daemon/messages/answer_pages.h"
 #include "daemon/messages/convert.h"
 #include "daemon/planning/watched_path.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "daemon/service/core/core.h"
+#include "daemon/service/transport/answer_pages.h"
 
 /// From a complete request to the messages of its answer. Functions without state.
 /// Thread-safe.
 namespace camway::service {
 
 /// Returns the header of an answer; with a null `snapshot`, of one that concerns no scene.
-AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
+messages::AnswerHeader header_of(const plan_request_t& request, const scene::Snapshot* snapshot);
 
 /// An answer, and its path for watching. The path is null unless the request asks for a watch and
 /// the answer has a proved path.
@@ -30,7 +30,7 @@ struct Answered {
 /// Returns the answer of `planner`. Does not throw: an exception of the planner is an internal
 /// error.
 Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
-                   const plan_request_t& wire, const DeadlineLimits& limits,
+                   const plan_request_t& wire, const messages::DeadlineLimits& limits,
                    const base::Deadline& deadline);
 
 /// Encodes `answer`. If it has more than `most_pages`, replaces it by an answer that says so.

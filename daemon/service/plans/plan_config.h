@@ -5,7 +5,7 @@
 
 #include "daemon/messages/convert.h"
 #include "daemon/messages/pages.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::service {
@@ -16,10 +16,10 @@ struct PlanConfig {
   std::size_t request_bytes = std::size_t{256} << 20;
   /// Pages of an answer; `queue.answer_pages` [Limit: 1 <= value <= wire::kMaxResponsePages]
   int answer_pages = wire::kMaxResponsePages;
-  DeadlineLimits deadline;  ///< deadlines of plan requests
+  messages::DeadlineLimits deadline;  ///< deadlines of plan requests
   /// Keyframes of a request. [Limit: 2 <= value <= planning::kMaxKeyframes]
   std::size_t keyframes = planning::kMaxKeyframes;
-  PageAssembly<plan_request_t>::Limits assembly;
+  messages::PageAssembly<plan_request_t>::Limits assembly;
 };
 
 }  // namespace camway::service

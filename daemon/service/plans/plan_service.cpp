@@ -93,7 +93,7 @@ void PlanService::on_request(std::span<const std::uint8_t> message) {
   // No scene or method has a name with control characters, so nothing is lost.
   page->scene = wire::printable(page->scene);
   page->method = wire::printable(page->method);
-  PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
+  messages::PageAssembly<plan_request_t>::Outcome outcome = pages_.add(std::move(*page));
   if (!outcome.error.empty()) {
     core_.on_malformed<plan_request_t>(channel, message, "plan_request_t." + outcome.error,
                                        refusing());
@@ -156,7 +156,7 @@ void PlanService::tick(Clock::time_point now) {
     core_.outbox.add(core_.channels.plan_progress(progress.client_id),
                      one_page(wire::encode(progress)));
   }
-  for (PageAssembly<plan_request_t>::Gap& gap : pages_.take_gaps(now)) {
+  for (messages::PageAssembly<plan_request_t>::Gap& gap : pages_.take_gaps(now)) {
     core_.counters.request_pages_asked_again += static_cast<std::int64_t>(gap.missing.size());
     missing_pages_t question{};
     question.client_id = gap.client_id;
@@ -225,7 +225,7 @@ void PlanService::begin(std::shared_ptr<const plan_request_t> request, const Req
     return;
   }
   bytes_ += bytes;
-  const double deadline_s = deadline_of(request->deadline_s, config_.deadline);
+  const double deadline_s = messages::deadline_of(request->deadline_s, config_.deadline);
   const Pending pending{
       key,   request,    core_.scenes.find(request->scene),
       bytes, deadline_s, in_flight_.begin(key, deadline_s, request->progress_period_s)};
@@ -275,7 +275,7 @@ void PlanService::finish(const Pending& pending, const plan_response_t& answer, 
   core_.limited_log.answers.write("answered", {{"client", pending.key.client_id},
                                                {"request", pending.key.request_id},
                                                {"scene", pending.request->scene},
-                                               {"status", status_name(answer.status)},
+                                               {"status", messages::status_name(answer.status)},
                                                {"keyframes", pending.request->keyframes.size()},
                                                {"segments", answer.segments.size()},
                                                {"collisions", answer.collisions.size()},
@@ -314,7 +314,7 @@ void PlanService::plan_improvable(Clock::time_point now) {
 }
 
 void PlanService::plan_again(const Watches::Request& watched, bool for_offer) {
-  const double deadline_s = deadline_of(watched.request->deadline_s, config_.deadline);
+  const double deadline_s = messages::deadline_of(watched.request->deadline_s, config_.deadline);
   const Replan replan{watched.key, watched.request, base::Deadline::after_s(deadline_s), for_offer};
   Job job;
   job.run = [this, replan] { run_again(replan); };
@@ -355,12 +355,13 @@ void PlanService::finish_again(const Replan& replan, const Replanned& done) {
   }
   --replanning_;
   if (!watches_.planned(replan.key)) return;
-  core_.limited_log.answers.write("answered again", {{"client", replan.key.client_id},
-                                                     {"request", replan.key.request_id},
-                                                     {"scene", answer.scene},
-                                                     {"revision", answer.scene_revision},
-                                                     {"status", status_name(answer.status)},
-                                                     {"message", answer.message}});
+  core_.limited_log.answers.write("answered again",
+                                  {{"client", replan.key.client_id},
+                                   {"request", replan.key.request_id},
+                                   {"scene", answer.scene},
+                                   {"revision", answer.scene_revision},
+                                   {"status", messages::status_name(answer.status)},
+                                   {"message", answer.message}});
   cache_.replace(replan.key, digest_of(*replan.request), done.pages);
   send(replan.key, done.pages);
   if (watched.path) {
@@ -391,7 +392,7 @@ void PlanService::give_up(const Replan& replan) {
 void PlanService::finish_plainly(const Pending& pending, std::int32_t status,
                                  std::string_view message) {
   plan_response_t answer =
-      plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
+      messages::plain_answer(status, message, header_of(*pending.request, pending.snapshot.get()));
   Pages pages = encode_answer(answer, config_.answer_pages);
   finish(pending, answer, std::move(pages));
 }
@@ -424,7 +425,7 @@ void PlanService::refuse(const plan_request_t& request, const std::string& messa
 
 void PlanService::answer_uncached(const plan_request_t& request, std::int32_t status,
                                   std::string_view message) {
-  plan_response_t answer = plain_answer(status, message, header_of(request, nullptr));
+  plan_response_t answer = messages::plain_answer(status, message, header_of(request, nullptr));
   core_.counters.plan_answers.add(status);
   send({request.client_id, request.request_id}, encode_answer(answer, config_.answer_pages),
        Outbox::Kind::kRefusal);

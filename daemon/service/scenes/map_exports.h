@@ -10,7 +10,7 @@
 
 #include <camway/map_page_t.hpp>
 
-#include "daemon/messages/answer_pages.h"
+#include "daemon/service/transport/answer_pages.h"
 
 namespace camway::service {
 

@@ -12,7 +12,7 @@ namespace camway::service {
 /// Configuration of scene requests.
 struct SceneConfig {
   /// Deadlines of changes of scenes: generous, since a large scene takes its time.
-  DeadlineLimits change_deadline{.default_s = 600.0, .max_s = 3600.0};
+  messages::DeadlineLimits change_deadline{.default_s = 600.0, .max_s = 3600.0};
   SceneRules scene_rules;
   Uploads::Limits uploads;     ///< `scenes.uploads` and others
   MapExports::Limits exports;  ///< `scenes.exports` and others

@@ -120,7 +120,7 @@ void SceneService::take_change(const Request& request) {
 void SceneService::begin(const Request& request) {
   const RequestKey key = key_of(*request);
   const std::chrono::duration<double> allowed(
-      deadline_of(request->deadline_s, config_.change_deadline));
+      messages::deadline_of(request->deadline_s, config_.change_deadline));
   const Pending pending{
       request, {}, Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed)};
   unanswered_.insert_or_assign(key, pending);
@@ -202,14 +202,15 @@ SceneService::Clock::time_point SceneService::next_tick() const {
 }
 
 void SceneService::finish(const scene_request_t& request, scene_response_t answer) {
-  core_.limited_log.scenes.write("answered scene request", {{"client", request.client_id},
-                                                            {"request", request.request_id},
-                                                            {"operation", operation_name(request)},
-                                                            {"scene", request.scene},
-                                                            {"object", request.object},
-                                                            {"status", status_name(answer.status)},
-                                                            {"revision", answer.scene.revision},
-                                                            {"message", answer.message}});
+  core_.limited_log.scenes.write("answered scene request",
+                                 {{"client", request.client_id},
+                                  {"request", request.request_id},
+                                  {"operation", operation_name(request)},
+                                  {"scene", request.scene},
+                                  {"object", request.object},
+                                  {"status", messages::status_name(answer.status)},
+                                  {"revision", answer.scene.revision},
+                                  {"message", answer.message}});
   const bool changed = !only_looks(request) && answer.status == scene_response_t::STATUS_OK;
   if (changed) ++core_.counters.scene_changes;
   Pages pages = send(std::move(answer));
@@ -263,7 +264,7 @@ void SceneService::on_upload(std::span<const std::uint8_t> message) {
   Uploads::Taken taken = uploads_.take(*page, Uploads::Clock::now());
   if (!taken.answer) return;
   taken.status.utime = utime_now();
-  taken.status.message = clipped(taken.status.message, wire::kMaxTextBytes);
+  taken.status.message = messages::clipped(taken.status.message, wire::kMaxTextBytes);
   core_.outbox.add(core_.channels.upload_status(taken.status.client_id),
                    std::make_shared<const std::vector<Bytes>>(1, wire::encode(taken.status)));
 }

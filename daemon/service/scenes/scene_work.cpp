@@ -13,7 +13,7 @@
 #include "daemon/messages/convert.h"
 #include "daemon/messages/scene.h"
 #include "daemon/messages/scene_names.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "daemon/scene/voxels/map_scan.h"
 #include "daemon/service/scenes/scene_content.h"
@@ -138,20 +138,21 @@ class SceneOperation {
     Answer answer = plain_scene_answer(request_, status_of(result.fault),
                                        result.snapshot ? message : result.error);
     if (!result.snapshot) return answer;
-    answer.scene = scene_info_of(*result.snapshot);
+    answer.scene = messages::scene_info_of(*result.snapshot);
     answer.total = static_cast<std::int32_t>(result.snapshot->objects.size());
     if (const scene::SceneObject* object = result.snapshot->find(request_.object)) {
-      answer.objects = {object_on_wire(*object)};
+      answer.objects = {messages::object_on_wire(*object)};
       answer.num_objects = 1;
     }
     return answer;
   }
 
   Answer load() {
-    if (!is_scene_name(request_.scene)) return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
+    if (!messages::is_scene_name(request_.scene))
+      return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
     scene::ObjectOptions options;
     options.mirror_voxels = rules_.mirror_voxels;
-    options.bounds = bounds_of(request_.body_bounds);
+    options.bounds = messages::bounds_of(request_.body_bounds);
     if (const auto fault = geometry::fault_in(options.bounds))
       return invalid("body_bounds." + fault->field + ": " + fault->reason);
     if (request_.occupancy_resolution_m != 0.0) {
@@ -160,7 +161,7 @@ class SceneOperation {
     if (request_.file.empty() && request_.upload_bytes == 0) {
       if (options.occupancy_resolution_m &&
           !scene::VoxelGrid::valid_resolution(*options.occupancy_resolution_m)) {
-        return invalid(std::string("occupancy_resolution_m: ") + kResolutionRule);
+        return invalid(std::string("occupancy_resolution_m: ") + messages::kResolutionRule);
       }
       return answer_to(
           scenes_.put(scene::assemble(request_.scene, 1, {}, options), note(""), context_.ticket),
@@ -190,8 +191,8 @@ class SceneOperation {
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(scenes.size());
     answer.num_scenes = put_list(
-        scenes, request_.first, [](const auto& scene) { return scene_info_of(*scene); }, answer,
-        answer.scenes);
+        scenes, request_.first, [](const auto& scene) { return messages::scene_info_of(*scene); },
+        answer, answer.scenes);
     return answer;
   }
 
@@ -199,12 +200,13 @@ class SceneOperation {
     const auto snapshot = scenes_.find(request_.scene);
     if (!snapshot) return unknown();
     Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
-    answer.scene = scene_info_of(*snapshot);
+    answer.scene = messages::scene_info_of(*snapshot);
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(snapshot->objects.size());
     answer.num_objects = put_list(
         snapshot->objects, request_.first,
-        [](const auto& object) { return object_on_wire(*object); }, answer, answer.objects);
+        [](const auto& object) { return messages::object_on_wire(*object); }, answer,
+        answer.objects);
     return answer;
   }
 
@@ -212,11 +214,11 @@ class SceneOperation {
     const scene::SceneStore::Kept kept = scenes_.kept(request_.scene);
     if (!kept.newest) return unknown();
     Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
-    answer.scene = scene_info_of(*kept.newest);
+    answer.scene = messages::scene_info_of(*kept.newest);
     answer.first = request_.first;
     answer.total = static_cast<std::int32_t>(kept.revisions.size());
     answer.num_changes =
-        put_list(kept.revisions, request_.first, change_on_wire, answer, answer.changes);
+        put_list(kept.revisions, request_.first, messages::change_on_wire, answer, answer.changes);
     return answer;
   }
 
@@ -225,7 +227,7 @@ class SceneOperation {
     if (request_.restore_as.empty() || request_.restore_as == request_.scene) {
       return answer_to(scenes_.restore(request_.scene, revision, note(""), context_.ticket), "");
     }
-    if (!is_scene_name(request_.restore_as)) {
+    if (!messages::is_scene_name(request_.restore_as)) {
       return invalid("restore_as: must be of [A-Za-z0-9_.-]{1,128}");
     }
     return answer_to(scenes_.restore_as(request_.scene, revision, request_.restore_as, note(""),
@@ -236,7 +238,8 @@ class SceneOperation {
   Answer put() {
     const auto snapshot = scenes_.find(request_.scene);
     if (!snapshot) return unknown();
-    if (!is_scene_name(request_.object) || request_.object.size() > wire::kMaxPutNameBytes) {
+    if (!messages::is_scene_name(request_.object) ||
+        request_.object.size() > wire::kMaxPutNameBytes) {
       return invalid("object: must be of [A-Za-z0-9_.-]{1,64}");
     }
     const std::optional<scene::ObjectKind> kind = kind_of(request_);
@@ -292,7 +295,7 @@ class SceneOperation {
     snapshot->occupancy->write_bt(out);
     const std::string_view bytes = out.view();
     Answer answer = plain_scene_answer(request_, Answer::STATUS_OK, "");
-    answer.scene = scene_info_of(*snapshot);
+    answer.scene = messages::scene_info_of(*snapshot);
     answer.map_bytes = static_cast<std::int64_t>(bytes.size());
     answer.map_checksum =
         wire::crc64(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
@@ -330,7 +333,7 @@ scene_response_t plain_scene_answer(const scene_request_t& request, std::int32_t
   answer.client_id = request.client_id;
   answer.request_id = request.request_id;
   answer.status = status;
-  answer.message = clipped(message, wire::kMaxTextBytes);
+  answer.message = messages::clipped(message, wire::kMaxTextBytes);
   return answer;
 }
 

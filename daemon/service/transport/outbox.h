@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/messages/answer_pages.h"
+#include "daemon/service/transport/answer_pages.h"
 #include "daemon/service/transport/transport.h"
 
 namespace camway::service {

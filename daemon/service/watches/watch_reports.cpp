@@ -46,7 +46,7 @@ void WatchReports::add(const path_state_t& state,
 }
 
 void WatchReports::explain(std::string_view message) {
-  report_.message = clipped(message, wire::kMaxTextBytes);
+  report_.message = messages::clipped(message, wire::kMaxTextBytes);
 }
 
 void WatchReports::finish() {

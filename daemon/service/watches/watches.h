@@ -16,8 +16,8 @@
 #include <camway/watch_report_t.hpp>
 #include <camway/watch_t.hpp>
 
-#include "daemon/messages/answer_pages.h"
 #include "daemon/service/core/core.h"
+#include "daemon/service/transport/answer_pages.h"
 #include "daemon/service/watches/answer_quality.h"
 #include "daemon/service/watches/watch_checker.h"
 #include "daemon/service/watches/watch_limits.h"

@@ -101,7 +101,7 @@ TEST(AnswerCache, AnAnswerReplacesNoneOfAnotherRequest) {
 TEST(RequestDigest, IsOfContentAlone) {
   testing::Random random(testing::kSeed);
   const plan_request_t request =
-      to_wire(testing::sample_request(3, random), {"tester", 5, 1'000'000});
+      messages::to_wire(testing::sample_request(3, random), {"tester", 5, 1'000'000});
   plan_request_t resent = request;
   resent.utime = 2'000'000;
   EXPECT_EQ(digest_of(request), digest_of(resent));
@@ -124,7 +124,7 @@ TEST(RequestDigest, IsOfContentAlone) {
   changed.seed += 1;
   EXPECT_NE(digest_of(request), digest_of(changed));
   changed = request;
-  changed.body = wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
+  changed.body = messages::wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
   const RequestDigest with_ball = digest_of(changed);
   EXPECT_NE(digest_of(request), with_ball);
   changed.body.radius_m = 0.25;

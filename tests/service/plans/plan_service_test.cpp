@@ -36,12 +36,12 @@ Bytes without_time(plan_response_t answer) {
 }
 
 /// Returns the expected answer to `request` if `planner` is the echo.
-Bytes expected_echo(const plan_request_t& request, const DeadlineLimits& limits = {}) {
-  return without_time(to_wire(echo_result(*from_wire(request, limits).request),
-                              {{request.client_id, request.request_id, 0},
-                               request.scene,
-                               7,
-                               "0123456789abcdef0123456789abcdef"}));
+Bytes expected_echo(const plan_request_t& request, const messages::DeadlineLimits& limits = {}) {
+  return without_time(messages::to_wire(echo_result(*messages::from_wire(request, limits).request),
+                                        {{request.client_id, request.request_id, 0},
+                                         request.scene,
+                                         7,
+                                         "0123456789abcdef0123456789abcdef"}));
 }
 
 TEST(PlanService, AnswersARequestOnItsClientsChannel) {
@@ -66,7 +66,7 @@ TEST(PlanService, SaysBehindTheMessageWhatTheImportLeftOut) {
   daemon.send(request);
   const std::optional<plan_response_t> answer = daemon.answer_to(request);
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->message, echo_result(*from_wire(request).request).message +
+  EXPECT_EQ(answer->message, echo_result(*messages::from_wire(request).request).message +
                                  "; warning: the scene is without faces of its file: 3 with a "
                                  "coordinate that is no usable number");
 }
@@ -74,7 +74,7 @@ TEST(PlanService, SaysBehindTheMessageWhatTheImportLeftOut) {
 TEST(PlanService, LongRequestsAndAnswersTravelInPages) {
   RunningService daemon;
   const plan_request_t request = request_with(1, 3000);
-  std::vector<Bytes> pages = encode_pages(request);
+  std::vector<Bytes> pages = wire::encode_pages(request);
   ASSERT_GT(pages.size(), 3U);
   std::reverse(pages.begin(), pages.end());
   for (Bytes& page : pages) daemon.send_on(daemon.channels.plan_request(), std::move(page));
@@ -435,7 +435,7 @@ TEST(PlanService, PagesOfAnAnswerAreSentAgainAlone) {
 TEST(PlanService, AsksForPagesOfARequestThatDidNotCome) {
   RunningService daemon;
   const plan_request_t request = request_with(1, 3000);
-  const std::vector<Bytes> pages = encode_pages(request);
+  const std::vector<Bytes> pages = wire::encode_pages(request);
   ASSERT_GT(pages.size(), 3U);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     if (i != 0 && i != 2) daemon.send_on(daemon.channels.plan_request(), pages[i]);
@@ -543,7 +543,7 @@ TEST(PlanService, BodyAndClearanceReachThePlannerAndWitnessesTheClient) {
   };
   RunningService daemon({}, result_of);
   plan_request_t request = request_with(1, 2000);
-  request.body = wire_body(motion::BoxShape{{0, 0, 0}, {4, 1, 1}});
+  request.body = messages::wire_body(motion::BoxShape{{0, 0, 0}, {4, 1, 1}});
   request.clearance_m = 0.25;
   daemon.send(request);
   const std::optional<plan_response_t> answer = daemon.answer_to(request);
@@ -563,7 +563,7 @@ TEST(PlanService, AnotherBodyUnderTheSameIdIsAnotherRequest) {
   plan_request_t request = request_with(1);
   daemon.send(request);
   ASSERT_TRUE(daemon.answer_to(request));
-  request.body = wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
+  request.body = messages::wire_body(motion::SphereShape{{0, 0, 0}, 0.5});
   daemon.send(request);
   const std::optional<plan_response_t> answer = daemon.answer_to(request, 1);
   ASSERT_TRUE(answer);

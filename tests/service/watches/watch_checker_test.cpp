@@ -9,8 +9,8 @@
 #include <optional>
 #include <random>
 
-#include "daemon/planning/check.h"
 #include "daemon/planning/plan.h"
+#include "daemon/planning/stages/check.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/watched_scenes.h"

@@ -67,13 +67,13 @@ class WatchesTest : public ::testing::Test {
     request.keyframes = {{0.0, {Vec3(0, 0, 0), Quat::Identity()}},
                          {4.0, {Vec3(4, 0, 0), Quat::Identity()}}};
     request.has_times = true;
-    plan_request_t wire = to_wire(request, {"tester", id, 0});
+    plan_request_t wire = messages::to_wire(request, {"tester", id, 0});
     wire.watch_lease_s = lease_s;
     return wire;
   }
 
   void send(const plan_request_t& request) {
-    for (Bytes& page : encode_pages(request)) {
+    for (Bytes& page : wire::encode_pages(request)) {
       transport_.deliver(channels_.plan_request(), std::move(page));
     }
   }
@@ -263,7 +263,7 @@ TEST_F(WatchesTest, TheCorrectedPathIsWatchedInItsTurn) {
   const plan_response_t corrected = next_answer();
   ASSERT_EQ(corrected.status, plan_response_t::STATUS_OK) << corrected.message;
   // Where the corrected path is at its middle now.
-  const ConvertedResult result = from_wire(corrected);
+  const messages::ConvertedResult result = messages::from_wire(corrected);
   ASSERT_TRUE(result.result) << result.error;
   put(result.result->path.pose(2.0).position, 0.3);
   const auto changed = static_cast<std::int64_t>(scenes_.find("room")->revision);

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 TEST(CliReplayLog, SaysThatALogIsOfAnotherVersion) {
   std::vector<std::uint8_t> older =
-      wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0}));
+      wire::encode(messages::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0}));
   older[3] ^= 1;  // within the fingerprint
   LogBuilder log;
   log.add_event("CAMWAY_PLAN_REQUEST", older);

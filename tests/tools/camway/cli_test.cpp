@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/witness_names.h"
+#include "daemon/planning/result/witness_names.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/tools/camway/cli_runner.h"
 

@@ -24,7 +24,7 @@ TEST(ClientRequest, EveryOptionReachesTheDaemon) {
     ASSERT_EQ(pages.size(), 1U);
     const auto page = wire::decode<plan_request_t>(pages[0]);
     ASSERT_TRUE(page.message) << page.fault.text("plan_request_t");
-    const service::ConvertedRequest read = service::from_wire(*page.message);
+    const messages::ConvertedRequest read = messages::from_wire(*page.message);
     ASSERT_TRUE(read.request) << read.error;
     EXPECT_EQ(read.request->options, request.options);
   }

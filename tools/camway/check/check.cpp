@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/check.h"
+#include "daemon/planning/stages/check.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "daemon/planning/path_faults.h"
+#include "daemon/planning/result/path_faults.h"
 #include "tools/camway/check/check_report.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"

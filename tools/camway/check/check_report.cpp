@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "daemon/collision/obstacles.h"
-#include "daemon/planning/path_faults.h"
-#include "daemon/planning/witness_names.h"
+#include "daemon/planning/result/path_faults.h"
+#include "daemon/planning/result/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
 
 namespace camway::tools {

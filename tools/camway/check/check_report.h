@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/motion/body/body.h"
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tools/camway/check/path_search.h"
 

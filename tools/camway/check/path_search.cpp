@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "daemon/planning/check.h"
-#include "daemon/planning/path_faults.h"
+#include "daemon/planning/result/path_faults.h"
+#include "daemon/planning/stages/check.h"
 
 namespace camway::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "daemon/collision/detect.h"
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/path.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/result/result.h"
 
 namespace camway::tools {
 

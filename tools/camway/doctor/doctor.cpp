@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/options.h"
+#include "daemon/process/settings/options.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/key_file.h"
@@ -75,7 +75,7 @@ ExitCode run_doctor(DoctorFlags flags) {
 
 void add_doctor_command(CLI::App& app, ExitCode& exit_code) {
   const auto flags = std::make_shared<DoctorFlags>();
-  flags->questions.url = service::default_options().lcm_url;
+  flags->questions.url = process::default_options().lcm_url;
   CLI::App* command = app.add_subcommand(
       "doctor",
       "Say what keeps Camway from working on this machine, and the command that mends it");

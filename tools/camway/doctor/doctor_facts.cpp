@@ -20,7 +20,7 @@
 #include <camway/status_t.hpp>
 #include <lcm/lcm-cpp.hpp>
 
-#include "daemon/process/config_file.h"
+#include "daemon/process/settings/config_file.h"
 #include "daemon/version/version.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
@@ -195,10 +195,10 @@ void listen_for_daemon(const DoctorQuestions& questions, HostFacts& facts) {
 void look_at_config(const std::string& file, HostFacts& facts) {
   facts.config_file = file;
   if (file.empty()) return;
-  service::DaemonOptions options = service::default_options();
-  facts.config_faults = service::read_config_file(file, options);
+  process::DaemonOptions options = process::default_options();
+  facts.config_faults = process::read_config_file(file, options);
   if (!facts.config_faults.empty()) return;
-  for (const service::SceneArgument& scene : options.scenes) {
+  for (const process::SceneArgument& scene : options.scenes) {
     std::error_code ignored;
     facts.scene_files.push_back({scene.name, scene.file.string(),
                                  std::filesystem::exists(scene.file, ignored),

@@ -11,7 +11,7 @@
 
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/planning/plan.h"
-#include "daemon/process/scene_argument.h"
+#include "daemon/process/settings/scene_argument.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
@@ -53,7 +53,7 @@ struct LoadPlan {
 /// Returns the questions of the command line with their local answers. On an error, prints it and
 /// returns none.
 LoadPlan make_questions(const LoadFlags& flags) {
-  const auto parsed = service::parse_scene_argument(flags.scene);
+  const auto parsed = process::parse_scene_argument(flags.scene);
   if (!parsed.scene) {
     print_error("--scene " + flags.scene + ": " + parsed.error);
     return {};
@@ -137,7 +137,7 @@ std::string summary(const LoadFlags& flags, const LoadResult& result) {
 }
 
 ExitCode load_occupancy(const LoadFlags& flags) {
-  const auto parsed = service::parse_scene_argument(flags.scene);
+  const auto parsed = process::parse_scene_argument(flags.scene);
   if (!parsed.scene) return invalid_input("--scene " + flags.scene + ": " + parsed.error);
   if (!parsed.scene->options.occupancy_resolution_m) {
     return invalid_input("--scene " + flags.scene + ": needs ,occupancy=RESOLUTION_M");
@@ -245,7 +245,7 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--scene", flags->scene,
                    "The scene that the daemon holds by that name, for planning the same here; as "
                    "camwayd's")
-      ->type_name(service::kSceneArgumentForm)
+      ->type_name(process::kSceneArgumentForm)
       ->required();
   command->add_option("--request", flags->requests, "Request files, asked in turn")
       ->type_name("FILE");

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/planning/result.h"
+#include "daemon/planning/result/result.h"
 
 namespace camway::tools {
 

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/planning/request.h"
+#include "daemon/planning/request/request.h"
 
 namespace camway::tools {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/planning/quaternion_order.h"
-#include "daemon/planning/witness_names.h"
+#include "daemon/planning/request/quaternion_order.h"
+#include "daemon/planning/result/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "daemon/planning/result.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::tools {

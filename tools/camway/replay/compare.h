@@ -4,7 +4,7 @@
 #include <string>
 
 #include "daemon/motion/body/body.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/result/result.h"
 
 namespace camway::tools {
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "daemon/cli_support/flag_checks.h"
-#include "daemon/process/scene_argument.h"
+#include "daemon/process/settings/scene_argument.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "lcmtypes/wire/channels.h"
 #include "tools/camway/common/commands.h"
@@ -40,7 +40,7 @@ ExitCode invalid_input(std::string_view message) {
 std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
   Scenes scenes;
   for (const std::string& argument : arguments) {
-    const auto parsed = service::parse_scene_argument(argument);
+    const auto parsed = process::parse_scene_argument(argument);
     if (!parsed.scene) {
       print_error("--scene " + argument + ": " + parsed.error);
       return std::nullopt;
@@ -157,7 +157,7 @@ void add_offline_flags(CLI::App& command, ReplayFlags& flags) {
       .add_option("--scene", flags.scenes,
                   "A scene by the name that the requests use; may stand several times; as "
                   "camwayd's")
-      ->type_name(service::kSceneArgumentForm)
+      ->type_name(process::kSceneArgumentForm)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command

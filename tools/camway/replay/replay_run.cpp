@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/witness_names.h"
+#include "daemon/planning/result/witness_names.h"
 
 namespace camway::tools {
 namespace {

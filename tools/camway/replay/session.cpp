@@ -50,7 +50,7 @@ class SessionBuilder {
 
  private:
   template <typename Message, typename UseWhole>
-  void add_page(const LogEvent& event, service::PageAssembly<Message>& pages, UseWhole use_whole) {
+  void add_page(const LogEvent& event, messages::PageAssembly<Message>& pages, UseWhole use_whole) {
     wire::Decoded<Message> decoded = wire::decode<Message>(event.data);
     if (!decoded.message) {
       ++session_.malformed;
@@ -72,7 +72,7 @@ class SessionBuilder {
     recorded.ids = {whole.client_id, whole.request_id, whole.utime};
     recorded.scene = whole.scene;
     recorded.sent = 1;
-    service::ConvertedRequest converted = service::from_wire(whole);
+    messages::ConvertedRequest converted = messages::from_wire(whole);
     recorded.request = std::move(converted.request);
     recorded.error = std::move(converted.error);
     whole.utime = 0;  // does not count as content
@@ -90,9 +90,9 @@ class SessionBuilder {
   }
 
   void add_answer(const plan_response_t& whole) {
-    service::ConvertedResult converted = service::from_wire(whole);
+    messages::ConvertedResult converted = messages::from_wire(whole);
     RecordedAnswer answer;
-    answer.status = service::status_name(whole.status);
+    answer.status = messages::status_name(whole.status);
     answer.result = std::move(converted.result);
     answer.scene_digest = whole.scene_digest;
     const auto [position, is_new] = answers_.try_emplace({whole.client_id, whole.request_id});
@@ -102,8 +102,8 @@ class SessionBuilder {
   const wire::MessageKeys* keys_;
   std::string request_channel_;
   std::string response_channels_;
-  service::PageAssembly<plan_request_t> request_pages_;
-  service::PageAssembly<plan_response_t> response_pages_;
+  messages::PageAssembly<plan_request_t> request_pages_;
+  messages::PageAssembly<plan_response_t> response_pages_;
   std::map<Key, std::size_t> index_;
   std::vector<service::Bytes> contents_;
   std::map<Key, RecordedAnswer> answers_;

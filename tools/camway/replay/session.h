@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "daemon/messages/convert.h"
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "lcmtypes/wire/auth/message_keys.h"
 #include "tools/camway/replay/event_log.h"
 
@@ -25,7 +25,7 @@ struct RecordedAnswer {
 
 /// A request of a log with its answer. Repetitions under one id are one request.
 struct RecordedRequest {
-  service::RequestIds ids;
+  messages::RequestIds ids;
   std::string scene;
   /// Unset if the request has something that this version does not know, which `error` names.
   std::optional<planning::PlanRequest> request;

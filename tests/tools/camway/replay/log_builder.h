@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "daemon/messages/convert.h"
-#include "daemon/planning/request.h"
-#include "daemon/planning/result.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
 #include "daemon/scene/mesh/mesh.h"
 
 namespace camway::tools {
@@ -21,9 +21,9 @@ class LogBuilder {
   void add_event(const std::string& channel, const std::vector<std::uint8_t>& data);
 
   /// Adds all pages of a request.
-  void add_request(const planning::PlanRequest& request, const service::RequestIds& ids,
+  void add_request(const planning::PlanRequest& request, const messages::RequestIds& ids,
                    const std::string& prefix = "CAMWAY");
-  void add_answer(const planning::PlanResult& result, const service::AnswerHeader& header,
+  void add_answer(const planning::PlanResult& result, const messages::AnswerHeader& header,
                   const std::string& prefix = "CAMWAY");
 
   [[nodiscard]] const std::string& bytes() const { return bytes_; }

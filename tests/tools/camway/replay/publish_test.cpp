@@ -60,9 +60,9 @@ class Listener {
     }
     const auto request = wire::decode<plan_request_t>(data);
     if (!request.message || manner_ == Manner::kIsSilent) return;
-    const service::AnswerHeader header{
+    const messages::AnswerHeader header{
         {request.message->client_id, request.message->request_id, 0}, "wall", 1, ""};
-    const auto answer = service::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header);
+    const auto answer = messages::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header);
     lcm_.publish("CAMWAY_PLAN_RESPONSE_" + request.message->client_id, &answer);
   }
 
@@ -135,7 +135,7 @@ TEST_F(Publish, EndsWithTwoWhereThereIsNothingToSend) {
 TEST_F(Publish, SaysThatNoDaemonReadsTheRequestsOfAnotherVersion) {
   Listener listener(Listener::Manner::kAnswers);
   std::vector<std::uint8_t> older =
-      wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"client", 9, 0}));
+      wire::encode(messages::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"client", 9, 0}));
   older[3] ^= 1;  // within the fingerprint
   log_.add_event("CAMWAY_PLAN_REQUEST", older);
   const CliRun run =

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "daemon/planning/plan.h"
-#include "daemon/planning/witness_names.h"
+#include "daemon/planning/result/witness_names.h"
 #include "lcmtypes/wire/check.h"
 #include "tests/tools/camway/replay/log_builder.h"
 #include "tools/camway/replay/replay_run.h"
@@ -38,7 +38,7 @@ class ReplayTest : public ::testing::Test {
     return result;
   }
 
-  service::AnswerHeader header(std::int64_t id) const {
+  messages::AnswerHeader header(std::int64_t id) const {
     return {{"client", id, 0}, "wall", 1, scenes_.at("wall")->digest};
   }
 
@@ -180,7 +180,7 @@ TEST_F(ReplayTest, CountsWhatItCannotUse) {
   log_.add_event("CAMWAY_PLAN_RESPONSE_client", std::vector<std::uint8_t>(76, 0xFF));
   log_.add_event("SOMETHING_ELSE", {4, 5});
   // An id that would name a file outside of the folder of responses.
-  plan_request_t request = service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0});
+  plan_request_t request = messages::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0});
   request.client_id = "../c";
   log_.add_event("CAMWAY_PLAN_REQUEST", wire::encode(request));
   log_.add_answer(planned(simple_request({{1, 0, 1}, {1, 0, -1}})), header(77));
@@ -198,7 +198,7 @@ TEST_F(ReplayTest, DoesNotCompareWhatHangsOnTheMachine) {
   timeout.status = Status::kTimeout;
   log_.add_request(request, {"client", 1, 0});
   log_.add_answer(timeout, header(1));
-  const auto busy = service::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header(2));
+  const auto busy = messages::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header(2));
   log_.add_request(request, {"client", 2, 0});
   log_.add_event("CAMWAY_PLAN_RESPONSE_client", wire::encode(busy));
   const auto replayed = run(session());
@@ -209,7 +209,7 @@ TEST_F(ReplayTest, DoesNotCompareWhatHangsOnTheMachine) {
 
 TEST_F(ReplayTest, TakesTheAnswerThatCameAfterOverload) {
   const PlanRequest request = simple_request({{1, 0, 1}, {1, 0, -1}});
-  const auto busy = service::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header(1));
+  const auto busy = messages::plain_answer(plan_response_t::STATUS_OVERLOADED, "busy", header(1));
   log_.add_request(request, {"client", 1, 0});
   log_.add_event("CAMWAY_PLAN_RESPONSE_client", wire::encode(busy));
   record(request, 1);
@@ -237,7 +237,7 @@ TEST_F(ReplayTest, KnowsWhichScenesItLacks) {
 
 TEST_F(ReplayTest, TellsThatTheSceneChanged) {
   const PlanRequest request = simple_request({{1, 0, 1}, {1, 0, -1}});
-  service::AnswerHeader other = header(1);
+  messages::AnswerHeader other = header(1);
   other.scene_digest = "0123456789abcdef";
   log_.add_request(request, {"client", 1, 0});
   log_.add_answer(planned(request), other);
@@ -304,7 +304,7 @@ TEST_F(ReplayTest, PlansWithinTheBoundsOfTheAnswer) {
 
 TEST_F(ReplayTest, TellsALogOfAnotherVersionFromADamagedOne) {
   std::vector<std::uint8_t> older =
-      wire::encode(service::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0}));
+      wire::encode(messages::to_wire(simple_request({{1, 0, 1}, {1, 0, -1}}), {"c", 1, 0}));
   older[3] ^= 1;  // within the fingerprint
   log_.add_event("CAMWAY_PLAN_REQUEST", older);
   log_.add_event("CAMWAY_PLAN_REQUEST", {1, 2, 3});

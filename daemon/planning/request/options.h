@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "daemon/base/named_enum.h"
+#include "daemon/correction/path/constraints.h"
+#include "daemon/geometry/bounds.h"
+#include "daemon/planning/request/enum_names.h"
+#include "daemon/planning/request/field_spec.h"
+
+namespace camway::planning {
+
+/// How a colliding path is corrected.
+enum class Method {
+  kLadder,             ///< kinds of correction, cheapest first
+  kKeyframeInsertion,  ///< the paper's method: Ptacek & Johnstone 2006, section 4
+};
+
+constexpr std::array<std::string_view, 2> names_of(Method) {
+  return {"ladder", "keyframe_insertion"};
+}
+inline std::string_view to_string(Method method) { return base::name_of(method); }
+inline std::optional<Method> method_from_string(std::string_view text) {
+  return base::value_of<Method>(text);
+}
+
+/// Ends of ranges.
+inline constexpr double kMaxCoordinate_m = 1e9;  ///< doubles still resolve 0.1 micrometre there
+/// A finer tessellation takes seconds and adds nothing, since the final check does not depend on
+/// it.
+inline constexpr double kLeastChordError_m = 1e-5;
+inline constexpr double kLeastIntervalTolerance_m = 1e-9;  ///< rounding far from the origin
+inline constexpr double kMostIntervalTolerance_m = kMaxCoordinate_m;  ///< squares must not overflow
+/// Range of speeds from which times may be derived. A speed beyond it is a mistake of units.
+inline constexpr double kLeastDefaultSpeed_m_per_s = 1e-6;
+inline constexpr double kMostDefaultSpeed_m_per_s = 1e6;
+
+/// The options of a request. Every default works.
+struct PlanOptions {
+  Method method = Method::kLadder;
+  /// Planning stops after this time and answers `timeout` with the path that it has. The check of
+  /// that path may take a second more. [Limit: 0 < value] [Units: seconds]
+  double deadline_s = 10.0;
+  /// Largest distance of the tessellated swept surface from the true one.
+  /// [Limit: kLeastChordError_m <= value] [Units: metres]
+  double chord_error_m = 0.005;
+  /// The ends of collision intervals are bracketed to within this much motion of a corner.
+  /// [Limit: kLeastIntervalTolerance_m <= value <= kMostIntervalTolerance_m] [Units: metres]
+  double interval_tolerance_m = 1e-3;
+  /// Required clearance: the body collides where it is nearer to the scene than this.
+  /// [Limit: 0 <= value <= kMaxCoordinate_m] [Units: metres]
+  double clearance_m = 0.0;
+  /// Bounds that no point of the body may leave, in addition to those of the scene. `clearance_m`
+  /// does not apply to them. [Limit: finite ones are below kMaxCoordinate_m; min < max]
+  geometry::Bounds bounds = {};
+  /// Largest number of keyframes that the corrections of a request may insert. With 0 neither the
+  /// path nor, by `max_shrink`, the camera is corrected; keyframes are repaired and times moved all
+  /// the same, if the request asks for that. [Limit: 0 <= value]
+  std::int32_t max_inserted_keyframes = 2000;
+  correction::Objective objective = correction::Objective::kClosest;
+  correction::OrientationPolicy orientation;
+  correction::MotionLimits limits;
+  /// Largest share by which the near distance may be reduced where no other correction succeeds.
+  /// Cameras only. [Limit: 0 <= value < 1]
+  double max_shrink = 0.0;
+  /// Moves given keyframes that collide to the nearest free pose instead of refusing the request.
+  bool repair_keyframes = false;
+  std::uint64_t seed = 1;  ///< random seed of the searches for ways round [Limit: 1 <= value]
+  /// Speed along the chords from which times are derived; if not set,
+  /// motion::kNominalSpeed_m_per_s. Refused where keyframes have times.
+  /// [Limit: kLeastDefaultSpeed_m_per_s <= value <= kMostDefaultSpeed_m_per_s]
+  std::optional<double> default_speed_m_per_s;
+
+  bool operator==(const PlanOptions&) const = default;
+};
+
+namespace option {
+
+inline constexpr FieldSpec kMethod{
+    .name = "method",
+    .help =
+        "how a colliding path is corrected: `ladder` (move, turn, go round, whichever is proved "
+        "first) or `keyframe_insertion` (the paper's method)"};
+inline constexpr FieldSpec kDeadline{
+    .name = "deadline_s",
+    .range = {.least = 0.0, .excludes_least = true, .excludes_infinity = true},
+    .help = "seconds after which planning ends and answers `timeout` with what is proved"};
+inline constexpr FieldSpec kClearance{
+    .name = "clearance",
+    .wire = "clearance_m",
+    .range = {.least = 0.0, .most = kMaxCoordinate_m},
+    .help = "least distance between body and scene, metres; less counts as a collision"};
+inline constexpr FieldSpec kChordError{
+    .name = "chord_error_m",
+    .range = {.least = kLeastChordError_m, .excludes_infinity = true},
+    .help =
+        "only for the method `keyframe_insertion`: largest distance of the tessellated swept "
+        "surface from the true one"};
+inline constexpr FieldSpec kIntervalTolerance{
+    .name = "interval_tolerance_m",
+    .range = {.least = kLeastIntervalTolerance_m, .most = kMostIntervalTolerance_m},
+    .help =
+        "accuracy of the ends of collision intervals, as a distance: no point of the body moves "
+        "farther between the true and the reported end; for bodies below a centimetre use a "
+        "hundredth of their size"};
+inline constexpr FieldSpec kMaxInsertedKeyframes{
+    .name = "max_inserted_keyframes",
+    .range = {.least = 0.0},
+    .help = "most keyframes that corrections may insert; 0 corrects nothing and shrinks nothing"};
+inline constexpr FieldSpec kObjective{
+    .name = "objective", .help = "what corrected stretches are improved for", .has_section = true};
+inline constexpr FieldSpec kOrientation{.name = "orientation",
+                                        .unset = R"({"policy": "free"})",
+                                        .help = "what a correction may do to the orientation",
+                                        .has_section = true};
+inline constexpr FieldSpec kLimits{.name = "limits",
+                                   .unset = "none",
+                                   .help = "limits on speed, acceleration and turn rate",
+                                   .has_section = true};
+inline constexpr FieldSpec kBounds{
+    .name = "bounds",
+    .unset = "none",
+    .help = R"(`{"min": [x, y, z], "max": [x, y, z]}`: a box that no point of the body may leave)",
+    .has_section = true};
+inline constexpr FieldSpec kMaxShrink{
+    .name = "max_shrink",
+    .range = {.least = 0.0, .most = 1.0, .excludes_most = true},
+    .help =
+        "the largest share by which the near distance may shrink if nothing else helps: 0.3 allows "
+        "70 % of it. Cameras only. Above 0, half of the deadline is reserved for smaller cameras"};
+inline constexpr FieldSpec kRepairKeyframes{
+    .name = "repair_keyframes",
+    .help = "move a given keyframe that collides to the nearest free pose, instead of refusing it"};
+inline constexpr FieldSpec kSeed{.name = "seed",
+                                 .range = {.least = 1.0},
+                                 .help = "seed of the random numbers in searches for ways round"};
+inline constexpr FieldSpec kDefaultSpeed{
+    .name = "default_speed",
+    .wire = "default_speed_m_per_s",
+    .file = "default_speed_m_per_s",
+    .unit = "m/s",
+    .range = {.least = kLeastDefaultSpeed_m_per_s, .most = kMostDefaultSpeed_m_per_s},
+    .unset = "1",
+    .help = "speed between keyframes without times; refused beside times"};
+
+inline constexpr FieldSpec kCone{
+    .name = "cone",
+    .wire = "cone_rad",
+    .file = "cone_deg",
+    .range = {.least = 0.0, .most = std::numbers::pi, .excludes_least = true}};
+inline constexpr FieldSpec kMaxTurn{
+    .name = "max_turn",
+    .wire = "max_turn_rad",
+    .file = "max_turn_deg",
+    .range = {.least = 0.0, .most = std::numbers::pi},
+    .help = "largest angle by which a correction may turn the camera, in degrees"};
+
+}  // namespace option
+
+/// Calls `visit(spec, member...)` for each option, in the order of request files. Each of `options`
+/// is a struct with members of these names: `PlanOptions`, the request of the wire or that of the
+/// client. Without a struct, only the specs are visited.
+template <class Visit, class... Options>
+void visit_options(const Visit& visit, Options&... options) {
+  visit(option::kMethod, options.method...);
+  visit(option::kDeadline, options.deadline_s...);
+  visit(option::kClearance, options.clearance_m...);
+  visit(option::kChordError, options.chord_error_m...);
+  visit(option::kIntervalTolerance, options.interval_tolerance_m...);
+  visit(option::kMaxInsertedKeyframes, options.max_inserted_keyframes...);
+  visit(option::kObjective, options.objective...);
+  visit(option::kOrientation, options.orientation...);
+  visit(option::kLimits, options.limits...);
+  visit(option::kBounds, options.bounds...);
+  visit(option::kMaxShrink, options.max_shrink...);
+  visit(option::kRepairKeyframes, options.repair_keyframes...);
+  visit(option::kSeed, options.seed...);
+  visit(option::kDefaultSpeed, options.default_speed_m_per_s...);
+}
+
+/// Visits the members of an orientation policy as `visit_options` visits options.
+template <class Visit, class... Policy>
+void visit_orientation(const Visit& visit, Policy&... policy) {
+  visit(FieldSpec{.name = "policy"}, policy.rule...);
+  visit(FieldSpec{.name = "up"}, policy.up_W...);
+  visit(FieldSpec{.name = "target", .wire = "target_m"}, policy.target_W...);
+  visit(option::kCone, policy.cone_rad...);
+  visit(option::kMaxTurn, policy.max_turn_rad...);
+}
+
+/// Visits the limits of the motion. Infinity means no limit.
+template <class Visit, class... Limits>
+void visit_limits(const Visit& visit, Limits&... limits) {
+  visit(FieldSpec{.name = "speed", .wire = "speed_m_per_s", .range = kAboveZero},
+        limits.speed_m_per_s...);
+  visit(FieldSpec{.name = "acceleration", .wire = "acceleration_m_per_s2", .range = kAboveZero},
+        limits.acceleration_m_per_s2...);
+  visit(FieldSpec{.name = "turn_rate",
+                  .wire = "turn_rate_rad_per_s",
+                  .file = "turn_rate_deg",
+                  .range = kAboveZero},
+        limits.turn_rate_rad_per_s...);
+  visit(FieldSpec{.name = "retime", .wire = "may_retime"}, limits.may_retime...);
+}
+
+/// Visits the members of a camera.
+template <class Visit, class... Camera>
+void visit_camera(const Visit& visit, Camera&... camera) {
+  visit(FieldSpec{.name = "fov_x", .wire = "fov_x_rad", .file = "fov_x_deg"}, camera.fov_x_rad...);
+  visit(FieldSpec{.name = "fov_y", .wire = "fov_y_rad", .file = "fov_y_deg"}, camera.fov_y_rad...);
+  visit(FieldSpec{.name = "near", .wire = "near_m"}, camera.near_m...);
+}
+
+/// Place whose names of members are meant.
+enum class Spelling { kWire, kFile };
+
+/// Returns the path of a member of the camera or the options, with the last name as `spelling` has
+/// it: "options.limits.speed_m_per_s" for "options.limits.speed". Returns other paths as they are.
+std::string spell(std::string_view path, Spelling spelling);
+
+}  // namespace camway::planning

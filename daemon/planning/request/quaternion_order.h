@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/planning/request/request.h"
+
+namespace camway::planning {
+
+/// A camera whose roll is larger than this looks rolled: 60 degrees. [Units: radians]
+inline constexpr double kRolled_rad = 1.0471975511965976;
+/// A camera whose roll is at most this looks upright: 15 degrees. [Units: radians]
+inline constexpr double kUpright_rad = 0.2617993877991494;
+/// Roll is not defined for a camera that looks along the up axis to within this angle: 10 degrees.
+/// [Units: radians]
+inline constexpr double kLooksAlong_rad = 0.17453292519943295;
+
+/// Returns whether the quaternions seem to be written x, y, z, w and read as w, x, y, z. They do
+/// if, with y or with z as the world's up axis, every camera is rolled by more than `kRolled_rad`
+/// as read and by at most `kUpright_rad` in the other order. Roll is the angle about the viewing
+/// direction between the camera's up axis and the plane of the viewing direction and the world's up
+/// axis. Cameras that look along the up axis in either order are left out; returns false if no
+/// camera is left.
+bool looks_like_xyzw(std::span<const motion::Keyframe> keyframes);
+
+/// Returns a sentence for the sender of such a request, which names the field; nothing if
+/// `looks_like_xyzw` is false.
+std::optional<std::string> quaternion_order_warning(const PlanRequest& request);
+
+}  // namespace camway::planning

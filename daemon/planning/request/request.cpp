@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/request/request.h"
+
+#include <cmath>
+
+namespace camway::planning {
+
+bool may_shrink(const PlanRequest& request) {
+  const PlanOptions& options = request.options;
+  return options.max_shrink > 0.0 && !request.body && options.max_inserted_keyframes != 0;
+}
+
+std::string PlanRequest::name_of(std::string_view path) const {
+  return spelling ? spelling(path) : std::string(path);
+}
+
+geometry::Vec3 direction_of(const geometry::Vec3& vector) {
+  // Scaled first, so that squares neither overflow nor vanish.
+  const double largest = vector.cwiseAbs().maxCoeff();
+  if (!vector.allFinite() || largest == 0.0) return vector;
+  if (std::abs(vector.squaredNorm() - 1.0) <= kUnitLengthError) return vector;
+  const geometry::Vec3 scaled = vector / largest;
+  return scaled / scaled.norm();
+}
+
+std::string spell(std::string_view path, Spelling spelling) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string_view::npos) return std::string(path);
+  const std::string_view group = path.substr(0, dot);
+  std::string_view last = path.substr(dot + 1);
+  const auto visit = [&](const FieldSpec& spec) {
+    if (spec.name != path.substr(dot + 1)) return;
+    last = spelling == Spelling::kWire ? spec.wire_name() : spec.file_name();
+  };
+  if (group == "options") visit_options(visit);
+  if (group == "options.orientation") visit_orientation(visit);
+  if (group == "options.limits") visit_limits(visit);
+  if (group == "camera") visit_camera(visit);
+  return std::string(group) + "." + std::string(last);
+}
+
+}  // namespace camway::planning

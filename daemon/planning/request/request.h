@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/motion/body/body.h"
+#include "daemon/motion/path/keyframe.h"
+#include "daemon/planning/request/options.h"
+
+namespace camway::planning {
+
+/// Returns how the sender of a request spells the member at a path. A path consists of the names of
+/// the members of these structs, mostly without units: "camera.fov_x", "keyframes[3].time",
+/// "options.limits.speed".
+using FieldSpelling = std::function<std::string(std::string_view path)>;
+
+/// The input of planning, the same for daemon, command line and replay.
+struct PlanRequest {
+  std::string scene;  ///< id or path; not used by planning itself
+  motion::Camera camera;
+  /// The body, if it is not the near quadrilateral of `camera`.
+  std::optional<motion::BodyShape> body;
+  std::vector<motion::Keyframe> keyframes;
+  bool has_times = false;  ///< false: `keyframes[i].time_s` are ignored, and times are derived
+  PlanOptions options;
+  /// Spelling of paths in messages about the request. If empty, paths stay as they are.
+  FieldSpelling spelling = {};
+
+  /// Returns the member at `path` as the sender spells it.
+  [[nodiscard]] std::string name_of(std::string_view path) const;
+};
+
+/// Returns whether the near distance may be reduced: `max_shrink` is above 0, the body is the
+/// request's camera, and correction is on.
+bool may_shrink(const PlanRequest& request);
+
+/// Returns the unit vector in the direction of `vector`, which may have any length. A vector whose
+/// squared length is 1 within `kUnitLengthError` is returned bit for bit, and so is one that is
+/// zero or not finite, which `validate` refuses.
+geometry::Vec3 direction_of(const geometry::Vec3& vector);
+
+/// Largest difference between 1 and the computed squared length of a unit vector. With u = eps / 2:
+/// a computed squared length is off by 3 u (three squares, two sums), its root by 2.5 u, so a
+/// normalised vector is off by 3.5 u, its square by 7 u, and computing that square adds 3 u.
+inline constexpr double kUnitLengthError = 5 * 2.220446049250313e-16;
+
+/// Why a request cannot be planned at all.
+struct InvalidRequest {
+  std::string field;  ///< path of the member (`FieldSpelling`): "keyframes[3].orientation"
+  std::optional<std::size_t> keyframe;  ///< index from 0, where one keyframe is at fault
+  std::string reason;                   ///< what is wrong with the field
+  std::string message;                  ///< the field as the sender spells it, with the reason
+};
+
+/// Checks everything that can be checked without the scene: counts, finiteness, quaternion length,
+/// increasing times, camera and option ranges. Returns nothing if the request is valid.
+std::optional<InvalidRequest> validate(const PlanRequest& request);
+
+/// Largest numbers that a request may hold.
+inline constexpr std::size_t kMaxKeyframes = 100'000;
+inline constexpr double kMaxTime_s = 1e10;  ///< large enough for seconds since 1970
+/// Least difference of consecutive times, as a share of their size. A smaller one leaves too few
+/// digits for a parameter between them.
+inline constexpr double kLeastRelativeTimeStep = 1e-12;
+/// Least difference of consecutive times, as a share of the duration of the path. A smaller one
+/// needs speeds that lose all digits in later computations.
+inline constexpr double kLeastTimeStepOfPath = 1e-9;
+/// Least difference of consecutive times. With a smaller one rates, and their squares, leave the
+/// range of doubles. [Units: seconds]
+inline constexpr double kLeastTimeStep_s = 1e-9;
+/// A shorter quaternion counts as zero; its square would lose digits to underflow.
+inline constexpr double kLeastQuaternionLength = 1e-100;
+
+}  // namespace camway::planning

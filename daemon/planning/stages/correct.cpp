@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/stages/correct.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "daemon/correction/ladder/ladder.h"
+#include "daemon/paper/keyframe_insertion.h"
+#include "daemon/planning/stages/search_changes.h"
+#include "daemon/planning/stages/stage_times.h"
+
+namespace camway::planning {
+
+namespace {
+
+using motion::Keyframe;
+
+correction::LadderOptions ladder_options(const PlanRequest& request, const PreparedPlan& prepared) {
+  correction::LadderOptions options;
+  options.origin = prepared.origin;
+  options.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  options.seed = request.options.seed;
+  options.objective = request.options.objective;
+  options.orientation = request.options.orientation;
+  options.max_shrink = may_shrink(request) ? request.options.max_shrink : 0.0;
+  options.rest_s_per_piece = kSearching_s_per_piece + rest_s_per_piece(request.options);
+  return options;
+}
+
+std::optional<Infeasibility> infeasibility_of(correction::LadderResult& corrected) {
+  if (corrected.separation) {
+    return Infeasibility{corrected.separation->inside, corrected.separation->outside,
+                         std::move(corrected.separation->triangles)};
+  }
+  if (corrected.cage) {
+    return Infeasibility{corrected.cage->inside, corrected.cage->outside,
+                         std::move(corrected.cage->triangles), corrected.cage->box};
+  }
+  return std::nullopt;
+}
+
+CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision::Query& query,
+                                const PlanRequest& request, const PreparedPlan& prepared,
+                                const base::Deadline& deadline, PlanResult& result) {
+  correction::LadderResult corrected = correction::correct_by_ladder(
+      snapshot.mesh, query, result.keyframes, prepared.interpolated, result.collisions,
+      ladder_options(request, prepared), deadline.share_of_rest(kShareOfCorrection));
+  CorrectedPlan plan;
+  plan.timed_out = corrected.timed_out;
+  plan.needed_keyframes = corrected.needed_keyframes;
+  result.shut_in = std::move(corrected.shut_in);
+  result.corrections = std::move(corrected.corrections);
+  result.infeasibility = infeasibility_of(corrected);
+  // Corrections of less than the tolerance insert no keyframes, and are corrections.
+  const bool any = std::ranges::any_of(result.corrections, [](const auto& correction) {
+    return correction.kind != correction::CorrectionKind::kNone;
+  });
+  if (!any) return plan;
+  plan.is_as_interpolated = false;
+  plan.path = std::move(corrected.path);
+  result.path = plan.path->path();
+  for (const double time_s : corrected.inserted_s) {
+    result.keyframes.push_back(
+        {time_s, result.path.pose(time_s), motion::KeyframeOrigin::kInserted});
+  }
+  std::ranges::stable_sort(result.keyframes, {}, &Keyframe::time_s);
+  return plan;
+}
+
+CorrectedPlan insert_keyframes(const collision::Query& query, const PlanRequest& request,
+                               const PreparedPlan& prepared, const base::Deadline& deadline,
+                               PlanResult& result) {
+  paper::KeyframeInsertionOptions options;
+  options.sweep = {request.options.chord_error_m, query.options};
+  options.origin = prepared.origin;
+  options.max_inserted_keyframes = request.options.max_inserted_keyframes;
+  const double rest_s =
+      rest_s_per_piece(request.options) * static_cast<double>(result.path.segments().size());
+  paper::KeyframeInsertionResult corrected = paper::insert_keyframes(
+      query.obstacles.index, result.keyframes, motion::near_corners_C(request.camera), options,
+      deadline.share_of_rest(kShareOfCorrection).sooner_by_s(rest_s));
+  result.keyframes = std::move(corrected.keyframes);
+  result.path = std::move(corrected.path);
+  return {.path = {},
+          .is_as_interpolated = false,
+          .timed_out = corrected.timed_out,
+          .needed_keyframes = {}};
+}
+
+}  // namespace
+
+CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Query& query,
+                      const PlanRequest& request, const PreparedPlan& prepared,
+                      const base::Deadline& deadline, PlanResult& result) {
+  deadline.report(base::Progress::Stage::kCorrecting);
+  if (request.options.method == Method::kLadder) {
+    return correct_by_ladder(snapshot, query, request, prepared, deadline, result);
+  }
+  // The paper's method handles near quadrilaterals only, and no clearance.
+  if (!prepared.body.is_camera()) return {};
+  return insert_keyframes(query, request, prepared, deadline, result);
+}
+
+void put_back(double from_s, const PreparedPlan& prepared, CorrectedPlan& corrected,
+              PlanResult& result) {
+  std::erase_if(result.keyframes, [&](const Keyframe& keyframe) {
+    return keyframe.origin == motion::KeyframeOrigin::kInserted && keyframe.time_s >= from_s;
+  });
+  corrected.is_as_interpolated = from_s <= prepared.interpolated.begin_s();
+  if (corrected.is_as_interpolated) {
+    corrected.path.reset();
+  } else {
+    corrected.path = with_rest_of(*corrected.path, prepared.interpolated, from_s);
+  }
+  result.path = (corrected.path ? *corrected.path : prepared.interpolated).path();
+}
+
+}  // namespace camway::planning

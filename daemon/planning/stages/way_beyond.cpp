@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/stages/way_beyond.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace camway::planning {
+
+namespace {
+
+using geometry::Bounds;
+using geometry::Vec3;
+
+constexpr int kSamplesASegment = 16;  // enough for a message
+
+struct Excess {
+  std::size_t side = 0;
+  double by_m = 0.0;
+};
+
+/// Returns where samples of `path` are furthest beyond the bounds.
+Excess largest_excess(const motion::Path& path, const motion::Body& body, const Bounds& bounds) {
+  Excess largest;
+  const auto extend = [&](const Vec3& point_W) {
+    for (std::size_t side = 0; side < Bounds::kSides; ++side) {
+      const double by_m = body.ball_radius_m() - bounds.depth_m(side, point_W);
+      if (by_m > largest.by_m) largest = {side, by_m};
+    }
+  };
+  for (const motion::Segment& segment : path.segments()) {
+    for (int i = 0; i <= kSamplesASegment; ++i) {
+      const double u = static_cast<double>(i) / kSamplesASegment;
+      const motion::Pose pose = path.pose(motion::segment_time_s(segment, u));
+      for (const geometry::Triangle& part : body.triangles_C()) {
+        for (const Vec3& vertex_C : part) extend(pose.position + pose.orientation * vertex_C);
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool may_have_way_beyond(const PlanRequest& request, const PlanResult& result) {
+  if (request.options.method != Method::kLadder || request.options.max_inserted_keyframes == 0)
+    return false;
+  const bool is_open = result.status == Status::kPartial || result.status == Status::kTimeout;
+  return result.bounds.any() && is_open && !result.remaining_collisions.empty();
+}
+
+void add_way_beyond(const PlanResult& unbounded, const PlanRequest& request, PlanResult& result) {
+  result.timing.correct_ms += unbounded.timing.total_ms;
+  result.timing.total_ms += unbounded.timing.total_ms;
+  if (!unbounded.certificate.certified) return;
+  motion::Camera camera = request.camera;
+  camera.near_m *= unbounded.near_scale;
+  std::string unused;
+  const auto body = motion::Body::make(request.body.value_or(camera), unused);
+  if (!body) return;
+  const Excess excess = largest_excess(unbounded.path, *body, result.bounds);
+  result.message += fmt::format("; a way was found only beyond the bounds, by up to {:.2g} m at {}",
+                                excess.by_m, Bounds::kSideNames[excess.side]);
+}
+
+}  // namespace camway::planning

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace camway::process {
+
+/// Serves one page of text over HTTP on a thread of its own, to a limited number of connections at
+/// a time. Idle connections are closed; further ones wait for a free place; other paths and methods
+/// are refused. The only place that sees the HTTP library (libmicrohttpd). The destructor ends and
+/// joins the thread.
+class HttpPage {
+ public:
+  virtual ~HttpPage() = default;
+  /// Returns the port on which it listens.
+  [[nodiscard]] virtual int port() const = 0;
+};
+
+struct HttpAddress {
+  std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address of this machine
+  int port = 0;                  ///< 0: any free port [Limit: 0 <= value <= 65535]
+};
+
+/// Returns whether `text` is an IPv4 or IPv6 address.
+bool is_ip_address(const std::string& text);
+/// Returns whether this machine could listen on `text` now, whatever the port.
+bool is_address_of_this_machine(const std::string& text);
+
+struct HttpLimits {
+  int connections = 16;  ///< connections at a time [Limit: 1 <= value <= 1000]
+  int idle_s = 5;  ///< silence after which a connection is closed [Limit: 1 <= value <= 86400]
+};
+
+/// Content of a page. Both functions are called on the page's thread and must not throw.
+struct HttpContent {
+  std::string path;                      ///< "/metrics"
+  std::string type;                      ///< content type of the text
+  std::function<std::string()> text;     ///< called anew for each request
+  std::function<void()> full = nullptr;  ///< called when no connection is free; may be null
+};
+
+/// A page, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in use".
+struct OpenedHttpPage {
+  std::unique_ptr<HttpPage> page;
+  std::string error;  ///< empty exactly when `page` is set
+};
+
+OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
+                              const HttpLimits& limits = {});
+
+}  // namespace camway::process

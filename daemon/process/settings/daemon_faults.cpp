@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/settings/daemon_faults.h"
+
+#include <fmt/format.h>
+
+#include "daemon/process/metrics/http_page.h"
+#include "lcmtypes/wire/auth/message_keys.h"
+
+namespace camway::process {
+namespace {
+
+/// Blames the default if that was set, else the maximum.
+void check_deadlines(const DaemonOptions& options, const std::string& table,
+                     const messages::DeadlineLimits& limits, std::vector<std::string>& faults) {
+  if (limits.default_s <= limits.max_s) return;
+  const std::string usual = table + ".deadline_s";
+  const std::string longest = table + ".max_deadline_s";
+  if (options.said_at.contains(usual) || !options.said_at.contains(longest)) {
+    faults.push_back(fmt::format("{}: is {:g}, but must be at most {}, which is {:g}",
+                                 options.where(usual), limits.default_s, longest, limits.max_s));
+  } else {
+    faults.push_back(fmt::format("{}: is {:g}, but must be at least {}, which is {:g}",
+                                 options.where(longest), limits.max_s, usual, limits.default_s));
+  }
+}
+
+/// Reports a share that is larger than the whole, if it was set explicitly: it could have no
+/// effect.
+void check_share(const DaemonOptions& options, const std::string& share, std::size_t value,
+                 const std::string& whole, std::size_t most, std::vector<std::string>& faults) {
+  if (value <= most || !options.said_at.contains(share)) return;
+  faults.push_back(fmt::format("{}: is {}, but must be at most {}, which is {}",
+                               options.where(share), value, whole, most));
+}
+
+void check_shares(const DaemonOptions& options, std::vector<std::string>& faults) {
+  const service::ServiceConfig& service = options.service;
+  check_share(options, "queue.requests_of_a_client", service.queue.jobs_of_a_client,
+              "queue.requests", service.queue.jobs, faults);
+  check_share(options, "queue.answers_of_a_client", service.answers.answers_of_a_channel,
+              "queue.answers", service.answers.answers, faults);
+  check_share(options, "scenes.waiting_changes_of_a_client", service.changes.jobs_of_a_client,
+              "scenes.waiting_changes", service.changes.jobs, faults);
+  check_share(options, "scenes.upload_bytes", service.uploads.bytes, "scenes.all_uploads_bytes",
+              service.uploads.total_bytes, faults);
+  check_share(options, "watch.paths_of_a_client", service.watches.paths_of_a_client, "watch.paths",
+              service.watches.paths, faults);
+}
+
+}  // namespace
+
+std::vector<std::string> contradictions(const DaemonOptions& options) {
+  std::vector<std::string> faults;
+  check_deadlines(options, "planning", options.service.deadline, faults);
+  check_deadlines(options, "occupancy", options.service.occupancy_deadline, faults);
+  check_deadlines(options, "scenes", options.service.change_deadline, faults);
+  check_shares(options, faults);
+  return faults;
+}
+
+std::vector<std::string> missing_things(const DaemonOptions& options) {
+  std::vector<std::string> faults;
+  if (!options.auth.key_file.empty()) {
+    const wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.auth.key_file);
+    if (!read.keys) faults.push_back(options.where("auth.key_file") + ": " + read.error);
+  }
+  const bool address_counts =
+      options.metrics.port != 0 || options.said_at.contains("metrics.address");
+  if (address_counts && !is_address_of_this_machine(options.metrics.ip)) {
+    faults.push_back(fmt::format("{}: {} is no address of this machine",
+                                 options.where("metrics.address"), options.metrics.ip));
+  }
+  return faults;
+}
+
+}  // namespace camway::process

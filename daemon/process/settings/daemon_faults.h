@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "daemon/process/settings/options.h"
+
+/// Faults of options whose values are each valid by themselves. Each fault is a text that begins
+/// with the place where the value was set.
+namespace camway::process {
+
+/// Returns the faults of values that contradict each other.
+std::vector<std::string> contradictions(const DaemonOptions& options);
+
+/// Returns the faults of the key file and of the address for metrics if this machine lacks them.
+/// Changes nothing.
+std::vector<std::string> missing_things(const DaemonOptions& options);
+
+}  // namespace camway::process

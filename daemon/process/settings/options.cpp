@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/settings/options.h"
+
+#include <cstdlib>
+
+namespace camway::process {
+
+std::string url_of_environment() {
+  const char* const url = std::getenv("LCM_DEFAULT_URL");
+  return url == nullptr ? "" : url;
+}
+
+std::string DaemonOptions::where(std::string_view key) const {
+  const auto said = said_at.find(key);
+  return said == said_at.end() ? std::string(key) : said->second;
+}
+
+DaemonOptions default_options() {
+  DaemonOptions options;
+  options.lcm_url = url_of_environment();
+  if (options.lcm_url.empty()) {
+    options.lcm_url = kDefaultLcmUrl;
+  } else {
+    options.said_at["lcm.url"] = "LCM_DEFAULT_URL";
+  }
+  options.service.workers = 0;
+  return options;
+}
+
+}  // namespace camway::process

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/process/metrics/http_page.h"
+#include "daemon/process/settings/scene_argument.h"
+#include "daemon/scene/snapshot/scene_store.h"
+#include "daemon/service/log/log.h"
+#include "daemon/service/service_config.h"
+
+namespace camway::process {
+
+/// Traffic stays on the host (ttl 0) unless the url says otherwise.
+inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+/// Returns the value of LCM_DEFAULT_URL; empty if it is not set.
+std::string url_of_environment();
+
+/// Authentication of messages.
+struct AuthOptions {
+  std::string key_file;  ///< empty: messages are neither signed nor checked
+  bool required = true;  ///< with keys: whether messages without a signature are dropped
+  /// Largest difference between a message's time and ours.
+  std::chrono::milliseconds window{30'000};
+  std::size_t senders = 16'384;  ///< senders that are remembered at a time
+};
+
+/// The options of `camwayd`: built-in defaults, overridden by the configuration file, overridden by
+/// the command line.
+struct DaemonOptions {
+  std::filesystem::path config_file;  ///< empty: none
+  std::vector<SceneArgument> scenes;
+  std::string lcm_url;  ///< `--url`, else the file, else LCM_DEFAULT_URL, else `kDefaultLcmUrl`
+  service::LogLevel log_level = service::LogLevel::kInfo;
+  service::LogFormat log_format = service::LogFormat::kText;
+  bool share_prefix = false;  ///< `--share-prefix`: serve even if another daemon has the prefix
+  std::string scene_roots;    ///< folders with ':' between them; see `service::SceneRoots`
+  HttpAddress metrics;        ///< address of the page for Prometheus; port 0: no page
+  HttpLimits metrics_limits = {};
+  AuthOptions auth;
+  scene::SceneStoreLimits store;
+  service::ServiceConfig service;
+  /// Where each setting was set, by its key: "camwayd.toml:12: queue.requests", "--queue",
+  /// "LCM_DEFAULT_URL". Settings with their defaults are not here.
+  std::map<std::string, std::string, std::less<>> said_at = {};
+
+  /// Returns where the setting of that key was set, for messages; the key itself if it was not.
+  [[nodiscard]] std::string where(std::string_view key) const;
+};
+
+/// Returns the built-in defaults. Their number of workers is 0, which stands for one for each core.
+DaemonOptions default_options();
+
+}  // namespace camway::process

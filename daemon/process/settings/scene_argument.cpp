@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/process/settings/scene_argument.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "daemon/messages/scene_names.h"
+#include "daemon/process/settings/bounds_text.h"
+#include "daemon/scene/import/record/import_words.h"
+#include "daemon/scene/voxels/voxel_grid.h"
+
+namespace camway::process {
+namespace {
+
+constexpr std::array<std::string_view, 6> kOptionNames{"scale",     "up",    "unknown",
+                                                       "occupancy", "watch", "bounds"};
+
+std::optional<double> positive_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  if (!whole || !std::isfinite(value) || !(value > 0.0)) return std::nullopt;
+  return value;
+}
+
+/// Applies one `key=value`. Returns an error or an empty text.
+std::string apply_option(std::string_view key, std::string_view value, SceneArgument& scene) {
+  if (key == "up") {
+    const std::optional<scene::UpAxis> up = up_axis_named(value);
+    if (!up) return "up=" + std::string(value) + ": must be as-in-file, z-to-y or y-to-z";
+    scene.options.import.up = *up;
+    return {};
+  }
+  if (key == "watch") {
+    if (value != "yes" && value != "no") {
+      return "watch=" + std::string(value) + ": must be yes or no";
+    }
+    scene.watch = value == "yes";
+    return {};
+  }
+  if (key == "unknown") {
+    const std::optional<scene::UnknownSpace> unknown = unknown_space_named(value);
+    if (!unknown) return "unknown=" + std::string(value) + ": must be free or occupied";
+    scene.options.import.unknown = *unknown;
+    return {};
+  }
+  if (key == "bounds") {
+    const ParsedBounds parsed = parse_bounds(value);
+    if (parsed.bounds) scene.options.bounds = *parsed.bounds;
+    return parsed.error;
+  }
+  const std::optional<double> number = positive_number(value);
+  if (!number) {
+    return std::string(key) + "=" + std::string(value) + ": must be a number above 0";
+  }
+  if (key == "scale") {
+    scene.options.import.scale = *number;
+    return {};
+  }
+  scene.options.occupancy_resolution_m = *number;
+  if (scene::VoxelGrid::valid_resolution(*number)) return {};
+  return std::string(key) + "=" + std::string(value) + ": " + messages::kResolutionRule;
+}
+
+/// Takes options off the end of `rest` until the text after the last comma is no option.
+std::string take_options(std::string_view& rest, SceneArgument& scene) {
+  while (true) {
+    const std::size_t comma = rest.rfind(',');
+    if (comma == std::string_view::npos) return {};
+    const std::string_view last = rest.substr(comma + 1);
+    const std::size_t equals = last.find('=');
+    if (equals == std::string_view::npos) return {};
+    const std::string_view key = last.substr(0, equals);
+    if (std::find(kOptionNames.begin(), kOptionNames.end(), key) == kOptionNames.end()) {
+      return "'" + std::string(key) +
+             "' is no option of a scene (scale, up, unknown, occupancy, watch, bounds are)";
+    }
+    if (std::string error = apply_option(key, last.substr(equals + 1), scene); !error.empty()) {
+      return error;
+    }
+    rest = rest.substr(0, comma);
+  }
+}
+
+}  // namespace
+
+std::optional<scene::UpAxis> up_axis_named(std::string_view word) {
+  for (const auto& [name, up] : scene::kUpAxes) {
+    if (name == word) return up;
+  }
+  return std::nullopt;
+}
+
+std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word) {
+  for (const auto& [name, unknown] : scene::kUnknownSpaces) {
+    if (name == word) return unknown;
+  }
+  return std::nullopt;
+}
+
+ParsedSceneArgument parse_scene_argument(std::string_view text) {
+  const auto fail = [&](const std::string& reason) -> ParsedSceneArgument {
+    return {std::nullopt, "scene '" + std::string(text) + "': " + reason};
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return fail("must be NAME=FILE");
+  SceneArgument scene;
+  scene.name = text.substr(0, equals);
+  if (!messages::is_scene_name(scene.name)) {
+    return fail(std::string("the name ") + messages::kSceneNameRule);
+  }
+  std::string_view rest = text.substr(equals + 1);
+  if (std::string error = take_options(rest, scene); !error.empty()) return fail(error);
+  if (rest.empty()) return fail("the file is missing");
+  scene.file = std::filesystem::path(rest);
+  return {std::move(scene), {}};
+}
+
+}  // namespace camway::process

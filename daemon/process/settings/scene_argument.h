@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "daemon/scene/snapshot/snapshot.h"
+
+namespace camway::process {
+
+/// A scene as named by the command lines of `camwayd` and `camway replay` or by the configuration.
+struct SceneArgument {
+  std::string name;
+  std::filesystem::path file;
+  scene::SnapshotOptions options;
+  bool watch = false;   ///< whether the daemon reads the file again when it changes
+  std::string said_at;  ///< where its file was named, e.g. "--scene" or "camwayd.toml:7"
+};
+
+/// Reads "as-in-file", "z-to-y" or "y-to-z"; returns nothing for another word.
+std::optional<scene::UpAxis> up_axis_named(std::string_view word);
+
+/// Reads "free" or "occupied"; returns nothing for another word.
+std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word);
+
+/// A scene argument, or an error about the text.
+struct ParsedSceneArgument {
+  std::optional<SceneArgument> scene;
+  std::string error;
+};
+
+/// The form of a scene argument, for `--help`.
+inline constexpr char kSceneArgumentForm[] =
+    "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]"
+    "[,watch=yes|no][,bounds=X0..X1/Y0..Y1/Z0..Z1]";
+
+/// Reads `text` of that form. Options are taken off the end, so a FILE may hold commas unless the
+/// text after one looks like an option. NAME consists of at most `wire::kMaxSceneNameBytes`
+/// characters of [A-Za-z0-9_.-].
+ParsedSceneArgument parse_scene_argument(std::string_view text);
+
+}  // namespace camway::process

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "daemon/planning/request/request.h"
+#include "tests/support/random.h"
+#include "tests/support/scenes.h"
+
+namespace camway::planning {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+PlanRequest good_request() {
+  PlanRequest request;
+  request.camera = testing::small_camera();
+  request.keyframes.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    request.keyframes[i].time_s = static_cast<double>(i);
+    request.keyframes[i].pose.position.x() = static_cast<double>(i);
+  }
+  request.has_times = true;
+  return request;
+}
+
+struct Fault {
+  const char* field;
+  std::optional<std::size_t> keyframe;
+  std::function<void(PlanRequest&)> make;
+};
+
+TEST(Validate, AGoodRequestPasses) { EXPECT_FALSE(validate(good_request())); }
+
+TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
+  const Fault faults[] = {
+      {"camera.fov_x", {}, [](PlanRequest& r) { r.camera.fov_x_rad = 0.0; }},
+      {"camera.fov_x", {}, [](PlanRequest& r) { r.camera.fov_x_rad = kNaN; }},
+      {"camera.fov_y", {}, [](PlanRequest& r) { r.camera.fov_y_rad = 3.5; }},
+      {"camera.near", {}, [](PlanRequest& r) { r.camera.near_m = -0.1; }},
+      {"camera.near", {}, [](PlanRequest& r) { r.camera.near_m = kInfinity; }},
+      {"camera", {}, [](PlanRequest& r) { r.camera.near_m = 1e9, r.camera.fov_x_rad = 3.0; }},
+      {"keyframes", {}, [](PlanRequest& r) { r.keyframes.clear(); }},
+      {"keyframes", {}, [](PlanRequest& r) { r.keyframes.resize(1); }},
+      {"keyframes", {}, [](PlanRequest& r) { r.keyframes.resize(kMaxKeyframes + 1); }},
+      {"keyframes[1].position", 1, [](PlanRequest& r) { r.keyframes[1].pose.position.y() = kNaN; }},
+      {"keyframes[2].position", 2, [](PlanRequest& r) { r.keyframes[2].pose.position.z() = -2e9; }},
+      {"keyframes[0].orientation", 0,
+       [](PlanRequest& r) { r.keyframes[0].pose.orientation.coeffs().setZero(); }},
+      {"keyframes[0].orientation", 0,
+       [](PlanRequest& r) { r.keyframes[0].pose.orientation.x() = kInfinity; }},
+      {"keyframes[1].orientation", 1,
+       [](PlanRequest& r) { r.keyframes[1].pose.orientation.coeffs().setConstant(1e300); }},
+      {"keyframes[1].time", 1, [](PlanRequest& r) { r.keyframes[1].time_s = 0.0; }},
+      {"keyframes[2].time", 2, [](PlanRequest& r) { r.keyframes[2].time_s = 0.5; }},
+      {"keyframes[2].time", 2, [](PlanRequest& r) { r.keyframes[2].time_s = kNaN; }},
+      {"keyframes[1].time", 1, [](PlanRequest& r) { r.keyframes[1].time_s = 1e-12; }},
+      {"keyframes[1].time", 1,
+       [](PlanRequest& r) {
+         for (motion::Keyframe& keyframe : r.keyframes) keyframe.time_s *= 1e-300;
+       }},
+      {"options.deadline_s", {}, [](PlanRequest& r) { r.options.deadline_s = 0.0; }},
+      {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = kNaN; }},
+      {"options.interval_tolerance_m",
+       {},
+       [](PlanRequest& r) { r.options.interval_tolerance_m = -1.0; }},
+      {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = 1e-9; }},
+      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = -0.01; }},
+      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = kNaN; }},
+      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = 2e9; }},
+      {"body.size[1]",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::BoxShape{geometry::Vec3::Zero(), {1.0, 0.0, 1.0}};
+       }},
+      {"body.center",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{{0, kNaN, 0}, 1.0};
+       }},
+      {"body.radius",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{geometry::Vec3::Zero(), kInfinity};
+       }},
+      {"body.points[0]",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::ConvexShape{{{{0, 2e9, 0}}}};
+       }},
+      {"body.triangles[0][1]",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::MeshShape{{{0, 0, 0}}, {{0, 1, 0}}};
+       }},
+      {"body", {}, [](PlanRequest& r) { r.body = motion::Camera{}; }},
+      {"camera.near",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{geometry::Vec3::Zero(), 1.0};
+         r.camera.near_m = -1.0;
+       }},
+      {"options.max_inserted_keyframes",
+       {},
+       [](PlanRequest& r) { r.options.max_inserted_keyframes = -1; }},
+      {"options.orientation.up", {}, [](PlanRequest& r) { r.options.orientation.up_W.setZero(); }},
+      {"options.orientation.up", {}, [](PlanRequest& r) { r.options.orientation.up_W.x() = kNaN; }},
+      {"options.orientation.up", {}, [](PlanRequest& r) { r.options.orientation.up_W *= 2.0; }},
+      {"options.orientation.target",
+       {},
+       [](PlanRequest& r) { r.options.orientation.target_W.z() = kNaN; }},
+      {"options.orientation.target",
+       {},
+       [](PlanRequest& r) { r.options.orientation.target_W.z() = -2e9; }},
+      {"options.orientation.cone",
+       {},
+       [](PlanRequest& r) { r.options.orientation.cone_rad = 0.0; }},
+      {"options.orientation.cone",
+       {},
+       [](PlanRequest& r) { r.options.orientation.cone_rad = 3.2; }},
+      {"options.orientation.cone",
+       {},
+       [](PlanRequest& r) { r.options.orientation.cone_rad = kNaN; }},
+      {"options.orientation.max_turn",
+       {},
+       [](PlanRequest& r) { r.options.orientation.max_turn_rad = -0.1; }},
+      {"options.orientation.max_turn",
+       {},
+       [](PlanRequest& r) { r.options.orientation.max_turn_rad = 3.2; }},
+      {"options.orientation.max_turn",
+       {},
+       [](PlanRequest& r) { r.options.orientation.max_turn_rad = kNaN; }},
+      {"options.limits.speed", {}, [](PlanRequest& r) { r.options.limits.speed_m_per_s = 0.0; }},
+      {"options.limits.acceleration",
+       {},
+       [](PlanRequest& r) { r.options.limits.acceleration_m_per_s2 = -1.0; }},
+      {"options.limits.turn_rate",
+       {},
+       [](PlanRequest& r) { r.options.limits.turn_rate_rad_per_s = kNaN; }},
+      {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = -0.1; }},
+      {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = 1.0; }},
+      {"options.max_shrink", {}, [](PlanRequest& r) { r.options.max_shrink = kNaN; }},
+      {"options.max_shrink",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::SphereShape{geometry::Vec3::Zero(), 1.0};
+         r.options.max_shrink = 0.5;
+       }},
+      {"options.seed", {}, [](PlanRequest& r) { r.options.seed = 0; }},
+      {"options.default_speed",
+       {},
+       [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = 0.0; }},
+      {"options.default_speed",
+       {},
+       [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = kNaN; }},
+      {"options.default_speed",
+       {},
+       [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = 2e6; }},
+      {"options.default_speed", {}, [](PlanRequest& r) { r.options.default_speed_m_per_s = 1.0; }},
+  };
+  for (const Fault& fault : faults) {
+    PlanRequest request = good_request();
+    fault.make(request);
+    const std::optional<InvalidRequest> found = validate(request);
+    ASSERT_TRUE(found) << fault.field;
+    EXPECT_EQ(found->field, fault.field);
+    EXPECT_EQ(found->keyframe, fault.keyframe) << fault.field;
+    EXPECT_EQ(found->message, std::string(fault.field) + ": " + found->reason);
+    request.spelling = [](std::string_view path) { return "<" + std::string(path) + ">"; };
+    EXPECT_EQ(validate(request)->message, "<" + found->field + ">: " + found->reason);
+  }
+}
+
+TEST(Validate, TheEndsOfRangesPass) {
+  PlanRequest request = good_request();
+  request.options.orientation.cone_rad = std::numbers::pi;
+  request.options.orientation.max_turn_rad = 0.0;
+  request.options.limits.speed_m_per_s = std::numeric_limits<double>::denorm_min();
+  request.options.limits.acceleration_m_per_s2 = kInfinity;
+  request.options.max_shrink = std::nextafter(1.0, 0.0);
+  request.options.seed = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_FALSE(validate(request));
+  request.body = request.camera;
+  EXPECT_FALSE(validate(request)) << "a camera of its own can shrink too";
+}
+
+// Every resulting direction passes `validate`, and normalising it again does not change it.
+TEST(Validate, DirectionsOfAnyLengthBecomeUnitVectors) {
+  constexpr unsigned kSeed = 7;
+  testing::Random random(kSeed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-300, 300);
+  for (int i = 0; i < 10'000; ++i) {
+    const geometry::Vec3 given = geometry::Vec3(normal(random), normal(random), normal(random)) *
+                                 std::pow(10.0, exponent(random));
+    PlanRequest request = good_request();
+    const geometry::Vec3 unit = direction_of(given);
+    request.options.orientation.up_W = unit;
+    EXPECT_FALSE(validate(request)) << "trial " << i;
+    EXPECT_EQ(direction_of(unit), unit);
+    const geometry::Vec3 scaled = given / given.cwiseAbs().maxCoeff();
+    // Scaling, normalising and the product itself: 1 + 3.5 + 3 roundings of half an epsilon.
+    EXPECT_LE(unit.cross(scaled).norm(),
+              4 * std::numeric_limits<double>::epsilon() * scaled.norm());
+    EXPECT_GT(unit.dot(scaled), 0.0);
+  }
+  EXPECT_EQ(direction_of(geometry::Vec3::Zero()), geometry::Vec3::Zero());
+}
+
+TEST(Validate, TimesDoNotMatterWhereNoneWereGiven) {
+  PlanRequest request = good_request();
+  for (motion::Keyframe& keyframe : request.keyframes) keyframe.time_s = kNaN;
+  request.has_times = false;
+  EXPECT_FALSE(validate(request));
+}
+
+TEST(Validate, ABodyNeedsNoCamera) {
+  PlanRequest request = good_request();
+  request.camera = {};
+  const std::optional<InvalidRequest> found = validate(request);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->field, "camera.fov_x");
+  request.body = motion::SphereShape{geometry::Vec3::Zero(), 1.0};
+  EXPECT_FALSE(validate(request));
+  request.camera = testing::small_camera();
+  EXPECT_FALSE(validate(request));
+}
+
+TEST(Validate, SaysWhatABodyMustBe) {
+  PlanRequest request = good_request();
+  request.body = motion::BoxShape{geometry::Vec3::Zero(), {1.0, -1.0, 1.0}};
+  EXPECT_EQ(validate(request)->message,
+            "body.size[1]: is -1 m; it must be above 0 and at most 1e+09");
+}
+
+TEST(Validate, AQuaternionNeedNotBeOfUnitLength) {
+  PlanRequest request = good_request();
+  request.keyframes[1].pose.orientation.coeffs() *= 7.0;
+  EXPECT_FALSE(validate(request));
+}
+
+TEST(Method, NamesRoundTrip) {
+  EXPECT_EQ(method_from_string(to_string(Method::kKeyframeInsertion)), Method::kKeyframeInsertion);
+  EXPECT_FALSE(method_from_string("teleport"));
+}
+
+}  // namespace
+}  // namespace camway::planning

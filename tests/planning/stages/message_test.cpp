@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/stages/message.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "tests/support/random.h"
+
+namespace camway::planning {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A lower bound must remain one when it is rounded.
+TEST(EffortText, LowerBoundsAreRoundedDown) {
+  EXPECT_EQ(rounded_down(0.0042799), "0.00427");
+  EXPECT_EQ(rounded_down(0.31299999), "0.312");
+  EXPECT_EQ(rounded_down(99.999), "99.9");
+  EXPECT_EQ(rounded_down(100.0), "100");
+  EXPECT_EQ(rounded_down(0.0), "0");
+  EXPECT_EQ(rounded_down(-1.0), "0");
+  testing::Random random(11);
+  std::uniform_real_distribution<double> exponent(-9.0, 2.0);
+  for (int i = 0; i < 10'000; ++i) {
+    const double value = std::pow(10.0, exponent(random));
+    const double shown = std::stod(rounded_down(value));
+    EXPECT_LE(shown, value);
+    EXPECT_GT(shown, 0.98 * value) << "three digits";
+  }
+}
+
+TEST(EffortText, NamesWhatWasTriedByWhatItWasFor) {
+  EXPECT_EQ(effort_text({14, 1, 20000, 3000}),
+            "14 directions to move or turn in, 1 changed path, 20000 places on a way round, 3000 "
+            "poses on a way round that turns");
+  EXPECT_EQ(effort_text({}), "");
+}
+
+TEST(EffortText, SaysWhyThereIsNoPath) {
+  Infeasibility proof{2, 0, {3}};
+  EXPECT_EQ(why_infeasible(proof, false),
+            "no path exists: keyframe 2 is inside a closed surface of 1 triangle of the scene, "
+            "keyframe 0 outside");
+  correction::CageBox& cage = proof.cage.emplace();
+  cage.box = geometry::Box(geometry::Vec3(0, 0, 0), geometry::Vec3(1, 2, 3.5));
+  cage.shortest_chord_m = 0.123;
+  EXPECT_EQ(why_infeasible(proof, false),
+            "no path exists: keyframe 2 is inside a box of 1 x 2 x 3.5 m about (0.5, 1, 1.75) "
+            "without holes, keyframe 0 outside");
+  cage.widest_hole_m = 0.0849;
+  EXPECT_THAT(why_infeasible(proof, false),
+              HasSubstr("whose holes (0.0849 m at most) are too narrow for the camera's near "
+                        "quadrilateral (0.123 m), keyframe 0"));
+  EXPECT_THAT(why_infeasible(proof, true), HasSubstr("(0.123 m at its smallest)"));
+}
+
+}  // namespace
+}  // namespace camway::planning
