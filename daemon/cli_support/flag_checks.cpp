@@ -66,6 +66,60 @@ std::vector<std::string> commands_of(const CLI::App& command) {
 
 bool is_flag(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
 
+/// Returns the flag in a word: "--length" in "--length=2".
+std::string flag_in(const std::string& word) { return word.substr(0, word.find('=')); }
+
+bool has_flag(const CLI::App& command, const std::string& flag) {
+  return std::ranges::any_of(command.get_options(),
+                             [&](const CLI::Option* option) { return option->check_name(flag); });
+}
+
+/// Returns a sentence about the first flag whose value is another flag of the command: its value
+/// was left out. Empty if there is none.
+std::string flag_as_value(const CLI::App& app) {
+  const CLI::App& command = called(app);
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->nonpositional()) continue;
+    for (const std::string& word : option->results()) {
+      if (!is_flag(word) || !has_flag(command, flag_in(word))) continue;
+      return fmt::format("{}: needs a value; '{}' is a flag", option->get_name(), flag_in(word)) +
+             see_help(command);
+    }
+  }
+  return {};
+}
+
+/// Returns the form of an option's values: "X,Y,Z". The library appends the ranges.
+std::string form_of(const CLI::Option& option) {
+  const std::string form = option.get_type_name();
+  return form.substr(0, form.find(':'));
+}
+
+/// Returns what is wrong with the number of values of `option`, about which the library said
+/// `text`.
+std::string count_fault(const CLI::App& command, const CLI::Option& option,
+                        const std::string& text) {
+  const std::size_t given = option.results().size();
+  if (given == 0 || text.ends_with("missing")) return "needs a value";
+  const auto wanted = static_cast<std::size_t>(std::max(option.get_items_expected_max(), 1));
+  if (std::ranges::count(command.parse_order(), &option) > 1 && given % wanted == 0) {
+    const std::size_t times = given / wanted;
+    return times == 2 ? "given twice" : fmt::format("given {} times", times);
+  }
+  return fmt::format("takes {} values ({}), not {}", wanted, form_of(option), given);
+}
+
+/// Returns the words about an error of the library.
+std::string worded(const CLI::App& command, const CLI::ParseError& error) {
+  const std::string text = error.what();
+  if (error.get_name() != "ArgumentMismatch") return text;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string head = option->get_name() + ": ";
+    if (text.starts_with(head)) return head + count_fault(command, *option, text);
+  }
+  return text;
+}
+
 std::string or_nearest(const std::string& word, const std::vector<std::string>& words) {
   const std::string nearest = nearest_word(word, words);
   return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
@@ -119,20 +173,31 @@ std::string unknown_word(const CLI::App& app) {
     return fmt::format("'{}' is a word too many for {}", left.front(), full_name(command)) +
            see_help(command);
   }
-  const std::string name = flag->substr(0, flag->find('='));
+  const std::string name = flag_in(*flag);
   return fmt::format("'{}' is no flag of {}{}", name, full_name(command),
                      or_nearest(name, flags_of(command))) +
          see_help(command);
 }
 
+void refuse_flags_as_values(CLI::App& app) {
+  // The library calls this before the commands run.
+  app.parse_complete_callback([&app] {
+    const std::string fault = flag_as_value(app);
+    if (!fault.empty()) throw CLI::ValidationError(fault);
+  });
+}
+
 std::string command_line_fault(const CLI::App& app, const CLI::ParseError& error) {
+  // First, because the value of that flag may have become a word too many.
+  std::string without_value = flag_as_value(app);
+  if (!without_value.empty()) return without_value;
   std::string unknown = unknown_word(app);
   if (!unknown.empty()) return unknown;
   const CLI::App& command = called(app);
   const std::vector<std::string> commands = commands_of(command);
   const bool misses_command = error.get_name() == "RequiredError" && !commands.empty();
   return (misses_command ? fmt::format("a command is missing: {}", fmt::join(commands, ", "))
-                         : std::string(error.what())) +
+                         : worded(command, error)) +
          see_help(command);
 }
 
@@ -150,8 +215,26 @@ CLI::Validator between(double least, double most) {
                      [=](double value) { return value >= least && value <= most; });
 }
 
-CLI::Validator number_in(const std::string& range, const std::function<bool(double)>& holds) {
-  return number_that("a number " + range, range, holds);
+CLI::Validator number_in(const NumberRange& range) {
+  return number_that("a number " + range.words, range.words, range.holds);
+}
+
+CLI::Validator numbers_in(const std::string& form, const NumberRange& range) {
+  const std::string& words = range.words;
+  return number_that(fmt::format("{}, each a number{}{}", form, words.empty() ? "" : " ", words),
+                     words, range.holds);
+}
+
+CLI::Option* add_numbers(CLI::App& command, const std::string& flag, std::vector<double>& numbers,
+                         const std::string& form, const std::string& description,
+                         const NumberRange& range) {
+  const auto count = static_cast<int>(1 + std::ranges::count(form, ','));
+  return command.add_option(flag, numbers, description)
+      ->type_name(form)
+      ->delimiter(',')
+      ->expected(count)
+      ->allow_extra_args(false)
+      ->check(numbers_in(form, range));
 }
 
 CLI::Validator whole_number(std::int64_t least, std::int64_t most) {

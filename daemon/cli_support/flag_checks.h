@@ -24,19 +24,37 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 /// `app.parse` was called, whether it threw or not.
 std::string unknown_word(const CLI::App& app);
 
-/// Returns the message for a command line that `app` refused: about the unknown word, or `error`,
-/// with a reference to the help.
+/// Makes `app.parse` throw `CLI::ValidationError` where a flag of the called command has another
+/// one of its flags as its value, before the command runs: `--response --no-timing` would write a
+/// file named `--no-timing`. Such a file can be given as `./--no-timing`. `app` must outlive its
+/// calls of `parse`.
+void refuse_flags_as_values(CLI::App& app);
+
+/// Returns the message for a command line that `app` refused, with a reference to the help: about a
+/// flag without its value, else about the unknown word, else about `error`.
 std::string command_line_fault(const CLI::App& app, const CLI::ParseError& error);
+
+/// Finite numbers: those that `holds` accepts.
+struct NumberRange {
+  std::string words;  ///< names them: "from 1 to 5"; empty for all finite numbers
+  std::function<bool(double)> holds = [](double) { return true; };
+};
 
 /// Checks of values. Their errors say in words and short numbers what a value must be.
 CLI::Validator above_0();
 CLI::Validator at_least_0();
 CLI::Validator between(double least, double most);
-/// Passes numbers that `holds` accepts; `range` says in words which these are: "from 1 to 5".
-CLI::Validator number_in(const std::string& range, const std::function<bool(double)>& holds);
+CLI::Validator number_in(const NumberRange& range);
+/// Checks each number of a list. `form` names the numbers: "X,Y,Z".
+CLI::Validator numbers_in(const std::string& form, const NumberRange& range);
 CLI::Validator whole_number(std::int64_t least,
                             std::int64_t most = std::numeric_limits<std::int64_t>::max());
 CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// Adds an option that takes a number for each name in `form`, "X,Y,Z", with commas between them.
+CLI::Option* add_numbers(CLI::App& command, const std::string& flag, std::vector<double>& numbers,
+                         const std::string& form, const std::string& description,
+                         const NumberRange& range = {});
 
 /// Adds an option whose value is one of `names`, which are pairs of a word and its meaning. Sets
 /// `value` when the option is given; `value` must outlive `command`.

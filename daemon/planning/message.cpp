@@ -132,11 +132,19 @@ std::string note_of_tilt(const PlanRequest& request) {
   return {};
 }
 
-std::string note_of_tolerance(const PlanRequest& request, double body_size_m) {
+double body_size_m(const motion::Body& body) {
+  geometry::Box box;
+  for (const geometry::Triangle& triangle : body.triangles_C())
+    box.extend(geometry::bounds(triangle));
+  return box.sizes().maxCoeff() + 2.0 * body.ball_radius_m();
+}
+
+std::string note_of_tolerance(const PlanRequest& request, const motion::Body& body) {
   const double tolerance_m = request.options.interval_tolerance_m;
-  if (!(body_size_m < kLeastTolerances * tolerance_m)) return {};
+  const double size_m = body_size_m(body);
+  if (!(size_m < kLeastTolerances * tolerance_m)) return {};
   return fmt::format("; note: the body is {:.2g} m large, and {} of {:.2g} m is coarse for that",
-                     body_size_m, request.name_of("options.interval_tolerance_m"), tolerance_m);
+                     size_m, request.name_of("options.interval_tolerance_m"), tolerance_m);
 }
 
 std::string note_of_scale(const PlanResult& result, const geometry::Box& scene_W) {
@@ -180,6 +188,10 @@ std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
       request.name_of("options.limits.retime"));
 }
 
+std::string deadline_reached(const PlanRequest& request) {
+  return fmt::format("the deadline of {} s was reached", request.options.deadline_s);
+}
+
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
                                    const PlanRequest& request) {
   const auto lost = std::ranges::find_if(faults, [&](const KeyframeFault& fault) {
@@ -208,7 +220,7 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
         fmt::format("; it would be free at ({:.4g}, {:.4g}, {:.4g})", to.x(), to.y(), to.z());
   } else {
     message += may_repair ? "; it could not be repaired: " : "; ";
-    message += timed_out ? "the deadline came before a free pose was found"
+    message += timed_out ? deadline_reached(request) + " before a free pose was found"
                          : "no free pose was found near it";
   }
   if (faults.size() > 1) message += fmt::format("; {} keyframes are at fault", faults.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/correction/path/correction.h"
+#include "daemon/motion/body/body.h"
 #include "daemon/motion/path/time_origin.h"
 #include "daemon/planning/limits.h"
 #include "daemon/planning/request.h"
@@ -46,9 +47,13 @@ std::string note_of_method(const PlanRequest& request);
 /// the scene.
 std::string note_of_tilt(const PlanRequest& request);
 
+/// Returns the longest side of the body's bounding box. Not 0 for the smallest camera: no length is
+/// squared.
+double body_size_m(const motion::Body& body);
+
 /// "; note: the body is 0.01 m large, ..." for a body so small that the tolerance cannot tell the
 /// openings that it fits through from collisions; else empty.
-std::string note_of_tolerance(const PlanRequest& request, double body_size_m);
+std::string note_of_tolerance(const PlanRequest& request, const motion::Body& body);
 
 /// "; note: no keyframe lies within the bounds of the scene, ..." if that is so; else empty.
 /// Keyframes beyond the scene are fine for a flight around an object. More often the unit or the
@@ -74,6 +79,9 @@ std::string why_too_fast(const PlanRequest& request, const LimitBreach& breach,
 /// were to be repaired, else the first. Requires at least one fault.
 const KeyframeFault& fault_to_name(const std::vector<KeyframeFault>& faults,
                                    const PlanRequest& request);
+
+/// "the deadline of 0.05 s was reached", for what was cut short by it.
+std::string deadline_reached(const PlanRequest& request);
 
 /// "keyframes[2]: the near quadrilateral collides with the scene there, by ..." for
 /// `fault_to_name`. `timed_out`: the deadline passed before free poses were found.

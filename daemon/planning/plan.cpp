@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "daemon/collision/detect.h"
-#include "daemon/correction/path/free_space.h"
 #include "daemon/planning/check.h"
 #include "daemon/planning/correct.h"
 #include "daemon/planning/meet_limits.h"
@@ -176,8 +175,8 @@ class Planner {
     } else if (slowed_.is_too_fast) {
       result_.status = Status::kTimeout;
       result_.message = request_.name_of("options.limits") +
-                        ": the path is free, but too fast, and the deadline came before it was "
-                        "slowed";
+                        ": the path is free, but too fast, and " + deadline_reached(request_) +
+                        " before it was slowed";
     } else {
       result_.status = Status::kOk;
       result_.message =
@@ -196,15 +195,15 @@ class Planner {
         slowed_.is_too_fast ? "; it was not slowed to meet " + request_.name_of("options.limits")
                             : "";
     if (!is_searched_) {
-      result_.message =
-          "the deadline came before the path was searched for collisions: nothing is known of it" +
-          haste + note();
+      result_.message = deadline_reached(request_) +
+                        " before the path was searched for collisions: nothing is known of it" +
+                        haste + note();
       return;
     }
     if (!result_.shut_in.empty()) result_.keyframe = result_.shut_in.front().keyframe;
     result_.message =
         fmt::format("{}the path still collides {} ({})",
-                    corrected_.timed_out ? "the deadline came first; " : "",
+                    corrected_.timed_out ? deadline_reached(request_) + "; " : "",
                     counted(result_.remaining_collisions.size(), "time"), what_was_done(result_)) +
         note_of_shut_in(result_.shut_in, query_.obstacles.bounds.any()) +
         note_of_keyframe_limit(request_, result_, corrected_.needed_keyframes) +
@@ -214,9 +213,8 @@ class Planner {
 
   // Notes about the request and the scene.
   [[nodiscard]] std::string note() const {
-    const double body_size_m = 2.0 * correction::FreeSpace(query_).ball_radius_m();
     return note_of_scale(result_, query_.obstacles.index.bounds()) + note_of_tilt(request_) +
-           note_of_tolerance(request_, body_size_m) + note_of_method(request_);
+           note_of_tolerance(request_, query_.body) + note_of_method(request_);
   }
 
   // Time for the stages after the final check.
@@ -282,7 +280,7 @@ PlanResult plan(const scene::Snapshot& snapshot, const PlanRequest& request,
     }
     result.deadline_reached = deadline.struck();
     if (result.deadline_reached && result.status == Status::kOk) {
-      result.message += "; the deadline came before it was improved to the end";
+      result.message += "; " + deadline_reached(request) + " before it was improved to the end";
     }
     return result;
   } catch (const std::exception& error) {

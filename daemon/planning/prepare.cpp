@@ -28,9 +28,9 @@ void refuse(std::string message, std::optional<std::size_t> keyframe, PlanResult
 }
 
 // Ends with a timeout and without a path.
-void give_up(std::string_view before, PlanResult& result) {
+void give_up(std::string_view before, const PlanRequest& request, PlanResult& result) {
   result.status = Status::kTimeout;
-  result.message = fmt::format("the deadline came before {}: there is no path", before);
+  result.message = fmt::format("{} before {}: there is no path", deadline_reached(request), before);
   result.keyframes.clear();
   result.keyframe_faults.clear();
 }
@@ -73,7 +73,7 @@ bool accept_keyframes(KeyframeFaults found, const PlanRequest& request,
     result.keyframes[fault.keyframe].pose = *fault.free_pose;
     result.keyframes[fault.keyframe].is_repaired = true;
   }
-  if (!found.complete) give_up("all keyframes were looked at", result);
+  if (!found.complete) give_up("all keyframes were looked at", request, result);
   return found.complete;
 }
 
@@ -93,7 +93,7 @@ std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
   if (!accept_keyframes(std::move(faults), request, deadline, result)) return std::nullopt;
   const auto count = static_cast<double>(result.keyframes.size());
   if (leaves_too_little(deadline, kInterpolating_s_per_keyframe * count)) {
-    give_up("the path was interpolated", result);
+    give_up("the path was interpolated", request, result);
     return std::nullopt;
   }
   motion::CubicPath interpolated = motion::interpolate_cubic(result.keyframes, prepared.origin);

@@ -20,7 +20,13 @@ struct Values {
   int count = 1;
   std::optional<Colour> colour;
   std::vector<std::string> files;
+  std::string out;
+  std::vector<double> box_m;
+  bool is_dry = false;
 };
+
+/// How often the command ran.
+int runs = 0;
 
 /// Returns the error of a program with two commands for `words`; empty if it accepts them.
 std::string said_of(const std::vector<std::string>& words) {
@@ -33,10 +39,16 @@ std::string said_of(const std::vector<std::string>& words) {
   paint->add_option("--length", values.length_m)->check(above_0());
   paint->add_option("--count", values.count)->check(whole_number(1, 9));
   paint->add_option("--file", values.files)->required();
+  paint->add_option("--out", values.out);
+  add_numbers(*paint, "--box", values.box_m, "X,Y,Z", "",
+              {"above 0", [](double value) { return value > 0.0; }});
+  paint->add_flag("--dry", values.is_dry);
+  paint->callback([] { ++runs; });
   add_choice(*paint, "--colour", values.colour, kColours, "");
   CLI::App* const scene = app.add_subcommand("scene", "");
   scene->require_subcommand(1);
   scene->add_subcommand("upload", "");
+  refuse_flags_as_values(app);
   std::vector<std::string> reversed(words.rbegin(), words.rend());
   try {
     app.parse(reversed);
@@ -77,6 +89,9 @@ TEST(CommandLine, ValuesOutOfRangeAreToldInWordsAndShortNumbers) {
       {{"--count", "10"}, "--count: must be a whole number, 1 to 9, not '10'"},
       {{"--count", "1.5"}, "--count: must be a whole number, 1 to 9, not '1.5'"},
       {{"--count", "99999999999999999999"}, "--count: must be a whole number"},
+      {{"--box", "1,nan,1"},
+       "--box: must be X,Y,Z, each a number above 0, not 'nan' (see tool paint --help)"},
+      {{"--box", "1,1,x"}, "--box: must be X,Y,Z, each a number above 0, not 'x'"},
       {{"--colour", "gren"},
        "--colour: must be one of red, green, not 'gren'; did you mean green?"},
       {{"--colour", "blue"}, "--colour: must be one of red, green, not 'blue' (see"},
@@ -86,6 +101,55 @@ TEST(CommandLine, ValuesOutOfRangeAreToldInWordsAndShortNumbers) {
     words.insert(words.end(), flags.begin(), flags.end());
     EXPECT_THAT(said_of(words), HasSubstr(said));
   }
+}
+
+TEST(CommandLine, AFlagWithoutItsValueIsNamed) {
+  const std::pair<std::vector<std::string>, const char*> kCases[] = {
+      // "2" is no word too many.
+      {{"--length", "--count", "2"}, "--length: needs a value; '--count' is a flag (see tool pai"},
+      {{"--length", "--count=2"}, "--length: needs a value; '--count' is a flag"},
+      {{"--out", "--dry"}, "--out: needs a value; '--dry' is a flag"},
+      {{"--out", "--help"}, "--out: needs a value; '--help' is a flag"},
+      {{"--out", "-h"}, "--out: needs a value; '-h' is a flag"},
+      {{"--file", "--out", "b"}, "--file: needs a value; '--out' is a flag"},
+      {{"--box", "--out", "b"}, "--box: needs a value; '--out' is a flag"},
+      {{"--length"}, "--length: needs a value (see tool paint --help)"},
+      {{"--length", "1", "--length"}, "--length: needs a value"},
+      {{"--box"}, "--box: needs a value"},
+      {{"b", "--file"}, "--file: needs a value"},
+  };
+  const int before = runs;
+  for (const auto& [flags, said] : kCases) {
+    std::vector<std::string> words{"paint", "--file", "a"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    EXPECT_THAT(said_of(words), HasSubstr(said)) << ::testing::PrintToString(flags);
+  }
+  EXPECT_EQ(runs, before) << "a command ran though its line was wrong";
+  EXPECT_EQ(said_of({"paint", "--file", "a", "--out", "--fiel"}), "") << "is no flag";
+  EXPECT_EQ(said_of({"paint", "--file", "a", "--out", "./--dry"}), "");
+  EXPECT_EQ(runs, before + 2);
+}
+
+TEST(CommandLine, AWrongNumberOfValuesIsToldInWords) {
+  const std::pair<std::vector<std::string>, const char*> kCases[] = {
+      {{"--length", "1", "--length", "2"}, "--length: given twice (see tool paint --help)"},
+      {{"--length=1", "--length=2", "--length=3"}, "--length: given 3 times"},
+      {{"--colour", "red", "--colour", "red"}, "--colour: given twice"},
+      {{"--box", "1,1,1", "--box", "2,2,2"}, "--box: given twice"},
+      {{"--box", "1", "1", "1", "--box", "2,2,2"}, "--box: given twice"},
+      {{"--box", "1,1"}, "--box: takes 3 values (X,Y,Z), not 2"},
+      {{"--box", "1,1,1,1"}, "--box: takes 3 values (X,Y,Z), not 4"},
+      {{"--box", "1,1,1,1,1,1"}, "--box: takes 3 values (X,Y,Z), not 6"},
+      {{"--box", "1,1", "--box", "1,1"}, "--box: takes 3 values (X,Y,Z), not 4"},
+      {{"--box", "1,1,1", "b"}, "'b' is a word too many"},
+  };
+  for (const auto& [flags, said] : kCases) {
+    std::vector<std::string> words{"paint", "--file=a"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    EXPECT_THAT(said_of(words), HasSubstr(said)) << ::testing::PrintToString(flags);
+  }
+  EXPECT_EQ(said_of({"paint", "--file", "a", "--file", "b", "--box", "1", "2", "3"}), "");
+  EXPECT_EQ(said_of({"paint", "--file", "a", "--dry", "--dry"}), "") << "says nothing else";
 }
 
 TEST(CommandLine, TheNearestWordIsNotFar) {
@@ -114,6 +178,8 @@ TEST(CommandLine, RangesHaveTheirEnds) {
   EXPECT_TRUE(passes(whole_number(1), "9223372036854775807"));
   EXPECT_FALSE(passes(whole_number(1), "9223372036854775808"));
   EXPECT_FALSE(passes(whole_number(1), "0"));
+  EXPECT_TRUE(passes(numbers_in("X", {}), "-1e300"));
+  EXPECT_FALSE(passes(numbers_in("X", {}), "inf"));
 }
 
 }  // namespace

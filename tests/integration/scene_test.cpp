@@ -266,6 +266,8 @@ TEST_F(SceneTest, TheCommandListsAndRestoresRevisions) {
   EXPECT_EQ(camway({"list"}, 0), "the daemon holds no scenes\n");
   camway({"load", "yard"}, 0);
   camway({"add", "yard", "crate", "--box", "1,1,1"}, 0);
+  EXPECT_THAT(camway({"add", "yard", "ball", "--sphere", "1", "--chord-error", "1e-9"}, 2),
+              HasSubstr("--chord-error: 1e-09 m needs more than 2000000 triangles"));
   camway({"remove", "yard", "crate"}, 0);
   const std::string listed = camway({"history", "yard"}, 0);
   EXPECT_THAT(listed, HasSubstr("  1: 20"));

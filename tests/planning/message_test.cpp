@@ -58,5 +58,17 @@ TEST(EffortText, SaysWhyThereIsNoPath) {
   EXPECT_THAT(why_infeasible(proof, true), HasSubstr("(0.123 m at its smallest)"));
 }
 
+TEST(NoteOfTolerance, TellsTheSizeOfAnyBody) {
+  PlanRequest request;
+  const auto note_of = [&](double near_m) {
+    return note_of_tolerance(request, motion::Body(motion::Camera{1.2, 0.9, near_m}));
+  };
+  EXPECT_EQ(note_of(0.1), "");
+  EXPECT_THAT(note_of(0.001), HasSubstr("the body is 0.0014 m large"));
+  EXPECT_THAT(note_of(1e-200), HasSubstr("the body is 1.4e-200 m large"))
+      << "its square is no double";
+  EXPECT_THAT(note_of(1e-320), HasSubstr("the body is 1.4e-320 m large"));
+}
+
 }  // namespace
 }  // namespace camway::planning

@@ -382,8 +382,8 @@ TEST(Plan, TheDeadlineGivesTimeoutNeverAWrongOk) {
   ASSERT_EQ(result.remaining_collisions.size(), 1u);
   EXPECT_EQ(result.remaining_collisions[0], (collision::CollisionInterval{0.0, 4.0}));
   EXPECT_THAT(result.message,
-              ::testing::StartsWith("the deadline came before the path was searched for "
-                                    "collisions: nothing is known of it"));
+              ::testing::StartsWith("the deadline of 10 s was reached before the path was searched "
+                                    "for collisions: nothing is known of it"));
 }
 
 TEST(Plan, SaysHowFarItIs) {

@@ -71,7 +71,7 @@ void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapsh
   if (response.value->scene_digest == snapshot.digest) return;
   print_error(fmt::format(
       "warning: {}: was made for another scene: its scene_digest is {}, that of {} is {}",
-      flags.response, response.value->scene_digest, snapshot.name, snapshot.digest));
+      source_of(flags.response), response.value->scene_digest, snapshot.name, snapshot.digest));
 }
 
 ExitCode run_draw(const DrawFlags& flags) {
@@ -83,10 +83,10 @@ ExitCode run_draw(const DrawFlags& flags) {
   const Parsed<planning::PlanResult> result = read_plan_response(flags.response);
   if (!result.value) return invalid(result.error);
   if (result.value->path.empty())
-    return invalid(flags.response + ": segments: has no path to draw");
+    return invalid(source_of(flags.response) + ": segments: has no path to draw");
   const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
   if (scene_file.empty()) {
-    return invalid(flags.request + ": scene: is missing, and there is no --scene");
+    return invalid(source_of(flags.request) + ": scene: is missing, and there is no --scene");
   }
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options(request.value->reading);

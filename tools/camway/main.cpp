@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   camway::tools::add_status_command(app, exit_code);
   camway::tools::add_doctor_command(app, exit_code);
   camway::tools::add_watch_command(app, exit_code);
+  camway::cli_support::refuse_flags_as_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version

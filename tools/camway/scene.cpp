@@ -20,6 +20,8 @@
 
 #include "daemon/cli_support/flag_checks.h"
 #include "daemon/process/bounds_text.h"
+#include "daemon/scene/snapshot/shape_mesh.h"
+#include "daemon/scene/voxels/voxel_grid.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
@@ -104,8 +106,17 @@ void print_revision(const SceneRevision& revision) {
              revision.client_id.empty() ? "the daemon" : revision.client_id);
 }
 
+/// Returns the error of a daemon, which begins with a member of the message, with the flag for it.
+/// The values of other flags are checked before.
+std::string named_as_flag(const std::string& error) {
+  const std::string member = error.substr(0, error.find(':'));
+  if (member == "chord_error_m") return "--chord-error" + error.substr(member.size());
+  if (member == "occupancy_resolution_m") return "--occupancy" + error.substr(member.size());
+  return error;
+}
+
 ExitCode print_answer(const SceneAnswer& answer, const std::string& key_file) {
-  if (!answer.ok()) return report_failure(answer.status, answer.error, key_file);
+  if (!answer.ok()) return report_failure(answer.status, named_as_flag(answer.error), key_file);
   if (!answer.message.empty()) print_error(answer.message);
   if (!answer.scene.name.empty()) print_scene(answer.scene);
   for (const SceneInfo& scene : answer.scenes) print_scene(scene);
@@ -404,50 +415,55 @@ void add_mesh_flags(CLI::App& command, const Flags& flags) {
       ->type_name("STATE");
 }
 
+/// Returns the lengths of shapes that a daemon takes.
+cli_support::NumberRange length_range() {
+  return {fmt::format("above 0 and at most {:g} m", scene::kLargestShapeM),
+          [](double length_m) { return length_m > 0.0 && length_m <= scene::kLargestShapeM; }};
+}
+
 /// `otherwise` describes the value without the flag.
 void add_pose_flags(CLI::App& command, const Flags& flags, const char* otherwise) {
   const std::string unsaid = std::string(" [") + otherwise + "]";
-  command.add_option("--position", flags->position_m, "Of the object's origin, metres" + unsaid)
-      ->type_name("X,Y,Z")
-      ->delimiter(',')
-      ->expected(3)
-      ->allow_extra_args(false);
-  command.add_option("--orientation", flags->orientation_wxyz, "Turns the object's axes" + unsaid)
-      ->type_name("W,X,Y,Z")
-      ->delimiter(',')
-      ->expected(4)
-      ->allow_extra_args(false);
+  cli_support::add_numbers(command, "--position", flags->position_m, "X,Y,Z",
+                           "Of the object's origin, metres" + unsaid);
+  cli_support::add_numbers(command, "--orientation", flags->orientation_wxyz, "W,X,Y,Z",
+                           "Turns the object's axes" + unsaid);
 }
 
 void add_shape_flags(CLI::App& command, const Flags& flags) {
-  command.add_option("--box", flags->box_m, "A box of this size about its origin, metres")
-      ->type_name("X,Y,Z")
-      ->delimiter(',')
-      ->expected(3);
-  command.add_option("--sphere", flags->sphere_m, "A sphere of this radius")->type_name("RADIUS");
-  command
-      .add_option("--cylinder", flags->cylinder_m,
-                  "A cylinder of this radius and height along z, about its middle")
-      ->type_name("RADIUS,HEIGHT")
-      ->delimiter(',')
-      ->expected(2);
+  cli_support::add_numbers(command, "--box", flags->box_m, "X,Y,Z",
+                           "A box of this size about its origin, metres", length_range());
+  command.add_option("--sphere", flags->sphere_m, "A sphere of this radius, metres")
+      ->type_name("RADIUS")
+      ->check(cli_support::number_in(length_range()));
+  cli_support::add_numbers(command, "--cylinder", flags->cylinder_m, "RADIUS,HEIGHT",
+                           "A cylinder of this radius and height along z, about its middle, metres",
+                           length_range());
   command.add_option("--map", flags->map_m, "An OctoMap of this resolution, for scans; metres")
-      ->type_name("RESOLUTION");
+      ->type_name("RESOLUTION")
+      ->check(cli_support::between(scene::VoxelGrid::kMinResolutionM,
+                                   scene::VoxelGrid::kMaxResolutionM));
   command
       .add_option("--hit", flags->sensor.hit_probability, "With --map: of a voxel that was seen")
+      ->check(cli_support::number_in(
+          {"above 0.5 and below 1", [](double p) { return p > 0.5 && p < 1.0; }}))
       ->capture_default_str();
   command
       .add_option("--miss", flags->sensor.miss_probability,
                   "With --map: of a voxel that was seen through")
+      ->check(cli_support::number_in(
+          {"above 0 and below 0.5", [](double p) { return p > 0.0 && p < 0.5; }}))
       ->capture_default_str();
   command
       .add_option("--max-range", flags->sensor.max_range_m,
                   "With --map: points further away only say what is free up to there, metres [all "
                   "count]")
       ->check(cli_support::above_0());
-  command.add_option("--chord-error", flags->chord_error_m,
-                     "How far the triangles about a sphere or cylinder may stand out, metres [a "
-                     "hundredth of the radius]");
+  command
+      .add_option("--chord-error", flags->chord_error_m,
+                  "How far the triangles about a sphere or cylinder may stand out, metres [a "
+                  "hundredth of the radius]")
+      ->check(cli_support::number_in(length_range()));
 }
 
 void add_load(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
@@ -515,10 +531,8 @@ void add_looks(CLI::App& parent, const Flags& flags, ExitCode& exit_code) {
   scan->add_option("--points", flags->points_file, "Three numbers a line, metres in the world")
       ->type_name("FILE")
       ->required();
-  scan->add_option("--origin", flags->origin_m, "Where the sensor was, metres in the world")
-      ->type_name("X,Y,Z")
-      ->delimiter(',')
-      ->expected(3)
+  cli_support::add_numbers(*scan, "--origin", flags->origin_m, "X,Y,Z",
+                           "Where the sensor was, metres in the world")
       ->required();
   scan->callback([flags, &exit_code] { exit_code = run_scan(*flags); });
 

@@ -261,9 +261,9 @@ ExitCode run_watch(WatchFlags flags) {
   if (!request.value) return invalid_input(request.error);
   // The daemon would refuse this, too, but with the names of the wire.
   if (const auto fault = planning::validate(*request.value)) {
-    return invalid_input(flags.request + ": " + fault->message);
+    return invalid_input(source_of(flags.request) + ": " + fault->message);
   }
-  warn_of_reading(flags.request, *request.value);
+  warn_of_reading(source_of(flags.request), *request.value);
   if (const std::string fault = use_key_file(flags.key_file, flags.client); !fault.empty()) {
     return invalid_input(fault);
   }

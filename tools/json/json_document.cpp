@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -15,11 +17,35 @@ namespace {
 
 using nlohmann::json;
 
+/// A place in a text. Writes to `end` the place up to which its copies have read.
+class TextReader {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  TextReader(const char* at, const char*& end) : at_(at), end_(&end) {}
+  reference operator*() const { return *at_; }
+  TextReader& operator++() {
+    *end_ = ++at_;
+    return *this;
+  }
+  bool operator==(const TextReader& other) const { return at_ == other.at_; }
+
+ private:
+  const char* at_;
+  const char** end_;
+};
+
 /// Receives the parser's events and builds the document. The library's own builder has no limits
 /// and accepts an object with two equal keys.
 class DocumentBuilder {
  public:
-  explicit DocumentBuilder(json& root) : root_(root) {}
+  /// `read_to` is the place up to which the parser has read the text that begins at `begin`.
+  DocumentBuilder(json& root, const char* begin, const char* const& read_to)
+      : root_(root), begin_(begin), read_to_(read_to) {}
 
   bool null() { return add(nullptr); }
   bool boolean(bool value) { return add(value); }
@@ -47,12 +73,13 @@ class DocumentBuilder {
   }
 
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// Returns the position of a syntax error; nothing if the document was refused for another
-  /// reason.
-  [[nodiscard]] std::optional<std::size_t> position() const { return position_; }
+  /// Returns the number of bytes up to the end of what was refused. The parser reads one byte
+  /// beyond a number.
+  [[nodiscard]] std::size_t position() const { return position_; }
 
  private:
   bool refuse(std::string reason) {
+    position_ = static_cast<std::size_t>(read_to_ - begin_);
     reason_ = std::move(reason);
     return false;
   }
@@ -109,10 +136,12 @@ class DocumentBuilder {
   }
 
   json& root_;
+  const char* begin_;
+  const char* const& read_to_;
   std::vector<json*> stack_;
   std::string key_;
   std::string reason_;
-  std::optional<std::size_t> position_;
+  std::size_t position_ = 0;
   std::size_t values_ = 0;
 };
 
@@ -151,11 +180,15 @@ Parsed<json> parse_document(std::string_view text, std::string_view source) {
     return {{}, prefix + "larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
   }
   json root;
-  DocumentBuilder builder(root);
-  if (json::sax_parse(text.begin(), text.end(), &builder)) return {std::move(root), {}};
-  if (!builder.position()) return {{}, prefix + builder.reason()};
-  return {{}, prefix + line_and_column(text, *builder.position()) + ": " + builder.reason()};
+  const char* read_to = text.data();
+  DocumentBuilder builder(root, text.data(), read_to);
+  const TextReader begin(text.data(), read_to);
+  const TextReader end(text.data() + text.size(), read_to);
+  if (json::sax_parse(begin, end, &builder)) return {std::move(root), {}};
+  return {{}, prefix + line_and_column(text, builder.position()) + ": " + builder.reason()};
 }
+
+std::string source_of(const std::string& file) { return file == "-" ? "standard input" : file; }
 
 Parsed<std::string> read_text(const std::string& file) {
   std::error_code ignored;
@@ -175,10 +208,11 @@ Parsed<std::string> read_text(const std::string& file) {
   while (input.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), input.gcount() > 0) {
     text.append(chunk.data(), static_cast<std::size_t>(input.gcount()));
     if (text.size() > kMaxDocumentBytes) {
-      return {{}, file + ": larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
+      return {{},
+              source_of(file) + ": larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
     }
   }
-  if (input.bad()) return {{}, file + ": cannot be read"};
+  if (input.bad()) return {{}, source_of(file) + ": cannot be read"};
   return {std::move(text), {}};
 }
 
@@ -219,17 +253,21 @@ double Field::number() const {
 
 std::int64_t Field::integer(std::int64_t least, std::int64_t largest) const {
   if (failed()) return least;
-  const std::string range =
-      "must be a whole number from " + std::to_string(least) + " to " + std::to_string(largest);
+  const std::string rule =
+      "be a whole number from " + std::to_string(least) + " to " + std::to_string(largest);
+  if (!value_->is_number()) {
+    fail("must " + rule + ", not " + type_name(*value_));
+    return least;
+  }
   if (!value_->is_number_integer()) {
-    fail(range);
+    fail_number(rule + ", without a decimal point or exponent");
     return least;
   }
   const bool too_large = value_->is_number_unsigned() &&
                          !std::in_range<std::int64_t>(value_->get<json::number_unsigned_t>());
   const std::int64_t value = too_large ? 0 : value_->get<std::int64_t>();
   if (!too_large && value >= least && value <= largest) return value;
-  fail(range);
+  fail_number(rule);
   return least;
 }
 
@@ -285,6 +323,11 @@ void Field::fail(std::string_view message) const {
   if (failed()) return;
   const std::string place = path();
   *error_ = place.empty() ? std::string(message) : place + ": " + std::string(message);
+}
+
+void Field::fail_number(std::string_view rule) const {
+  if (failed()) return;
+  fail("is " + value_->dump() + "; it must " + std::string(rule));
 }
 
 std::string Field::path() const {

@@ -33,6 +33,9 @@ struct Parsed {
 /// 1, columns in bytes. Never throws for a bad document.
 Parsed<nlohmann::json> parse_document(std::string_view text, std::string_view source);
 
+/// Returns the name of a file in messages: "standard input" for "-".
+std::string source_of(const std::string& file);
+
 /// Reads the whole `file` ("-": standard input). Refuses more than kMaxDocumentBytes.
 Parsed<std::string> read_text(const std::string& file);
 
@@ -72,6 +75,8 @@ class Field {
 
   /// Records an error about this value, unless there is one already.
   void fail(std::string_view message) const;
+  /// Records "is 7; it must ..." about this value, as `fail` does. Requires a number.
+  void fail_number(std::string_view rule) const;
   [[nodiscard]] bool failed() const { return !error_->empty(); }
   /// Returns the path, such as `keyframes[3].orientation`; empty for the document.
   [[nodiscard]] std::string path() const;
@@ -119,7 +124,7 @@ template <typename T>
 Parsed<T> read_as(T (*read)(const Field&), const std::string& file) {
   const Parsed<std::string> text = read_text(file);
   if (!text.value) return {{}, text.error};
-  return parse_as(read, *text.value, file == "-" ? "standard input" : file);
+  return parse_as(read, *text.value, source_of(file));
 }
 
 }  // namespace camway::tools

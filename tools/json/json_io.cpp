@@ -83,7 +83,7 @@ SceneReading read_reading(const Field& root) {
   SceneReading reading;
   if (const auto scale = root.optional_member("scale")) {
     reading.scale = scale->number();
-    if (!(*reading.scale > 0.0)) scale->fail("must be above 0");
+    if (!(*reading.scale > 0.0)) scale->fail_number("be above 0");
   }
   if (const auto up = root.optional_member("up")) reading.up = named(*up, scene::kUpAxes);
   if (const auto unknown = root.optional_member("unknown")) {

@@ -64,7 +64,7 @@ PathFile read_path(const Field& root) {
   if (const auto scale = root.optional_member("near_scale")) {
     file.near_scale = scale->number();
     if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {
-      scale->fail("must be above 0 and at most 1");
+      scale->fail_number("be above 0 and at most 1");
     }
   }
   return file;

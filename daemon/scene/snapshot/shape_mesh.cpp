@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/scene/snapshot/shape_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,8 +32,8 @@ std::string length_fault(const char* name, double value_m) {
 }
 
 ShapeMesh too_fine(double chord_error_m) {
-  return {std::nullopt, "chord_error_m: " + std::to_string(chord_error_m) + " m needs more than " +
-                            std::to_string(kMaxShapeTriangles) + " triangles"};
+  return {std::nullopt, fmt::format("chord_error_m: {:g} m needs more than {} triangles",
+                                    chord_error_m, kMaxShapeTriangles)};
 }
 
 ShapeMesh finished(Mesh mesh) {

@@ -289,7 +289,10 @@ TEST_F(CliCheck, GivesAVerdictWhenTimeRanOut) {
   const CliRun json = run_camway(
       {"check", "--scene", scene_, "--request", request_, "--response", response, "--json"});
   EXPECT_EQ(json.exit_code, 3);
-  EXPECT_THAT(json.err, HasSubstr(response + ": the deadline of 1e-09 s came first"));
+  EXPECT_THAT(
+      json.err,
+      HasSubstr(response +
+                ": the deadline of 1e-09 s was reached before the whole path was searched"));
   const nlohmann::json found = nlohmann::json::parse(json.out);
   EXPECT_EQ(found["verdict"], "timeout");
   EXPECT_EQ(found["certified"], false);

@@ -318,6 +318,41 @@ TEST_F(CliPlan, HelpNamesBodyAndClearance) {
 TEST_F(CliPlan, ReadsStandardInput) {
   const CliRun run = run_camway({"plan", "--scene", scene_, "--request", "-"}, free_);
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, StartsWith("camway: standard input: ok: "));
+}
+
+TEST_F(CliPlan, CallsStandardInputByItsName) {
+  std::string no_scene = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+  no_scene.replace(no_scene.find("\"scene\""), 7, "\"_scene\"");
+  std::string below_0 = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
+  below_0.replace(below_0.find("\"camera\""), 0, R"("options": {"clearance": -1}, )");
+  const std::pair<std::string, std::string> kFaults[] = {
+      {no_scene, "camway: standard input: scene: is missing"},
+      {below_0, "camway: standard input: options.clearance: is -1"},
+      {"{", "camway: standard input: line 1, column 1: "},
+  };
+  for (const auto& [text, said] : kFaults) {
+    const std::string file = folder_.write("in.json", text);
+    EXPECT_THAT(run_camway({"plan", "--request", "-"}, file).err, StartsWith(said));
+  }
+  const std::string file = folder_.write("in.json", below_0);
+  EXPECT_THAT(run_camway({"check", "--request", "-", "--response", free_}, file).err,
+              StartsWith("camway: standard input: options.clearance: is -1"));
+}
+
+TEST_F(CliPlan, AFlagWithoutItsValueMakesNoFile) {
+  const CliRun run = run_camway({"plan", "--request", free_, "--response", "--no-timing"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("camway: --response: needs a value; '--no-timing' is a flag"));
+  const CliRun taken =
+      run_camway({"plan", "--request", free_, "--clearance", "--response", folder_.file("x.json")});
+  EXPECT_THAT(taken.err, HasSubstr("camway: --clearance: needs a value; '--response' is a flag"));
+}
+
+TEST_F(CliPlan, NamesTheDeadlineThatWasReached) {
+  const CliRun run = run_camway({"plan", "--request", free_, "--deadline-s", "1e-9"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("timeout: the deadline of 1e-09 s was reached before "));
 }
 
 TEST_F(CliPlan, SaysWhichFilesCannotBeUsed) {

@@ -77,6 +77,34 @@ TEST(Cli, HelpOfWhatIsNoCommandSaysSo) {
   }
 }
 
+TEST(Cli, ShapesOfTheSceneAreToldInTheWordsOfTheFlags) {
+  const std::pair<std::vector<std::string>, const char*> kCases[] = {
+      {{"--box", "nan,1,1"},
+       "camway: --box: must be X,Y,Z, each a number above 0 and at most 1e+09 m, not 'nan' (see"},
+      {{"--box", "1,0,1"}, "--box: must be X,Y,Z, each a number above 0"},
+      {{"--box", "1,1"}, "camway: --box: takes 3 values (X,Y,Z), not 2 (see camway scene add"},
+      {{"--sphere", "-1"}, "--sphere: must be a number above 0 and at most 1e+09 m, not '-1'"},
+      {{"--sphere", "1e300"}, "--sphere: must be a number above 0 and at most 1e+09 m"},
+      {{"--cylinder", "1,-2"}, "--cylinder: must be RADIUS,HEIGHT, each a number above 0"},
+      {{"--cylinder", "1"}, "--cylinder: takes 2 values (RADIUS,HEIGHT), not 1"},
+      {{"--sphere", "1", "--chord-error", "0"}, "--chord-error: must be a number above 0"},
+      {{"--map", "0"}, "--map: must be a number from 1e-09 to 1e+09, not '0'"},
+      {{"--map", "1", "--hit", "0.5"}, "--hit: must be a number above 0.5 and below 1, not '0.5'"},
+      {{"--map", "1", "--miss", "1"}, "--miss: must be a number above 0 and below 0.5, not '1'"},
+      {{"--box", "1,1,1", "--position", "1,x,1"},
+       "--position: must be X,Y,Z, each a number, not 'x'"},
+      {{"--box", "1,1,1", "--orientation", "1,0,0"},
+       "--orientation: takes 4 values (W,X,Y,Z), not 3"},
+  };
+  for (const auto& [flags, said] : kCases) {
+    std::vector<std::string> arguments{"scene", "add", "hall", "crate"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const CliRun run = run_camway(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr(said));
+  }
+}
+
 // The commands without a daemon; other tests cover the others.
 TEST(Cli, ANetworkThatLcmCannotUseIsInvalidInput) {
   const TemporaryFolder folder;

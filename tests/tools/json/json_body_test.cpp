@@ -95,9 +95,9 @@ TEST(JsonBody, NamesTheFieldAtFault) {
       {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0]]})",
        "body.triangles[0]: must be an array of 3 indices"},
       {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})",
-       "body.triangles[0][2]: must be a whole number from 0"},
+       "body.triangles[0][2]: is -1; it must be a whole number from 0"},
       {R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 0, 0.5]]})",
-       "body.triangles[0][2]: must be a whole number"},
+       "body.triangles[0][2]: is 0.5; it must be a whole number"},
   };
   for (const auto& [body, expected] : cases) {
     const auto parsed = parse_plan_request(request_with(body), "R.json");

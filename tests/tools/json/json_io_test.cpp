@@ -117,7 +117,8 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
        "keyframes[1].orientation_xyzw: has length zero"},
       {R"("orientation": [0, 3, 0, 4])", R"("_orientation": [0, 3, 0, 4])",
        "keyframes[1].orientation: is missing"},
-      {R"("scene": "office.obj")", R"("scale": 0)", "scale: must be above 0"},
+      {R"("scene": "office.obj")", R"("scale": 0)", "scale: is 0; it must be above 0"},
+      {R"("scene": "office.obj")", R"("scale": -2.5)", "scale: is -2.5; it must be above 0"},
       {R"("scene": "office.obj")", R"("scale": "inch")", "scale: must be a number"},
       {R"("scene": "office.obj")", R"("up": "zup")",
        "up: 'zup' is unknown; there are as-in-file, z-to-y, y-to-z"},
@@ -132,9 +133,21 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("clearance": 0.25)", R"("clearance": "wide")",
        "options.clearance: must be a number, not a string"},
       {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": 7.5)",
-       "options.max_inserted_keyframes: must be a whole number"},
+       "options.max_inserted_keyframes: is 7.5; it must be a whole number from 0 to 2147483647, "
+       "without a decimal point or exponent"},
       {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": -1)",
-       "options.max_inserted_keyframes: must be a whole number from 0"},
+       "options.max_inserted_keyframes: is -1; it must be a whole number from 0 to 2147483647"},
+      {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": 2147483648)",
+       "options.max_inserted_keyframes: is 2147483648; it must be a whole number from 0"},
+      {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": "3")",
+       "options.max_inserted_keyframes: must be a whole number from 0 to 2147483647, not a string"},
+      {R"("clearance": 0.25)", R"("seed": 1e30)",
+       "options.seed: is 1e+30; it must be a whole number from 1 to 9223372036854775807, without"},
+      {R"("clearance": 0.25)", R"("seed": 0)", "options.seed: is 0; it must be a whole number"},
+      {R"("clearance": 0.25)", R"("seed": 18446744073709551615)",
+       "options.seed: is 18446744073709551615; it must be a whole number from 1"},
+      {R"("clearance": 0.25)", R"("seed": null)",
+       "options.seed: must be a whole number from 1 to 9223372036854775807, not null"},
       {R"("scene": "office.obj")", R"("scene": 3)", "scene: must be a string, not a number"},
       {R"("options": {)", R"("options": [{}], "_more": {)", "options: must be an object"},
   };
@@ -591,7 +604,7 @@ TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
   EXPECT_EQ(error_of("\"none\"", "\"fly\""), "P.json: corrections[1].method: 'fly' is unknown");
   EXPECT_EQ(error_of("\"moved_m\"", "\"moved\""), "P.json: corrections[1].moved_m: is missing");
   EXPECT_THAT(error_of("[3, 5, 8]", "[3, -5]"),
-              HasSubstr("infeasibility.triangles[1]: must be a whole number from 0"));
+              HasSubstr("infeasibility.triangles[1]: is -5; it must be a whole number from 0"));
   EXPECT_EQ(error_of("\"length_m\"", "\"length\""), "P.json: measures.after.length_m: is missing");
 }
 

@@ -116,9 +116,9 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
       {R"({"bounds": {"max": [1, "2", 3]}})", "bounds.max[1]: must be a number"},
       {R"({"max_shrink": "much"})", "max_shrink: must be a number"},
       {R"({"repair_keyframes": 1})", "repair_keyframes: must be true or false"},
-      {R"({"seed": 0})", "seed: must be a whole number from 1"},
-      {R"({"seed": -4})", "seed: must be a whole number from 1"},
-      {R"({"seed": 1.5})", "seed: must be a whole number from 1"},
+      {R"({"seed": 0})", "seed: is 0; it must be a whole number from 1"},
+      {R"({"seed": -4})", "seed: is -4; it must be a whole number from 1"},
+      {R"({"seed": 1.5})", "seed: is 1.5; it must be a whole number from 1"},
   };
   for (const auto& c : cases) {
     const auto parsed = options_of(c.options);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "daemon/planning/message.h"
 #include "daemon/planning/path_faults.h"
 #include "tools/camway/check/check_report.h"
 #include "tools/camway/common/commands.h"
@@ -44,7 +45,7 @@ std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& reque
 Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>& request) {
   if (!request.value) return failed(request.error);
   if (const auto fault = planning::validate(*request.value)) {
-    return failed(flags.request + ": " + fault->message);
+    return failed(source_of(flags.request) + ": " + fault->message);
   }
   const Parsed<PathFile> response = read_path_file(flags.response);
   if (!response.value) return failed(response.error);
@@ -52,11 +53,11 @@ Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>
   camera.near_m *= response.value->near_scale;
   std::string fault;
   auto body = motion::Body::make(request.value->body.value_or(camera), fault);
-  if (!body) return failed(flags.request + ": body: " + fault);
+  if (!body) return failed(source_of(flags.request) + ": body: " + fault);
   // Only the response has the bounds of the scene that it was planned in.
   const geometry::Bounds bounds = request.value->options.bounds.within(response.value->bounds);
   return {
-      CheckInput{*request.value, response.value->path, flags.response,
+      CheckInput{*request.value, response.value->path, source_of(flags.response),
                  timed_keyframes(*request.value, response.value->keyframe_times_s), std::move(body),
                  nullptr, response.value->scene_digest, response.value->near_scale, bounds},
       {}};
@@ -68,10 +69,10 @@ Parsed<CheckInput> read_input(const CheckFlags& flags) {
   if (!input.value) return input;
   std::optional<std::string> fault = planning::find_fault(input.value->path.segments());
   if (!fault) fault = planning::find_jump(input.value->path, input.value->body->radius_m());
-  if (fault) return failed(flags.response + ": " + *fault);
+  if (fault) return failed(source_of(flags.response) + ": " + *fault);
   const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
   if (scene_file.empty()) {
-    return failed(flags.request + ": scene: is missing, and there is no --scene");
+    return failed(source_of(flags.request) + ": scene: is missing, and there is no --scene");
   }
   scene::SnapshotOptions options;
   options.import = flags.scene.import_options(request.value->reading);
@@ -99,8 +100,8 @@ ExitCode run_check(const CheckFlags& flags) {
     print_error("warning: " + warning);
   }
   if (!found.complete) {
-    print_error(fmt::format("{}: the deadline of {} s came first", flags.response,
-                            input.request.options.deadline_s));
+    print_error(fmt::format("{}: {} before the whole path was searched", input.response_file,
+                            planning::deadline_reached(input.request)));
   }
   fmt::print("{}", flags.json ? check_json(input, found).dump(2) + "\n" : check_text(input, found));
   return found.certificate.certified ? ExitCode::kSuccess : ExitCode::kNegative;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "daemon/collision/obstacles.h"
+#include "daemon/planning/message.h"
 #include "daemon/planning/path_faults.h"
 #include "daemon/planning/witness_names.h"
 #include "daemon/scene/import/import_warnings.h"
@@ -144,14 +145,6 @@ std::string_view verdict(const PathSearch& search) {
   return search.certificate.certified ? "free" : "collides";
 }
 
-/// Returns the longest side of the body's bounding box.
-double size_m(const motion::Body& body) {
-  geometry::Box box;
-  for (const geometry::Triangle& triangle : body.triangles_C())
-    box.extend(geometry::bounds(triangle));
-  return box.sizes().maxCoeff() + 2.0 * body.ball_radius_m();
-}
-
 }  // namespace
 
 std::string at_feature(const std::string& feature) {
@@ -169,7 +162,7 @@ std::vector<std::string> check_warnings(const CheckInput& input, const PathSearc
         input.response_file, input.made_for_digest, input.snapshot->name, digest,
         input.snapshot->name));
   }
-  const double body_m = size_m(*input.body);
+  const double body_m = planning::body_size_m(*input.body);
   const double tolerance_m = input.request.options.interval_tolerance_m;
   if (input.near_scale < 1.0) {
     warnings.push_back(fmt::format(

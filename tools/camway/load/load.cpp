@@ -73,8 +73,9 @@ LoadPlan make_questions(const LoadFlags& flags) {
       print_error(request.error);
       return {};
     }
-    warn_of_reading(file, *request.value);
-    plan.questions.push_back({file, to_client_request(*request.value, parsed.scene->name),
+    warn_of_reading(source_of(file), *request.value);
+    plan.questions.push_back({source_of(file),
+                              to_client_request(*request.value, parsed.scene->name),
                               planning::plan(*scene.result.snapshot, *request.value)});
   }
   return plan;

@@ -38,9 +38,10 @@ std::string description_of(const FieldSpec& spec) {
 }
 
 CLI::Validator check_of(const FieldSpec& spec) {
-  return cli_support::number_in(spec.range_text(), [spec](double value) {
+  const auto holds = [spec](double value) {
     return spec.range.holds(spec.is_angle() ? radians(value) : value);
-  });
+  };
+  return cli_support::number_in({spec.range_text(), holds});
 }
 
 /// Adds the flag of one option, which sets `member`. Returns null for an option without a flag.

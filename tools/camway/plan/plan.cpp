@@ -87,15 +87,16 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
     answer.result = invalid(request.error);
     return answer;
   }
+  const std::string source = source_of(file);
   flags.options.apply(*request.value);
   if (const auto fault = planning::validate(*request.value)) {
-    answer.result = invalid(file + ": " + fault->message);
+    answer.result = invalid(source + ": " + fault->message);
     answer.result.keyframe = fault->keyframe;
     return answer;
   }
   answer.scene_file = flags.scene.file_for(file, *request.value);
   if (answer.scene_file.empty()) {
-    answer.result = invalid(file + ": scene: is missing, and there is no --scene");
+    answer.result = invalid(source + ": scene: is missing, and there is no --scene");
     return answer;
   }
   const LoadedScene& scene =
@@ -115,7 +116,7 @@ Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCach
   planning::name_witnesses(scene.result.snapshot->mesh, *request.value, answer.result);
   answer.result.timing.load_scene_ms = scene.load_ms;
   if (answer.result.status == Status::kInvalid) {
-    answer.result.message = file + ": " + answer.result.message;
+    answer.result.message = source + ": " + answer.result.message;
   }
   return answer;
 }
@@ -174,8 +175,8 @@ ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
   }
   const Answer answer = answer_request(flags, file, scenes);
   print_warnings(answer.scene_file, answer.scene_warnings);
-  print_warnings(file, answer.request_warnings);
-  print_summary(file, answer);
+  print_warnings(source_of(file), answer.request_warnings);
+  print_summary(source_of(file), answer);
   const ExitCode outcome = exit_code_of(answer.result.status);
   // Invalid input leaves nothing on standard output, where a path is expected.
   if (outcome == ExitCode::kInvalidInput && flags.response.empty()) return outcome;
@@ -219,21 +220,22 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
   fmt::print("{:<14} {:>9} {:>9} {:>8} {:>9}  {}\n", "status", "ms", "colliding", "inserted",
              "remaining", "request");
   for (std::size_t i = 0; i < flags.requests.size(); ++i) {
+    const std::string source = source_of(flags.requests[i]);
     const Answer answer = answer_request(flags, flags.requests[i], scenes);
     if (warned_of.insert(answer.scene_file).second) {
       print_warnings(answer.scene_file, answer.scene_warnings);
     }
-    print_warnings(flags.requests[i], answer.request_warnings);
+    print_warnings(source, answer.request_warnings);
     const PlanResult& result = answer.result;
     ok_count += result.status == Status::kOk ? 1 : 0;
     fmt::print("{:<14} {:>9.1f} {:>9} {:>8} {:>9}  {}\n", planning::to_string(result.status),
                result.timing.total_ms, result.collisions.size(), inserted_count(result),
-               result.remaining_collisions.size(), flags.requests[i]);
+               result.remaining_collisions.size(), source);
     std::fflush(stdout);
     const ExitCode code = exit_code_of(result.status);
     // The table has everything about the others.
     if (code == ExitCode::kInvalidInput || code == ExitCode::kOurFault) {
-      print_summary(flags.requests[i], answer);
+      print_summary(source, answer);
     }
     outcome = worse(outcome, code);
     outcome = worse(outcome, write_response(answer, (*files.value)[i], flags.no_timing));
