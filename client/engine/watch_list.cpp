@@ -49,6 +49,16 @@ bool is_answer(const PlanResponse& response) {
          response.status != Status::kOverloaded;
 }
 
+/// Returns whether two events kBroken say the same of a path. Unrelated changes of the scene alone
+/// do not make a difference; that the scene is gone does.
+bool is_same_break(const WatchEvent& a, const WatchEvent& b) {
+  const auto is_same_interval = [](const CollisionInterval& x, const CollisionInterval& y) {
+    return x.t_begin_s == y.t_begin_s && x.t_end_s == y.t_end_s;
+  };
+  return (a.scene_revision == 0) == (b.scene_revision == 0) &&
+         std::ranges::equal(a.broken, b.broken, is_same_interval);
+}
+
 }  // namespace
 
 void WatchList::add(const PlanRequest& request, WatchHandler handler) {
@@ -133,6 +143,7 @@ void WatchList::answered(std::int64_t request_id, const PlanResponse& response) 
   tell(last, std::move(event));
   WatchEvent end;
   end.kind = WatchEvent::Kind::kEnded;
+  end.status = response.status;
   end.error = "there is nothing to watch, as the answer has no proved path: " +
               (response.ok() ? response.message : response.error);
   tell(last, std::move(end));
@@ -287,7 +298,13 @@ void WatchList::take_new_state(Watched& watched, const path_state_t& state,
       if (interval.request_id != state.request_id) continue;
       event.broken.push_back({interval.t_begin_s, interval.t_end_s, std::nullopt});
     }
+    // The daemon numbers the state anew with each answer. After one without a proved path, it is
+    // the state that the handler has heard of.
+    const bool is_told =
+        watched.is_broken && !watched.is_lost && is_same_break(event, watched.last_break);
     watched.is_broken = true;
+    if (is_told) return;
+    watched.last_break = event;
     tell(watched, std::move(event));
   } else if (watched.is_broken && state.answer_revision == watched.held_revision) {
     event.kind = WatchEvent::Kind::kFree;

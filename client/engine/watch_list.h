@@ -81,6 +81,7 @@ class WatchList {
     std::int64_t held_revision = -1;  ///< scene revision of the answer that is held; below 0: none
     std::int64_t serial = 0;          ///< serial of the newest state that was received
     bool is_broken = false;
+    WatchEvent last_break = {};           ///< the last event kBroken
     bool is_lost = false;                 ///< whether the last event was kLost
     std::int64_t scene_revision = 0;      ///< scene revision of the last event before kLost
     std::optional<Failure> refusal = {};  ///< reason why the daemon refuses to watch it, if it does

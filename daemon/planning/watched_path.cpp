@@ -56,10 +56,9 @@ WatchedPath::WatchedPath(motion::Path path, motion::Body body,
 
 std::optional<WatchedPath> WatchedPath::of(const PlanRequest& request, const PlanResult& result) {
   if (!result.certificate.certified || result.path.empty()) return std::nullopt;
-  motion::Camera camera = request.camera;
-  camera.near_m *= result.near_scale;
   std::string fault;
-  std::optional<motion::Body> body = motion::Body::make(request.body.value_or(camera), fault);
+  std::optional<motion::Body> body =
+      motion::Body::make(body_shape(request, result.near_scale), fault);
   if (!body) return std::nullopt;
   return WatchedPath(result.path, std::move(*body), detect_options(request.options),
                      request.options.bounds);

@@ -22,8 +22,8 @@ int run(int argc, char** argv) {
   using namespace camway;
   const process::ParsedOptions parsed = process::parse_daemon_options(argc, argv);
   if (!(std::cout << parsed.text).flush()) {
-    std::cerr << "camwayd: standard output cannot be written\n";
-    return kExitFault;
+    std::cerr << "camwayd: standard output cannot be written: the disk is full, or nobody reads\n";
+    return kExitBadInput;
   }
   for (const std::string& fault : parsed.faults) std::cerr << "camwayd: " << fault << '\n';
   if (!parsed.faults.empty()) return kExitBadInput;

@@ -1,17 +1,29 @@
 # Installs BUILD_DIR into a prefix that its configuration does not know, and looks at what is there.
-# cmake -DBUILD_DIR= -DWORK_DIR= -P installed_files.cmake
+# cmake -DBUILD_DIR= -DWORK_DIR= -DPYTHON= -P installed_files.cmake
 file(REMOVE_RECURSE ${WORK_DIR})
 set(prefix ${WORK_DIR}/prefix)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix}
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(file bin/camwayd bin/camway bin/camway-import lib/systemd/system/camwayd.service
-             share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/README.md
-             share/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
+             share/camway/camwayd.toml share/camway/scenes/office.obj share/camway/lcmtypes/camway_plan_request_t.lcm
+             share/doc/camway/docs/wire.md share/doc/camway/docs/images/demo.svg
+             share/doc/camway/lcmtypes/README.md
              share/doc/camway/README.md share/doc/camway/LICENSE share/doc/camway/SECURITY.md
              include/camway/client.h)
   if(NOT EXISTS ${prefix}/${file})
     message(SEND_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+# Every link of an installed document leads to an installed file, also where only the client is.
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/client --component client
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+foreach(folder ${prefix} ${WORK_DIR}/client)
+  execute_process(COMMAND ${PYTHON} -B ${CMAKE_CURRENT_LIST_DIR}/../documents/check_links.py --source ${folder}
+                  RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT code EQUAL 0)
+    message(SEND_ERROR "documents in ${folder}:\n${said}")
   endif()
 endforeach()
 

@@ -74,6 +74,19 @@ TEST_F(LoadTest, EveryOccupancyAnswerIsThatOfTheSameMapHere) {
   EXPECT_EQ(ask("office=" + scene_file("office")), 2) << output_;
 }
 
+TEST_F(LoadTest, AnInvalidRequestIsNamedOnceAndNoSuccess) {
+  start_daemon();
+  std::ofstream(file("one.json")) << R"({"camera": {"fov_x_deg": 80, "fov_y_deg": 60, "near": 0.1},
+      "keyframes": [{"position": [0, 0, 1], "orientation": [1, 0, 0, 0]}]})";
+  EXPECT_EQ(load({"--clients", "1", "--requests", "8", "--request", file("one.json")}), 2);
+  EXPECT_EQ(measured()["by_status"]["invalid"], 2);
+  EXPECT_EQ(measured()["answered"], 8);
+  EXPECT_THAT(output_, HasSubstr("by status: 2 invalid, 6 ok"));
+  const std::string reason = "one.json: the daemon answers invalid: keyframes: holds 1";
+  EXPECT_THAT(output_, HasSubstr(reason));
+  EXPECT_EQ(output_.find(reason), output_.rfind(reason));
+}
+
 TEST_F(LoadTest, AnotherSceneUnderTheSameNameIsFoundOut) {
   start_daemon_with_scenes({"office=" + scene_file("gallery")});
   EXPECT_EQ(load({"--clients", "1", "--requests", "3"}), 2) << output_;

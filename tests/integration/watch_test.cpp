@@ -281,6 +281,16 @@ TEST_F(WatchTest, TheCommandEndsItsWatch) {
   EXPECT_EQ(client.status().watched_paths, 0);
 }
 
+TEST_F(WatchTest, TheCommandSaysOnceThatThereIsNoPathToWatch) {
+  start_daemon();
+  Process watch({CAMWAY_BINARY, "watch", "nowhere", "--request", request_file("office-free-door")},
+                file("watch.log"));
+  EXPECT_EQ(watch.wait(), 2) << watch.output();
+  const std::string said = watch.output();
+  EXPECT_THAT(said, HasSubstr("nowhere"));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+}
+
 TEST_F(WatchTest, TheCommandSaysOnceThatALimitIsInTheWay) {
   std::ofstream(file("camwayd.toml"))
       << "[watch]\npaths = 0\n[[scene]]\nname = \"office\"\nfile = \"" << scene_file("office")

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "daemon/collision/near_quad.h"
 #include "tests/planning/plan_fixture.h"
@@ -256,6 +257,17 @@ TEST(Plan, SaysHowHardItTried) {
               ::testing::ContainsRegex("tried without success: .*places on a way round"));
 }
 
+TEST(Plan, ACameraAsTheBodyIsTheCamera) {
+  PlanRequest request = bulging_tour();
+  for (const Method method : {Method::kLadder, Method::kKeyframeInsertion}) {
+    request.options.method = method;
+    PlanRequest as_body = request;
+    as_body.body = std::exchange(as_body.camera, {});
+    EXPECT_EQ(numbers_of(planned(*column_scene(), as_body)),
+              numbers_of(planned(*column_scene(), request)));
+  }
+}
+
 TEST(Plan, NamesOptionsThatItsMethodDoesNotLookAt) {
   PlanRequest request = bulging_tour();
   request.options.method = Method::kKeyframeInsertion;
@@ -283,6 +295,14 @@ TEST(Plan, MakesTheCameraSmallerIfNothingElseHelpsAndItMay) {
   EXPECT_EQ(smaller.status, Status::kOk) << smaller.message;
   EXPECT_LT(smaller.near_scale, 1.0);
   EXPECT_GE(smaller.near_scale, 0.4);
+
+  // The same camera as the body.
+  PlanRequest as_body = request;
+  as_body.body = std::exchange(as_body.camera, {});
+  const PlanResult same = planned(*snapshot, as_body);
+  EXPECT_EQ(numbers_of(same), numbers_of(smaller));
+  EXPECT_EQ(same.near_scale, smaller.near_scale);
+  EXPECT_EQ(same.message, smaller.message);
 }
 
 // A camera of a fifth of the size would miss the column.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "daemon/planning/plan.h"
 #include "daemon/planning/stages/check.h"
@@ -188,6 +189,11 @@ TEST(WatchedPath, UsesTheSmallerCameraThatWasProved) {
       scene::place_object("bar", box_source({1.0, 0.1, 0.1}), at({2, 0, -0.12}), {});
   const auto after = scene::assemble("room", 2, {placed.object}, {});
   EXPECT_TRUE(watched->collisions(collision::Obstacles(*after), Deadline::never()).empty());
+  PlanRequest as_body = request;
+  as_body.body = std::exchange(as_body.camera, {});
+  EXPECT_TRUE(WatchedPath::of(as_body, planned)
+                  ->collisions(collision::Obstacles(*after), Deadline::never())
+                  .empty());
   planned.near_scale = 1.0;
   EXPECT_FALSE(WatchedPath::of(request, planned)
                    ->collisions(collision::Obstacles(*after), Deadline::never())

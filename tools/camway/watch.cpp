@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -164,6 +165,46 @@ class Events {
   std::deque<WatchEvent> events_;
 };
 
+/// Prints events. An answer without a proved path waits for the next event: if that is the end of
+/// the watch, it gives the same reason, and people read it once.
+class Printer {
+ public:
+  explicit Printer(const WatchFlags& flags) : flags_(flags) {}
+
+  void add(const WatchEvent& event) {
+    if (event.kind == WatchEvent::Kind::kAnswer && !event.answer->certified) {
+      waiting_ = event;
+    } else {
+      tell(event);
+    }
+  }
+
+  /// Prints the answer that waits, if one does.
+  void flush() {
+    if (waiting_) tell(*std::exchange(waiting_, std::nullopt));
+  }
+
+  /// Prints the end of the watch. Returns its exit code.
+  ExitCode end(const WatchEvent& event) {
+    if (flags_.json) flush();
+    return report_failure(event.status, event.error, flags_.key_file);
+  }
+
+  /// Returns whether as many events as the command line asks for were printed.
+  [[nodiscard]] bool is_enough() const { return flags_.count != 0 && printed_ >= flags_.count; }
+
+ private:
+  void tell(const WatchEvent& event) {
+    if (is_enough()) return;
+    print(event, flags_.json);
+    ++printed_;
+  }
+
+  const WatchFlags& flags_;
+  std::int64_t printed_ = 0;
+  std::optional<WatchEvent> waiting_;
+};
+
 /// The end of the watch.
 struct Followed {
   ExitCode code;
@@ -183,28 +224,29 @@ Followed follow(const WatchFlags& flags, const Interruption& interruption, Event
   std::optional<WatchEvent> unheard;  // the last event, if it says so
   bool is_answered = false;
   bool is_watched = false;
-  for (std::int64_t heard = 0; flags.count == 0 || heard < flags.count;) {
+  Printer printer(flags);
+  while (!printer.is_enough()) {
     const Clock::time_point now = Clock::now();
     if (interruption.came() || now >= until) break;
     if (unheard && now >= wait_until) {
       return {report_failure(unheard->status, unheard->error, flags.key_file), false};
     }
     const std::optional<WatchEvent> event = events.take(std::min(until, now + kLook));
-    if (!event) continue;
-    if (event->kind == WatchEvent::Kind::kEnded) {
-      print_error(event->error);
-      return {ExitCode::kNegative};
+    if (event && event->kind == WatchEvent::Kind::kEnded) {
+      return {printer.end(*event)};
     }
+    printer.flush();
+    if (!event) continue;
     const bool is_unheard =
         event->kind == WatchEvent::Kind::kLost && !is_answered &&
         (event->status == Status::kNoDaemon || event->status == Status::kNoAnswer);
     unheard = is_unheard ? event : std::nullopt;
     if (is_unheard) continue;
-    print(*event, flags.json);
-    ++heard;
+    printer.add(*event);
     is_watched = event->kind != WatchEvent::Kind::kLost;
     is_answered = is_answered || event->kind == WatchEvent::Kind::kAnswer;
   }
+  printer.flush();
   if (!is_answered) return {ExitCode::kNoDaemon};
   return {is_watched ? ExitCode::kSuccess : ExitCode::kNegative};
 }

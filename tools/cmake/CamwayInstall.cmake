@@ -9,10 +9,14 @@ install(FILES ${PROJECT_SOURCE_DIR}/scenes/office.obj
 configure_file(${CMAKE_CURRENT_LIST_DIR}/InstallDaemonFiles.cmake.in
                ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake @ONLY)
 install(SCRIPT ${PROJECT_BINARY_DIR}/InstallDaemonFiles.cmake)
-install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE SECURITY.md
-        DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+# The documents keep the folders that they have in the repository, so that the links between them work.
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md LICENSE SECURITY.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT client)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT client
         FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
+foreach(folder daemon/paper lcmtypes tests/bench)
+  install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT client)
+endforeach()
 
 # The installed client library holds the wire checks too and exports nothing of our build: users need
 # LCM and the standard library only.
@@ -47,10 +51,7 @@ install(EXPORT camway-authentication-targets NAMESPACE camway:: DESTINATION ${ca
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/client/include/camway DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         COMPONENT client FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/lcmtypes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/lcmtypes
-        COMPONENT client FILES_MATCHING PATTERN "*.lcm" PATTERN "README.md"
-        PATTERN "wire" EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/docs/wire.md DESTINATION ${CMAKE_INSTALL_DATADIR}/camway/docs
-        COMPONENT client)
+        COMPONENT client FILES_MATCHING PATTERN "*.lcm" PATTERN "wire" EXCLUDE)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/camwayConfig.cmake.in
   ${PROJECT_BINARY_DIR}/camwayConfig.cmake INSTALL_DESTINATION ${camway_package_dir})

@@ -18,8 +18,11 @@ struct WatchEvent {
     /// A new answer: the first, a corrected one, or one after a restart of the daemon. Check its
     /// status.
     kAnswer,
-    kBroken,  ///< a change of the scene makes the path of the last answer collide, as `broken` says
-    kFree,    ///< a broken path is proved free again, unchanged
+    /// A change of the scene makes the watched path collide, as `broken` says. The event comes
+    /// again only if `broken` differs, or after kLost. An answer without a proved path leaves the
+    /// path watched and broken.
+    kBroken,
+    kFree,  ///< a broken path is proved free again, unchanged
     /// The path is not watched for now; `status` and `error` say why. This event comes once. If the
     /// daemon falls silent, it comes within 3.5 s. The client keeps trying; the next event of this
     /// path has the result.
@@ -38,8 +41,8 @@ struct WatchEvent {
   std::vector<CollisionInterval> broken;  ///< kBroken: all collisions, without witnesses
   std::optional<PlanResponse> answer;     ///< set with kAnswer and kBetter
   /// kLost: `kNoDaemon` if no daemon is heard, otherwise the refusal, such as `kLimit` or
-  /// `kOverloaded`. kEnded: the reason if the request could not be sent, otherwise kOk. All other
-  /// events: kOk.
+  /// `kOverloaded`. kEnded: the status of the answer without a proved path, or the reason if the
+  /// request could not be sent. All other events: kOk.
   Status status = Status::kOk;
   std::string error;  ///< kLost, kEnded: the reason
 };

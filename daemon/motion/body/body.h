@@ -25,11 +25,12 @@ struct SphereShape {
   geometry::Vec3 center_C = geometry::Vec3::Zero();
   double radius_m = 0.0;  ///< [Limit: 0 < value]
 };
-/// The union of the convex hulls of sets of points; a set may be flat, a segment or a point.
+/// The union of the convex hulls of sets of points. A set may be flat, a segment or a point, but
+/// the body is not a single point.
 struct ConvexShape {
   std::vector<std::vector<geometry::Vec3>> pieces_C;
 };
-/// A surface: like the scene's, it has no inside.
+/// A surface: like the scene's, it has no inside. It is not a single point.
 struct MeshShape {
   std::vector<geometry::Vec3> vertices_C;
   std::vector<std::array<std::uint32_t, 3>> triangles;

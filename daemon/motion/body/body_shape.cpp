@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "daemon/motion/body/body.h"
 
@@ -30,6 +32,12 @@ Fault fault_in_count(const std::string& field, std::size_t count, std::size_t mo
   if (count == 0) return ShapeFault{field, "is empty"};
   if (count <= most) return std::nullopt;
   return ShapeFault{field, fmt::format("holds {}; at most {} are allowed", count, most)};
+}
+
+/// The fault of a body without extent.
+Fault single_point(std::string field) {
+  return ShapeFault{std::move(field),
+                    "is a single point, or that point repeated; a body needs two different points"};
 }
 
 Fault fault_in_shape(const Camera& camera) {
@@ -71,6 +79,13 @@ Fault fault_in_shape(const ConvexShape& convex) {
       if (Fault fault = fault_in_point(fmt::format("{}[{}]", piece, k), points[k])) return fault;
     }
   }
+  const Vec3& first = convex.pieces_C.front().front();
+  const auto is_first = [&](const std::vector<Vec3>& points) {
+    return std::ranges::all_of(points, [&](const Vec3& point) { return point == first; });
+  };
+  if (std::ranges::all_of(convex.pieces_C, is_first)) {
+    return single_point(convex.pieces_C.size() == 1 ? "points" : "pieces");
+  }
   return std::nullopt;
 }
 
@@ -91,6 +106,13 @@ Fault fault_in_shape(const MeshShape& mesh) {
                         fmt::format("is {}, but there are {} vertices, counted from 0", vertex,
                                     mesh.vertices_C.size())};
     }
+  }
+  const Vec3& first = mesh.vertices_C[mesh.triangles.front().front()];
+  const auto is_first = [&](std::uint32_t vertex) { return mesh.vertices_C[vertex] == first; };
+  if (std::ranges::all_of(mesh.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
+        return std::ranges::all_of(triangle, is_first);
+      })) {
+    return single_point("triangles");
   }
   return std::nullopt;
 }

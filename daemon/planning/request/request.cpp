@@ -2,12 +2,30 @@
 #include "daemon/planning/request/request.h"
 
 #include <cmath>
+#include <variant>
 
 namespace camway::planning {
 
+const motion::Camera* moving_camera(const PlanRequest& request) {
+  return request.body ? std::get_if<motion::Camera>(&*request.body) : &request.camera;
+}
+
+motion::Camera* moving_camera(PlanRequest& request) {
+  return request.body ? std::get_if<motion::Camera>(&*request.body) : &request.camera;
+}
+
+motion::BodyShape body_shape(const PlanRequest& request, double near_scale) {
+  const motion::Camera* camera = moving_camera(request);
+  if (camera == nullptr) return *request.body;
+  motion::Camera scaled = *camera;
+  scaled.near_m *= near_scale;
+  return scaled;
+}
+
 bool may_shrink(const PlanRequest& request) {
   const PlanOptions& options = request.options;
-  return options.max_shrink > 0.0 && !request.body && options.max_inserted_keyframes != 0;
+  return options.max_shrink > 0.0 && moving_camera(request) != nullptr &&
+         options.max_inserted_keyframes != 0;
 }
 
 std::string PlanRequest::name_of(std::string_view path) const {

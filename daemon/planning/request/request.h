@@ -34,8 +34,16 @@ struct PlanRequest {
   [[nodiscard]] std::string name_of(std::string_view path) const;
 };
 
-/// Returns whether the near distance may be reduced: `max_shrink` is above 0, the body is the
-/// request's camera, and correction is on.
+/// Returns the camera whose near quadrilateral is the body: `PlanRequest::camera`, or the camera
+/// that `PlanRequest::body` holds. Returns null if the body is another shape.
+const motion::Camera* moving_camera(const PlanRequest& request);
+motion::Camera* moving_camera(PlanRequest& request);
+
+/// Returns the shape of the body. The near distance of a camera is multiplied by `near_scale`.
+motion::BodyShape body_shape(const PlanRequest& request, double near_scale = 1.0);
+
+/// Returns whether the near distance may be reduced: `max_shrink` is above 0, the body is a camera,
+/// and correction is on.
 bool may_shrink(const PlanRequest& request);
 
 /// Returns the unit vector in the direction of `vector`, which may have any length. A vector whose

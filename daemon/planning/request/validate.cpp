@@ -7,7 +7,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 #include "daemon/planning/request/request.h"
 
@@ -204,10 +203,6 @@ Fault FirstFault::check(const FieldSpec&, const correction::MotionLimits& limits
   return members.take();
 }
 
-bool moves_a_camera(const PlanRequest& request) {
-  return !request.body || std::holds_alternative<motion::Camera>(*request.body);
-}
-
 /// Checks each option by itself, then those that depend on other parts of the request.
 std::optional<InvalidRequest> check_options(const PlanRequest& request) {
   const PlanOptions& options = request.options;
@@ -218,7 +213,7 @@ std::optional<InvalidRequest> check_options(const PlanRequest& request) {
     return invalid("options.default_speed",
                    "counts only where keyframes have no times, and these have");
   }
-  if (options.max_shrink > 0.0 && !moves_a_camera(request)) {
+  if (options.max_shrink > 0.0 && moving_camera(request) == nullptr) {
     return invalid("options.max_shrink",
                    fmt::format("is {}, but the body is no camera: it has no near distance that "
                                "could be made smaller",

@@ -36,7 +36,7 @@ void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, Pl
   if (result.collisions.empty() && result.remaining_collisions.empty()) return;
   if (!result.collision_names.empty() || !result.remaining_names.empty()) return;
   std::string fault;
-  const auto body = motion::Body::make(request.body.value_or(request.camera), fault);
+  const auto body = motion::Body::make(body_shape(request), fault);
   if (!body) return;
   result.collision_names = names_of(mesh, *body, result.collisions);
   result.remaining_names = names_of(mesh, *body, result.remaining_collisions);

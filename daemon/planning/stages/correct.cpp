@@ -77,8 +77,8 @@ CorrectedPlan insert_keyframes(const collision::Query& query, const PlanRequest&
   const double rest_s =
       rest_s_per_piece(request.options) * static_cast<double>(result.path.segments().size());
   paper::KeyframeInsertionResult corrected = paper::insert_keyframes(
-      query.obstacles.index, result.keyframes, motion::near_corners_C(request.camera), options,
-      deadline.share_of_rest(kShareOfCorrection).sooner_by_s(rest_s));
+      query.obstacles.index, result.keyframes, motion::near_corners_C(*moving_camera(request)),
+      options, deadline.share_of_rest(kShareOfCorrection).sooner_by_s(rest_s));
   result.keyframes = std::move(corrected.keyframes);
   result.path = std::move(corrected.path);
   return {.path = {},

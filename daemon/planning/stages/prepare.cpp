@@ -49,8 +49,7 @@ std::optional<motion::Body> valid_body(const collision::Obstacles& obstacles,
     return std::nullopt;
   }
   std::string fault;
-  std::optional<motion::Body> body =
-      motion::Body::make(request.body.value_or(request.camera), fault);
+  std::optional<motion::Body> body = motion::Body::make(body_shape(request), fault);
   if (!body) refuse("body: " + fault, std::nullopt, result);
   return body;
 }

@@ -88,7 +88,7 @@ class Shrinking {
       return false;
     }
     PlanRequest smaller = request_;
-    smaller.camera.near_m *= scales_[index];
+    moving_camera(smaller)->near_m *= scales_[index];
     // It may be proved that there is no path at this size, whatever there is at others.
     smaller.options.max_shrink = 0.0;
     UnsentResult found = plan_at_size_(smaller, deadline_.share_of_rest(share));
@@ -104,9 +104,9 @@ class Shrinking {
   /// Adds the findings of `full`, which are about the camera that was asked for.
   void add_answer(PlanResult full) {
     PlanResult& result = best_->result;
+    const double near_m = moving_camera(request_)->near_m;
     result.message = fmt::format("with a near distance of {:.3g} m instead of {:.3g} m: {}",
-                                 request_.camera.near_m * result.near_scale, request_.camera.near_m,
-                                 result.message);
+                                 near_m * result.near_scale, near_m, result.message);
     result.timing = full.timing;
     result.collisions = std::move(full.collisions);
     result.measures_before = full.measures_before;

@@ -38,7 +38,7 @@ using PlanAtSize = std::function<UnsentResult(const PlanRequest&, const base::De
 /// The first plan has half of the deadline, and each other plan its part of the time that is left.
 /// If no path is free, the answer is the first one: its message says which near distances were
 /// tried, and its status is `timeout` if a plan was cut off. `collisions` and `corrections` are
-/// about the camera of the request. Requires 0 < max_shrink, and that the body is the camera.
+/// about the camera of the request. Requires 0 < max_shrink, and that the body is a camera.
 UnsentResult plan_with_shrinking(const PlanRequest& request, const base::Deadline& deadline,
                                  const PlanAtSize& plan_at_size);
 

@@ -54,10 +54,8 @@ void add_way_beyond(const PlanResult& unbounded, const PlanRequest& request, Pla
   result.timing.correct_ms += unbounded.timing.total_ms;
   result.timing.total_ms += unbounded.timing.total_ms;
   if (!unbounded.certificate.certified) return;
-  motion::Camera camera = request.camera;
-  camera.near_m *= unbounded.near_scale;
   std::string unused;
-  const auto body = motion::Body::make(request.body.value_or(camera), unused);
+  const auto body = motion::Body::make(body_shape(request, unbounded.near_scale), unused);
   if (!body) return;
   const Excess excess = largest_excess(unbounded.path, *body, result.bounds);
   result.message += fmt::format("; a way was found only beyond the bounds, by up to {:.2g} m at {}",

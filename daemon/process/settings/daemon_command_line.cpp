@@ -27,7 +27,7 @@ constexpr char kFooter[] =
     "Exit codes: 0 stopped by SIGTERM or SIGINT once it serves (while it still reads scenes, the "
     "signal ends it at once), 1 LCM or the port for metrics cannot be used, LCM failed, or another "
     "daemon serves with this prefix, 2 wrong "
-    "command line, configuration or scene file.\n"
+    "command line, configuration or scene file, or standard output cannot be written.\n"
     "SIGHUP reads the configuration again and takes over scenes and log level; what else changed "
     "is logged and needs a restart.\n"
     "Example: camwayd --scene office=scenes/office.obj,occupancy=0.1 --scene maze=scenes/maze.obj";

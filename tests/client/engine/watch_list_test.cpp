@@ -228,8 +228,13 @@ TEST_F(WatchListTest, AnUnprovedCorrectionLeavesThePathWatched) {
   EXPECT_EQ(events_.back().kind, Kind::kAnswer);
   EXPECT_EQ(events_.back().answer->status, Status::kInvalid);
   report(102, path_state_t::BROKEN, 4, 4);
-  report(103, path_state_t::FREE, 5, 4);
+  EXPECT_EQ(told(Kind::kBroken), 1) << "the same change";
+  report(103, path_state_t::BROKEN, 0, 4);
+  EXPECT_EQ(told(Kind::kBroken), 2) << "the scene is gone";
+  report(104, path_state_t::FREE, 5, 4);
   EXPECT_EQ(events_.back().kind, Kind::kFree);
+  report(105, path_state_t::BROKEN, 6, 4);
+  EXPECT_EQ(told(Kind::kBroken), 3) << "it breaks once more";
 }
 
 TEST_F(WatchListTest, AFirstAnswerWithoutAProofEndsIt) {
@@ -239,6 +244,7 @@ TEST_F(WatchListTest, AFirstAnswerWithoutAProofEndsIt) {
   EXPECT_EQ(events_[0].kind, Kind::kAnswer);
   EXPECT_EQ(events_[1].kind, Kind::kEnded);
   EXPECT_NE(events_[1].error, "");
+  EXPECT_EQ(events_[1].status, Status::kInvalid);
   step_at(seconds(100));
   EXPECT_EQ(calls_.size(), 1u);
 }

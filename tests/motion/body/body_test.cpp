@@ -194,7 +194,8 @@ TEST(Body, OfPiecesHasASolidForEachWithVolume) {
 
 TEST(Body, LengthsNeitherOverflowNorVanish) {
   EXPECT_GE(made(SphereShape{{1e-300, 0, 0}, 1.0}).radius_m(), 1e-300);
-  EXPECT_GE(made(ConvexShape{{{{1e9, 1e9, 1e9}}}}).radius_m(), 1e9 * std::numbers::sqrt3);
+  EXPECT_GE(made(ConvexShape{{{{1e9, 1e9, 1e9}, {0, 0, 0}}}}).radius_m(),
+            1e9 * std::numbers::sqrt3);
   EXPECT_GT(made(SphereShape{{5e-324, 0, 0}, 1.0}).radius_m(), 0.0);
 }
 
@@ -235,6 +236,15 @@ TEST(Body, RefusesShapesAndNamesTheFieldAtFault) {
       {"points[0]: is more than", ConvexShape{{{Vec3(0, 0, 1.1e9)}}}},
       {"pieces[1]: passes the 512 points",
        edited(two, [](auto& c) { c.pieces_C[1].resize(512, Vec3::Zero()); })},
+      {"points: is a single point", ConvexShape{{{Vec3::Ones()}}}},
+      {"points: is a single point", ConvexShape{{{Vec3::Ones(), Vec3::Ones()}}}},
+      {"pieces: is a single point", edited(two, [](auto& c) { c.pieces_C[1] = c.pieces_C[0]; })},
+      {"triangles: is a single point", edited(mesh,
+                                              [](auto& m) {
+                                                m.triangles = {{1, 1, 1}, {1, 1, 1}};
+                                              })},
+      {"triangles: is a single point",
+       edited(mesh, [](auto& m) { m.vertices_C.assign(3, Vec3::Ones()); })},
       {"vertices: is empty", edited(mesh, [](auto& m) { m.vertices_C.clear(); })},
       {"vertices: holds 513; at most 512",
        edited(mesh, [](auto& m) { m.vertices_C.resize(513, Vec3::Zero()); })},
@@ -253,6 +263,8 @@ TEST(Body, RefusesShapesAndNamesTheFieldAtFault) {
     EXPECT_THAT(error, ::testing::StartsWith(expected));
   }
   EXPECT_FALSE(fault_in(box) || fault_in(two) || fault_in(mesh) || fault_in(kCamera));
+  const ConvexShape rod{{{Vec3::Zero(), Vec3::UnitX()}}};
+  EXPECT_FALSE(fault_in(rod)) << "flat bodies and segments have extent";
 }
 
 }  // namespace

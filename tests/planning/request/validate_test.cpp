@@ -94,6 +94,11 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
        [](PlanRequest& r) {
          r.body = motion::ConvexShape{{{{0, 2e9, 0}}}};
        }},
+      {"body.points",
+       {},
+       [](PlanRequest& r) {
+         r.body = motion::ConvexShape{{{{0, 1, 0}, {0, 1, 0}}}};
+       }},
       {"body.triangles[0][1]",
        {},
        [](PlanRequest& r) {

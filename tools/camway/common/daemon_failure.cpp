@@ -10,8 +10,8 @@
 namespace camway::tools {
 namespace {
 
-/// Returns the exit code of a status. A wrong request or network is invalid input; a missing answer
-/// is neither invalid input nor a negative result.
+/// Returns the exit code of a status. A wrong request or network is invalid input, an answer
+/// without the result that was asked for is negative, and a missing answer is neither.
 ExitCode exit_code_of(Status status) {
   switch (status) {
     case Status::kInvalid:
@@ -20,6 +20,8 @@ ExitCode exit_code_of(Status status) {
     case Status::kLimit:
     case Status::kNetworkUnusable:
       return ExitCode::kInvalidInput;
+    case Status::kPartial:
+    case Status::kInfeasible:
     case Status::kTimeout:
     case Status::kCancelled:
       return ExitCode::kNegative;

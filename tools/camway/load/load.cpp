@@ -99,6 +99,7 @@ OrderedJson result_json(const LoadFlags& flags, const LoadResult& result) {
   json["retries"] = tally.retries;
   json["answers_per_s"] = static_cast<double>(tally.answered) / result.elapsed_s;
   json["by_status"] = tally.by_status;
+  json["invalid"] = tally.invalid;
   json["latency_ms"] = percentiles_json(tally.latency_ms);
   json["latency_without_planning_ms"] = percentiles_json(tally.overhead_ms);
   if (flags.run.daemon_pid != 0) {
@@ -111,6 +112,29 @@ OrderedJson result_json(const LoadFlags& flags, const LoadResult& result) {
   return json;
 }
 
+/// Returns the number of answers of each status: "12 ok, 3 partial".
+std::string status_list(const LoadTally& tally) {
+  std::string list;
+  for (const auto& [status, count] : tally.by_status) {
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, status);
+  }
+  return list;
+}
+
+/// Returns the exit code of a run. Prints which requests are invalid.
+ExitCode outcome_of(const LoadFlags& flags, const LoadResult& result) {
+  const LoadTally& tally = result.tally;
+  const bool grew =
+      flags.max_growth_percent &&
+      100.0 * memory_growth(result.memory, flags.warm_up_s) > *flags.max_growth_percent;
+  ExitCode code =
+      tally.wrong > 0 || tally.lost > 0 || grew ? ExitCode::kNegative : ExitCode::kSuccess;
+  for (const auto& [file, reason] : tally.invalid) {
+    code = worse(code, invalid_input(file + ": the daemon answers invalid: " + reason));
+  }
+  return code;
+}
+
 std::string summary(const LoadFlags& flags, const LoadResult& result) {
   const LoadTally& tally = result.tally;
   const Percentiles all = percentiles(tally.latency_ms);
@@ -121,6 +145,7 @@ std::string summary(const LoadFlags& flags, const LoadResult& result) {
       tally.asked, flags.run.clients, result.elapsed_s, tally.answered,
       static_cast<double>(tally.answered) / result.elapsed_s, tally.refused, tally.wrong,
       tally.lost, tally.retries);
+  text += fmt::format("by status: {}\n", status_list(tally));
   text += fmt::format("latency, ms:              p50 {:.3f}  p99 {:.3f}  p999 {:.3f}  max {:.3f}\n",
                       all.p50, all.p99, all.p999, all.max);
   text +=
@@ -193,11 +218,7 @@ ExitCode run_command(LoadFlags flags) {
         write_file(flags.json_file, result_json(flags, result).dump(2) + "\n");
     if (!error.empty()) return invalid_input(error);
   }
-  const bool grew =
-      flags.max_growth_percent &&
-      100.0 * memory_growth(result.memory, flags.warm_up_s) > *flags.max_growth_percent;
-  const bool failed = result.tally.wrong > 0 || result.tally.lost > 0 || grew;
-  return failed ? ExitCode::kNegative : ExitCode::kSuccess;
+  return outcome_of(flags, result);
 }
 
 void add_run_flags(CLI::App& command, LoadFlags& flags) {
@@ -262,7 +283,7 @@ void add_load_command(CLI::App& app, ExitCode& exit_code) {
   command->footer(
       "Answers to plan requests count as wrong unless every number of path, keyframes and "
       "collisions has the bits "
-      "that planning here gives.\n" +
+      "that planning here gives.\nA request that is answered `invalid` is invalid input.\n" +
       exit_code_help("an answer was wrong or lost, or memory grew by more than allowed",
                      /*asks_daemon=*/true) +
       "\nExample: camway load --scene office=scenes/office.obj --request "

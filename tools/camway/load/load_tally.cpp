@@ -67,6 +67,7 @@ void LoadTally::add(const LoadQuestion& question, const PlanResponse& answer) {
   ++asked;
   ++by_status[to_string(answer.status)];
   retries += std::max(0, answer.tries - 1);
+  if (answer.status == Status::kInvalid) invalid.emplace(question.name, answer.error);
   const auto complain = [&](const std::string& what) {
     if (complaints.size() < kMostComplaints) {
       complaints.push_back(
@@ -100,6 +101,7 @@ void LoadTally::add(const LoadTally& other) {
   lost += other.lost;
   retries += other.retries;
   for (const auto& [status, count] : other.by_status) by_status[status] += count;
+  invalid.insert(other.invalid.begin(), other.invalid.end());
   latency_ms.insert(latency_ms.end(), other.latency_ms.begin(), other.latency_ms.end());
   overhead_ms.insert(overhead_ms.end(), other.overhead_ms.begin(), other.overhead_ms.end());
   for (const std::string& complaint : other.complaints) {

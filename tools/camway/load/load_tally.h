@@ -32,7 +32,8 @@ struct LoadTally {
   std::int64_t lost = 0;      ///< requests without an answer
   std::int64_t retries = 0;   ///< repetitions of requests
   std::map<std::string, std::int64_t> by_status;
-  std::vector<float> latency_ms;        ///< time from call to return, of answered requests
+  std::map<std::string, std::string> invalid;  ///< questions answered `invalid`, and the reasons
+  std::vector<float> latency_ms;               ///< time from call to return, of answered requests
   std::vector<float> overhead_ms;       ///< latency minus planning: transport, queue, conversions
   std::vector<std::string> complaints;  ///< texts about the first wrong or lost answers
 

@@ -65,8 +65,7 @@ std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& 
 motion::Body body_of(const RecordedRequest& recorded) {
   if (recorded.request) {
     std::string fault;
-    const planning::PlanRequest& request = *recorded.request;
-    auto body = motion::Body::make(request.body.value_or(request.camera), fault);
+    auto body = motion::Body::make(planning::body_shape(*recorded.request), fault);
     if (body) return *body;
   }
   return motion::Body(motion::Camera{});

@@ -17,6 +17,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Pair;
 
 constexpr std::uint32_t kSeed = 2006;
 
@@ -102,21 +103,41 @@ TEST_F(LoadTallyTest, CountsWhatBecameOfEachRequest) {
   tally.add(question_, answer);
   answer.status = Status::kPartial;
   tally.add(question_, answer);
+  answer.status = Status::kInvalid;
+  answer.error = "keyframes[1] collides";
+  tally.add(question_, answer);
   answer.status = Status::kNoAnswer;
   answer.error = "the daemon fell silent";
   LoadTally other;
   other.add(question_, answer);
   tally.add(other);
-  EXPECT_EQ(tally.asked, 4);
+  EXPECT_EQ(tally.asked, 5);
   EXPECT_EQ(tally.answered, 1);
   EXPECT_EQ(tally.refused, 1);
-  EXPECT_EQ(tally.wrong, 1);
+  EXPECT_EQ(tally.wrong, 2);
   EXPECT_EQ(tally.lost, 1);
-  EXPECT_EQ(tally.retries, 8);
+  EXPECT_EQ(tally.retries, 10);
   EXPECT_EQ(tally.by_status.at("no_answer"), 1);
   EXPECT_THAT(tally.latency_ms, ElementsAre(10.0f));
   EXPECT_THAT(tally.overhead_ms, ElementsAre(2.0f));
-  EXPECT_THAT(tally.complaints, ElementsAre(HasSubstr("q.json"), HasSubstr("fell silent")));
+  EXPECT_THAT(tally.complaints, ElementsAre(HasSubstr("(partial)"), HasSubstr("(invalid)"),
+                                            HasSubstr("fell silent")));
+}
+
+TEST_F(LoadTallyTest, NamesInvalidRequestsOnceThoughTheAnswerIsExpected) {
+  question_.expected = {};
+  question_.expected.status = planning::Status::kInvalid;
+  PlanResponse answer = answer_of(question_.expected);
+  answer.status = Status::kInvalid;
+  answer.error = "keyframes: holds 1; a path needs 2 to 100000";
+  LoadTally tally;
+  LoadTally other;
+  for (int i = 0; i < 3; ++i) tally.add(question_, answer);
+  other.add(question_, answer);
+  tally.add(other);
+  EXPECT_EQ(tally.answered, 4);
+  EXPECT_EQ(tally.by_status.at("invalid"), 4);
+  EXPECT_THAT(tally.invalid, ElementsAre(Pair("q.json", answer.error)));
 }
 
 TEST(Percentiles, AreThoseOfTheSortedValues) {
