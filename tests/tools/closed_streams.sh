@@ -89,7 +89,7 @@ try "camway occupancy $scene --resolution 0.2 --point 1,1,1 --write @/map.bt" 0 
 try "camway draw $path --picture @/plan.svg" 0
 try "camway status --url bogus://" 2
 try "camwayd --version" 0 2
-try "camwayd $scene --check-config" 0 2
+try "camwayd --scene maze=$kScenes/maze.obj --check-config" 0 2
 try "camwayd --scene nowhere.obj --check-config" 2
 
 start_daemon ''

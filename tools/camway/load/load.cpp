@@ -130,7 +130,7 @@ ExitCode outcome_of(const LoadFlags& flags, const LoadResult& result) {
   ExitCode code =
       tally.wrong > 0 || tally.lost > 0 || grew ? ExitCode::kNegative : ExitCode::kSuccess;
   for (const auto& [file, reason] : tally.invalid) {
-    code = worse(code, invalid_input(file + ": the daemon answers invalid: " + reason));
+    code = worse(code, invalid_input(file + ": the daemon answers " + reason));
   }
   return code;
 }
