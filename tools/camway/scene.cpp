@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <limits>
@@ -106,12 +107,14 @@ void print_revision(const SceneRevision& revision) {
              revision.client_id.empty() ? "the daemon" : revision.client_id);
 }
 
-/// Returns the error of a daemon, which begins with a member of the message, with the flag for it.
-/// The values of other flags are checked before.
-std::string named_as_flag(const std::string& error) {
-  const std::string member = error.substr(0, error.find(':'));
-  if (member == "chord_error_m") return "--chord-error" + error.substr(member.size());
-  if (member == "occupancy_resolution_m") return "--occupancy" + error.substr(member.size());
+/// Returns the error of a daemon ("invalid: chord_error_m: ...") with the flag in place of the
+/// member of the message. The values of other flags are checked before.
+std::string named_as_flag(std::string error) {
+  for (const auto& [member, flag] :
+       {std::pair{"invalid: chord_error_m:", "--chord-error:"},
+        std::pair{"invalid: occupancy_resolution_m:", "--occupancy:"}}) {
+    if (error.starts_with(member)) return error.replace(0, std::strlen(member), flag);
+  }
   return error;
 }
 
