@@ -75,7 +75,7 @@ bool ConfiguredScenes::update(const std::vector<SceneArgument>& wanted,
     const std::string name = snapshot->name;
     const scene::StoreResult put = store_.put(std::move(snapshot), {.operation = "load"});
     if (put.snapshot) continue;
-    const std::string reason = with_setting(put.error, put.limit);
+    const std::string reason = service::with_setting(put.error, put.limit);
     log_->error("scene cannot be held", {{"scene", name}, {"reason", reason}});
     note_fault(name, reason);
     // Tried again the next time. An older scene of that name stays until it is no longer wanted.
@@ -151,7 +151,7 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
   if (stop.stop_requested()) return false;
   if (!read.mesh) {
     log_->warn("scene file cannot be read again, what was read before stays",
-               {{"scene", scene.name}, {"reason", with_setting(read.error, read.limit)}});
+               {{"scene", scene.name}, {"reason", service::with_setting(read.error, read.limit)}});
     return false;
   }
   // Maps are never equal here: two may have the same faces, and differ in which side is solid.
@@ -168,8 +168,9 @@ bool ConfiguredScenes::read_again(const SceneArgument& scene, const std::stop_to
       scene.name, {scene::SceneChange::Kind::kPut, scene.name, source, object->placement},
       {.operation = "put", .object = scene.name});
   if (!changed.snapshot) {
-    log_->warn("scene cannot be changed, what was read before stays",
-               {{"scene", scene.name}, {"reason", with_setting(changed.error, changed.limit)}});
+    log_->warn(
+        "scene cannot be changed, what was read before stays",
+        {{"scene", scene.name}, {"reason", service::with_setting(changed.error, changed.limit)}});
     return false;
   }
   log_->info("scene file changed", {{"scene", scene.name},
@@ -191,7 +192,7 @@ std::shared_ptr<const scene::Snapshot> ConfiguredScenes::load(const SceneArgumen
   scene::SnapshotResult result = scene::load_snapshot(scene.name, scene.file, scene.options, stop);
   if (stop.stop_requested()) return nullptr;
   if (!result.snapshot) {
-    const std::string reason = with_setting(result.error, result.limit);
+    const std::string reason = service::with_setting(result.error, result.limit);
     log_->error("scene cannot be read",
                 {{"scene", scene.name}, {"said_at", scene.said_at}, {"reason", reason}});
     note_fault(scene.name, reason);

@@ -76,7 +76,7 @@ void declare_setting(CLI::App& app, const std::string& flag, std::string_view ke
 }
 
 void declare(CLI::App& app, Raw& raw, DaemonOptions& options) {
-  app.set_version_flag("--version", "camwayd " + version_text());
+  app.set_version_flag("--version", "camwayd " + service::version_text());
   app.footer(kFooter);
   app.add_option("--config", raw.config_file,
                  "Configuration file (TOML); what is given on the command line goes before it")

@@ -17,8 +17,8 @@ TriedScenes try_scenes(const std::vector<SceneArgument>& scenes,
   scene::SceneStore store(limits);
   const auto fail = [&tried](const SceneArgument& scene, const std::string& why,
                              scene::Limit limit) {
-    tried.faults.push_back(
-        fmt::format("{}: scene '{}': {}", scene.said_at, scene.name, with_setting(why, limit)));
+    tried.faults.push_back(fmt::format("{}: scene '{}': {}", scene.said_at, scene.name,
+                                       service::with_setting(why, limit)));
   };
   for (const SceneArgument& scene : scenes) {
     scene::SnapshotResult read = scene::load_snapshot(scene.name, scene.file, scene.options);
