@@ -7,7 +7,7 @@ namespace camway {
 namespace {
 
 /// Time after the last page at which a missing page counts as lost: pages are sent back to back.
-constexpr double kPageGap_s = 0.1;
+constexpr double kPageWait_s = 0.1;
 /// Time for the daemon to send missing pages.
 constexpr double kMissingWait_s = 0.25;
 constexpr int kMostAsked = 2;
@@ -54,7 +54,7 @@ void Retry::note_part(Clock::time_point now) {
   note_life();
   has_part_ = true;
   asked_missing_ = 0;
-  missing_at_ = now + duration(kPageGap_s);
+  missing_at_ = now + duration(kPageWait_s);
 }
 
 void Retry::note_stopping(Clock::time_point now) {

@@ -118,7 +118,8 @@ class ClearanceSearch {
   }
 
   [[nodiscard]] double enough() const {
-    return upper_m_ < kLargestClearance_m ? (1.0 - kClearanceGap) * upper_m_ : kLargestClearance_m;
+    return upper_m_ < kLargestClearance_m ? (1.0 - kClearanceTolerance) * upper_m_
+                                          : kLargestClearance_m;
   }
   [[nodiscard]] PathClearance touch() const { return {0.0, upper_m_}; }
 

@@ -21,17 +21,17 @@ struct PathClearance {
 
 /// If `lower_bound_m` > 0: largest value of (upper_bound_m - lower_bound_m) / upper_bound_m, apart
 /// from rounding.
-inline constexpr double kClearanceGap = 0.18;
+inline constexpr double kClearanceTolerance = 0.18;
 
 /// Largest clearance that is reported; a scene may be empty, and larger values are of no use.
 /// [Units: metres]
 inline constexpr double kLargestClearance_m = 100.0;
 
 /// Computes the clearance by branch and bound over the path. A stretch is final once
-/// `Probe::check_refined` proves that its distance is at least (1 - `kClearanceGap`) times the
-/// least distance found so far. The result holds at every instant, rounding included. The bounds of
-/// the scene (`Obstacles::bounds`) are not considered. Returns nothing if the deadline strikes
-/// first.
+/// `Probe::check_refined` proves that its distance is at least (1 - `kClearanceTolerance`) times
+/// the least distance found so far. The result holds at every instant, rounding included. The
+/// bounds of the scene (`Obstacles::bounds`) are not considered. Returns nothing if the deadline
+/// strikes first.
 std::optional<PathClearance> path_clearance(const Obstacles& obstacles, const motion::Path& path,
                                             const motion::Body& body,
                                             const base::Deadline& deadline);

@@ -127,10 +127,11 @@ class Detector {
       target_reach_m_ = kGrowthInCollision * seen.reach_m;
       return true;
     }
-    const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.gap_m;
+    const bool counts = last_ && seen.collides() && seen.motion_m() <= options_.joining_distance_m;
     if (counts || is_resolved(seen) || !piece.splittable()) {
       extend(piece, seen.gap_m, /*surely=*/false);
-      target_reach_m_ = seen.collides() ? kBelow * options_.gap_m : options_.tolerance_m;
+      target_reach_m_ =
+          seen.collides() ? kBelow * options_.joining_distance_m : options_.tolerance_m;
       return true;
     }
     // Must be shorter, or the loop would not end.
@@ -142,14 +143,14 @@ class Detector {
   // Measures the distance at the middle only if the piece will not be split.
   ProbeResult look(const Piece& piece, const Stretch& stretch, Probe::Way way) {
     ProbeResult seen = probe_.check(stretch, /*margin_m=*/0.0, way);
-    const double largest_m = last_ ? options_.gap_m : options_.tolerance_m;
+    const double largest_m = last_ ? options_.joining_distance_m : options_.tolerance_m;
     if (seen.motion_m() <= largest_m || !piece.splittable()) probe_.refine(stretch, seen);
     return seen;
   }
 
   // The reach below which a piece need not be split.
   [[nodiscard]] double least_reach_m(const ProbeResult& seen) const {
-    return last_ && seen.collides() ? options_.gap_m : finest_m(seen);
+    return last_ && seen.collides() ? options_.joining_distance_m : finest_m(seen);
   }
 
   // Within a collision: extends it by a stretch that is proved to collide everywhere, or one that
@@ -158,14 +159,14 @@ class Detector {
     const double reach_m = probe_.reach_m(stretch);
     if (!std::isfinite(reach_m)) return Verdict::kUnknown;
     const double motion_m = reach_m - probe_.rounding_m(stretch);
-    const bool is_short = motion_m <= options_.gap_m || !piece.splittable();
+    const bool is_short = motion_m <= options_.joining_distance_m || !piece.splittable();
     if (hit_ && probe_.surely_collides_with(*hit_, stretch)) {
       extend(piece, 0.0, /*surely=*/true);
       target_reach_m_ = kGrowthInCollision * reach_m;
       return Verdict::kSettled;
     }
     if (!is_short) {
-      target_reach_m_ = std::max(0.5 * motion_m, kBelow * options_.gap_m);
+      target_reach_m_ = std::max(0.5 * motion_m, kBelow * options_.joining_distance_m);
       return Verdict::kTooLong;
     }
     hit_.reset();
@@ -178,7 +179,7 @@ class Detector {
       checks_left_ = backoff_;
     }
     extend(piece, 0.0, hit_.has_value());
-    target_reach_m_ = hit_ ? kGrowthInCollision * reach_m : kBelow * options_.gap_m;
+    target_reach_m_ = hit_ ? kGrowthInCollision * reach_m : kBelow * options_.joining_distance_m;
     return Verdict::kSettled;
   }
 
@@ -326,8 +327,8 @@ Search search_collisions(const Query& query, const motion::Path& path, double t_
   Search search{!detector.timed_out(), std::move(detector.intervals()), detector.until_s()};
   if (search.collisions.size() > 1) {
     const double travel_m = travel_bound_m(path, query.body.radius_m());
-    join_close_intervals(search.collisions,
-                         query.options.gap_m / travel_m * (path.end_s() - path.begin_s()));
+    join_close_intervals(search.collisions, query.options.joining_distance_m / travel_m *
+                                                (path.end_s() - path.begin_s()));
   }
   return search;
 }

@@ -14,7 +14,8 @@ namespace camway::collision {
 /// Returns all maximal time ranges of [t_begin_s, t_end_s] in which the body collides, in order,
 /// each with a witness. All time outside of them is *proved* free, between samples too (`probe.h`).
 /// Time inside was seen or proved colliding, could not be decided at the tolerance, or is a free
-/// range too short to use (`gap_m`). A body that touches or crosses a surface collides.
+/// range too short to use (`joining_distance_m`). A body that touches or crosses a surface
+/// collides.
 ///
 /// Returns nothing if the deadline struck before the end. Requires segments with increasing times.
 std::optional<std::vector<CollisionInterval>> detect_collisions(const Query& query,

@@ -16,10 +16,10 @@ struct DetectOptions {
   /// Joining distance. Within a collision, a stretch whose motion is at most this value counts as
   /// colliding if the body collides at its middle, although parts of it may be free: otherwise a
   /// long collision would be divided down to `tolerance_m` everywhere. Two intervals are joined if
-  /// the time between them is less than gap_m / v. There v is an upper bound of the body's travel
-  /// over the whole path, divided by the duration of the path. [Limit: tolerance_m <= value]
-  /// [Units: metres]
-  double gap_m = 5e-3;
+  /// the time between them is less than joining_distance_m / v. There v is an upper bound of the
+  /// body's travel over the whole path, divided by the duration of the path. [Limit: tolerance_m <=
+  /// value] [Units: metres]
+  double joining_distance_m = 5e-3;
   /// Required clearance: a smaller distance to the scene is a collision. [Limit: 0 <= value]
   /// [Units: metres]
   double clearance_m = 0.0;

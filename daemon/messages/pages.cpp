@@ -22,7 +22,7 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
     --position->missing;
     place = std::move(page);
   }
-  position->gap_at = now + kGap;
+  position->missing_at = now + kPageWait;
   position->asked = 0;
   if (position->missing == 0) {
     Partial complete = std::move(*position);
@@ -57,33 +57,33 @@ typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(co
 }
 
 template <class Message>
-std::vector<typename PageAssembly<Message>::Gap> PageAssembly<Message>::take_gaps(
+std::vector<typename PageAssembly<Message>::MissingPages> PageAssembly<Message>::take_missing(
     Clock::time_point now) {
-  std::vector<Gap> gaps;
+  std::vector<MissingPages> all;
   for (Partial& partial : partial_) {
-    if (partial.gap_at > now) continue;
+    if (partial.missing_at > now) continue;
     ++partial.asked;
-    partial.gap_at =
-        partial.asked < kMostAsked ? now + kGap * (1 << partial.asked) : Clock::time_point::max();
-    Gap gap;
+    partial.missing_at = partial.asked < kMostAsked ? now + kPageWait * (1 << partial.asked)
+                                                    : Clock::time_point::max();
+    MissingPages lost;
     for (std::size_t i = 0; i < partial.pages.size(); ++i) {
       if (!partial.pages[i]) {
-        gap.missing.push_back(static_cast<std::int32_t>(i));
+        lost.missing.push_back(static_cast<std::int32_t>(i));
         continue;
       }
-      gap.client_id = partial.pages[i]->client_id;
-      gap.request_id = partial.pages[i]->request_id;
+      lost.client_id = partial.pages[i]->client_id;
+      lost.request_id = partial.pages[i]->request_id;
     }
-    gap.num_pages = static_cast<std::int32_t>(partial.pages.size());
-    gaps.push_back(std::move(gap));
+    lost.num_pages = static_cast<std::int32_t>(partial.pages.size());
+    all.push_back(std::move(lost));
   }
-  return gaps;
+  return all;
 }
 
 template <class Message>
-typename PageAssembly<Message>::Clock::time_point PageAssembly<Message>::next_gap() const {
+typename PageAssembly<Message>::Clock::time_point PageAssembly<Message>::next_missing() const {
   Clock::time_point next = Clock::time_point::max();
-  for (const Partial& partial : partial_) next = std::min(next, partial.gap_at);
+  for (const Partial& partial : partial_) next = std::min(next, partial.missing_at);
   return next;
 }
 

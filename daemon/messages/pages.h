@@ -26,7 +26,7 @@ class PageAssembly {
   using Clock = std::chrono::steady_clock;
 
   /// Pages are sent back to back: when none arrived for this long, the missing ones are lost.
-  static constexpr std::chrono::milliseconds kGap{100};
+  static constexpr std::chrono::milliseconds kPageWait{100};
   /// How often missing pages are asked for while none arrives, each time after twice the wait.
   static constexpr int kMostAsked = 5;
 
@@ -51,7 +51,7 @@ class PageAssembly {
   Outcome add(Message page, Clock::time_point now = Clock::now());
 
   /// The missing pages of an incomplete message.
-  struct Gap {
+  struct MissingPages {
     std::string client_id;
     std::int64_t request_id = 0;
     std::int32_t num_pages = 0;
@@ -59,9 +59,9 @@ class PageAssembly {
   };
   /// Returns the messages for which no page arrived for a while by `now`: each up to `kMostAsked`
   /// times, with growing pauses.
-  std::vector<Gap> take_gaps(Clock::time_point now);
+  std::vector<MissingPages> take_missing(Clock::time_point now);
   /// Returns the time of the next such message; the end of time if no message waits for pages.
-  [[nodiscard]] Clock::time_point next_gap() const;
+  [[nodiscard]] Clock::time_point next_missing() const;
 
   [[nodiscard]] std::size_t half_received() const { return partial_.size(); }
 
@@ -71,8 +71,8 @@ class PageAssembly {
     std::vector<std::optional<Message>> pages;
     std::size_t missing = 0;
     std::size_t bytes = 0;
-    Clock::time_point gap_at{};  ///< time at which pages count as missing
-    int asked = 0;               ///< how often they were asked for since the last page
+    Clock::time_point missing_at{};  ///< time at which pages count as missing
+    int asked = 0;                   ///< how often they were asked for since the last page
   };
   using Position = typename std::list<Partial>::iterator;
 

@@ -61,7 +61,7 @@ struct Options {
   [[nodiscard]] collision::DetectOptions detect() const {
     collision::DetectOptions detect = default_options();
     detect.tolerance_m = tolerance_m;
-    detect.gap_m = std::max(detect.gap_m, tolerance_m);
+    detect.joining_distance_m = std::max(detect.joining_distance_m, tolerance_m);
     return detect;
   }
 };

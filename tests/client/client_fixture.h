@@ -16,6 +16,14 @@ inline ClientOptions quick() {
   return options;
 }
 
+/// Returns a request that is valid in form.
+inline PlanRequest small_request() {
+  PlanRequest request;
+  request.scene = "office";
+  request.keyframes.resize(2);
+  return request;
+}
+
 class ClientTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -102,7 +102,7 @@ void expect_one_interval(const std::vector<CollisionInterval>& found, double beg
 }
 
 DetectOptions with_tolerance(double tolerance_m) {
-  return {.tolerance_m = tolerance_m, .gap_m = std::max(10.0 * tolerance_m, 2e-3)};
+  return {.tolerance_m = tolerance_m, .joining_distance_m = std::max(10.0 * tolerance_m, 2e-3)};
 }
 
 class Analytic : public ::testing::TestWithParam<double> {

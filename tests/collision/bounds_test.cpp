@@ -65,7 +65,7 @@ TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
         testing::random_path(random, testing::PathKind::kFree, place_W, 2.0 * body.radius_m());
     DetectOptions options;
     options.tolerance_m = 1e-3 * body.radius_m();
-    options.gap_m = 5.0 * options.tolerance_m;
+    options.joining_distance_m = 5.0 * options.tolerance_m;
     for (std::size_t side = 0; side < Bounds::kSides; ++side) {
       const testing::RealVec3 outward = -Bounds::inward(side).cast<testing::Real>();
       const auto reach = testing::furthest_reach(path, corners_C, outward, kSlack_m);

@@ -43,7 +43,7 @@ TEST(PathClearance, OfAPassBesideAWallIsKnown) {
                                                   {2.0, {{-0.5, 0, -1}, Quat::Identity()}}});
     const PathClearance found = clearance(SceneIndex::build(mesh), path, corners_C);
     EXPECT_LE(found.lower_bound_m, distance_m);
-    EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceGap) * distance_m * 0.999);
+    EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceTolerance) * distance_m * 0.999);
     EXPECT_GE(found.upper_bound_m, distance_m * 0.999999);
   }
 }
@@ -75,7 +75,8 @@ TEST(PathClearance, IsNeverAboveWhatSamplesFind) {
     if (!free) continue;
     ++positive;
     // Between two samples the body moves by at most a few millimetres.
-    EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceGap) * (sampled_m - 0.01)) << "run " << run;
+    EXPECT_GE(found.lower_bound_m, (1.0 - kClearanceTolerance) * (sampled_m - 0.01))
+        << "run " << run;
   }
   EXPECT_GT(positive, 3);
 }
@@ -105,7 +106,7 @@ TEST(PathClearance, HoldsFarFromTheOriginAndForTinyCameras) {
   const PathClearance found = clearance(SceneIndex::build(mesh), path, corners_C);
   // A coordinate of 1e6 m is stored to 1e-10 m.
   EXPECT_LE(found.lower_bound_m, distance_m + 1e-9);
-  EXPECT_GE(found.lower_bound_m, 0.99 * (1.0 - kClearanceGap) * distance_m);
+  EXPECT_GE(found.lower_bound_m, 0.99 * (1.0 - kClearanceTolerance) * distance_m);
 }
 
 TEST(PathClearance, IsUndecidedWhenTheDeadlineStrikes) {

@@ -24,7 +24,7 @@ constexpr std::uint64_t kCasesPerTurn = 256;
 // Returns options with the same ratio as the defaults of detection.
 collision::DetectOptions options_for(const CrossingCase& c) {
   collision::DetectOptions options;
-  options.gap_m = c.tolerance_m * (options.gap_m / options.tolerance_m);
+  options.joining_distance_m = c.tolerance_m * (options.joining_distance_m / options.tolerance_m);
   options.tolerance_m = c.tolerance_m;
   return options;
 }

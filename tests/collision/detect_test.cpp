@@ -144,7 +144,7 @@ TEST(DetectCollisions, SeparateObjectsGiveSeparateIntervalsInOrder) {
 TEST(DetectCollisions, IntervalsThatNobodyCouldUseTheGapOfAreJoined) {
   const Corners corners_C = motion::near_corners_C(testing::small_camera());
   const Path path = straight({0, 0, 2}, {0, 0, -2}, Quat::Identity());
-  const double gap_m = DetectOptions{}.gap_m;
+  const double gap_m = DetectOptions{}.joining_distance_m;
   for (const auto& [apart_m, intervals] :
        {std::pair(0.5 * gap_m, 1u), std::pair(2.0 * gap_m, 2u)}) {
     Mesh mesh;

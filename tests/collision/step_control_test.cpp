@@ -38,21 +38,21 @@ int looks_until(double gap_m, double slope, double finest_m) {
   return 10'000;
 }
 
-TEST(Pace, ClosesInOnAPlaneByOrdersOfMagnitude) {
+TEST(StepControl, ClosesInOnAPlaneByOrdersOfMagnitude) {
   // Halving would take at least 2·log2(10 / 1e-6) = 46 probes for any slope.
   for (const double slope : {1.0, 0.3, 0.01}) {
     EXPECT_LE(looks_until(10.0 * slope, slope, 1e-6), 14) << slope;
   }
 }
 
-TEST(Pace, IsNotTemptedFarBeyondWhatWasSeen) {
+TEST(StepControl, IsNotTemptedFarBeyondWhatWasSeen) {
   ProbeResult seen = look_at_plane(1e6, 1e-3, 0.1);
   ASSERT_TRUE(seen.free);
   EXPECT_GT(next_reach_m(seen), 0.1);
   EXPECT_LE(next_reach_m(seen), 1.0);
 }
 
-TEST(Pace, GrowsByTheLowerBoundOfAGapThatWasNotMeasured) {
+TEST(StepControl, GrowsByTheLowerBoundOfAGapThatWasNotMeasured) {
   ProbeResult seen;
   seen.free = true;
   seen.is_measured = false;

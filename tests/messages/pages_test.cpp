@@ -254,14 +254,14 @@ TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
   }
   ASSERT_GT(pages.size(), 3U);
   Assembly assembly;
-  EXPECT_EQ(assembly.next_gap(), Assembly::Clock::time_point::max());
+  EXPECT_EQ(assembly.next_missing(), Assembly::Clock::time_point::max());
   Assembly::Clock::time_point now = Assembly::Clock::now();
   ASSERT_FALSE(assembly.add(pages[1], now).whole);
-  EXPECT_TRUE(assembly.take_gaps(now).empty()) << "more may be on their way";
+  EXPECT_TRUE(assembly.take_missing(now).empty()) << "more may be on their way";
   int asked = 0;
-  while (assembly.next_gap() != Assembly::Clock::time_point::max()) {
-    now = assembly.next_gap();
-    const std::vector<Assembly::Gap> gaps = assembly.take_gaps(now);
+  while (assembly.next_missing() != Assembly::Clock::time_point::max()) {
+    now = assembly.next_missing();
+    const std::vector<Assembly::MissingPages> gaps = assembly.take_missing(now);
     ASSERT_EQ(gaps.size(), 1U);
     EXPECT_EQ(gaps[0].client_id, "asker");
     EXPECT_EQ(gaps[0].request_id, 5);
@@ -272,7 +272,7 @@ TEST(PageAssembly, AsksAFewTimesForPagesThatDoNotCome) {
   }
   EXPECT_EQ(asked, Assembly::kMostAsked);
   ASSERT_FALSE(assembly.add(pages[0], now).whole);
-  EXPECT_EQ(assembly.next_gap(), now + Assembly::kGap) << "a page came, so it asks anew";
+  EXPECT_EQ(assembly.next_missing(), now + Assembly::kPageWait) << "a page came, so it asks anew";
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class Draw : public Random {
 };
 
 /// Returns the problem of one interval between keyframes, on a path that is still as interpolated.
-inline correction::Problem problem_of_gap(const std::vector<motion::Keyframe>& keyframes,
+inline correction::Problem problem_of_leg(const std::vector<motion::Keyframe>& keyframes,
                                           std::size_t gap) {
   const motion::CubicPath whole = motion::interpolate_cubic(keyframes);
   const std::size_t first = gap == 0 ? 0 : gap - 1;
@@ -49,7 +49,7 @@ inline correction::Problem problem_of_gap(const std::vector<motion::Keyframe>& k
   problem.path = whole.around(keyframes[first].time_s, keyframes[last].time_s);
   problem.original = problem.path;
   for (std::size_t i = first; i <= last; ++i) problem.keyframes_s.push_back(keyframes[i].time_s);
-  problem.gap = gap - first;
+  problem.leg = gap - first;
   problem.has_path_begin = first == 0;
   problem.has_path_end = last + 1 == keyframes.size();
   problem.interval = {keyframes[gap].time_s, keyframes[gap + 1].time_s};

@@ -13,7 +13,7 @@ using motion::CubicPath;
 
 namespace {
 
-std::size_t gap_of(const CollisionInterval& interval, const std::vector<double>& keyframes_s) {
+std::size_t leg_of(const CollisionInterval& interval, const std::vector<double>& keyframes_s) {
   const double middle_s = 0.5 * (interval.t_begin_s + interval.t_end_s);
   const auto next = std::ranges::upper_bound(keyframes_s, middle_s);
   const auto index = static_cast<std::size_t>(next - keyframes_s.begin());
@@ -42,7 +42,7 @@ void measure(const CubicPath& path, const CubicPath& interpolated, Correction& c
 CollisionList::CollisionList(const std::vector<CollisionInterval>& collisions,
                              const std::vector<double>& keyframes_s) {
   const auto add = [&](const CollisionInterval& interval) {
-    list_.push_back({{interval}, gap_of(interval, keyframes_s)});
+    list_.push_back({{interval}, leg_of(interval, keyframes_s)});
   };
   for (CollisionInterval rest : collisions) {
     auto next = std::ranges::upper_bound(keyframes_s, rest.t_begin_s);
@@ -66,20 +66,20 @@ bool CollisionList::any_without_way() const {
   });
 }
 
-std::vector<std::size_t> CollisionList::open_in(std::size_t gap) const {
+std::vector<std::size_t> CollisionList::open_in(std::size_t leg) const {
   // Not std::ranges::equal_range: Clang 14 cannot compile its result with the library of GCC 12.
-  const auto first = std::ranges::lower_bound(list_, gap, {}, &ListedCollision::gap);
+  const auto first = std::ranges::lower_bound(list_, leg, {}, &ListedCollision::leg);
   std::vector<std::size_t> open;
-  for (auto listed = first; listed != list_.end() && listed->gap == gap; ++listed) {
+  for (auto listed = first; listed != list_.end() && listed->leg == leg; ++listed) {
     if (listed->is_open()) open.push_back(static_cast<std::size_t>(listed - list_.begin()));
   }
   return open;
 }
 
-std::size_t CollisionList::count_gaps() const {
-  std::set<std::size_t> gaps;
-  for (const ListedCollision& listed : list_) gaps.insert(listed.gap);
-  return gaps.size();
+std::size_t CollisionList::count_legs() const {
+  std::set<std::size_t> legs;
+  for (const ListedCollision& listed : list_) legs.insert(listed.leg);
+  return legs.size();
 }
 
 Problem CollisionList::with_open_collisions(Problem part) const {
@@ -94,13 +94,13 @@ Problem CollisionList::with_open_collisions(Problem part) const {
   return part;
 }
 
-std::vector<bool> CollisionList::corrected_gaps(const CorrectedPath& corrected) const {
-  std::vector<bool> gaps(corrected.keyframes_s().size() - 1);
+std::vector<bool> CollisionList::corrected_legs(const CorrectedPath& corrected) const {
+  std::vector<bool> legs(corrected.keyframes_s().size() - 1);
   for (const ListedCollision& listed : list_) {
     const Correction& correction = listed.correction;
-    if (!listed.is_open()) corrected.mark_gaps(correction.t_begin_s, correction.t_end_s, gaps);
+    if (!listed.is_open()) corrected.mark_legs(correction.t_begin_s, correction.t_end_s, legs);
   }
-  return gaps;
+  return legs;
 }
 
 void CollisionList::widen(double begin_s, double end_s, const std::pair<double, double>& range_s) {

@@ -14,7 +14,7 @@ namespace camway::correction {
 /// A collision of the interpolated path, with the state of its correction.
 struct ListedCollision {
   Correction correction;
-  std::size_t gap = 0;  ///< it lies between keyframes `gap` and `gap + 1`
+  std::size_t leg = 0;  ///< it lies between keyframes `leg` and `leg + 1`
   /// Whether a correction was found that would exceed the limit of inserted keyframes.
   bool is_beyond_limit = false;
 
@@ -37,9 +37,9 @@ class CollisionList {
   /// Returns whether a collision is open for another reason than the limit of keyframes.
   [[nodiscard]] bool any_without_way() const;
   /// Returns the indices of the open collisions in an interval between keyframes.
-  [[nodiscard]] std::vector<std::size_t> open_in(std::size_t gap) const;
+  [[nodiscard]] std::vector<std::size_t> open_in(std::size_t leg) const;
   /// Returns how many intervals between keyframes have a collision.
-  [[nodiscard]] std::size_t count_gaps() const;
+  [[nodiscard]] std::size_t count_legs() const;
 
   /// Returns the part of the path that may change for an interval between keyframes, with the open
   /// collisions in it as `Problem::foreign_collisions`. `part`: as `CorrectedPath::part_about`
@@ -47,7 +47,7 @@ class CollisionList {
   [[nodiscard]] Problem with_open_collisions(Problem part) const;
 
   /// Returns, for each interval between keyframes of `corrected`, whether a correction changed it.
-  [[nodiscard]] std::vector<bool> corrected_gaps(const CorrectedPath& corrected) const;
+  [[nodiscard]] std::vector<bool> corrected_legs(const CorrectedPath& corrected) const;
 
   /// Extends the corrections that reach into the time from `begin_s` to `end_s` by `range_s`.
   void widen(double begin_s, double end_s, const std::pair<double, double>& range_s);

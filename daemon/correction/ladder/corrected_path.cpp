@@ -19,11 +19,11 @@ std::shared_ptr<const motion::KnotPlaces> places_for(const Problem& part,
     places.taken_s.push_back(piece.t1_s);
     size_m = std::max(size_m, piece.position[3].cwiseAbs().maxCoeff());
   }
-  const double gap_s = part.gap_end_s() - part.gap_begin_s();
+  const double leg_s = part.leg_end_s() - part.leg_begin_s();
   const double chord_m =
-      (part.path.at(part.gap_end_s()).position - part.path.at(part.gap_begin_s()).position).norm();
+      (part.path.at(part.leg_end_s()).position - part.path.at(part.leg_begin_s()).position).norm();
   // If the camera only turns, corrections move it by about its own size.
-  places.same_s = motion::least_piece_s(gap_s, std::max(chord_m, ball_radius_m), size_m);
+  places.same_s = motion::least_piece_s(leg_s, std::max(chord_m, ball_radius_m), size_m);
   return std::make_shared<const motion::KnotPlaces>(std::move(places));
 }
 
@@ -46,19 +46,19 @@ void CorrectedPath::leave_time_for_the_rest() {
   deadline_ = whole_deadline_.sooner_by_s(limits_.rest_s_per_piece * pieces);
 }
 
-Problem CorrectedPath::part_about(std::size_t gap, const motion::TimeOrigin& origin,
+Problem CorrectedPath::part_about(std::size_t leg, const motion::TimeOrigin& origin,
                                   double ball_radius_m) const {
-  const std::size_t first = gap == 0 ? 0 : gap - 1;
-  const std::size_t last = std::min(gap + 2, keyframes_s_.size() - 1);
+  const std::size_t first = leg == 0 ? 0 : leg - 1;
+  const std::size_t last = std::min(leg + 2, keyframes_s_.size() - 1);
   Problem part;
   part.path = path_.around(keyframes_s_[first], keyframes_s_[last]);
   part.original = interpolated_.around(keyframes_s_[first], keyframes_s_[last]);
   part.keyframes_s.assign(keyframes_s_.begin() + static_cast<std::ptrdiff_t>(first),
                           keyframes_s_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-  part.gap = gap - first;
+  part.leg = leg - first;
   part.has_path_begin = first == 0;
   part.has_path_end = last + 1 == keyframes_s_.size();
-  part.interval = {keyframes_s_[gap], keyframes_s_[gap + 1]};
+  part.interval = {keyframes_s_[leg], keyframes_s_[leg + 1]};
   part.places = places_for(part, origin, ball_radius_m);
   return part;
 }
@@ -115,11 +115,11 @@ std::pair<double, double> CorrectedPath::range_of(const Candidate& candidate) co
   return {std::max(begin_s, interpolated_.begin_s()), std::min(end_s, interpolated_.end_s())};
 }
 
-void CorrectedPath::mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const {
+void CorrectedPath::mark_legs(double begin_s, double end_s, std::vector<bool>& legs) const {
   const auto after_begin = std::ranges::upper_bound(keyframes_s_, begin_s);
-  auto gap = static_cast<std::size_t>(after_begin - keyframes_s_.begin());
-  for (gap -= gap > 0 ? 1 : 0; gap < gaps.size() && keyframes_s_[gap] < end_s; ++gap) {
-    gaps[gap] = true;
+  auto leg = static_cast<std::size_t>(after_begin - keyframes_s_.begin());
+  for (leg -= leg > 0 ? 1 : 0; leg < legs.size() && keyframes_s_[leg] < end_s; ++leg) {
+    legs[leg] = true;
   }
 }
 

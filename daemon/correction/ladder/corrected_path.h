@@ -49,10 +49,10 @@ class CorrectedPath {
   /// the path gains pieces.
   [[nodiscard]] const base::Deadline& deadline() const { return deadline_; }
 
-  /// Returns the part of the path that may change for the interval between keyframes `gap` and
-  /// `gap + 1`, as a problem without collisions. Knots of bumps coincide with joints of the path or
+  /// Returns the part of the path that may change for the interval between keyframes `leg` and
+  /// `leg + 1`, as a problem without collisions. Knots of bumps coincide with joints of the path or
   /// keep away from them. `ball_radius_m`: radius of a ball that holds the body.
-  [[nodiscard]] Problem part_about(std::size_t gap, const motion::TimeOrigin& origin,
+  [[nodiscard]] Problem part_about(std::size_t leg, const motion::TimeOrigin& origin,
                                    double ball_radius_m) const;
 
   /// Replaces a part of the path by `candidate` and returns true; returns false if that would
@@ -67,7 +67,7 @@ class CorrectedPath {
 
   /// Marks, in a list with one entry for each interval between keyframes, those that overlap the
   /// time range in more than an end.
-  void mark_gaps(double begin_s, double end_s, std::vector<bool>& gaps) const;
+  void mark_legs(double begin_s, double end_s, std::vector<bool>& legs) const;
 
   /// Times of the inserted keyframes, increasing.
   [[nodiscard]] const std::set<double>& inserted_s() const { return inserted_s_; }

@@ -41,8 +41,8 @@ class Detour {
         is_hopeless_(is_hopeless),
         deadline_(deadline),
         radius_m_(space.ball_radius_m()),
-        from_(signed_pose_at(problem.path, problem.gap_begin_s())),
-        to_(signed_pose_at(problem.path, problem.gap_end_s())) {}
+        from_(signed_pose_at(problem.path, problem.leg_begin_s())),
+        to_(signed_pose_at(problem.path, problem.leg_end_s())) {}
 
   DetourResult run(Search search) {
     result_.candidate = search == Search::kTurning ? with_turns()
@@ -122,7 +122,7 @@ class Detour {
     for (int i = 0; i <= steps; ++i) {
       const double share = static_cast<double>(i) / steps;
       poses.push_back(
-          problem_.original.pose(std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), share)));
+          problem_.original.pose(std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), share)));
     }
     return poses;
   }
@@ -177,7 +177,7 @@ class Detour {
       if (i > 0) so_far_m += (way_W[i] - way_W[i - 1]).norm();
       const double share = length_m > 0.0 ? so_far_m / length_m : 0.0;
       const double time_s =
-          std::lerp(problem_.gap_begin_s(), problem_.gap_end_s(), std::clamp(share, 0.0, 1.0));
+          std::lerp(problem_.leg_begin_s(), problem_.leg_end_s(), std::clamp(share, 0.0, 1.0));
       const geometry::Vec4 q = signed_pose_at(problem_.path, time_s).orientation;
       guide.push_back({space_.pose_around(way_W[i], geometry::from_wxyz(q)).position, q});
     }

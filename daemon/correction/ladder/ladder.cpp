@@ -20,7 +20,7 @@ namespace {
 using collision::CollisionInterval;
 using motion::CubicPath;
 
-constexpr int kStepsAGap = 12;  // steps of relaxation per interval with a collision
+constexpr int kStepsPerLeg = 12;  // steps of relaxation per interval with a collision
 
 class Ladder {
  public:
@@ -36,7 +36,7 @@ class Ladder {
                    deadline),
         collisions_(collisions, corrected_.keyframes_s()),
         prover_(mesh, space.body(), keyframes, options.max_shrink),
-        budget_(kStepsAGap * static_cast<std::int64_t>(collisions_.count_gaps())) {}
+        budget_(kStepsPerLeg * static_cast<std::int64_t>(collisions_.count_legs())) {}
 
   LadderResult run() && {
     const bool is_corrected = options_.max_inserted_keyframes > 0 && correct();
@@ -80,12 +80,12 @@ class Ladder {
       if (!collision.is_open() || collision.is_beyond_limit) continue;
       if (prover_.has_proof()) return;
       if (search == Search::kWithRoom && (nudge_away(i) || collision.is_beyond_limit)) continue;
-      const std::size_t gap = collision.gap;
+      const std::size_t leg = collision.leg;
       // A detour replaces the whole interval between keyframes: do not search it twice.
-      if (is_shut_off(gap) || prover_.is_caged_off(center_W(gap), center_W(gap + 1))) {
-        has_no_way[gap] = true;
+      if (is_shut_off(leg) || prover_.is_caged_off(center_W(leg), center_W(leg + 1))) {
+        has_no_way[leg] = true;
       }
-      if (!has_no_way[gap]) has_no_way[gap] = !replace_gap(i, search);
+      if (!has_no_way[leg]) has_no_way[leg] = !replace_leg(i, search);
     }
   }
 
@@ -93,7 +93,7 @@ class Ladder {
   [[nodiscard]] Problem problem(std::size_t index) const {
     const CollisionInterval& interval = collisions_[index].correction.interval;
     Problem problem = collisions_.with_open_collisions(
-        corrected_.part_about(collisions_[index].gap, options_.origin, space_.ball_radius_m()));
+        corrected_.part_about(collisions_[index].leg, options_.origin, space_.ball_radius_m()));
     problem.interval = interval;
     std::erase(problem.foreign_collisions, interval);
     return problem;
@@ -114,21 +114,21 @@ class Ladder {
   }
 
   // A detour replaces everything between the two keyframes.
-  bool replace_gap(std::size_t index, Search search) {
+  bool replace_leg(std::size_t index, Search search) {
     Problem problem = this->problem(index);
-    const std::size_t gap = collisions_[index].gap;
-    const std::vector<std::size_t> same_gap = collisions_.open_in(gap);
+    const std::size_t leg = collisions_[index].leg;
+    const std::vector<std::size_t> same_leg = collisions_.open_in(leg);
     std::erase_if(problem.foreign_collisions, [&](const CollisionInterval& other) {
       return std::ranges::any_of(
-          same_gap, [&](std::size_t i) { return collisions_[i].correction.interval == other; });
+          same_leg, [&](std::size_t i) { return collisions_[i].correction.interval == other; });
     });
     const DetourResult found = go_round(
         problem, search, budget_, space_, options_.seed, [this] { return prover_.is_separated(); },
         deadline());
-    if (found.pocket) add_shut_in(gap + (found.pocket->is_at_end ? 1 : 0), *found.pocket);
-    for (const std::size_t i : same_gap) collisions_[i].correction.tried += found.effort;
+    if (found.pocket) add_shut_in(leg + (found.pocket->is_at_end ? 1 : 0), *found.pocket);
+    for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
     const bool is_accepted = accept(index, CorrectionKind::kGoRound, found.candidate);
-    for (const std::size_t i : same_gap) {
+    for (const std::size_t i : same_leg) {
       const CollisionInterval interval = collisions_[i].correction.interval;
       if (is_accepted) collisions_[i].correction = collisions_[index].correction;
       collisions_[i].correction.interval = interval;
@@ -156,10 +156,10 @@ class Ladder {
   }
 
   // Whether an earlier search found that one end is shut in and cannot reach the other.
-  [[nodiscard]] bool is_shut_off(std::size_t gap) const {
+  [[nodiscard]] bool is_shut_off(std::size_t leg) const {
     return std::ranges::any_of(shut_in_, [&](const ShutIn& known) {
-      return (known.keyframe == gap && !known.may_hold(center_W(gap + 1))) ||
-             (known.keyframe == gap + 1 && !known.may_hold(center_W(gap)));
+      return (known.keyframe == leg && !known.may_hold(center_W(leg + 1))) ||
+             (known.keyframe == leg + 1 && !known.may_hold(center_W(leg)));
     });
   }
 

@@ -202,7 +202,7 @@ class Nudger {
   /// wide enough for the collision.
   [[nodiscard]] double widest_spacing_s() const {
     const double room_s =
-        std::min(middle_s_ - problem_.gap_begin_s(), problem_.gap_end_s() - middle_s_);
+        std::min(middle_s_ - problem_.leg_begin_s(), problem_.leg_end_s() - middle_s_);
     return std::max(0.5 * room_s, 1.2 * kNarrowest * length_s_);
   }
 

@@ -24,7 +24,7 @@ constexpr double kPullSpread = 0.25;
 constexpr int kPullKnots = 16;
 constexpr int kPullSteps = 24;        // for the whole path
 constexpr double kMostBending = 1.5;  // largest growth of bending energy for coming closer
-constexpr int kPursuitStepsAGap = 40;
+constexpr int kPursuitStepsPerLeg = 40;
 constexpr double kPursuitWorth = 0.03;
 constexpr std::array<int, 3> kPursuitKnots = {12, 24, 48};
 
@@ -35,18 +35,18 @@ class Polisher {
       : origin_(origin), space_(space), corrected_(corrected), collisions_(collisions) {}
 
   void relax(base::Budget& budget) {
-    std::vector<bool> needs_polish = collisions_.corrected_gaps(corrected_);
+    std::vector<bool> needs_polish = collisions_.corrected_legs(corrected_);
     for (int round = 0; round < kRounds; ++round) {
-      for (std::size_t gap = 0; gap < needs_polish.size() && !deadline().passed(); ++gap) {
-        if (!needs_polish[gap]) continue;
+      for (std::size_t leg = 0; leg < needs_polish.size() && !deadline().passed(); ++leg) {
+        if (!needs_polish[leg]) continue;
         const std::optional<Candidate> better =
-            polished(part_about(gap), kPolishedKnots, {}, budget, space_, deadline());
-        if (better && take(gap, *better)) {
+            polished(part_about(leg), kPolishedKnots, {}, budget, space_, deadline());
+        if (better && take(leg, *better)) {
           for (const motion::BumpRow& row : better->rows) {
-            corrected_.mark_gaps(row.begin_s(), row.end_s(), needs_polish);
+            corrected_.mark_legs(row.begin_s(), row.end_s(), needs_polish);
           }
         }
-        needs_polish[gap] = false;
+        needs_polish[leg] = false;
       }
     }
   }
@@ -55,59 +55,59 @@ class Polisher {
   void pull_to_interpolated() {
     const Improvement pull{.spread = kPullSpread};
     base::Budget budget(kPullSteps);
-    for (const std::size_t gap : far_gaps()) {
+    for (const std::size_t leg : far_legs()) {
       if (deadline().passed()) continue;
-      const Problem part = part_about(gap);
+      const Problem part = part_about(leg);
       const std::optional<Candidate> other =
           polished(part, kPullKnots, pull, budget, space_, deadline());
       if (!other) continue;
       if (bending_energy(other->path) > kMostBending * bending_energy(part.path)) continue;
-      take_if_better(gap, Objective::kClosest, *other, part);
+      take_if_better(leg, Objective::kClosest, *other, part);
     }
   }
 
   void pursue(Objective objective) {
     const Improvement pursuit{.objective = objective, .may_turn = false, .worth = kPursuitWorth};
-    base::Budget budget(kPursuitStepsAGap * static_cast<std::int64_t>(collisions_.count_gaps()));
-    const std::vector<bool> gaps = collisions_.corrected_gaps(corrected_);
+    base::Budget budget(kPursuitStepsPerLeg * static_cast<std::int64_t>(collisions_.count_legs()));
+    const std::vector<bool> legs = collisions_.corrected_legs(corrected_);
     for (const int knots : kPursuitKnots) {
-      for (std::size_t gap = 0; gap < gaps.size() && !deadline().passed(); ++gap) {
-        if (!gaps[gap]) continue;
-        const Problem part = part_about(gap);
+      for (std::size_t leg = 0; leg < legs.size() && !deadline().passed(); ++leg) {
+        if (!legs[leg]) continue;
+        const Problem part = part_about(leg);
         const std::optional<Candidate> other =
             polished(part, knots, pursuit, budget, space_, deadline());
-        if (other) take_if_better(gap, objective, *other, part);
+        if (other) take_if_better(leg, objective, *other, part);
       }
     }
   }
 
  private:
   // The intervals that ended far from the interpolated path, the farthest first.
-  [[nodiscard]] std::vector<std::size_t> far_gaps() const {
-    struct FarGap {
+  [[nodiscard]] std::vector<std::size_t> far_legs() const {
+    struct FarLeg {
       double deviation_m;
-      std::size_t gap;
+      std::size_t leg;
     };
-    std::vector<FarGap> far;
-    const std::vector<bool> gaps = collisions_.corrected_gaps(corrected_);
-    for (std::size_t gap = 0; gap < gaps.size() && !deadline().passed(); ++gap) {
-      if (!gaps[gap]) continue;
-      const Problem whole = part_about(gap);
-      const CubicPath part = whole.path.around(whole.gap_begin_s(), whole.gap_end_s());
+    std::vector<FarLeg> far;
+    const std::vector<bool> legs = collisions_.corrected_legs(corrected_);
+    for (std::size_t leg = 0; leg < legs.size() && !deadline().passed(); ++leg) {
+      if (!legs[leg]) continue;
+      const Problem whole = part_about(leg);
+      const CubicPath part = whole.path.around(whole.leg_begin_s(), whole.leg_end_s());
       const double deviation_m = cost(Objective::kClosest, part, whole).value;
       if (deviation_m > kFarFromReference * space_.ball_radius_m()) {
-        far.push_back({deviation_m, gap});
+        far.push_back({deviation_m, leg});
       }
     }
-    std::ranges::stable_sort(far, std::greater(), &FarGap::deviation_m);
+    std::ranges::stable_sort(far, std::greater(), &FarLeg::deviation_m);
     std::vector<std::size_t> result;
-    for (const FarGap& place : far) result.push_back(place.gap);
+    for (const FarLeg& place : far) result.push_back(place.leg);
     return result;
   }
 
-  [[nodiscard]] Problem part_about(std::size_t gap) const {
+  [[nodiscard]] Problem part_about(std::size_t leg) const {
     return collisions_.with_open_collisions(
-        corrected_.part_about(gap, origin_, space_.ball_radius_m()));
+        corrected_.part_about(leg, origin_, space_.ball_radius_m()));
   }
 
   [[nodiscard]] const base::Deadline& deadline() const { return corrected_.deadline(); }
@@ -117,17 +117,17 @@ class Polisher {
     return objective_cost(objective, path, part.original, space_, deadline());
   }
 
-  void take_if_better(std::size_t gap, Objective objective, const Candidate& other,
+  void take_if_better(std::size_t leg, Objective objective, const Candidate& other,
                       const Problem& part) {
     if (is_better(cost(objective, other.path, part), cost(objective, part.path, part))) {
-      take(gap, other);
+      take(leg, other);
     }
   }
 
-  bool take(std::size_t gap, const Candidate& candidate) {
+  bool take(std::size_t leg, const Candidate& candidate) {
     if (!corrected_.take(candidate)) return false;
     const std::vector<double>& keyframes_s = corrected_.keyframes_s();
-    collisions_.widen(keyframes_s[gap], keyframes_s[gap + 1], corrected_.range_of(candidate));
+    collisions_.widen(keyframes_s[leg], keyframes_s[leg + 1], corrected_.range_of(candidate));
     return true;
   }
 

@@ -15,12 +15,12 @@ namespace camway::correction {
 
 /// One collision to be corrected, and the part of the path that may change for it.
 struct Problem {
-  /// Part of the current path: interval `gap` between keyframes, and one interval more on either
+  /// Part of the current path: interval `leg` between keyframes, and one interval more on either
   /// side where there is one.
   motion::CubicPath path;
   motion::CubicPath original;       ///< the same part of the interpolated path
   std::vector<double> keyframes_s;  ///< keyframes in this part, increasing; corrections keep them
-  std::size_t gap = 0;              ///< the collision lies between keyframes `gap` and `gap + 1`
+  std::size_t leg = 0;              ///< the collision lies between keyframes `leg` and `leg + 1`
   bool has_path_begin = false;  ///< whether `path` starts at the first keyframe of the whole path
   bool has_path_end = false;    ///< whether `path` ends at the last keyframe of the whole path
   collision::CollisionInterval interval;
@@ -30,12 +30,12 @@ struct Problem {
   /// Times allowed for the knots of bumps; null allows any time.
   std::shared_ptr<const motion::KnotPlaces> places = nullptr;
 
-  [[nodiscard]] double gap_begin_s() const { return keyframes_s[gap]; }
-  [[nodiscard]] double gap_end_s() const { return keyframes_s[gap + 1]; }
+  [[nodiscard]] double leg_begin_s() const { return keyframes_s[leg]; }
+  [[nodiscard]] double leg_end_s() const { return keyframes_s[leg + 1]; }
   /// Equidistant knots, up to `places`, that divide the interval between keyframes into `count`
   /// steps.
   [[nodiscard]] motion::KnotRow knots(int count) const {
-    return {gap_begin_s(), gap_end_s(), count, places};
+    return {leg_begin_s(), leg_end_s(), count, places};
   }
 };
 

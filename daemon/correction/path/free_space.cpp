@@ -69,7 +69,7 @@ std::optional<double> FreeSpace::first_hit(const SignedPose& from, const SignedP
   options.clearance_m += margin_m;
   // A search does not need the exact place of the obstacle.
   options.tolerance_m = std::max(options.tolerance_m, 0.5 * margin_m);
-  options.gap_m = std::max(options.gap_m, options.tolerance_m);
+  options.joining_distance_m = std::max(options.joining_distance_m, options.tolerance_m);
   // The required clearance does not apply to the bounds.
   query.obstacles.bounds = query.obstacles.bounds.shrunk_by(margin_m);
   const motion::Path path({motion::straight_motion(from, to)});

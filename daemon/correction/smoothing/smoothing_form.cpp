@@ -67,20 +67,20 @@ int knots_beyond(const motion::KnotRow& knots, int keyframe, int side, double ne
 }  // namespace
 
 bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots) {
-  const std::size_t gap = problem.gap;
+  const std::size_t leg = problem.leg;
   const std::vector<double>& times_s = problem.keyframes_s;
-  return (gap == 0 || knots.knot_s(-kBumpReach) >= times_s[gap - 1]) &&
-         (gap + 2 == times_s.size() || knots.knot_s(knots.count + kBumpReach) <= times_s[gap + 2]);
+  return (leg == 0 || knots.knot_s(-kBumpReach) >= times_s[leg - 1]) &&
+         (leg + 2 == times_s.size() || knots.knot_s(knots.count + kBumpReach) <= times_s[leg + 2]);
 }
 
 FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends)
     : knots_(knots), first_(2), last_(knots.count - 2), holds_keyframes_(ends == Ends::kFree) {
   if (holds_keyframes_) {
-    const std::size_t gap = problem.gap;
+    const std::size_t leg = problem.leg;
     const std::vector<double>& times_s = problem.keyframes_s;
-    const bool is_last = gap + 2 == times_s.size();
-    first_ = gap == 0 ? -1 : -knots_beyond(knots, 0, -1, times_s[gap - 1]);
-    last_ = knots.count + (is_last ? 1 : knots_beyond(knots, knots.count, 1, times_s[gap + 2]));
+    const bool is_last = leg + 2 == times_s.size();
+    first_ = leg == 0 ? -1 : -knots_beyond(knots, 0, -1, times_s[leg - 1]);
+    last_ = knots.count + (is_last ? 1 : knots_beyond(knots, knots.count, 1, times_s[leg + 2]));
   }
   for (int k = first_; k <= last_; ++k) size_ += is_held(k) ? 0 : 1;
   for (const int k : {0, knots.count}) {

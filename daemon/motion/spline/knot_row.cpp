@@ -24,10 +24,10 @@ std::array<double, 5> support_s(const KnotRow& row, int bump) {
 
 }  // namespace
 
-double least_piece_s(double gap_s, double travelled_m, double size_m) {
+double least_piece_s(double interval_s, double travelled_m, double size_m) {
   const double noise_m = 24.0 * kPointRoundings * kEpsilon * size_m;
   const double share = std::sqrt(noise_m / (kAccelerationNoise * travelled_m));
-  return gap_s * (share < 1.0 ? share : 1.0);  // also where nothing moves, and 0/0
+  return interval_s * (share < 1.0 ? share : 1.0);  // also where nothing moves, and 0/0
 }
 
 double KnotPlaces::place_s(double time_s, double spacing_s) const {

@@ -10,16 +10,17 @@
 
 namespace camway::motion {
 
-/// Shortest duration of a piece, in an interval between keyframes of duration `gap_s`, for which
-/// doubles still carry the acceleration. `travelled_m` is the distance that the path travels in the
-/// interval, `size_m` the largest coordinate there.
+/// Shortest duration of a piece, in an interval between keyframes of duration `interval_s`, for
+/// which doubles still carry the acceleration. `travelled_m` is the distance that the path travels
+/// in the interval, `size_m` the largest coordinate there.
 ///
 /// With eps = 2^-52, a control point is off by at most ρ = 4·eps·size_m: it is cut out of a cubic
 /// by three convex combinations, each off by eps, and has bumps added. A second difference of
 /// control points is off by 4·ρ, and the acceleration of a piece of duration h by 6·4·ρ/h².
-/// Accelerations of a path that goes `travelled_m` in `gap_s` are of the size travelled_m/gap_s².
-/// The result is the h for which rounding makes `kAccelerationNoise` of that, but at most `gap_s`.
-double least_piece_s(double gap_s, double travelled_m, double size_m);
+/// Accelerations of a path that goes `travelled_m` in `interval_s` are of the size
+/// travelled_m/gap_s². The result is the h for which rounding makes `kAccelerationNoise` of that,
+/// but at most `interval_s`.
+double least_piece_s(double interval_s, double travelled_m, double size_m);
 inline constexpr double kAccelerationNoise = 1e-3;
 
 /// Times at which knots of rows of bumps may be. Thread-safe to read.

@@ -11,7 +11,7 @@ namespace camway::planning {
 collision::DetectOptions detect_options(const PlanOptions& options) {
   collision::DetectOptions detect;
   detect.tolerance_m = options.interval_tolerance_m;
-  detect.gap_m = std::max(detect.gap_m, detect.tolerance_m);
+  detect.joining_distance_m = std::max(detect.joining_distance_m, detect.tolerance_m);
   detect.clearance_m = options.clearance_m;
   return detect;
 }

@@ -156,21 +156,22 @@ void PlanService::tick(Clock::time_point now) {
     core_.outbox.add(core_.channels.plan_progress(progress.client_id),
                      one_page(wire::encode(progress)));
   }
-  for (messages::PageAssembly<plan_request_t>::Gap& gap : pages_.take_gaps(now)) {
-    core_.counters.request_pages_asked_again += static_cast<std::int64_t>(gap.missing.size());
+  for (messages::PageAssembly<plan_request_t>::MissingPages& lost : pages_.take_missing(now)) {
+    core_.counters.request_pages_asked_again += static_cast<std::int64_t>(lost.missing.size());
     missing_pages_t question{};
-    question.client_id = gap.client_id;
-    question.request_id = gap.request_id;
+    question.client_id = lost.client_id;
+    question.request_id = lost.request_id;
     question.utime = utime_now();
-    question.num_pages = gap.num_pages;
-    question.num_missing = static_cast<std::int32_t>(gap.missing.size());
-    question.missing = std::move(gap.missing);
-    core_.outbox.add(core_.channels.missing_pages(gap.client_id), one_page(wire::encode(question)));
+    question.num_pages = lost.num_pages;
+    question.num_missing = static_cast<std::int32_t>(lost.missing.size());
+    question.missing = std::move(lost.missing);
+    core_.outbox.add(core_.channels.missing_pages(lost.client_id),
+                     one_page(wire::encode(question)));
   }
 }
 
 PlanService::Clock::time_point PlanService::next_tick() const {
-  return std::min(in_flight_.next_due(), pages_.next_gap());
+  return std::min(in_flight_.next_due(), pages_.next_missing());
 }
 
 void PlanService::take(plan_request_t request) {

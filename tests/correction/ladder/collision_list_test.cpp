@@ -33,14 +33,14 @@ TEST(CollisionList, DividesCollisionsAtKeyframes) {
   const CollisionList list({{0.5, 1.0}, {1.5, 4.5}, {5.0, 6.0}}, kKeyframes_s);
   const std::vector<CollisionInterval> parts = {
       {0.5, 1.0}, {1.5, 2.0}, {2.0, 4.0}, {4.0, 4.5}, {5.0, 6.0}};
-  const std::vector<std::size_t> gaps = {0, 0, 1, 2, 2};
+  const std::vector<std::size_t> legs = {0, 0, 1, 2, 2};
   ASSERT_EQ(list.size(), parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     EXPECT_EQ(list[i].correction.interval, parts[i]) << i;
-    EXPECT_EQ(list[i].gap, gaps[i]) << i;
+    EXPECT_EQ(list[i].leg, legs[i]) << i;
     EXPECT_TRUE(list[i].is_open());
   }
-  EXPECT_EQ(list.count_gaps(), 3u);
+  EXPECT_EQ(list.count_legs(), 3u);
   EXPECT_EQ(list.count_open(), 5u);
 }
 
@@ -88,11 +88,11 @@ TEST(CollisionList, TellsTheIntervalsThatCorrectionsChanged) {
   const base::Deadline never = base::Deadline::never();
   const CorrectedPath corrected(path, keyframes, {}, never);
   CollisionList list({{0.5, 1.0}, {2.5, 3.0}, {5.0, 5.5}}, kKeyframes_s);
-  EXPECT_EQ(list.corrected_gaps(corrected), (std::vector<bool>{false, false, false}));
+  EXPECT_EQ(list.corrected_legs(corrected), (std::vector<bool>{false, false, false}));
   correct(list[0], 0.2, 2.0);
-  EXPECT_EQ(list.corrected_gaps(corrected), (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(list.corrected_legs(corrected), (std::vector<bool>{true, false, false}));
   correct(list[2], 3.9, 6.0);
-  EXPECT_EQ(list.corrected_gaps(corrected), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(list.corrected_legs(corrected), (std::vector<bool>{true, true, true}));
 }
 
 }  // namespace

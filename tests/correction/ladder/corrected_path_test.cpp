@@ -73,14 +73,14 @@ TEST_F(CorrectedPathTest, CountsNoBumpThatIsSmallOrAtAKeyframe) {
 TEST_F(CorrectedPathTest, APartHasTheIntervalAndItsNeighbours) {
   const CorrectedPath corrected = with_limit(1);
   const Problem first = corrected.part_about(0, {}, 0.1);
-  EXPECT_EQ(first.gap, 0u);
+  EXPECT_EQ(first.leg, 0u);
   EXPECT_TRUE(first.has_path_begin);
   EXPECT_FALSE(first.has_path_end);
   EXPECT_EQ(first.keyframes_s, (std::vector<double>{0.0, 10.0, 20.0}));
   const Problem middle = corrected.part_about(1, {}, 0.1);
-  EXPECT_EQ(middle.gap, 1u);
-  EXPECT_EQ(middle.gap_begin_s(), 10.0);
-  EXPECT_EQ(middle.gap_end_s(), 20.0);
+  EXPECT_EQ(middle.leg, 1u);
+  EXPECT_EQ(middle.leg_begin_s(), 10.0);
+  EXPECT_EQ(middle.leg_end_s(), 20.0);
   EXPECT_EQ(middle.path.begin_s(), 0.0);
   EXPECT_EQ(middle.path.end_s(), 30.0);
 }
@@ -95,11 +95,11 @@ TEST_F(CorrectedPathTest, RangesOfCandidatesEndWithThePath) {
 
 TEST_F(CorrectedPathTest, MarksIntervalsThatOverlapInMoreThanAnEnd) {
   const CorrectedPath corrected = with_limit(1);
-  std::vector<bool> gaps(3);
-  corrected.mark_gaps(10.0, 20.0, gaps);
-  EXPECT_EQ(gaps, (std::vector<bool>{false, true, false}));
-  corrected.mark_gaps(19.0, 21.0, gaps);
-  EXPECT_EQ(gaps, (std::vector<bool>{false, true, true}));
+  std::vector<bool> legs(3);
+  corrected.mark_legs(10.0, 20.0, legs);
+  EXPECT_EQ(legs, (std::vector<bool>{false, true, false}));
+  corrected.mark_legs(19.0, 21.0, legs);
+  EXPECT_EQ(legs, (std::vector<bool>{false, true, true}));
 }
 
 }  // namespace

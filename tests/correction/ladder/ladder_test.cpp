@@ -342,7 +342,8 @@ TEST(Ladder, ObjectivesAreBestByTheirOwnMeasure) {
       EXPECT_GT(clearance->lower_bound_m, 0.0) << run;
       // The least gap of the others is sampled, and capped below the distance of two samples.
       if (objective == Objective::kSafest) {
-        EXPECT_GE(now.least_gap_m, (1.0 - collision::kClearanceGap) * before.least_gap_m) << run;
+        EXPECT_GE(now.least_gap_m, (1.0 - collision::kClearanceTolerance) * before.least_gap_m)
+            << run;
       }
       better[objective] += now.value < 0.99 * before.value ? 1 : 0;
       // The path keeps its orientation where no rotation was necessary.

@@ -33,7 +33,7 @@ Problem middle_problem() {
   problem.path = straight_path().around(0.0, 6.0);
   problem.original = problem.path;
   problem.keyframes_s = {0.0, 2.0, 4.0, 6.0};
-  problem.gap = 1;
+  problem.leg = 1;
   problem.has_path_begin = true;
   problem.interval = {2.5, 3.5};
   return problem;

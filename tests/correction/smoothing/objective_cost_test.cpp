@@ -39,7 +39,7 @@ struct Case {
 };
 
 CubicPath straight(const Vec3& from, const Vec3& to, double duration_s) {
-  return testing::problem_of_gap({{0.0, {from, geometry::Quat::Identity()}},
+  return testing::problem_of_leg({{0.0, {from, geometry::Quat::Identity()}},
                                   {duration_s, {to, geometry::Quat::Identity()}}},
                                  0)
       .path;
@@ -52,9 +52,9 @@ TEST(ObjectiveCost, IsWhatMeasuresSay) {
   for (int run = 0; run < 50; ++run) {
     std::vector<motion::Keyframe> keyframes;
     for (int i = 0; i < 4; ++i) keyframes.push_back({1.7 * i, {draw.in_cube(3.0), draw.turn(1.0)}});
-    const CubicPath path = testing::problem_of_gap(keyframes, 1).path;
+    const CubicPath path = testing::problem_of_leg(keyframes, 1).path;
     keyframes[1].pose.position += draw.in_cube(1.0);
-    const CubicPath original = testing::problem_of_gap(keyframes, 1).path;
+    const CubicPath original = testing::problem_of_leg(keyframes, 1).path;
     const motion::PathMeasures measures = motion::measure(path.path(), original.path());
     const auto value = [&](Objective objective) { return c.cost(objective, path, original).value; };
     // Both sample each piece, one of them twice as densely.
@@ -80,7 +80,7 @@ TEST(ObjectiveCost, OfSafestGrowsWithTheWayNearTheScene) {
     EXPECT_NEAR(cost.value, 3.0 * (1.0 - share) * (1.0 - share), 0.02) << share;
     // As exact as the clearance of an answer.
     EXPECT_LE(cost.least_gap_m, share * comfort_m * (1.0 + 1e-9));
-    EXPECT_GE(cost.least_gap_m, share * comfort_m * (1.0 - collision::kClearanceGap) - 1e-9);
+    EXPECT_GE(cost.least_gap_m, share * comfort_m * (1.0 - collision::kClearanceTolerance) - 1e-9);
     // It does not depend on the duration.
     const CubicPath slow = straight(up, up + Vec3(3, 0, 0), 20.0);
     EXPECT_NEAR(c.cost(Objective::kSafest, slow, slow).value, cost.value, 1e-6);

@@ -92,7 +92,7 @@ Relaxed relaxed_fully(const Case& c, const Relaxed& free, Ends ends, Objective o
 
 /// Returns equal inner coefficients.
 Offsets lifted(const Problem& problem, int count, const Vec3& by) {
-  Offsets offsets{{problem.gap_begin_s(), problem.gap_end_s(), count}, 1, {}};
+  Offsets offsets{{problem.leg_begin_s(), problem.leg_end_s(), count}, 1, {}};
   for (int k = 1; k < count; ++k) offsets.at.push_back({by, geometry::Vec4::Zero()});
   return offsets;
 }
@@ -130,7 +130,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
     c.build();
     std::vector<Keyframe> keyframes;
     for (int i = 0; i < 4; ++i) keyframes.push_back(at(1.5 * i, draw.in_cube(1.3), draw.turn(1.0)));
-    c.problem = testing::problem_of_gap(keyframes, static_cast<std::size_t>(draw.integer(0, 2)));
+    c.problem = testing::problem_of_leg(keyframes, static_cast<std::size_t>(draw.integer(0, 2)));
     c.detect.clearance_m = draw.integer(0, 1) * 0.01;
     swing.ends = draw.integer(0, 2) == 0 ? Ends::kFixed : Ends::kFree;
     // The parts that the swing left unchanged may collide and are not corrected.
@@ -140,7 +140,7 @@ Swing random_swing(Draw& draw, double max_turn_rad = std::numbers::pi) {
                                      c.problem.path.end_s(), Deadline::never())
             .value();
     std::erase_if(c.problem.foreign_collisions, [&](const collision::CollisionInterval& other) {
-      return other.t_end_s > c.problem.gap_begin_s() && other.t_begin_s < c.problem.gap_end_s();
+      return other.t_end_s > c.problem.leg_begin_s() && other.t_begin_s < c.problem.leg_end_s();
     });
     const int count = 8 << draw.integer(0, 2);
     Offsets offsets = lifted(c.problem, count, draw.in_cube(1.5));
@@ -269,7 +269,7 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   Case c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
   c.build();
-  c.problem = testing::problem_of_gap(
+  c.problem = testing::problem_of_leg(
       {at(0, {0, 0, 3}), at(1, {0.5, 0, 1}), at(3, {0, 0.3, -1}), at(4, {0, 0, -3})}, 1);
   const std::optional<Relaxed> free =
       correction_with(c, lifted(c.problem, 16, {0, 2, 0}), Ends::kFree);
@@ -292,7 +292,7 @@ TEST(Relaxation, SafestGoesAwayFromWalls) {
   testing::add_cuboid(c.mesh, {-0.7, -9, -4}, {-0.6, 9, 4});
   testing::add_cuboid(c.mesh, {0.6, -9, -4}, {0.7, 9, 4});
   c.build();
-  c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(6, {0, 0, -3})}, 0);
+  c.problem = testing::problem_of_leg({at(0, {0, 0, 3}), at(6, {0, 0, -3})}, 0);
   const std::optional<Relaxed> free =
       correction_with(c, lifted(c.problem, 12, {0.45, 0, 0}), Ends::kFree);
   ASSERT_TRUE(free);
@@ -303,7 +303,7 @@ TEST(Relaxation, SafestGoesAwayFromWalls) {
   // In the centre there is half a metre to either side; three radii of the ball count as enough.
   EXPECT_GT(after_m, 0.3);
   // Bending alone would lead there, too: near a keyframe close to a wall, it leads the other way.
-  c.problem = testing::problem_of_gap({at(0, {0.4, 0, 3}), at(6, {0.4, 0, -3})}, 0);
+  c.problem = testing::problem_of_leg({at(0, {0.4, 0, 3}), at(6, {0.4, 0, -3})}, 0);
   const std::optional<Relaxed> straight =
       correction_with(c, lifted(c.problem, 12, {0.0, 0.1, 0}), Ends::kFree);
   ASSERT_TRUE(straight);
@@ -318,7 +318,7 @@ TEST(Relaxation, ShortestShortensUpToWhatIsInTheWay) {
   testing::add_cuboid(c.mesh, {-3, -3, -0.2}, {3, 0.4, 0.2});
   c.build();
   c.policy.rule = OrientationRule::kKeep;  // tilted, it could go lower
-  c.problem = testing::problem_of_gap({at(0, {0, 0, 2}), at(6, {0, 0, -2})}, 0);
+  c.problem = testing::problem_of_leg({at(0, {0, 0, 2}), at(6, {0, 0, -2})}, 0);
   const std::optional<Relaxed> free =
       correction_with(c, lifted(c.problem, 16, {0.8, 2.0, 0}), Ends::kFree);
   ASSERT_TRUE(free);
@@ -342,7 +342,7 @@ TEST(Relaxation, MindsWhatSlipsThroughBetweenSamples) {
     Case c;
     constexpr int kFewKnots = 8;
     c.policy.rule = OrientationRule::kKeep;
-    c.problem = testing::problem_of_gap({at(0, {0, 0, 2.1}), at(8, {0, 0, -1.9})}, 0);
+    c.problem = testing::problem_of_leg({at(0, {0, 0, 2.1}), at(8, {0, 0, -1.9})}, 0);
     // The centre is a knot; samples are a quarter of a second from knots, an eighth of a metre.
     const double z = c.problem.path.at(4.0).position.z() - 0.1;
     testing::add_triangle(c.mesh, {-0.02, -4, z}, {0.02, -4, z}, {0, 0.2, z});
@@ -433,7 +433,7 @@ TEST(Relaxation, LeavesAGapBesideWhatItDidNotKnow) {
   const double low_m = -std::tan(testing::small_camera().fov_y_rad / 2.0) * 0.1;
   testing::add_cuboid(c.mesh, {-3, -3, -0.3}, {3, low_m - 0.01 * radius_m, 0.3});
   c.build();
-  c.problem = testing::problem_of_gap({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
+  c.problem = testing::problem_of_leg({at(0, {0, 0, 4}), at(8, {0, 0, -4})}, 0);
   const std::optional<Relaxed> free =
       correction_with(c, lifted(c.problem, 8, {0, 1.5 * radius_m, 0}), Ends::kFree);
   ASSERT_TRUE(free);
@@ -450,7 +450,7 @@ TEST(Relaxation, PolishesNextToAShortGap) {
   Case c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
   c.build();
-  c.problem = testing::problem_of_gap(
+  c.problem = testing::problem_of_leg(
       {at(0, {0, 0, 3}), at(6, {0, 0, -3}), at(6.5, {0, 0, -3.5}), at(8, {0, 0, -5})}, 0);
   c.problem.path =
       correction_with(c, lifted(c.problem, 12, {0, 0.5, 0}), Ends::kFixed).value().candidate.path;
@@ -469,7 +469,7 @@ TEST(Relaxation, PolishesNothingThatIsAsGoodAsItGets) {
   Case c;
   testing::add_cuboid(c.mesh, {90, 90, 90}, {91, 91, 91});
   c.build();
-  c.problem = testing::problem_of_gap({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
+  c.problem = testing::problem_of_leg({at(0, {0, 0, 3}), at(2, {0.5, 0, 1}), at(4, {0, 0, -1})}, 0);
   FreeSpace space = c.space();
   const Improvement improvement{Objective::kClosest};
   base::Budget budget(kEnough);

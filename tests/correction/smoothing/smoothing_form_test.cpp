@@ -32,10 +32,10 @@ struct Case {
 Case random_case(Draw& draw) {
   const std::vector<motion::Keyframe> keyframes =
       testing::random_keyframes(draw, draw.integer(2, 6));
-  const auto gap =
+  const auto leg =
       static_cast<std::size_t>(draw.integer(0, static_cast<int>(keyframes.size()) - 2));
-  Case c{testing::problem_of_gap(keyframes, gap), {}};
-  c.knots = {c.problem.gap_begin_s(), c.problem.gap_end_s(), draw.integer(4, 24)};
+  Case c{testing::problem_of_leg(keyframes, leg), {}};
+  c.knots = {c.problem.leg_begin_s(), c.problem.leg_end_s(), draw.integer(4, 24)};
   // A path other than the original.
   motion::BumpRow row{{c.problem.path.begin_s(), c.problem.path.end_s(), 9}, -1, {}};
   for (int k = -1; k <= 10; ++k) row.bumps.push_back({draw.in_cube(0.5), draw.image(0.1)});
@@ -52,11 +52,11 @@ void for_many(Draw& draw, int count, const Check& check) {
   int inner = 0;
   for (int i = 0; i < count; ++i) {
     const Case c = random_case(draw);
-    const std::size_t gap = c.problem.gap;
-    const bool is_last = gap + 2 == c.problem.keyframes_s.size();
-    first += gap == 0 ? 1 : 0;
+    const std::size_t leg = c.problem.leg;
+    const bool is_last = leg + 2 == c.problem.keyframes_s.size();
+    first += leg == 0 ? 1 : 0;
     last += is_last ? 1 : 0;
-    inner += gap > 0 && !is_last ? 1 : 0;
+    inner += leg > 0 && !is_last ? 1 : 0;
     for (const Ends ends : {Ends::kFree, Ends::kFixed}) {
       check(c, ends, FreeCoefficients(c.problem, c.knots, ends));
       if (::testing::Test::HasFatalFailure()) return;
@@ -90,8 +90,8 @@ TEST(FreeCoefficients, LeaveKeyframesWhereTheyAre) {
     double largest = 0.0;
     for (const double time_s : c.problem.keyframes_s) {
       const double moved = combined(free.at(time_s), variables).norm();
-      const bool is_of_gap = time_s == c.knots.begin_s || time_s == c.knots.end_s;
-      if (is_of_gap) {
+      const bool is_of_leg = time_s == c.knots.begin_s || time_s == c.knots.end_s;
+      if (is_of_leg) {
         ASSERT_LT(moved, kRounding);
       }
       largest = std::max(largest, moved);
@@ -133,8 +133,8 @@ TEST(FreeCoefficients, DoNotReachBeyondTheNextKeyframe) {
       keyframes[0].time_s = keyframes[1].time_s - draw.integer(3, 12) * spacing_s;
       keyframes[3].time_s = keyframes[2].time_s + draw.integer(3, 12) * spacing_s;
     }
-    const Problem problem = testing::problem_of_gap(keyframes, 1);
-    const KnotRow knots{problem.gap_begin_s(), problem.gap_end_s(), count};
+    const Problem problem = testing::problem_of_leg(keyframes, 1);
+    const KnotRow knots{problem.leg_begin_s(), problem.leg_end_s(), count};
     if (!fits_free_ends(problem, knots)) continue;
     const FreeCoefficients free(problem, knots, Ends::kFree);
     ASSERT_GE(knots.knot_s(free.first() - 2), problem.keyframes_s[0]) << run;

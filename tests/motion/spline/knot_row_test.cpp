@@ -144,20 +144,21 @@ TEST(LeastPiece, CarriesAccelerations) {
   Random random(3505);
   double worst = 0.0;
   for (int round = 0; round < 2000; ++round) {
-    const double gap_s = random.log_uniform(1e-3, 1e4);
+    const double interval_s = random.log_uniform(1e-3, 1e4);
     const double size_m = random.log_uniform(1.0, 1e6);
     const double travelled_m = random.log_uniform(0.1, 10.0);
-    const double least_s = least_piece_s(gap_s, travelled_m, size_m);
+    const double least_s = least_piece_s(interval_s, travelled_m, size_m);
     ASSERT_GT(least_s, 0.0);
-    ASSERT_LE(least_s, gap_s);
-    if (least_s == gap_s) continue;
+    ASSERT_LE(least_s, interval_s);
+    if (least_s == interval_s) continue;
     // A piece of a parabola with that acceleration, far from the origin, cut as bumps cut pieces.
-    const double acceleration = travelled_m / gap_s / gap_s;
+    const double acceleration = travelled_m / interval_s / interval_s;
     const double at_m = size_m * random.uniform(0.5, 1.0);
-    const std::array<double, 4> whole = {at_m, at_m, at_m + acceleration * gap_s * gap_s / 6.0,
-                                         at_m + acceleration * gap_s * gap_s / 2.0};
-    const double u = random.uniform(0.0, 1.0 - least_s / gap_s);
-    const std::array<double, 4> cut = bezier::sub_curve(whole, u, u + least_s / gap_s);
+    const std::array<double, 4> whole = {at_m, at_m,
+                                         at_m + acceleration * interval_s * interval_s / 6.0,
+                                         at_m + acceleration * interval_s * interval_s / 2.0};
+    const double u = random.uniform(0.0, 1.0 - least_s / interval_s);
+    const std::array<double, 4> cut = bezier::sub_curve(whole, u, u + least_s / interval_s);
     const double seen = 6.0 * ((cut[2] - cut[1]) - (cut[1] - cut[0])) / least_s / least_s;
     worst = std::max(worst, std::abs(seen - acceleration) / acceleration);
   }
@@ -165,7 +166,7 @@ TEST(LeastPiece, CarriesAccelerations) {
   EXPECT_GT(worst, 0.01 * kAccelerationNoise);  // no shorter than needed by much
 }
 
-TEST(LeastPiece, IsTheGapWhereNothingMoves) {
+TEST(LeastPiece, IsTheIntervalWhereNothingMoves) {
   EXPECT_EQ(least_piece_s(2.0, 0.0, 1.0), 2.0);
   EXPECT_EQ(least_piece_s(2.0, 0.0, 0.0), 2.0);
 }

@@ -28,8 +28,8 @@ struct PathSearch {
 /// (`planning::bridges`); a collision of such a motion counts at the instant of the join. Bounds
 /// the clearance if nothing collides. The path is searched in a hundred parts in order of time, so
 /// that a deadline keeps the results before it. Intervals on both sides of a border of two parts
-/// are not joined over the joining distance (`collision::DetectOptions::gap_m`). Requires a path in
-/// which `planning::find_fault` and `find_jump` find nothing.
+/// are not joined over the joining distance (`collision::DetectOptions::joining_distance_m`).
+/// Requires a path in which `planning::find_fault` and `find_jump` find nothing.
 PathSearch search_path(const collision::Query& query, const motion::Path& path,
                        const base::Deadline& deadline);
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <camway/client.h>
+
+#include <string>
+
+#include "tools/camway/common/commands.h"
+
+namespace camway::tools {
+
+/// Prints a line about the scene.
+void print_scene(const SceneInfo& scene);
+
+/// Prints the scenes, objects and revisions of an answer, or the reason why it has none. Returns
+/// the exit code. `key_file` is that of the command line, for advice on refused signatures.
+ExitCode print_answer(const SceneAnswer& answer, const std::string& key_file);
+
+}  // namespace camway::tools
