@@ -24,7 +24,7 @@ bool FakeTransport::publish(const std::string& channel, std::span<const std::uin
   {
     const std::lock_guard lock(mutex_);
     if (publish_fails_) return false;
-    published_.push_back({channel, service::Bytes(message.begin(), message.end())});
+    published_.push_back({channel, wire::Bytes(message.begin(), message.end())});
   }
   changed_.notify_all();
   return true;
@@ -54,7 +54,7 @@ void FakeTransport::wake() noexcept {
   changed_.notify_all();
 }
 
-void FakeTransport::deliver(std::string channel, service::Bytes bytes) {
+void FakeTransport::deliver(std::string channel, wire::Bytes bytes) {
   {
     const std::lock_guard lock(mutex_);
     incoming_.push_back({std::move(channel), std::move(bytes)});
@@ -85,15 +85,15 @@ std::vector<FakeTransport::Message> FakeTransport::published() const {
   return published_;
 }
 
-std::vector<service::Bytes> FakeTransport::published_on(const std::string& channel) const {
-  std::vector<service::Bytes> found;
+std::vector<wire::Bytes> FakeTransport::published_on(const std::string& channel) const {
+  std::vector<wire::Bytes> found;
   for (Message& message : published()) {
     if (message.channel == channel) found.push_back(std::move(message.bytes));
   }
   return found;
 }
 
-std::optional<service::Bytes> FakeTransport::message_on(const std::string& channel,
+std::optional<wire::Bytes> FakeTransport::message_on(const std::string& channel,
                                                         std::size_t index) const {
   if (!wait_for_messages_on(channel, index + 1)) return std::nullopt;
   const std::lock_guard lock(mutex_);

@@ -21,7 +21,7 @@ class FakeTransport final : public service::Transport {
  public:
   struct Message {
     std::string channel;
-    service::Bytes bytes;
+    wire::Bytes bytes;
   };
 
   bool subscribe(const std::string& channel, int queue_capacity, Handler handler) override;
@@ -30,7 +30,7 @@ class FakeTransport final : public service::Transport {
   void wake() noexcept override;
 
   /// Queues a message for the subscriber of `channel`.
-  void deliver(std::string channel, service::Bytes bytes);
+  void deliver(std::string channel, wire::Bytes bytes);
 
   /// Make all later calls of subscribe, publish or poll fail.
   void fail_subscribe();
@@ -38,9 +38,9 @@ class FakeTransport final : public service::Transport {
   void break_down();
 
   [[nodiscard]] std::vector<Message> published() const;
-  [[nodiscard]] std::vector<service::Bytes> published_on(const std::string& channel) const;
+  [[nodiscard]] std::vector<wire::Bytes> published_on(const std::string& channel) const;
   /// Waits for published message `index` on `channel` and returns it; nothing if it does not come.
-  [[nodiscard]] std::optional<service::Bytes> message_on(const std::string& channel,
+  [[nodiscard]] std::optional<wire::Bytes> message_on(const std::string& channel,
                                                          std::size_t index) const;
 
   /// Waits until `enough` returns true for the messages published so far. Returns false if that

@@ -85,12 +85,12 @@ RunningService::~RunningService() {
 }
 
 void RunningService::send(const plan_request_t& request) {
-  for (service::Bytes& page : wire::encode_pages(request)) {
+  for (wire::Bytes& page : wire::encode_pages(request)) {
     send_on(channels.plan_request(), std::move(page));
   }
 }
 
-void RunningService::send_on(const std::string& channel, service::Bytes bytes) {
+void RunningService::send_on(const std::string& channel, wire::Bytes bytes) {
   transport.deliver(channel, std::move(bytes));
 }
 
@@ -99,7 +99,7 @@ std::optional<plan_response_t> RunningService::answer_to(const plan_request_t& r
   const std::string channel = channels.plan_response(request.client_id);
   messages::PageAssembly<plan_response_t> assembly;
   for (std::size_t seen = skip_pages;; ++seen) {
-    const std::optional<service::Bytes> bytes = transport.message_on(channel, seen);
+    const std::optional<wire::Bytes> bytes = transport.message_on(channel, seen);
     if (!bytes) return std::nullopt;
     wire::Decoded<plan_response_t> decoded = wire::decode<plan_response_t>(*bytes);
     if (!decoded.message) {

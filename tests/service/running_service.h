@@ -65,7 +65,7 @@ class RunningService {
 
   /// Sends all pages of a request, in this order.
   void send(const plan_request_t& request);
-  void send_on(const std::string& channel, service::Bytes bytes);
+  void send_on(const std::string& channel, wire::Bytes bytes);
 
   /// Returns the first complete answer to `request` after `skip_pages` messages on its channel.
   std::optional<plan_response_t> answer_to(const plan_request_t& request,

@@ -76,7 +76,7 @@ class SessionBuilder {
     recorded.request = std::move(converted.request);
     recorded.error = std::move(converted.error);
     whole.utime = 0;  // does not count as content
-    service::Bytes content = wire::encode(whole);
+    wire::Bytes content = wire::encode(whole);
     const auto [position, is_new] =
         index_.try_emplace({recorded.ids.client_id, recorded.ids.request_id}, contents_.size());
     if (is_new) {
@@ -105,7 +105,7 @@ class SessionBuilder {
   messages::PageAssembly<plan_request_t> request_pages_;
   messages::PageAssembly<plan_response_t> response_pages_;
   std::map<Key, std::size_t> index_;
-  std::vector<service::Bytes> contents_;
+  std::vector<wire::Bytes> contents_;
   std::map<Key, RecordedAnswer> answers_;
   Session session_;
 };

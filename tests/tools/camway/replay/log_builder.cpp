@@ -37,14 +37,14 @@ void LogBuilder::add_event(const std::string& channel, const std::vector<std::ui
 
 void LogBuilder::add_request(const planning::PlanRequest& request, const messages::RequestIds& ids,
                              const std::string& prefix) {
-  for (const service::Bytes& page : wire::encode_pages(messages::to_wire(request, ids))) {
+  for (const wire::Bytes& page : wire::encode_pages(messages::to_wire(request, ids))) {
     add_event(prefix + "_PLAN_REQUEST", page);
   }
 }
 
 void LogBuilder::add_answer(const planning::PlanResult& result,
                             const messages::AnswerHeader& header, const std::string& prefix) {
-  for (const service::Bytes& page : wire::encode_pages(messages::to_wire(result, header))) {
+  for (const wire::Bytes& page : wire::encode_pages(messages::to_wire(result, header))) {
     add_event(prefix + "_PLAN_RESPONSE_" + header.ids.client_id, page);
   }
 }
