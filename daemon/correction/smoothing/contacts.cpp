@@ -101,13 +101,13 @@ void add_rows_of_side(std::uint32_t number, const FreeSpace& space, double horiz
 
 }  // namespace
 
-void add_contact_rows(FreeSpace& space, bool may_turn, const Vec4& reference, double lever_m,
-                      const StackedPoint& point, std::span<const std::uint32_t> obstacles,
-                      double horizon_m, std::vector<ContactRow>& rows) {
-  const motion::CubicPoint cubic = unstacked(point, lever_m);
-  const motion::Pose pose = motion::pose_of(reference, cubic);
-  const Place place{space.placed(pose), pose,
-                    may_turn ? turns_of(reference, cubic.image) : Turns(Turns::Zero()), lever_m};
+void add_contact_rows(FreeSpace& space, const StackedPlace& at,
+                      std::span<const std::uint32_t> obstacles, double horizon_m,
+                      std::vector<ContactRow>& rows) {
+  const motion::CubicPoint cubic = unstacked(at.point, at.lever_m);
+  const motion::Pose pose = motion::pose_of(at.reference, cubic);
+  const Turns turns = at.may_turn ? turns_of(at.reference, cubic.image) : Turns(Turns::Zero());
+  const Place place{space.placed(pose), pose, turns, at.lever_m};
   for (const std::uint32_t number : obstacles) {
     const std::size_t first_row = rows.size();
     if (collision::Obstacles::is_side(number)) {

@@ -21,14 +21,19 @@ struct ContactRow {
   std::size_t vertex = 0;  ///< vertex of the body: 3 × its triangle + its index in the triangle
 };
 
-/// Adds the rows of `obstacles` for the body at `point`. For a triangle of the scene and each
+/// A place of the body on a path, in stacked coordinates, and how it may move from there.
+struct StackedPlace {
+  StackedPoint point;
+  geometry::Vec4 reference;  ///< the reference frame of images
+  double lever_m = 0.0;      ///< the lever arm of `StackedPoint`
+  bool may_turn = true;      ///< if false, the rows do not constrain the orientation
+};
+
+/// Adds the rows of `obstacles` for the body at `place`. For a triangle of the scene and each
 /// triangle of the body the plane is perpendicular to the shortest line between the two; rows are
 /// added for the vertices within `horizon_m` of it, the tightest ones where there are many.
-/// Requires the body to be free of the obstacles at `point`. `reference`: the reference frame of
-/// images; `lever_m`: the lever arm of `StackedPoint`. Without `may_turn` the rows do not constrain
-/// the orientation.
-void add_contact_rows(FreeSpace& space, bool may_turn, const geometry::Vec4& reference,
-                      double lever_m, const StackedPoint& point,
+/// Requires the body to be free of the obstacles at `place`.
+void add_contact_rows(FreeSpace& space, const StackedPlace& place,
                       std::span<const std::uint32_t> obstacles, double horizon_m,
                       std::vector<ContactRow>& rows);
 

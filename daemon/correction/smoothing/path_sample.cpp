@@ -74,7 +74,7 @@ void SampleProbe::update_rows(PathSample& sample, const StackedPoint& there, boo
                               double beyond_m) {
   if (sample.has_rows) return;
   rows_.clear();
-  add_contact_rows(space_, may_turn, problem_.path.reference, lever_m_, there, sample.contacts,
+  add_contact_rows(space_, {there, problem_.path.reference, lever_m_, may_turn}, sample.contacts,
                    horizon_m_ + beyond_m, rows_);
   const std::vector<Contact> before = std::exchange(sample.rows, {});
   for (const ContactRow& row : rows_) {

@@ -69,8 +69,8 @@ class SampleProbe {
   SampleCheck check(PathSample& sample, const StackedPoint& there);
 
   /// Brings the rows of the contacts of `sample` up to date for its place `there`. Rows that remain
-  /// keep their multipliers. `may_turn`, `beyond_m`: as `add_contact_rows` has them, with
-  /// `beyond_m` added to the horizon.
+  /// keep their multipliers. `may_turn`: as in `StackedPlace`. `beyond_m` is added to
+  /// the horizon.
   void update_rows(PathSample& sample, const StackedPoint& there, bool may_turn, double beyond_m);
 
  private:

@@ -62,7 +62,7 @@ struct Case {
   [[nodiscard]] std::vector<ContactRow> rows(double horizon_m = kAll_m) const {
     FreeSpace space = this->space();
     std::vector<ContactRow> rows;
-    add_contact_rows(space, space.may_turn(), reference, kLever_m, point, all(), horizon_m, rows);
+    add_contact_rows(space, {point, reference, kLever_m, space.may_turn()}, all(), horizon_m, rows);
     return rows;
   }
   /// Returns a vertex of the body in the world.
@@ -233,7 +233,7 @@ TEST(Contacts, OfASideAreOfEveryVertex) {
     const std::vector<std::uint32_t> sides = {collision::Obstacles::number_of_side(1),
                                               collision::Obstacles::number_of_side(5)};
     std::vector<ContactRow> rows;
-    add_contact_rows(space, true, c.reference, kLever_m, c.point, sides, kAll_m, rows);
+    add_contact_rows(space, {c.point, c.reference, kLever_m, true}, sides, kAll_m, rows);
     ASSERT_EQ(rows.size(), 2 * 3 * c.body.triangles_C().size());
     for (const ContactRow& row : rows) {
       const std::size_t side = collision::Obstacles::side_of(row.triangle);
