@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <string>
 #include <utility>
 
 #include "daemon/collision/detect.h"
 #include "daemon/planning/stages/check.h"
+#include "daemon/planning/stages/conclude.h"
 #include "daemon/planning/stages/correct.h"
 #include "daemon/planning/stages/meet_limits.h"
 #include "daemon/planning/stages/message.h"
@@ -61,7 +61,7 @@ class Planner {
     measure();
     slow();
     add_clearance();
-    conclude();
+    conclude({request_, query_, prepared_.origin, corrected_, slowed_, is_searched_}, result_);
     return std::move(slowed_.law);
   }
 
@@ -154,67 +154,6 @@ class Planner {
     if (result_.measures) {
       result_.measures->clearance_lower_bound_m = result_.certificate.clearance_lower_bound_m;
     }
-  }
-
-  void conclude() {
-    if (result_.remaining_collisions.empty()) {
-      conclude_free();
-    } else if (result_.infeasibility) {
-      result_.status = Status::kInfeasible;
-      result_.message = why_infeasible(*result_.infeasibility, may_shrink(request_)) + note();
-    } else {
-      conclude_colliding();
-    }
-  }
-
-  void conclude_free() {
-    if (slowed_.breach) {
-      // It is proved free, and the certificate says so; it is not what was asked for.
-      result_.status = Status::kPartial;
-      result_.message = why_too_fast(request_, *slowed_.breach, prepared_.origin);
-    } else if (slowed_.is_too_fast) {
-      result_.status = Status::kTimeout;
-      result_.message = request_.name_of("options.limits") +
-                        ": the path is free, but too fast, and " + deadline_reached(request_) +
-                        " before it was slowed";
-    } else {
-      result_.status = Status::kOk;
-      result_.message =
-          fmt::format("{}; the path is proved free of collision, {} m or more from the scene{}",
-                      what_was_done(result_),
-                      rounded_down(result_.certificate.clearance_lower_bound_m),
-                      query_.obstacles.bounds.any() ? ", and within bounds" : "") +
-          note_of_times(result_, slowed_.is_everywhere) + note();
-    }
-  }
-
-  void conclude_colliding() {
-    result_.status = corrected_.timed_out ? Status::kTimeout : Status::kPartial;
-    // Names what the deadline left undone.
-    const std::string haste =
-        slowed_.is_too_fast ? "; it was not slowed to meet " + request_.name_of("options.limits")
-                            : "";
-    if (!is_searched_) {
-      result_.message = deadline_reached(request_) +
-                        " before the path was searched for collisions: nothing is known of it" +
-                        haste + note();
-      return;
-    }
-    if (!result_.shut_in.empty()) result_.keyframe = result_.shut_in.front().keyframe;
-    result_.message =
-        fmt::format("{}the path still collides {} ({})",
-                    corrected_.timed_out ? deadline_reached(request_) + "; " : "",
-                    counted(result_.remaining_collisions.size(), "time"), what_was_done(result_)) +
-        note_of_shut_in(result_.shut_in, query_.obstacles.bounds.any()) +
-        note_of_keyframe_limit(request_, result_, corrected_.needed_keyframes) +
-        note_of_effort(result_.corrections) + haste +
-        note_of_times(result_, slowed_.is_everywhere) + note();
-  }
-
-  // Notes about the request and the scene.
-  [[nodiscard]] std::string note() const {
-    return note_of_scale(result_, query_.obstacles.index.bounds()) + note_of_tilt(request_) +
-           note_of_tolerance(request_, query_.body) + note_of_method(request_);
   }
 
   // Time for the stages after the final check.

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/planning/stages/conclude.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "daemon/planning/stages/message.h"
+
+namespace camway::planning {
+namespace {
+
+/// Returns the notes about the request and the scene.
+std::string notes(const Outcomes& plan, const PlanResult& result) {
+  return note_of_scale(result, plan.query.obstacles.index.bounds()) + note_of_tilt(plan.request) +
+         note_of_tolerance(plan.request, plan.query.body) + note_of_method(plan.request);
+}
+
+void conclude_free(const Outcomes& plan, PlanResult& result) {
+  if (plan.slowed.breach) {
+    // It is proved free, and the certificate says so; it is not what was asked for.
+    result.status = Status::kPartial;
+    result.message = why_too_fast(plan.request, *plan.slowed.breach, plan.origin);
+  } else if (plan.slowed.is_too_fast) {
+    result.status = Status::kTimeout;
+    result.message = plan.request.name_of("options.limits") +
+                     ": the path is free, but too fast, and " + deadline_reached(plan.request) +
+                     " before it was slowed";
+  } else {
+    result.status = Status::kOk;
+    result.message =
+        fmt::format("{}; the path is proved free of collision, {} m or more from the scene{}",
+                    what_was_done(result), rounded_down(result.certificate.clearance_lower_bound_m),
+                    plan.query.obstacles.bounds.any() ? ", and within bounds" : "") +
+        note_of_times(result, plan.slowed.is_everywhere) + notes(plan, result);
+  }
+}
+
+void conclude_colliding(const Outcomes& plan, PlanResult& result) {
+  result.status = plan.corrected.timed_out ? Status::kTimeout : Status::kPartial;
+  // Names what the deadline left undone.
+  const std::string haste = plan.slowed.is_too_fast ? "; it was not slowed to meet " +
+                                                          plan.request.name_of("options.limits")
+                                                    : "";
+  if (!plan.is_searched) {
+    result.message = deadline_reached(plan.request) +
+                     " before the path was searched for collisions: nothing is known of it" +
+                     haste + notes(plan, result);
+    return;
+  }
+  if (!result.shut_in.empty()) result.keyframe = result.shut_in.front().keyframe;
+  result.message =
+      fmt::format("{}the path still collides {} ({})",
+                  plan.corrected.timed_out ? deadline_reached(plan.request) + "; " : "",
+                  counted(result.remaining_collisions.size(), "time"), what_was_done(result)) +
+      note_of_shut_in(result.shut_in, plan.query.obstacles.bounds.any()) +
+      note_of_keyframe_limit(plan.request, result, plan.corrected.needed_keyframes) +
+      note_of_effort(result.corrections) + haste +
+      note_of_times(result, plan.slowed.is_everywhere) + notes(plan, result);
+}
+
+}  // namespace
+
+void conclude(const Outcomes& plan, PlanResult& result) {
+  if (result.remaining_collisions.empty()) {
+    conclude_free(plan, result);
+  } else if (result.infeasibility) {
+    result.status = Status::kInfeasible;
+    result.message =
+        why_infeasible(*result.infeasibility, may_shrink(plan.request)) + notes(plan, result);
+  } else {
+    conclude_colliding(plan, result);
+  }
+}
+
+}  // namespace camway::planning

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/collision/query.h"
+#include "daemon/motion/path/time_origin.h"
+#include "daemon/planning/request/request.h"
+#include "daemon/planning/result/result.h"
+#include "daemon/planning/stages/correct.h"
+#include "daemon/planning/stages/meet_limits.h"
+
+namespace camway::planning {
+
+/// The outcomes of the stages of a plan.
+struct Outcomes {
+  const PlanRequest& request;
+  const collision::Query& query;
+  const motion::TimeOrigin& origin;
+  const CorrectedPlan& corrected;
+  const SlowedPlan& slowed;
+  bool is_searched;  ///< whether the path as interpolated was searched for collisions
+};
+
+/// Sets the status of `result`, and the message that tells people why. Requires a path, its
+/// remaining collisions, its certificate and its corrections in `result`.
+void conclude(const Outcomes& outcomes, PlanResult& result);
+
+}  // namespace camway::planning
