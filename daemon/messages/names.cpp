@@ -11,10 +11,9 @@ namespace {
 using Name = std::pair<std::string_view, std::string_view>;
 
 /// Members of the body, without indices, that have another name on the wire.
-constexpr std::array<Name, 6> kBodyNames{{
+constexpr std::array<Name, 5> kBodyNames{{
     {"body.center", "body.center_m"},
     {"body.size", "body.size_m"},
-    {"body.radius", "body.radius_m"},
     {"body.points", "body.points_m"},
     {"body.pieces", "body.piece_sizes"},
     {"body.vertices", "body.points_m"},

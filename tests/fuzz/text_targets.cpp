@@ -42,15 +42,25 @@ constexpr char kRequest[] = R"({"scene": "a.obj", "comment": [1, {"x": null}],
   "camera": {"fov_x_deg": 80, "fov_y_deg": 60, "near": 0.15},
   "keyframes": [{"time": 0, "position": [0, 1.6, 6.1], "orientation": [1, 0, 0, 0]},
                 {"time": 2.5, "position": [1e1, -0.5, 6.1], "orientation": [0.5, 0.5, -0.5, 0.5]}],
-  "options": {"objective": "smoothest", "clearance": 0.1, "max_shrink": 0.5, "seed": 3,
+  "options": {"objective": "smoothest", "clearance_m": 0.1, "max_shrink": 0.5, "seed": 3,
     "orientation": {"policy": "target", "target": [1, 2, 3], "cone_deg": 20, "max_turn_deg": 9},
-    "limits": {"speed": 1, "acceleration": 2, "turn_rate_deg": 90, "retime": true}}})";
+    "limits": {"speed_m_per_s": 1, "acceleration_m_per_s2": 2, "turn_rate_deg_per_s": 90,
+      "retime": true}}})";
+/// Names before 0.2, and an option by both of its names.
+constexpr char kOldNames[] = R"({"body": {"type": "sphere", "radius": 0.5},
+  "keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
+                {"position": [1, 0, 0], "orientation": [1, 0, 0, 0]}],
+  "options": {"clearance": 0.1, "limits": {"speed": 1, "speed_m_per_s": 1, "acceleration": 2,
+    "turn_rate_deg": 90}}})";
 constexpr char kBodies[] = R"({"body": {"type": "convex", "pieces": [[[0, 0, 0], [1, 0, 0],
   [0, 1, 0], [0, 0, 1]], [[1, 1, 1]]]}, "keyframes": [{"position": [0, 0, 0],
   "orientation": [1, 0, 0, 0]}, {"position": [1, 0, 0], "orientation": [1, 0, 0, 0]}]})";
 
 std::vector<FuzzBytes> request_json_seeds() {
-  return {fuzz_bytes(kRequest), fuzz_bytes(kBodies), fuzz_bytes("{}"),
+  return {fuzz_bytes(kRequest),
+          fuzz_bytes(kBodies),
+          fuzz_bytes(kOldNames),
+          fuzz_bytes("{}"),
           fuzz_bytes("[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["),
           fuzz_bytes("{\"a\": 1e999, \"a\": 1}")};
 }

@@ -50,7 +50,7 @@ void members(Io& io, Is<NamedInterval> auto& collision) {
     group.need("object", collision.names.object);
     group.need("triangle", TriangleOrSide{witness->triangle});
     group.need("feature", collision.names.feature);
-    group.need("depth", witness->depth_m);
+    group.need("depth_m", witness->depth_m, Old{"depth"});
     group.need("point", witness->point_W);
   });
 }
@@ -67,7 +67,7 @@ template <class Io>
 void members(Io& io, Is<correction::Correction> auto& correction) {
   io.need("t_begin", correction.interval.t_begin_s);
   io.need("t_end", correction.interval.t_end_s);
-  io.need("method", correction.kind);
+  io.need("kind", correction.kind, Old{"method"});
   io.need("changed", Both{correction.t_begin_s, correction.t_end_s});
   io.need("moved_m", correction.moved_m);
   io.need("turned_deg", Angle{correction.turned_rad});
@@ -98,7 +98,7 @@ void members(Io& io, Is<planning::SlowedStretch> auto& stretch) {
 template <class Io>
 void members(Io& io, Is<planning::KeyframeFault> auto& fault) {
   io.need("keyframe", fault.keyframe);
-  io.need("depth", fault.depth_m);
+  io.need("depth_m", fault.depth_m, Old{"depth"});
   io.may("free_pose", fault.free_pose);
 }
 

@@ -38,8 +38,9 @@ motion::BodyShape read_box(const Field& body) {
 }
 
 motion::BodyShape read_sphere(const Field& body) {
-  body.allow_only({"type", "radius", "center"});
-  return motion::SphereShape{read_center(body), body.member("radius").number()};
+  body.allow_only({"type", kRadius.name, "center"}, {kRadius.old_file});
+  return motion::SphereShape{read_center(body),
+                             body.member(kRadius.name, kRadius.old_file).number()};
 }
 
 motion::BodyShape read_convex(const Field& body) {

@@ -4,16 +4,20 @@
 #include <optional>
 
 #include "daemon/motion/body/body.h"
+#include "daemon/planning/request/field_spec.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
+
+/// The radius of a sphere.
+inline constexpr planning::FieldSpec kRadius{.name = "radius_m", .old_file = "radius"};
 
 /// Reads the `body` of a request: an object with a `type` and the members of that type, in metres
 /// and in the camera frame. `center` may be left out.
 ///
 ///     {"type": "camera"}
 ///     {"type": "box", "size": [x, y, z], "center": [x, y, z]}
-///     {"type": "sphere", "radius": r, "center": [x, y, z]}
+///     {"type": "sphere", "radius_m": r, "center": [x, y, z]}
 ///     {"type": "convex", "points": [[x, y, z], ...]}
 ///     {"type": "convex", "pieces": [[[x, y, z], ...], ...]}
 ///     {"type": "mesh", "vertices": [[x, y, z], ...], "triangles": [[i, j, k], ...]}

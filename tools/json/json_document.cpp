@@ -216,23 +216,30 @@ Parsed<std::string> read_text(const std::string& file) {
   return {std::move(text), {}};
 }
 
-Field Field::member(std::string_view key) const {
-  const std::optional<Field> found = optional_member(key);
+Field Field::member(std::string_view key, std::string_view old) const {
+  const std::optional<Field> found = optional_member(key, old);
   if (found) return *found;
   const Field missing(nullptr, this, key, 0);
   missing.fail("is missing");
   return missing;
 }
 
-std::optional<Field> Field::optional_member(std::string_view key) const {
+std::optional<Field> Field::optional_member(std::string_view key, std::string_view old) const {
   if (failed()) return std::nullopt;
   if (!value_->is_object()) {
     fail(std::string("must be an object, not ") + type_name(*value_));
     return std::nullopt;
   }
   const auto found = value_->find(key);
-  if (found == value_->end()) return std::nullopt;
-  return Field(&*found, this, key, 0);
+  const auto found_old = old.empty() ? value_->end() : value_->find(old);
+  if (found != value_->end() && found_old != value_->end()) {
+    fail("has both " + std::string(key) + " and " + std::string(old) +
+         ", its name before 0.2; leave one out");
+    return std::nullopt;
+  }
+  if (found != value_->end()) return Field(&*found, this, key, 0);
+  if (found_old != value_->end()) return Field(&*found_old, this, old, 0);
+  return std::nullopt;
 }
 
 Field Field::element(std::size_t index) const { return {&(*value_)[index], this, {}, index}; }
@@ -308,9 +315,11 @@ std::vector<std::string> Field::keys() const {
   return keys;
 }
 
-void Field::allow_only(const std::vector<std::string_view>& known) const {
+void Field::allow_only(const std::vector<std::string_view>& known,
+                       const std::vector<std::string_view>& old) const {
   for (const std::string& key : keys()) {
-    if (key == "comment" || key.starts_with('_') || std::ranges::count(known, key) > 0) continue;
+    if (key == "comment" || key.starts_with('_')) continue;
+    if (std::ranges::count(known, key) > 0 || std::ranges::count(old, key) > 0) continue;
     std::string list;
     for (const std::string_view word : known) list.append(list.empty() ? "" : ", ").append(word);
     member(key).fail("is unknown; " + (path().empty() ? "a request" : path()) + " has " + list +

@@ -48,10 +48,12 @@ class Field {
   /// The document itself.
   Field(const nlohmann::json& root, std::string& error) : value_(&root), error_(&error) {}
 
-  /// Returns a required member.
-  [[nodiscard]] Field member(std::string_view key) const;
-  /// Returns an optional member, or nothing if it is missing.
-  [[nodiscard]] std::optional<Field> optional_member(std::string_view key) const;
+  /// Returns a required member. If the object does not have `key`, returns the member `old`, the
+  /// name of that member before 0.2. Records an error if the object has both.
+  [[nodiscard]] Field member(std::string_view key, std::string_view old = {}) const;
+  /// Returns an optional member as `member` does, or nothing if it is missing.
+  [[nodiscard]] std::optional<Field> optional_member(std::string_view key,
+                                                     std::string_view old = {}) const;
   /// Returns element `index` of an array. Requires index < size().
   [[nodiscard]] Field element(std::size_t index) const;
   /// Returns the length of an array; for any other value records an error and returns 0.
@@ -68,10 +70,11 @@ class Field {
   /// Returns the keys of an object in alphabetical order; for any other value records an error.
   [[nodiscard]] std::vector<std::string> keys() const;
 
-  /// Records an error for the first member whose key is not in `known`: an option that is
-  /// misspelled, or that only a later version knows, must not be ignored silently. Keys that begin
-  /// with '_' and the key "comment" are remarks and pass.
-  void allow_only(const std::vector<std::string_view>& known) const;
+  /// Records an error for the first member whose key is neither in `known` nor in `old`: an option
+  /// that is misspelled, or that only a later version knows, must not be ignored silently. Keys
+  /// that begin with '_' and the key "comment" are remarks and pass. The error lists `known` alone.
+  void allow_only(const std::vector<std::string_view>& known,
+                  const std::vector<std::string_view>& old = {}) const;
 
   /// Records an error about this value, unless there is one already.
   void fail(std::string_view message) const;

@@ -95,7 +95,6 @@ SceneReading read_reading(const Field& root) {
 RequestFile read_request(const Field& root) {
   root.allow_only({"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "options"});
   RequestFile request;
-  request.spelling = json_spelling();
   if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
   request.reading = read_reading(root);
   if (const auto body = root.optional_member("body")) request.body = read_body(*body);
@@ -106,6 +105,7 @@ RequestFile read_request(const Field& root) {
   if (const auto options = root.optional_member("options")) {
     request.options = read_options(*options);
   }
+  request.spelling = json_spelling(root);
   return request;
 }
 

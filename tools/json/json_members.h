@@ -54,6 +54,11 @@ struct TriangleOrSide {
 template <class Number>
 TriangleOrSide(Number&) -> TriangleOrSide<Number>;
 
+/// The name of a member before 0.2, which is still read and no longer written.
+struct Old {
+  std::string_view name = {};
+};
+
 template <class Io, class Value>
 concept HasMembers = requires(Io& io, Value& value) {
   members(io, value);
@@ -84,7 +89,7 @@ class JsonWriter {
 
   /// Writes a member that readers require.
   template <class Value>
-  void need(std::string_view name, const Value& member) {
+  void need(std::string_view name, const Value& member, Old = {}) {
     begin(name);
     value(member);
     path_.pop_back();
@@ -200,8 +205,8 @@ class JsonReader {
 
   void line(int) {}
   template <class Value>
-  void need(std::string_view name, Value&& member) {
-    value(object_.member(name), member);
+  void need(std::string_view name, Value&& member, Old old = {}) {
+    value(object_.member(name, old.name), member);
   }
   template <class Value>
   void may(std::string_view name, Value&& member, bool = true) {

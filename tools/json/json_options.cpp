@@ -22,8 +22,12 @@ using planning::PlanOptions;
 template <class VisitTable>
 void allow_only(const Field& field, const VisitTable& visit_table) {
   std::vector<std::string_view> names;
-  visit_table([&](const FieldSpec& spec) { names.push_back(spec.file_name()); });
-  field.allow_only(names);
+  std::vector<std::string_view> old_names;
+  visit_table([&](const FieldSpec& spec) {
+    names.push_back(spec.file_name());
+    if (!spec.old_file.empty()) old_names.push_back(spec.old_file);
+  });
+  field.allow_only(names, old_names);
 }
 
 /// Records an error if `key` is there although the policy does not use it.
@@ -39,7 +43,8 @@ struct MemberReader {
 
   template <class Member>
   void operator()(const FieldSpec& spec, Member& member) const {
-    if (const auto field = object.optional_member(spec.file_name())) read(*field, spec, member);
+    const auto field = object.optional_member(spec.file_name(), spec.old_file);
+    if (field) read(*field, spec, member);
   }
 
  private:

@@ -7,10 +7,10 @@
 namespace camway::tools {
 
 /// Reads the `options` of a request. A missing option has its default. `planning::visit_options`
-/// has the names of the options; an example is
+/// has the names of the options, and their old names, which are read as well. An example is
 ///
 ///     {"deadline_s": 5, "orientation": {"policy": "level", "up": [0, 0, 1], "max_turn_deg": 20},
-///      "limits": {"speed": 2, "retime": true}, "bounds": {"max": [10, null, 3]}}
+///      "limits": {"speed_m_per_s": 2, "retime": true}, "bounds": {"max": [10, null, 3]}}
 ///
 /// Angles are in degrees, and directions have any length. Either corner of the bounds may be left
 /// out, and null is no limit. Members that another policy of orientation uses are refused, because

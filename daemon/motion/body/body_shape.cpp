@@ -59,7 +59,7 @@ Fault fault_in_shape(const BoxShape& box) {
 
 Fault fault_in_shape(const SphereShape& sphere) {
   if (Fault fault = fault_in_point("center", sphere.center_C)) return fault;
-  return fault_in_size("radius", sphere.radius_m);
+  return fault_in_size("radius_m", sphere.radius_m);
 }
 
 Fault fault_in_shape(const ConvexShape& convex) {

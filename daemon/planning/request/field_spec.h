@@ -27,8 +27,9 @@ struct FieldSpec {
   std::string_view name;  ///< name in paths (`FieldSpelling`): "turn_rate"
   /// Name in structs, on the wire and in the client, if not `name`: "turn_rate_rad_per_s".
   std::string_view wire = {};
-  std::string_view file = {};  ///< name in request files, if not `name`: "turn_rate_deg"
-  std::string_view unit = {};  ///< unit in messages about a value
+  std::string_view file = {};      ///< name in request files, if not `name`: "turn_rate_deg_per_s"
+  std::string_view old_file = {};  ///< name in request files before 0.2, which is still read
+  std::string_view unit = {};      ///< unit in messages about a value
   Range range = {};
   /// Text of the default in documents, if it is not the initial value of the member.
   std::string_view unset = {};
@@ -37,8 +38,11 @@ struct FieldSpec {
 
   [[nodiscard]] constexpr std::string_view wire_name() const { return wire.empty() ? name : wire; }
   [[nodiscard]] constexpr std::string_view file_name() const { return file.empty() ? name : file; }
-  /// Returns whether the member is an angle: in degrees in files, in radians in memory.
-  [[nodiscard]] constexpr bool is_angle() const { return file_name().ends_with("_deg"); }
+  /// Returns whether the member is an angle, or an angle per second: in degrees in files, in
+  /// radians in memory.
+  [[nodiscard]] constexpr bool is_angle() const {
+    return file_name().ends_with("_deg") || file_name().ends_with("_deg_per_s");
+  }
   /// Returns whether messages about a value are in degrees: if it is an angle with a largest one.
   [[nodiscard]] bool is_told_in_degrees() const;
   /// Returns the range in words: "at least 0 and below 1", "from 1e-06 to 1e+06", "between 0 and

@@ -91,10 +91,10 @@ inline constexpr FieldSpec kDeadline{
     .range = {.least = 0.0, .excludes_least = true, .excludes_infinity = true},
     .help = "seconds after which planning ends and answers `timeout` with what is proved"};
 inline constexpr FieldSpec kClearance{
-    .name = "clearance",
-    .wire = "clearance_m",
+    .name = "clearance_m",
+    .old_file = "clearance",
     .range = {.least = 0.0, .most = kMaxCoordinate_m},
-    .help = "least distance between body and scene, metres; less counts as a collision"};
+    .help = "least distance between body and scene; less counts as a collision"};
 inline constexpr FieldSpec kChordError{
     .name = "chord_error_m",
     .range = {.least = kLeastChordError_m, .excludes_infinity = true},
@@ -140,9 +140,7 @@ inline constexpr FieldSpec kSeed{.name = "seed",
                                  .range = {.least = 1.0},
                                  .help = "seed of the random numbers in searches for ways round"};
 inline constexpr FieldSpec kDefaultSpeed{
-    .name = "default_speed",
-    .wire = "default_speed_m_per_s",
-    .file = "default_speed_m_per_s",
+    .name = "default_speed_m_per_s",
     .unit = "m/s",
     .range = {.least = kLeastDefaultSpeed_m_per_s, .most = kMostDefaultSpeed_m_per_s},
     .unset = "1",
@@ -196,13 +194,14 @@ void visit_orientation(const Visit& visit, Policy&... policy) {
 /// Visits the limits of the motion. Infinity means no limit.
 template <class Visit, class... Limits>
 void visit_limits(const Visit& visit, Limits&... limits) {
-  visit(FieldSpec{.name = "speed", .wire = "speed_m_per_s", .range = kAboveZero},
+  visit(FieldSpec{.name = "speed_m_per_s", .old_file = "speed", .range = kAboveZero},
         limits.speed_m_per_s...);
-  visit(FieldSpec{.name = "acceleration", .wire = "acceleration_m_per_s2", .range = kAboveZero},
+  visit(FieldSpec{.name = "acceleration_m_per_s2", .old_file = "acceleration", .range = kAboveZero},
         limits.acceleration_m_per_s2...);
   visit(FieldSpec{.name = "turn_rate",
                   .wire = "turn_rate_rad_per_s",
-                  .file = "turn_rate_deg",
+                  .file = "turn_rate_deg_per_s",
+                  .old_file = "turn_rate_deg",
                   .range = kAboveZero},
         limits.turn_rate_rad_per_s...);
   visit(FieldSpec{.name = "retime", .wire = "may_retime"}, limits.may_retime...);
@@ -220,7 +219,8 @@ void visit_camera(const Visit& visit, Camera&... camera) {
 enum class Spelling { kWire, kFile };
 
 /// Returns the path of a member of the camera or the options, with the last name as `spelling` has
-/// it: "options.limits.speed_m_per_s" for "options.limits.speed". Returns other paths as they are.
+/// it: "options.limits.turn_rate_rad_per_s" for "options.limits.turn_rate". Returns other paths as
+/// they are.
 std::string spell(std::string_view path, Spelling spelling);
 
 }  // namespace camway::planning

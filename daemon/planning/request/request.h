@@ -15,7 +15,7 @@ namespace camway::planning {
 
 /// Returns how the sender of a request spells the member at a path. A path consists of the names of
 /// the members of these structs, mostly without units: "camera.fov_x", "keyframes[3].time",
-/// "options.limits.speed".
+/// "options.limits.turn_rate".
 using FieldSpelling = std::function<std::string(std::string_view path)>;
 
 /// The input of planning, the same for daemon, command line and replay.

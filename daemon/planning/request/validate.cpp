@@ -210,7 +210,7 @@ std::optional<InvalidRequest> check_options(const PlanRequest& request) {
   visit_options(members, options);
   if (auto fault = members.take()) return fault;
   if (options.default_speed_m_per_s && request.has_times) {
-    return invalid("options.default_speed",
+    return invalid("options.default_speed_m_per_s",
                    "counts only where keyframes have no times, and these have");
   }
   if (options.max_shrink > 0.0 && moving_camera(request) == nullptr) {

@@ -227,7 +227,7 @@ TEST(Body, RefusesShapesAndNamesTheFieldAtFault) {
       {"center: is not finite", edited(box, [](auto& b) { b.center_C.x() = kNaN; })},
       {"center: is more than 1e+09 m from the eye",
        edited(box, [](auto& b) { b.center_C.x() = -2e9; })},
-      {"radius: is 0 m", SphereShape{Vec3::Zero(), 0.0}},
+      {"radius_m: is 0 m", SphereShape{Vec3::Zero(), 0.0}},
       {"center: is not finite", SphereShape{{0, kNaN, 0}, 1.0}},
       {"pieces: is empty", ConvexShape{}},
       {"points: is empty", ConvexShape{{{}}}},

@@ -90,9 +90,12 @@ TEST(OptionTable, RangesReadAsSentences) {
 }
 
 TEST(OptionTable, MembersAreSpelledAsMessagesAndFilesHaveThem) {
-  EXPECT_EQ(spell("options.clearance", Spelling::kWire), "options.clearance_m");
-  EXPECT_EQ(spell("options.clearance", Spelling::kFile), "options.clearance");
-  EXPECT_EQ(spell("options.limits.turn_rate", Spelling::kFile), "options.limits.turn_rate_deg");
+  EXPECT_EQ(spell("options.clearance_m", Spelling::kWire), "options.clearance_m");
+  EXPECT_EQ(spell("options.clearance_m", Spelling::kFile), "options.clearance_m");
+  EXPECT_EQ(spell("options.limits.turn_rate", Spelling::kWire),
+            "options.limits.turn_rate_rad_per_s");
+  EXPECT_EQ(spell("options.limits.turn_rate", Spelling::kFile),
+            "options.limits.turn_rate_deg_per_s");
   EXPECT_EQ(spell("camera.fov_x", Spelling::kWire), "camera.fov_x_rad");
   EXPECT_EQ(spell("keyframes[3].time", Spelling::kWire), "keyframes[3].time");
   EXPECT_EQ(spell("camera", Spelling::kWire), "camera");

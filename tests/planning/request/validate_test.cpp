@@ -71,9 +71,9 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
        {},
        [](PlanRequest& r) { r.options.interval_tolerance_m = -1.0; }},
       {"options.chord_error_m", {}, [](PlanRequest& r) { r.options.chord_error_m = 1e-9; }},
-      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = -0.01; }},
-      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = kNaN; }},
-      {"options.clearance", {}, [](PlanRequest& r) { r.options.clearance_m = 2e9; }},
+      {"options.clearance_m", {}, [](PlanRequest& r) { r.options.clearance_m = -0.01; }},
+      {"options.clearance_m", {}, [](PlanRequest& r) { r.options.clearance_m = kNaN; }},
+      {"options.clearance_m", {}, [](PlanRequest& r) { r.options.clearance_m = 2e9; }},
       {"body.size[1]",
        {},
        [](PlanRequest& r) {
@@ -84,7 +84,7 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
        [](PlanRequest& r) {
          r.body = motion::SphereShape{{0, kNaN, 0}, 1.0};
        }},
-      {"body.radius",
+      {"body.radius_m",
        {},
        [](PlanRequest& r) {
          r.body = motion::SphereShape{geometry::Vec3::Zero(), kInfinity};
@@ -141,8 +141,10 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
       {"options.orientation.max_turn",
        {},
        [](PlanRequest& r) { r.options.orientation.max_turn_rad = kNaN; }},
-      {"options.limits.speed", {}, [](PlanRequest& r) { r.options.limits.speed_m_per_s = 0.0; }},
-      {"options.limits.acceleration",
+      {"options.limits.speed_m_per_s",
+       {},
+       [](PlanRequest& r) { r.options.limits.speed_m_per_s = 0.0; }},
+      {"options.limits.acceleration_m_per_s2",
        {},
        [](PlanRequest& r) { r.options.limits.acceleration_m_per_s2 = -1.0; }},
       {"options.limits.turn_rate",
@@ -158,16 +160,18 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
          r.options.max_shrink = 0.5;
        }},
       {"options.seed", {}, [](PlanRequest& r) { r.options.seed = 0; }},
-      {"options.default_speed",
+      {"options.default_speed_m_per_s",
        {},
        [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = 0.0; }},
-      {"options.default_speed",
+      {"options.default_speed_m_per_s",
        {},
        [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = kNaN; }},
-      {"options.default_speed",
+      {"options.default_speed_m_per_s",
        {},
        [](PlanRequest& r) { r.has_times = false, r.options.default_speed_m_per_s = 2e6; }},
-      {"options.default_speed", {}, [](PlanRequest& r) { r.options.default_speed_m_per_s = 1.0; }},
+      {"options.default_speed_m_per_s",
+       {},
+       [](PlanRequest& r) { r.options.default_speed_m_per_s = 1.0; }},
   };
   for (const Fault& fault : faults) {
     PlanRequest request = good_request();

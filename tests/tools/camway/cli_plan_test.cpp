@@ -140,7 +140,7 @@ TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
     const std::string camera = R"("camera": {"fov_x_deg": 70, "fov_y_deg": 50, "near": 0.1},)";
     text.replace(text.find(camera), camera.size(),
                  "\"body\": " + body +
-                     ", \"options\": {\"method\": \"keyframe_insertion\", \"clearance\": " +
+                     ", \"options\": {\"method\": \"keyframe_insertion\", \"clearance_m\": " +
                      std::to_string(clearance) + "},");
     const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
     EXPECT_EQ(run.exit_code == 0, parse_plan_response(run.out, "stdout").value.has_value() &&
@@ -148,10 +148,10 @@ TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
         << run.err;
     return run.exit_code;
   };
-  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.8})", 0.0), 0);
-  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.8})", 0.05), 0);
-  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.8})", 0.15), 3);
-  EXPECT_EQ(planned(R"({"type": "sphere", "radius": 0.95})", 0.0), 3);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius_m": 0.8})", 0.0), 0);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius_m": 0.8})", 0.05), 0);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius_m": 0.8})", 0.15), 3);
+  EXPECT_EQ(planned(R"({"type": "sphere", "radius_m": 0.95})", 0.0), 3);
   EXPECT_EQ(planned(R"({"type": "box", "size": [1.7, 0.5, 0.5]})", 0.0), 0);
   EXPECT_EQ(planned(R"({"type": "box", "size": [1.9, 0.5, 0.5]})", 0.0), 3);
 }
@@ -219,11 +219,11 @@ TEST_F(CliPlan, KeepsWithinBounds) {
 TEST_F(CliPlan, FlagsGoBeforeTheRequestsOptions) {
   std::string text = request_json({keyframe_json(1.1, 0, 1), keyframe_json(1.1, 0, -1)});
   text.replace(text.find("\"camera\""), 0,
-               R"("body": {"type": "sphere", "radius": 0.8},
-                  "options": {"method": "keyframe_insertion", "clearance": 0.15}, )");
+               R"("body": {"type": "sphere", "radius_m": 0.8},
+                  "options": {"method": "keyframe_insertion", "clearance_m": 0.15}, )");
   const std::string request = folder_.write("R.json", text);
   EXPECT_EQ(run_camway({"plan", "--request", request}).exit_code, 3);
-  EXPECT_EQ(run_camway({"plan", "--request", request, "--clearance", "0.05"}).exit_code, 0);
+  EXPECT_EQ(run_camway({"plan", "--request", request, "--clearance-m", "0.05"}).exit_code, 0);
   EXPECT_EQ(run_camway({"plan", "--request", request, "--method", "ladder"}).exit_code, 0);
   const CliRun run = run_camway({"plan", "--request", request, "--max-shrink", "0.5"});
   EXPECT_EQ(run.exit_code, 2);
@@ -243,8 +243,9 @@ TEST_F(CliPlan, NamesTheOptionAtFault) {
   EXPECT_THAT(error_of(R"({"orientation": {"policy": "target"}})"),
               HasSubstr("R.json: options.orientation.target: is missing"));
   EXPECT_THAT(
-      error_of(R"({"limits": {"turn_rate_deg": 0}})"),
-      HasSubstr("R.json: options.limits.turn_rate_deg: is 0 degrees (0 rad); it must be above 0"));
+      error_of(R"({"limits": {"turn_rate_deg_per_s": 0}})"),
+      HasSubstr(
+          "R.json: options.limits.turn_rate_deg_per_s: is 0 degrees (0 rad); it must be above 0"));
   EXPECT_THAT(error_of(R"({"max_shrink": 1})"),
               HasSubstr("R.json: options.max_shrink: is 1; it must be at least 0 and below 1"));
   EXPECT_THAT(error_of(R"({"objectiv": "closest"})"), HasSubstr("options.objectiv: is unknown"));
@@ -307,9 +308,9 @@ TEST_F(CliPlan, TimesAreDerivedAtTheSpeedThatIsAskedFor) {
 TEST_F(CliPlan, HelpNamesBodyAndClearance) {
   const CliRun run = run_camway({"plan", "--help"});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.out, HasSubstr("options.clearance"));
+  EXPECT_THAT(run.out, HasSubstr("options.clearance_m"));
   EXPECT_THAT(run.out, HasSubstr("\"body\""));
-  for (const char* flag : {"--method", "--deadline-s", "--clearance", "--objective",
+  for (const char* flag : {"--method", "--deadline-s", "--clearance-m", "--objective",
                            "--max-turn-deg", "--max-shrink", "--seed", "--repair-keyframes"}) {
     EXPECT_THAT(run.out, HasSubstr(flag));
   }
@@ -325,10 +326,10 @@ TEST_F(CliPlan, CallsStandardInputByItsName) {
   std::string no_scene = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
   no_scene.replace(no_scene.find("\"scene\""), 7, "\"_scene\"");
   std::string below_0 = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
-  below_0.replace(below_0.find("\"camera\""), 0, R"("options": {"clearance": -1}, )");
+  below_0.replace(below_0.find("\"camera\""), 0, R"("options": {"clearance_m": -1}, )");
   const std::pair<std::string, std::string> kFaults[] = {
       {no_scene, "camway: standard input: scene: is missing"},
-      {below_0, "camway: standard input: options.clearance: is -1"},
+      {below_0, "camway: standard input: options.clearance_m: is -1"},
       {"{", "camway: standard input: line 1, column 1: "},
   };
   for (const auto& [text, said] : kFaults) {
@@ -337,16 +338,16 @@ TEST_F(CliPlan, CallsStandardInputByItsName) {
   }
   const std::string file = folder_.write("in.json", below_0);
   EXPECT_THAT(run_camway({"check", "--request", "-", "--response", free_}, file).err,
-              StartsWith("camway: standard input: options.clearance: is -1"));
+              StartsWith("camway: standard input: options.clearance_m: is -1"));
 }
 
 TEST_F(CliPlan, AFlagWithoutItsValueMakesNoFile) {
   const CliRun run = run_camway({"plan", "--request", free_, "--response", "--no-timing"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("camway: --response: needs a value; '--no-timing' is a flag"));
-  const CliRun taken =
-      run_camway({"plan", "--request", free_, "--clearance", "--response", folder_.file("x.json")});
-  EXPECT_THAT(taken.err, HasSubstr("camway: --clearance: needs a value; '--response' is a flag"));
+  const CliRun taken = run_camway(
+      {"plan", "--request", free_, "--clearance-m", "--response", folder_.file("x.json")});
+  EXPECT_THAT(taken.err, HasSubstr("camway: --clearance-m: needs a value; '--response' is a flag"));
 }
 
 TEST_F(CliPlan, NamesTheDeadlineThatWasReached) {
@@ -455,7 +456,9 @@ TEST_F(CliPlan, RefusesBadFlags) {
       {"plan", "--request", free_, "--up", "7"},
       {"plan", "--request", free_, "--method", "magic"},
       {"plan", "--request", free_, "--deadline-s", "0"},
+      {"plan", "--request", free_, "--clearance-m", "-1"},
       {"plan", "--request", free_, "--clearance", "-1"},
+      {"plan", "--request", free_, "--clearance", "1", "--clearance-m", "1"},
       {"plan", "--request", free_, "--objective", "cheapest"},
       {"plan", "--request", free_, "--max-turn-deg", "181"},
       {"plan", "--request", free_, "--max-shrink", "1"},

@@ -39,11 +39,23 @@ TEST(JsonBody, ReadsABox) {
 }
 
 TEST(JsonBody, ReadsASphere) {
-  const auto request = read(R"({"type": "sphere", "radius": 0.5, "center": [0, 0, -1]})", true);
+  const auto request = read(R"({"type": "sphere", "radius_m": 0.5, "center": [0, 0, -1]})", true);
   const auto& sphere = std::get<motion::SphereShape>(request.body.value());
   EXPECT_EQ(sphere.radius_m, 0.5);
   EXPECT_EQ(sphere.center_C, Vec3(0, 0, -1));
   EXPECT_EQ(request.camera.near_m, 0.1) << "for the picture";
+}
+
+TEST(JsonBody, ReadsTheRadiusByItsOldName) {
+  const auto request = read(R"({"type": "sphere", "radius": 0.5})");
+  EXPECT_EQ(std::get<motion::SphereShape>(request.body.value()).radius_m, 0.5);
+  const auto fault = planning::validate(read(R"({"type": "sphere", "radius": -1})"));
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(fault->message, StartsWith("body.radius: is -1 m"));
+  EXPECT_EQ(parse_plan_request(request_with(R"({"type": "sphere", "radius": 1, "radius_m": 1})"),
+                               "R.json")
+                .error,
+            "R.json: body: has both radius_m and radius, its name before 0.2; leave one out");
 }
 
 TEST(JsonBody, ReadsConvexPieces) {
@@ -85,7 +97,7 @@ TEST(JsonBody, NamesTheFieldAtFault) {
       {R"({"type": "box", "size": [1, 2, 3], "centre": [0, 0, 0]})",
        "body.centre: is unknown; body has type, size, center"},
       {R"({"type": "box", "size": [1, 2, 3], "radius": 1})", "body.radius: is unknown"},
-      {R"({"type": "sphere"})", "body.radius: is missing"},
+      {R"({"type": "sphere"})", "body.radius_m: is missing"},
       {R"({"type": "convex"})", "body: must have either points or pieces"},
       {R"({"type": "convex", "points": [[0, 0, 0]], "pieces": []})",
        "body: must have either points or pieces"},
@@ -113,7 +125,8 @@ TEST(JsonBody, LeavesRangesToValidation) {
   };
   EXPECT_THAT(fault_of(R"({"type": "box", "size": [1, 0, 3]})"),
               StartsWith("body.size[1]: is 0 m; it must be above 0"));
-  EXPECT_THAT(fault_of(R"({"type": "sphere", "radius": -1})"), StartsWith("body.radius: is -1 m"));
+  EXPECT_THAT(fault_of(R"({"type": "sphere", "radius_m": -1})"),
+              StartsWith("body.radius_m: is -1 m"));
   EXPECT_THAT(fault_of(R"({"type": "convex", "points": []})"), StartsWith("body.points: is empty"));
   EXPECT_THAT(fault_of(R"({"type": "convex", "pieces": []})"), StartsWith("body.pieces: is empty"));
   EXPECT_THAT(fault_of(R"({"type": "mesh", "vertices": [[0, 0, 0]], "triangles": [[0, 1, 0]]})"),

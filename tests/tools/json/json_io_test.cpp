@@ -33,7 +33,7 @@ constexpr const char* kGoodRequest = R"({
   "keyframes": [
     {"time": 1.5, "position": [1, 2, 3], "orientation": [1, 0, 0, 0]},
     {"time": 2.5, "position": [4, 5, 6.25], "orientation": [0, 3, 0, 4], "_name": "door"}],
-  "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "clearance": 0.25, "chord_error_m": 0.01,
+  "options": {"method": "keyframe_insertion", "deadline_s": 2.5, "clearance_m": 0.25, "chord_error_m": 0.01,
               "interval_tolerance_m": 0.001, "max_inserted_keyframes": 7}})";
 
 /// Returns the valid request with `from` replaced by `to`.
@@ -129,9 +129,10 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("method": "keyframe_insertion")", R"("method": "magic")",
        "options.method: 'magic' is unknown; there are ladder, keyframe_insertion"},
       {R"("deadline_s": 2.5)", R"("dead_line_s": 2.5)",
-       "options.dead_line_s: is unknown; options has method, deadline_s, clearance, chord_error_m"},
-      {R"("clearance": 0.25)", R"("clearance": "wide")",
-       "options.clearance: must be a number, not a string"},
+       "options.dead_line_s: is unknown; options has method, deadline_s, clearance_m, "
+       "chord_error_m"},
+      {R"("clearance_m": 0.25)", R"("clearance_m": "wide")",
+       "options.clearance_m: must be a number, not a string"},
       {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": 7.5)",
        "options.max_inserted_keyframes: is 7.5; it must be a whole number from 0 to 2147483647, "
        "without a decimal point or exponent"},
@@ -141,12 +142,12 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
        "options.max_inserted_keyframes: is 2147483648; it must be a whole number from 0"},
       {R"("max_inserted_keyframes": 7)", R"("max_inserted_keyframes": "3")",
        "options.max_inserted_keyframes: must be a whole number from 0 to 2147483647, not a string"},
-      {R"("clearance": 0.25)", R"("seed": 1e30)",
+      {R"("clearance_m": 0.25)", R"("seed": 1e30)",
        "options.seed: is 1e+30; it must be a whole number from 1 to 9223372036854775807, without"},
-      {R"("clearance": 0.25)", R"("seed": 0)", "options.seed: is 0; it must be a whole number"},
-      {R"("clearance": 0.25)", R"("seed": 18446744073709551615)",
+      {R"("clearance_m": 0.25)", R"("seed": 0)", "options.seed: is 0; it must be a whole number"},
+      {R"("clearance_m": 0.25)", R"("seed": 18446744073709551615)",
        "options.seed: is 18446744073709551615; it must be a whole number from 1"},
-      {R"("clearance": 0.25)", R"("seed": null)",
+      {R"("clearance_m": 0.25)", R"("seed": null)",
        "options.seed: must be a whole number from 1 to 9223372036854775807, not null"},
       {R"("scene": "office.obj")", R"("scene": 3)", "scene: must be a string, not a number"},
       {R"("options": {)", R"("options": [{}], "_more": {)", "options: must be an object"},
@@ -183,18 +184,23 @@ TEST(JsonRequest, ValidationNamesFieldsAsTheFileDoes) {
       {R"("near": 0.1)", R"("near": 1e300)"},
       {R"("time": 2.5)", R"("time": 1)"},
       {"[4, 5, 6.25]", "[4, 5, 6e25]"},
-      {R"("clearance": 0.25)", R"("clearance": -1)"},
-      {R"("clearance": 0.25)", R"("default_speed_m_per_s": 0)"},
-      {R"("clearance": 0.25)", R"("default_speed_m_per_s": 1)"},
-      {R"("clearance": 0.25)", R"("max_shrink": 2)"},
-      {R"("clearance": 0.25)", R"("limits": {"speed": -1})"},
-      {R"("clearance": 0.25)", R"("limits": {"acceleration": -1})"},
-      {R"("clearance": 0.25)", R"("limits": {"turn_rate_deg": -1})"},
-      {R"("clearance": 0.25)", R"("orientation": {"max_turn_deg": -1})"},
-      {R"("clearance": 0.25)", R"("orientation": {"policy": "level", "up": [0, 0, 0]})"},
-      {R"("clearance": 0.25)",
+      {R"("clearance_m": 0.25)", R"("clearance_m": -1)"},
+      {R"("clearance_m": 0.25)", R"("clearance": -1)"},
+      {R"("clearance_m": 0.25)", R"("default_speed_m_per_s": 0)"},
+      {R"("clearance_m": 0.25)", R"("default_speed_m_per_s": 1)"},
+      {R"("clearance_m": 0.25)", R"("max_shrink": 2)"},
+      {R"("clearance_m": 0.25)", R"("limits": {"speed_m_per_s": -1})"},
+      {R"("clearance_m": 0.25)", R"("limits": {"speed": -1})"},
+      {R"("clearance_m": 0.25)", R"("limits": {"acceleration_m_per_s2": -1})"},
+      {R"("clearance_m": 0.25)", R"("limits": {"acceleration": -1})"},
+      {R"("clearance_m": 0.25)", R"("limits": {"turn_rate_deg_per_s": -1})"},
+      {R"("clearance_m": 0.25)", R"("limits": {"turn_rate_deg": -1})"},
+      {R"("clearance_m": 0.25)", R"("orientation": {"max_turn_deg": -1})"},
+      {R"("clearance_m": 0.25)", R"("orientation": {"policy": "level", "up": [0, 0, 0]})"},
+      {R"("clearance_m": 0.25)",
        R"("orientation": {"policy": "target", "target": [0, 0, 1], "cone_deg": 0})"},
-      {R"("clearance": 0.25)", R"("orientation": {"policy": "target", "target": [0, 0, 1e20]})"},
+      {R"("clearance_m": 0.25)", R"("orientation": {"policy": "target", "target": [0, 0, 1e20]})"},
+      {R"("camera": {)", R"("body": {"type": "sphere", "radius_m": -1}, "camera": {)"},
       {R"("camera": {)", R"("body": {"type": "sphere", "radius": -1}, "camera": {)"},
       {R"("camera": {)", R"("body": {"type": "box", "size": [1, 1e20, 1]}, "camera": {)"},
   };
@@ -466,7 +472,7 @@ TEST(JsonResponse, WitnessesStandInTheirIntervals) {
   const std::string text = *write_plan_response(result).value;
   EXPECT_THAT(text, HasSubstr(R"("collisions": [
     {"t_begin": 0.5, "t_end": 1.5,
-     "witness": {"time": 1.25, "object": "table", "triangle": 12, "feature": "edge 2", "depth": 0.0625, "point": [1.0, -2.0, 0.5]}},
+     "witness": {"time": 1.25, "object": "table", "triangle": 12, "feature": "edge 2", "depth_m": 0.0625, "point": [1.0, -2.0, 0.5]}},
     {"t_begin": 2.5, "t_end": 3.0}
   ],)"));
   const auto read = parse_plan_response(text, "P.json");
@@ -515,7 +521,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   result.slowed = {{2.0, 4.0, 1.5, 2.5}};
   const std::string text = *write_plan_response(result).value;
   EXPECT_THAT(text, HasSubstr(R"("corrections": [
-    {"t_begin": 2.25, "t_end": 2.75, "method": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
+    {"t_begin": 2.25, "t_end": 2.75, "kind": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
   ],
   "measures": {
     "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
@@ -546,8 +552,8 @@ TEST(JsonResponse, SaysWhyThereIsNoPath) {
   result.keyframe_faults.push_back(fault);
   const std::string text = *write_plan_response(result).value;
   EXPECT_THAT(text, HasSubstr(R"("keyframe_faults": [
-    {"keyframe": 1, "depth": 0.5},
-    {"keyframe": 1, "depth": 0.5, "free_pose": {"position": [1.0, 2.0, 3.0], "orientation": [1.0, 0.0, 0.0, 0.0]}}
+    {"keyframe": 1, "depth_m": 0.5},
+    {"keyframe": 1, "depth_m": 0.5, "free_pose": {"position": [1.0, 2.0, 3.0], "orientation": [1.0, 0.0, 0.0, 0.0]}}
   ],
   "infeasibility": {"keyframe_inside": 2, "keyframe_outside": 0,
     "triangles": [3, 5, 8]})"));
@@ -582,6 +588,58 @@ TEST(JsonResponse, ShowsTheCageThatLeavesNoPath) {
             "P.json: infeasibility.cage.widest_hole_m: is missing");
 }
 
+/// Returns an answer with every member that has an old name.
+std::string answer_with_renamed_members() {
+  planning::PlanResult result;
+  result.collisions = {{0.5, 1.5, collision::Witness{1.25, 12, 3, 0.0625, {1, -2, 0.5}}}};
+  result.collision_names = {{"table", "edge 2"}};
+  result.corrections.resize(1);
+  result.corrections[0].kind = correction::CorrectionKind::kTurn;
+  planning::KeyframeFault fault;
+  fault.keyframe = 1;
+  fault.depth_m = 0.5;
+  result.keyframe_faults = {fault};
+  return *write_plan_response(result).value;
+}
+
+constexpr std::pair<const char*, const char*> kOldNamesOfAnswers[] = {
+    {R"("depth_m": 0.0625)", R"("depth": 0.0625)"},
+    {R"("kind": "turn")", R"("method": "turn")"},
+    {R"("depth_m": 0.5)", R"("depth": 0.5)"},
+};
+
+TEST(JsonResponse, OfEarlierVersionsHasOldNames) {
+  const std::string text = answer_with_renamed_members();
+  std::string old_text = text;
+  for (const auto& [member, old_member] : kOldNamesOfAnswers) {
+    const std::size_t at = old_text.find(member);
+    ASSERT_NE(at, std::string::npos) << member;
+    old_text.replace(at, std::string(member).size(), old_member);
+  }
+  const auto read = parse_plan_response(old_text, "P.json");
+  ASSERT_TRUE(read.value) << read.error;
+  EXPECT_EQ(read.value->collisions[0].witness->depth_m, 0.0625);
+  EXPECT_EQ(read.value->corrections[0].kind, correction::CorrectionKind::kTurn);
+  EXPECT_EQ(read.value->keyframe_faults[0].depth_m, 0.5);
+  EXPECT_EQ(*write_plan_response(*read.value).value,
+            *write_plan_response(*parse_plan_response(text, "P.json").value).value);
+}
+
+TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
+  const char* const expected[] = {
+      "P.json: collisions[0].witness: has both depth_m and depth, its name before 0.2; leave one "
+      "out",
+      "P.json: corrections[0]: has both kind and method, its name before 0.2; leave one out",
+      "P.json: keyframe_faults[0]: has both depth_m and depth, its name before 0.2; leave one out",
+  };
+  std::size_t i = 0;
+  for (const auto& [member, old_member] : kOldNamesOfAnswers) {
+    std::string text = answer_with_renamed_members();
+    text.insert(text.find(member), std::string(old_member) + ", ");
+    EXPECT_EQ(parse_plan_response(text, "P.json").error, expected[i++]);
+  }
+}
+
 TEST(JsonResponse, LeavesOutWhatThereIsNothingToSayOf) {
   const std::string text = *write_plan_response({}).value;
   for (const char* key : {"measures", "near_scale", "time_scale", "deadline_reached", "slowed",
@@ -601,7 +659,7 @@ TEST(JsonResponse, NamesTheFieldOfAReportAtFault) {
     text.replace(text.rfind(from), from.size(), to);
     return parse_plan_response(text, "P.json").error;
   };
-  EXPECT_EQ(error_of("\"none\"", "\"fly\""), "P.json: corrections[1].method: 'fly' is unknown");
+  EXPECT_EQ(error_of("\"none\"", "\"fly\""), "P.json: corrections[1].kind: 'fly' is unknown");
   EXPECT_EQ(error_of("\"moved_m\"", "\"moved\""), "P.json: corrections[1].moved_m: is missing");
   EXPECT_THAT(error_of("[3, 5, 8]", "[3, -5]"),
               HasSubstr("infeasibility.triangles[1]: is -5; it must be a whole number from 0"));

@@ -33,7 +33,8 @@ TEST(JsonOptions, ReadsEveryField) {
   const auto parsed = options_of(R"({
     "method": "ladder", "objective": "smoothest",
     "orientation": {"policy": "target", "target": [1, 2, 3], "cone_deg": 30, "max_turn_deg": 90},
-    "limits": {"speed": 1.5, "acceleration": 2.5, "turn_rate_deg": 180, "retime": true},
+    "limits": {"speed_m_per_s": 1.5, "acceleration_m_per_s2": 2.5, "turn_rate_deg_per_s": 180,
+               "retime": true},
     "bounds": {"min": [null, -0.5, 0], "max": [3, null, null]},
     "max_shrink": 0.25, "repair_keyframes": true, "seed": 42})");
   ASSERT_TRUE(parsed.value) << parsed.error;
@@ -55,6 +56,17 @@ TEST(JsonOptions, ReadsEveryField) {
   EXPECT_EQ(options.max_shrink, 0.25);
   EXPECT_TRUE(options.repair_keyframes);
   EXPECT_EQ(options.seed, 42U);
+}
+
+TEST(JsonOptions, ReadsTheOldNames) {
+  const auto old_names = options_of(R"({"clearance": 0.25,
+      "limits": {"speed": 1.5, "acceleration": 2.5, "turn_rate_deg": 180}})");
+  const auto names = options_of(R"({"clearance_m": 0.25, "limits": {"speed_m_per_s": 1.5,
+      "acceleration_m_per_s2": 2.5, "turn_rate_deg_per_s": 180}})");
+  ASSERT_TRUE(old_names.value) << old_names.error;
+  EXPECT_EQ(old_names.value, names.value);
+  EXPECT_EQ(names.value->clearance_m, 0.25);
+  EXPECT_EQ(names.value->limits.turn_rate_rad_per_s, std::numbers::pi);
 }
 
 TEST(JsonOptions, HasDefaultsForAllThatMayBeMissing) {
@@ -107,7 +119,20 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
       {R"({"orientation": {"policy": "free", "max_turn_deg": "x"}})",
        "orientation.max_turn_deg: must be a number"},
       {R"({"limits": {"speed_m": 1}})", "limits.speed_m: is unknown"},
+      {R"({"limits": {"speed_m_per_s": null}})", "limits.speed_m_per_s: must be a number"},
       {R"({"limits": {"speed": null}})", "limits.speed: must be a number"},
+      {R"({"clearance": "wide"})", "clearance: must be a number"},
+      {R"({"clearance_m": 1, "clearance": 1})",
+       "has both clearance_m and clearance, its name before 0.2; leave one out"},
+      {R"({"limits": {"speed": 1, "speed_m_per_s": 1}})",
+       "limits: has both speed_m_per_s and speed, its name before 0.2"},
+      {R"({"limits": {"acceleration": 1, "acceleration_m_per_s2": 1}})",
+       "limits: has both acceleration_m_per_s2 and acceleration, its name before 0.2"},
+      {R"({"limits": {"turn_rate_deg": 1, "turn_rate_deg_per_s": 1}})",
+       "limits: has both turn_rate_deg_per_s and turn_rate_deg, its name before 0.2"},
+      {R"({"limits": {"sped": 1}})",
+       "limits.sped: is unknown; limits has speed_m_per_s, acceleration_m_per_s2, "
+       "turn_rate_deg_per_s, retime, and"},
       {R"({"limits": {"retime": 1}})", "limits.retime: must be true or false"},
       {R"({"bounds": [1, 2, 3]})", "bounds: must be an object"},
       {R"({"bounds": {"low": [1, 2, 3]}})", "bounds.low: is unknown"},

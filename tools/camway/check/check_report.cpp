@@ -58,7 +58,7 @@ nlohmann::ordered_json interval_json(const CheckInput& input, const CollisionInt
                      {"object", names.object},
                      {"triangle", collision::Obstacles::signed_number(witness.triangle)},
                      {"feature", names.feature},
-                     {"depth", witness.depth_m},
+                     {"depth_m", witness.depth_m},
                      {"point", {witness.point_W.x(), witness.point_W.y(), witness.point_W.z()}}};
   return json;
 }

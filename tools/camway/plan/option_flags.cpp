@@ -29,6 +29,12 @@ std::string flag_of(const FieldSpec& spec) {
   return flag;
 }
 
+/// Returns the option with its old name in request files as its name there.
+FieldSpec by_old_name(FieldSpec spec) {
+  spec.file = spec.old_file;
+  return spec;
+}
+
 /// Returns the meaning of an option without the marks of Markdown.
 std::string description_of(const FieldSpec& spec) {
   std::string text(spec.help);
@@ -96,7 +102,13 @@ void OptionFlags::add_to(CLI::App& command) {
   };
   planning::visit_options(
       [&](const FieldSpec& spec, auto& member) {
-        keep(kOptions + std::string(spec.name), add(spec, member));
+        const std::string path = kOptions + std::string(spec.name);
+        CLI::Option* const flag = add(spec, member);
+        keep(path, flag);
+        if (flag == nullptr || spec.old_file.empty()) return;
+        CLI::Option* const old = add(by_old_name(spec), member);
+        keep(path, old);
+        old->excludes(flag)->description("Old name of " + flag->get_name());
       },
       options_);
   keep(kMaxTurn, add(planning::option::kMaxTurn, options_.orientation.max_turn_rad));

@@ -12,7 +12,8 @@ namespace camway::tools {
 
 /// The flags of `camway plan` that override options of a request. `planning::visit_options` has
 /// them: each option that is a number, a name or a switch has a flag, and so has
-/// `orientation.max_turn`.
+/// `orientation.max_turn`. An option that was renamed has a flag by its old name, too, which
+/// excludes the flag by the new name.
 /// Not thread-safe.
 class OptionFlags {
  public:
@@ -25,7 +26,8 @@ class OptionFlags {
 
  private:
   planning::PlanOptions options_;
-  std::map<std::string, CLI::Option*, std::less<>> flags_;  ///< by path: "options.clearance"
+  /// By path: "options.clearance_m" has "--clearance-m" and "--clearance".
+  std::multimap<std::string, CLI::Option*, std::less<>> flags_;
 };
 
 }  // namespace camway::tools

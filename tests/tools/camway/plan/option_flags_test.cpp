@@ -17,7 +17,9 @@ namespace camway::tools {
 namespace {
 
 using planning::FieldSpec;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 /// Parses `arguments` and applies them to a request with default options.
 planning::PlanRequest request_with(std::vector<std::string> arguments) {
@@ -55,9 +57,9 @@ TEST(OptionFlags, EveryNumberNameAndSwitchHasAFlag) {
 
 TEST(OptionFlags, OverrideTheOptionsThatAreGiven) {
   EXPECT_EQ(request_with({}).options, planning::PlanOptions{});
-  const planning::PlanRequest request =
-      request_with({"--objective", "safest", "--clearance", "0.25", "--max-inserted-keyframes", "7",
-                    "--repair-keyframes", "--default-speed-m-per-s", "2", "--max-turn-deg", "90"});
+  const planning::PlanRequest request = request_with(
+      {"--objective", "safest", "--clearance-m", "0.25", "--max-inserted-keyframes", "7",
+       "--repair-keyframes", "--default-speed-m-per-s", "2", "--max-turn-deg", "90"});
   planning::PlanOptions expected;
   expected.objective = correction::Objective::kSafest;
   expected.clearance_m = 0.25;
@@ -71,11 +73,25 @@ TEST(OptionFlags, OverrideTheOptionsThatAreGiven) {
 TEST(OptionFlags, ErrorsNameTheFlagThatWasGiven) {
   const planning::PlanRequest request = request_with({"--max-shrink", "0.5"});
   EXPECT_EQ(request.name_of("options.max_shrink"), "--max-shrink");
-  EXPECT_EQ(request.name_of("options.default_speed"), "options.default_speed_m_per_s");
+  EXPECT_EQ(request.name_of("options.default_speed_m_per_s"), "options.default_speed_m_per_s");
+}
+
+TEST(OptionFlags, TheOldNameOfAFlagIsTaken) {
+  const planning::PlanRequest request = request_with({"--clearance", "0.25"});
+  EXPECT_EQ(request.options, request_with({"--clearance-m", "0.25"}).options);
+  EXPECT_EQ(request.options.clearance_m, 0.25);
+  EXPECT_EQ(request.name_of("options.clearance_m"), "--clearance");
+  EXPECT_THROW(request_with({"--clearance", "-1"}), CLI::ValidationError);
+  EXPECT_THAT(
+      [] {
+        request_with({"--clearance", "1", "--clearance-m", "1"});
+      },
+      ThrowsMessage<CLI::ExcludesError>(
+          AllOf(HasSubstr("--clearance-m"), HasSubstr("--clearance "))));
 }
 
 TEST(OptionFlags, ValuesBeyondTheRangeAreRefused) {
-  EXPECT_THROW(request_with({"--clearance", "-1"}), CLI::ValidationError);
+  EXPECT_THROW(request_with({"--clearance-m", "-1"}), CLI::ValidationError);
   EXPECT_THROW(request_with({"--default-speed-m-per-s", "1e7"}), CLI::ValidationError);
   EXPECT_THROW(request_with({"--max-turn-deg", "181"}), CLI::ValidationError);
   EXPECT_THROW(request_with({"--seed", "0"}), CLI::ValidationError);
