@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_io.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,11 +10,11 @@
 #include <string>
 #include <utility>
 
-
 #include "daemon/collision/obstacles.h"
 #include "tests/support/random.h"
 #include "tools/camway/replay/compare.h"
 #include "tools/json/json_angle.h"
+#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_io.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/random.h"
+#include "tools/json/json_io.h"
 
 namespace camway::tools {
 namespace {
