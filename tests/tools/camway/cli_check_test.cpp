@@ -189,7 +189,7 @@ TEST_F(CliCheck, SaysWhichKeyframesThePathMeets) {
   const nlohmann::json keyframes = nlohmann::json::parse(json.out)["keyframes"];
   EXPECT_EQ(keyframes["count"], 2);
   EXPECT_EQ(keyframes["met"], 1);
-  EXPECT_NEAR(keyframes["largest_miss"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(keyframes["largest_miss_m"].get<double>(), 0.5, 1e-12);
   EXPECT_EQ(keyframes["missed"][0]["keyframe"], 1);
 }
 
@@ -274,7 +274,7 @@ TEST_F(CliCheck, DoesNotMeetAKeyframeAtATimeThatThePathDoesNotHave) {
   EXPECT_EQ(keyframes["met"], 1);
   EXPECT_EQ(keyframes["outside"], 1);
   EXPECT_EQ(keyframes["missed"][0]["keyframe"], 1);
-  EXPECT_TRUE(keyframes["missed"][0]["miss"].is_null());
+  EXPECT_TRUE(keyframes["missed"][0]["miss_m"].is_null());
   // Ten digits of the time are enough.
   request["keyframes"][1]["time"] = end_s * (1 + 1e-10);
   request_ = folder_.write("later.json", request.dump());

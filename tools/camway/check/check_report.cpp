@@ -129,14 +129,14 @@ nlohmann::ordered_json keyframes_json(const CheckInput& input) {
   const KeyframeReport report = look_for_keyframes(input);
   nlohmann::ordered_json missed = nlohmann::ordered_json::array();
   for (const Miss& miss : report.missed) {
-    nlohmann::ordered_json item{{"keyframe", miss.keyframe}, {"miss", nullptr}};
-    if (miss.by_m) item["miss"] = *miss.by_m;
+    nlohmann::ordered_json item{{"keyframe", miss.keyframe}, {"miss_m", nullptr}};
+    if (miss.by_m) item["miss_m"] = *miss.by_m;
     missed.push_back(std::move(item));
   }
   return {{"count", count},
           {"met", count - report.missed.size()},
           {"outside", report.outside},
-          {"largest_miss", report.largest_miss_m},
+          {"largest_miss_m", report.largest_miss_m},
           {"missed", std::move(missed)}};
 }
 

@@ -90,7 +90,7 @@ OrderedJson result_json(const LoadFlags& flags, const LoadResult& result) {
   const LoadTally& tally = result.tally;
   OrderedJson json;
   json["clients"] = flags.run.clients;
-  json["seconds"] = result.elapsed_s;
+  json["elapsed_s"] = result.elapsed_s;
   json["requests"] = tally.asked;
   json["answered"] = tally.answered;
   json["refused"] = tally.refused;
