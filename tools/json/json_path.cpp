@@ -61,6 +61,9 @@ PathFile read_path(const Field& root) {
     if (const auto fault = geometry::fault_in(file.bounds))
       bounds->fail(fault->field + " " + fault->reason);
   }
+  if (const auto scale = root.optional_member("time_scale")) {
+    file.is_slowed = scale->number() != 1.0;
+  }
   if (const auto scale = root.optional_member("near_scale")) {
     file.near_scale = scale->number();
     if (!(file.near_scale > 0.0 && file.near_scale <= 1.0)) {

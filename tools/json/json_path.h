@@ -22,15 +22,16 @@ struct PathFile {
   /// Near distance that it was made for, divided by the request's. [Limit: 0 < value <= 1]
   double near_scale = 1.0;
   geometry::Bounds bounds;  ///< bounds that it was made for
+  bool is_slowed = false;   ///< whether it has later times than those asked for
 };
 
 /// Reads a path. The member `segments` is required. A segment with an unknown field is an error,
 /// except for remarks (`Field::allow_only`): a field such as `weights` or `knots` would describe
 /// another curve than the one that is proved. Checks the form, that each segment ends after it
 /// begins, and that it begins when the one before ends; `planning::find_fault` checks the numbers.
-/// `keyframes` (with `time` and `origin`: "given" or "inserted"), `scene_digest`, `bounds` and
-/// `near_scale` are optional. Unknown fields outside of the segments are ignored, because they
-/// cannot change what is proved.
+/// `keyframes` (with `time` and `origin`: "given" or "inserted"), `scene_digest`, `bounds`,
+/// `near_scale` and `time_scale` are optional. Unknown fields outside of the segments are ignored,
+/// because they cannot change what is proved.
 Parsed<PathFile> parse_path_file(std::string_view text, std::string_view source);
 
 /// Reads a path from a file ("-": standard input).

@@ -193,6 +193,20 @@ TEST_F(CliCheck, SaysWhichKeyframesThePathMeets) {
   EXPECT_EQ(keyframes["missed"][0]["keyframe"], 1);
 }
 
+// A slowed path meets the keyframes at its own times, not at those of the request.
+TEST_F(CliCheck, TakesTheTimesOfASlowedPath) {
+  auto request = nlohmann::json::parse(
+      request_json({keyframe_json(1, 0, 1), keyframe_json(1.5, 0, 0), keyframe_json(1, 0, -1)}));
+  for (int i = 0; i < 3; ++i) request["keyframes"][i]["time"] = 1.76e9 + i;
+  request["options"]["limits"] = {{"speed_m_per_s", 0.25}, {"retime", true}};
+  request_ = folder_.write("slowed.json", request.dump());
+  const std::string response = folder_.file("slowed-response.json");
+  ASSERT_EQ(run_camway({"plan", "--scene", scene_, "--request", request_, "--response", response})
+                .exit_code,
+            0);
+  EXPECT_THAT(check(response).out, HasSubstr("\nkeyframes met: 3 of 3, largest miss "));
+}
+
 TEST_F(CliCheck, DoesNotGuessWhenKeyframesAreToBeMet) {
   auto response = nlohmann::json::parse(read_all(planned("free", 1)));
   for (const bool reversed : {false, true}) {

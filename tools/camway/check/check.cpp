@@ -27,12 +27,14 @@ struct CheckFlags {
 
 Parsed<CheckInput> failed(std::string error) { return {std::nullopt, std::move(error)}; }
 
-/// Returns the request's keyframes with their times: those of the request, or else those of the
-/// response if they increase. Wrong times cannot hide a missed keyframe, only cause one.
+/// Returns the request's keyframes with their times: those of the request, or those of the response
+/// if the request has none or the path was slowed. Returns nothing if the times of the response do
+/// not increase. Wrong times cannot hide a missed keyframe, only cause one.
 std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& request,
-                                              const std::vector<double>& times_s) {
+                                              const PathFile& response) {
   std::vector<motion::Keyframe> keyframes = request.keyframes;
-  if (request.has_times) return keyframes;
+  if (request.has_times && !response.is_slowed) return keyframes;
+  const std::vector<double>& times_s = response.keyframe_times_s;
   if (times_s.size() != keyframes.size()) return {};
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     if (i > 0 && !(times_s[i - 1] < times_s[i])) return {};
@@ -49,18 +51,16 @@ Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>
   }
   const Parsed<PathFile> response = read_path_file(flags.response);
   if (!response.value) return failed(response.error);
-  motion::Camera camera = request.value->camera;
-  camera.near_m *= response.value->near_scale;
   std::string fault;
-  auto body = motion::Body::make(request.value->body.value_or(camera), fault);
+  auto body =
+      motion::Body::make(planning::body_shape(*request.value, response.value->near_scale), fault);
   if (!body) return failed(source_of(flags.request) + ": body: " + fault);
   // Only the response has the bounds of the scene that it was planned in.
   const geometry::Bounds bounds = request.value->options.bounds.within(response.value->bounds);
-  return {
-      CheckInput{*request.value, response.value->path, source_of(flags.response),
-                 timed_keyframes(*request.value, response.value->keyframe_times_s), std::move(body),
-                 nullptr, response.value->scene_digest, response.value->near_scale, bounds},
-      {}};
+  return {CheckInput{*request.value, response.value->path, source_of(flags.response),
+                     timed_keyframes(*request.value, *response.value), std::move(body), nullptr,
+                     response.value->scene_digest, response.value->near_scale, bounds},
+          {}};
 }
 
 Parsed<CheckInput> read_input(const CheckFlags& flags) {

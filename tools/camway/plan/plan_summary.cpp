@@ -195,8 +195,8 @@ void add_slowed(const PlanResult& result, std::vector<std::string>& lines) {
   std::string line = "slowed at ";
   const std::size_t shown = std::min(result.slowed.size(), kMostStretches);
   for (std::size_t i = 0; i < shown; ++i) {
-    line += fmt::format("{}{:.4g}-{:.4g} s", i == 0 ? "" : ", ", result.slowed[i].t_begin_s,
-                        result.slowed[i].t_end_s);
+    line += fmt::format("{}{} s", i == 0 ? "" : ", ",
+                        span(result.slowed[i].t_begin_s, result.slowed[i].t_end_s));
   }
   lines.push_back(shown < result.slowed.size() ? line + ", ..." : line);
 }

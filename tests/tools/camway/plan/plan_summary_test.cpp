@@ -176,7 +176,7 @@ TEST(PlanSummary, SaysWhereThePathWasSlowed) {
   EXPECT_THAT(plan_summary(result, nullptr), Not(HasSubstr("\n")));
   result.time_scale = 1.25;
   result.slowed = {{1.0, 2.5, 1.0, 1.5}, {4.0, 4.25, 3.0, 3.125}};
-  EXPECT_THAT(plan_summary(result, nullptr), EndsWith("\n  slowed at 1-2.5 s, 4-4.25 s"));
+  EXPECT_THAT(plan_summary(result, nullptr), EndsWith("\n  slowed at 1.00-2.50 s, 4.00-4.25 s"));
 }
 
 }  // namespace
