@@ -129,6 +129,10 @@ ExitCode outcome_of(const LoadFlags& flags, const LoadResult& result) {
       100.0 * memory_growth(result.memory, flags.warm_up_s) > *flags.max_growth_percent;
   ExitCode code =
       tally.wrong > 0 || tally.lost > 0 || grew ? ExitCode::kNegative : ExitCode::kSuccess;
+  if (tally.by_status.contains(to_string(Status::kNoDaemon))) {
+    print_error("the daemon fell silent meanwhile");
+    code = worse(code, ExitCode::kNoDaemon);
+  }
   for (const auto& [file, reason] : tally.invalid) {
     code = worse(code, invalid_input(file + ": the daemon answers " + reason));
   }
