@@ -9,6 +9,7 @@
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/voxels/voxel_grid.h"
 #include "tools/camway/common/commands.h"
+#include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/scene/scene_calls.h"
 #include "tools/camway/scene/scene_command_flags.h"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "daemon/process/settings/bounds_text.h"
+#include "tools/camway/common/daemon_failure.h"
 #include "tools/camway/common/interruption.h"
 #include "tools/camway/common/key_file.h"
 #include "tools/camway/scene/scene_text.h"
