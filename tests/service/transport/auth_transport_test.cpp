@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "lcmtypes/wire/pages.h"
 #include "tests/service/fake_transport.h"
 #include "tests/support/captured_log.h"
 
@@ -13,6 +14,7 @@ namespace camway::service {
 namespace {
 
 using ::testing::HasSubstr;
+using wire::Bytes;
 
 std::shared_ptr<wire::MessageAuth> auth_with(char digit) {
   const auto read = wire::MessageKeys::from_text("1 " + std::string(64, digit), "keys");
