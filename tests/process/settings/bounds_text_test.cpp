@@ -55,9 +55,9 @@ TEST(BoundsText, AndTheWireKeepEveryNumber) {
       if (random() % 2 == 0) bounds.max_W[axis] = number(random);
     }
     EXPECT_EQ(parse_bounds(bounds_text(bounds)).bounds, bounds) << bounds_text(bounds);
-    EXPECT_EQ(bounds_of(messages::wire_bounds(bounds)), bounds) << bounds_text(bounds);
+    EXPECT_EQ(messages::bounds_of(messages::wire_bounds(bounds)), bounds) << bounds_text(bounds);
   }
-  EXPECT_FALSE(bounds_of(bounds_t{}).any());
+  EXPECT_FALSE(messages::bounds_of(bounds_t{}).any());
 }
 
 }  // namespace
