@@ -197,7 +197,8 @@ TEST_F(CliCheck, SaysWhichKeyframesThePathMeets) {
 TEST_F(CliCheck, TakesTheTimesOfASlowedPath) {
   auto request = nlohmann::json::parse(
       request_json({keyframe_json(1, 0, 1), keyframe_json(1.5, 0, 0), keyframe_json(1, 0, -1)}));
-  for (int i = 0; i < 3; ++i) request["keyframes"][i]["time"] = 1.76e9 + i;
+  double time_s = 1.76e9;
+  for (nlohmann::json& keyframe : request["keyframes"]) keyframe["time"] = time_s++;
   request["options"]["limits"] = {{"speed_m_per_s", 0.25}, {"retime", true}};
   request_ = folder_.write("slowed.json", request.dump());
   const std::string response = folder_.file("slowed-response.json");
