@@ -11,6 +11,7 @@
 
 #include "daemon/scene/voxels/voxel_faces.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitizer.h"
 
 namespace camway::scene {
 namespace {
@@ -112,7 +113,7 @@ TEST(MirrorVoxels, AreThoseThatFacesTouchAndThoseInside) {
 
 TEST(MirrorVoxels, RefusesWhatPassesTheLimitAndNothingElse) {
   testing::Random random(kSeed);
-  for (int run = 0; run < 12; ++run) {
+  for (int run = 0; run < testing::runs(12); ++run) {
     const PlacedMap map(kCellM, random_voxels(random), random_placement(random));
     for (const double resolution_m : {0.1 * kCellM, 0.5 * kCellM, kCellM}) {
       const std::uint64_t voxels = mirror_voxels(map.task(resolution_m, kMany)).voxels->size();
