@@ -155,13 +155,13 @@ std::string report_fault(const plan_response_t& wire) {
 
 }  // namespace
 
-ConvertedResult from_wire(const plan_response_t& wire) {
+base::Result<PlanResult> from_wire(const plan_response_t& wire) {
   if (!base::value_of<planning::Status>(wire.status)) {
-    return {std::nullopt, std::string(status_name(wire.status)) + ": " + wire.message};
+    return base::Failure{std::string(status_name(wire.status)) + ": " + wire.message};
   }
   std::string fault = path_fault(wire.segments);
   if (fault.empty()) fault = report_fault(wire);
-  if (!fault.empty()) return {std::nullopt, std::move(fault)};
+  if (!fault.empty()) return base::Failure{std::move(fault)};
 
   const FromWire io;
   PlanResult result;
@@ -175,7 +175,7 @@ ConvertedResult from_wire(const plan_response_t& wire) {
   io(result.remaining_collisions, wire.remaining);
   result.collision_names = names_in(wire.collisions);
   result.remaining_names = names_in(wire.remaining);
-  return {std::move(result), {}};
+  return result;
 }
 
 plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {

@@ -14,6 +14,7 @@ namespace camway::messages {
 namespace {
 
 using geometry::Vec3;
+using motion::BodyShape;
 
 static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
 static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
@@ -59,27 +60,27 @@ void fill(const motion::MeshShape& mesh, body_t& wire) {
   wire.num_triangles = static_cast<std::int32_t>(wire.triangles.size());
 }
 
-ConvertedBody convex_of(const body_t& wire) {
+base::Result<std::optional<BodyShape>> convex_of(const body_t& wire) {
   motion::ConvexShape convex;
   std::size_t next = 0;
   for (std::size_t i = 0; i < wire.piece_sizes.size(); ++i) {
     const std::int32_t size = wire.piece_sizes[i];
     if (size < 0 || static_cast<std::size_t>(size) > wire.points_m.size() - next) {
-      return {std::nullopt, "body.piece_sizes[" + std::to_string(i) + "]: is " +
-                                std::to_string(size) + ", and " +
-                                std::to_string(wire.points_m.size() - next) + " points are left"};
+      return base::Failure{"body.piece_sizes[" + std::to_string(i) + "]: is " +
+                           std::to_string(size) + ", and " +
+                           std::to_string(wire.points_m.size() - next) + " points are left"};
     }
     std::vector<Vec3>& piece = convex.pieces_C.emplace_back();
     for (std::int32_t k = 0; k < size; ++k) piece.push_back(vec3(wire.points_m[next++]));
   }
   if (next < wire.points_m.size()) {
-    return {std::nullopt, "body.piece_sizes: " + std::to_string(wire.points_m.size() - next) +
-                              " points belong to no piece"};
+    return base::Failure{"body.piece_sizes: " + std::to_string(wire.points_m.size() - next) +
+                         " points belong to no piece"};
   }
-  return {std::move(convex), {}};
+  return std::optional<BodyShape>(std::move(convex));
 }
 
-ConvertedBody mesh_of(const body_t& wire) {
+base::Result<std::optional<BodyShape>> mesh_of(const body_t& wire) {
   motion::MeshShape mesh;
   for (const std::vector<double>& point : wire.points_m) mesh.vertices_C.push_back(vec3(point));
   for (std::size_t i = 0; i < wire.triangles.size(); ++i) {
@@ -87,13 +88,13 @@ ConvertedBody mesh_of(const body_t& wire) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t vertex = wire.triangles[i][k];
       if (vertex < 0) {
-        return {std::nullopt, "body.triangles[" + std::to_string(i) + "][" + std::to_string(k) +
-                                  "]: is " + std::to_string(vertex) + ", which is below 0"};
+        return base::Failure{"body.triangles[" + std::to_string(i) + "][" + std::to_string(k) +
+                             "]: is " + std::to_string(vertex) + ", which is below 0"};
       }
       triangle[k] = static_cast<std::uint32_t>(vertex);
     }
   }
-  return {std::move(mesh), {}};
+  return std::optional<BodyShape>(std::move(mesh));
 }
 
 bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
@@ -125,24 +126,24 @@ body_t wire_body(const motion::BodyShape& shape) {
   return wire;
 }
 
-ConvertedBody body_of(const body_t& wire) {
+base::Result<std::optional<BodyShape>> body_of(const body_t& wire) {
   const bool is_known = wire.type >= body_t::CAMERA && wire.type <= body_t::MESH;
   if (std::string error = is_known ? idle_member(wire) : ""; !error.empty()) {
-    return {std::nullopt, std::move(error)};
+    return base::Failure{std::move(error)};
   }
   switch (wire.type) {
     case body_t::CAMERA:
-      return {};
+      return std::optional<BodyShape>();
     case body_t::BOX:
-      return {motion::BoxShape{vec3(wire.center_m), vec3(wire.size_m)}, {}};
+      return std::optional<BodyShape>(motion::BoxShape{vec3(wire.center_m), vec3(wire.size_m)});
     case body_t::SPHERE:
-      return {motion::SphereShape{vec3(wire.center_m), wire.radius_m}, {}};
+      return std::optional<BodyShape>(motion::SphereShape{vec3(wire.center_m), wire.radius_m});
     case body_t::CONVEX:
       return convex_of(wire);
     case body_t::MESH:
       return mesh_of(wire);
     default:
-      return {std::nullopt, "body.type: " + std::to_string(wire.type) + " is unknown"};
+      return base::Failure{"body.type: " + std::to_string(wire.type) + " is unknown"};
   }
 }
 

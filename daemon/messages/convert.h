@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include <camway/plan_request_t.hpp>
 #include <camway/plan_response_t.hpp>
 
+#include "daemon/base/result.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
 
@@ -27,16 +27,12 @@ struct DeadlineLimits {
 /// for the default: NaN and negative values stay, for `planning::validate`.
 double deadline_of(double wire_s, const DeadlineLimits& limits);
 
-/// A request, or an error, e.g. "method: 'magic' is unknown".
-struct ConvertedRequest {
-  std::optional<planning::PlanRequest> request;
-  std::string error;
-};
-
 /// Converts a request; `wire` holds the keyframes of all pages. Zeros become the defaults of
-/// `planning::PlanOptions`. A value that is not zero but has no effect (a time without `has_times`,
-/// a target without its policy) is an error, since its sender meant it.
-ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits = {});
+/// `planning::PlanOptions`. Returns an error for a name or number that has no meaning, e.g.
+/// "method: 'magic' is unknown". A value that is not zero but has no effect (a time without
+/// `has_times`, a target without its policy) is an error, since its sender meant it.
+base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
+                                              const DeadlineLimits& limits = {});
 
 /// Identifies a request and its sender.
 struct RequestIds {
@@ -48,17 +44,12 @@ struct RequestIds {
 /// Returns the whole request as one page, which may be too large for a message: see `encode_pages`.
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids);
 
-/// A result, or an error: a status that planning does not have (overloaded, malformed, cancelled,
-/// limit), segments that are no path, or a report of something that no correction does.
-struct ConvertedResult {
-  std::optional<planning::PlanResult> result;
-  std::string error;
-};
-
 /// Converts an answer; `wire` holds the lists of all pages. Values that it does not carry
 /// (`Timing::load_scene_ms`, the number of a witness's feature beside its name, the witness of a
-/// correction's collision) stay 0 or empty.
-ConvertedResult from_wire(const plan_response_t& wire);
+/// correction's collision) stay 0 or empty. Returns an error for a status that planning does not
+/// have (overloaded, malformed, cancelled, limit), for segments that are no path, and for a report
+/// of something that no correction does.
+base::Result<planning::PlanResult> from_wire(const plan_response_t& wire);
 
 /// The members of an answer that are not in the result.
 struct AnswerHeader {

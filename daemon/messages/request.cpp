@@ -156,18 +156,19 @@ double deadline_of(double wire_s, const DeadlineLimits& limits) {
   return deadline_s > limits.max_s ? limits.max_s : deadline_s;
 }
 
-ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& limits) {
+base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
+                                              const DeadlineLimits& limits) {
   const FromWire io;
   planning::PlanRequest request;
   request.scene = wire.scene;
   io(request.camera, wire.camera);
-  ConvertedBody body = body_of(wire.body);
-  if (!body.error.empty()) return {std::nullopt, std::move(body.error)};
-  request.body = std::move(body.shape);
+  base::Result<std::optional<motion::BodyShape>> body = body_of(wire.body);
+  if (!body) return base::Failure{std::move(body.error)};
+  request.body = *std::move(body);
 
   std::string error = idle_member(wire);
   visit_options(OptionReader{error}, request.options, wire);
-  if (!error.empty()) return {std::nullopt, std::move(error)};
+  if (!error.empty()) return base::Failure{std::move(error)};
   request.options.deadline_s = deadline_of(wire.deadline_s, limits);
   if (wire.correct_nothing != 0) request.options.max_inserted_keyframes = 0;
 
@@ -178,7 +179,7 @@ ConvertedRequest from_wire(const plan_request_t& wire, const DeadlineLimits& lim
     keyframe.origin = motion::KeyframeOrigin::kGiven;
     keyframe.is_repaired = false;
   }
-  return {std::move(request), {}};
+  return request;
 }
 
 plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& ids) {

@@ -56,11 +56,9 @@ WatchedPath::WatchedPath(motion::Path path, motion::Body body,
 
 std::optional<WatchedPath> WatchedPath::of(const PlanRequest& request, const PlanResult& result) {
   if (!result.certificate.certified || result.path.empty()) return std::nullopt;
-  std::string fault;
-  std::optional<motion::Body> body =
-      motion::Body::make(body_shape(request, result.near_scale), fault);
+  base::Result<motion::Body> body = motion::Body::make(body_shape(request, result.near_scale));
   if (!body) return std::nullopt;
-  return WatchedPath(result.path, std::move(*body), detect_options(request.options),
+  return WatchedPath(result.path, *std::move(body), detect_options(request.options),
                      request.options.bounds);
 }
 

@@ -58,22 +58,22 @@ void add_distrusted(const service::AuthTransport::Distrusted& counts, status_t& 
   status.crowded_messages = count(wire::Distrust::kCrowded);
 }
 
-/// Returns the signer and checker of messages; null without a key file or with an `error`.
-std::shared_ptr<wire::MessageAuth> open_auth(const AuthOptions& options, std::string& error) {
-  if (options.key_file.empty()) return nullptr;
+/// Returns the signer and checker of messages; null without a key file.
+base::Result<std::shared_ptr<wire::MessageAuth>> open_auth(const AuthOptions& options) {
+  if (options.key_file.empty()) return std::shared_ptr<wire::MessageAuth>();
   wire::MessageKeys::Read read = wire::MessageKeys::from_file(options.key_file);
-  error = std::move(read.error);
-  if (!read.keys) return nullptr;
+  if (!read.keys) return base::Failure{std::move(read.error)};
   wire::ReplayGuard::Limits limits;
   limits.senders = options.senders;
   limits.window_us = std::chrono::microseconds(options.window).count();
   return std::make_shared<wire::MessageAuth>(std::move(read.keys), limits);
 }
 
-/// Opens the page for Prometheus, if the options ask for one.
-OpenedHttpPage open_metrics(const DaemonOptions& options, const LatestStatus& latest,
-                            const std::shared_ptr<service::Log>& log) {
-  if (options.metrics.port == 0) return {};
+/// Opens the page for Prometheus; null if the options ask for none.
+base::Result<std::unique_ptr<HttpPage>> open_metrics(const DaemonOptions& options,
+                                                     const LatestStatus& latest,
+                                                     const std::shared_ptr<service::Log>& log) {
+  if (options.metrics.port == 0) return std::unique_ptr<HttpPage>();
   HttpContent content;
   content.path = "/metrics";
   content.type = "text/plain; version=0.0.4; charset=utf-8";
@@ -115,34 +115,32 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     log->warn("LCM_DEFAULT_URL is set, but does not count",
               {{"LCM_DEFAULT_URL", other}, {"url", options.lcm_url}});
   }
-  const service::OpenedTransport opened =
+  const base::Result<std::unique_ptr<service::Transport>> opened =
       service::open_lcm_transport(options.lcm_url, [&](const std::string& reason) {
         log->warn("what other hosts send is heard in spite of ttl 0", {{"reason", reason}});
       });
-  if (!opened.transport) {
+  if (!opened) {
     log->error("LCM cannot be used", {{"reason", opened.error}});
     return kExitLcm;
   }
-  std::string auth_error;
-  const std::shared_ptr<wire::MessageAuth> auth = open_auth(options.auth, auth_error);
-  if (!auth_error.empty()) {
+  const base::Result<std::shared_ptr<wire::MessageAuth>> auth = open_auth(options.auth);
+  if (!auth) {
     log->error("keys cannot be used",
-               {{"setting", options.where("auth.key_file")}, {"reason", auth_error}});
+               {{"setting", options.where("auth.key_file")}, {"reason", auth.error}});
     return kExitBadInput;
   }
   std::optional<service::AuthTransport> signing;
-  if (auth) {
-    signing.emplace(*opened.transport, auth, options.auth.required,
+  if (*auth) {
+    signing.emplace(**opened, *auth, options.auth.required,
                     service::LimitedLog(log, service::LogLevel::kWarn, "distrusted",
                                         options.service.log_limits));
     log->info("messages are signed",
               {{"unsigned_ones", options.auth.required ? "dropped" : "accepted"}});
   }
-  service::Transport& transport =
-      signing ? static_cast<service::Transport&>(*signing) : *opened.transport;
+  service::Transport& transport = signing ? static_cast<service::Transport&>(*signing) : **opened;
   LatestStatus latest;
-  const OpenedHttpPage metrics = open_metrics(options, latest, log);
-  if (!metrics.error.empty()) {
+  const base::Result<std::unique_ptr<HttpPage>> metrics = open_metrics(options, latest, log);
+  if (!metrics) {
     log->error("there can be no page of metrics", {{"reason", metrics.error}});
     return kExitMetrics;
   }
@@ -152,8 +150,8 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
   hooks.ready = [&] { manager.ready("serving"); };
   hooks.stopping = [&] { manager.stopping(); };
   hooks.alive = [&] { manager.alive(); };
-  if (metrics.page) {
-    log->info("page of metrics", {{"address", options.metrics.ip}, {"port", metrics.page->port()}});
+  if (*metrics) {
+    log->info("page of metrics", {{"address", options.metrics.ip}, {"port", (*metrics)->port()}});
   }
   hooks.status = [&](status_t& status) {
     if (signing) {
@@ -162,7 +160,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
     }
     status.signed_only = signing && options.auth.required ? 1 : 0;
     reloads.add_to(status);
-    if (metrics.page) latest.set(status);
+    if (*metrics) latest.set(status);
   };
   hooks.alive_period = manager.alive_period();
   const service::Planner planner =
@@ -180,7 +178,7 @@ int serve(const DaemonOptions& options, Reloader::Read read_again, scene::SceneS
                         {"scene_workers", options.service.scene_workers},
                         {"queue", options.service.queue.jobs},
                         {"client_queue", options.service.queue.jobs_of_a_client}});
-  Reloader reloader(options, std::move(read_again), configured, reloads, manager, log, auth);
+  Reloader reloader(options, std::move(read_again), configured, reloads, manager, log, *auth);
   const SignalWaiter signals(
       [&](int signal) {
         log->info("signal", {{"number", signal}});

@@ -82,7 +82,7 @@ void building(const Options& options, const scene::Mesh& mesh, std::vector<Moves
   if (!made.snapshot) throw std::runtime_error(made.error);
   expect_taken(store.put(made.snapshot));
   for (const double chord_m : {0.1, 1e-3, 1e-4, 1e-5}) {
-    const scene::Mesh ball = *scene::sphere_mesh(0.5, chord_m).mesh;
+    const scene::Mesh ball = *scene::sphere_mesh(0.5, chord_m);
     expect_taken(store.change("bench", put("ball", ball, {}, snapshot)));
     all.push_back(measure(store, "building and a ball", "ball", options.rounds));
   }
@@ -95,7 +95,7 @@ void warehouse(const Options& options, std::vector<Moves>& all) {
   snapshot.occupancy_resolution_m = options.occupancy_m;
   scene::SceneStore store;
   expect_taken(store.put(scene::assemble("bench", 1, {}, snapshot)));
-  const scene::Mesh ball = *scene::sphere_mesh(0.5, 1e-3).mesh;
+  const scene::Mesh ball = *scene::sphere_mesh(0.5, 1e-3);
   const auto count = static_cast<int>(options.least_triangles / ball.triangles.size() + 1);
   for (int i = 0; i < std::max(count, kObjects); ++i) {
     const geometry::Vec3 at(2.0 * (i % 32), 1.0, 2.0 * (i / 32));

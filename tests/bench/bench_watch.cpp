@@ -167,7 +167,7 @@ Watching move_about(const Options& options, scene::SceneStore& store, Told& told
 }
 
 SceneChange put(const std::string& name, double side_m, const Vec3& position) {
-  scene::Mesh mesh = *scene::box_mesh(Vec3::Constant(side_m)).mesh;
+  scene::Mesh mesh = *scene::box_mesh(Vec3::Constant(side_m));
   const scene::ImportReport report = scene::report_of(mesh, "bench");
   return {SceneChange::Kind::kPut, name,
           scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {}), at(position)};

@@ -10,8 +10,8 @@ namespace camway::bench {
 CamwayScene::CamwayScene(std::shared_ptr<const scene::Mesh> mesh) {
   index_build_s_ = timed_s([&] { index_ = scene::SceneIndex::build(mesh); });
   field_build_s_ = timed_s([&] {
-    const scene::DistanceFieldResult built = scene::DistanceField::build(*mesh);
-    if (built.field) field_ = std::make_shared<const scene::ClearanceField>(built.field);
+    const auto built = scene::DistanceField::build(*mesh);
+    if (built) field_ = std::make_shared<const scene::ClearanceField>(*built);
   });
 }
 

@@ -78,12 +78,12 @@ std::shared_ptr<const scene::Mesh> load_mesh(const std::string& file, double sca
 std::vector<BenchScene> load_requests(const RequestSource& source) {
   std::map<std::string, BenchScene> scenes;
   for (const fs::path& file : request_files(source.requests, source.only)) {
-    tools::Parsed<tools::RequestFile> parsed = tools::read_plan_request(file.string());
-    if (!parsed.value) give_up(parsed.error);
-    if (const auto invalid = planning::validate(*parsed.value)) {
+    base::Result<tools::RequestFile> parsed = tools::read_plan_request(file.string());
+    if (!parsed) give_up(parsed.error);
+    if (const auto invalid = planning::validate(*parsed)) {
       give_up(file.string() + ": " + invalid->message);
     }
-    const fs::path named = file.parent_path() / parsed.value->scene;
+    const fs::path named = file.parent_path() / parsed->scene;
     const std::string scene_file =
         source.scene.empty() ? fs::weakly_canonical(named).string() : source.scene;
     BenchScene& scene = scenes[scene_file];
@@ -91,7 +91,7 @@ std::vector<BenchScene> load_requests(const RequestSource& source) {
       scene.name = fs::path(scene_file).stem().string();
       scene.mesh = load_mesh(scene_file, source.scale);
     }
-    BenchRequest request = to_bench(file, std::move(*parsed.value));
+    BenchRequest request = to_bench(file, std::move(*parsed));
     const auto same =
         std::ranges::count(scene.requests, request.difficulty, &BenchRequest::difficulty);
     if (static_cast<std::size_t>(same) >= source.each) continue;

@@ -33,10 +33,9 @@ Path descent(const Quat& orientation) {
 }
 
 Body make(const motion::BodyShape& shape) {
-  std::string error;
-  std::optional<Body> body = Body::make(shape, error);
-  EXPECT_TRUE(body) << error;
-  return body.value_or(Body(testing::small_camera()));
+  base::Result<Body> body = Body::make(shape);
+  EXPECT_TRUE(body) << body.error;
+  return body.value.value_or(Body(testing::small_camera()));
 }
 
 SceneIndex plate_at_z0() {

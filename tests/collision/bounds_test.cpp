@@ -93,10 +93,9 @@ TEST(BoundsOfAPath, AreKeptToExactlyWhereTheReachIsBelowThem) {
 TEST(BoundsOfAPath, HoldEverySampleThatIsInNoInterval) {
   testing::Random random(5);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
-  std::string error;
   const std::vector<Body> bodies = {
-      Body(testing::small_camera()), *Body::make(motion::SphereShape{Vec3(0.1, 0, 0), 0.2}, error),
-      *Body::make(motion::BoxShape{Vec3(0, 0, 0.1), Vec3(0.3, 0.2, 0.1)}, error)};
+      Body(testing::small_camera()), *Body::make(motion::SphereShape{Vec3(0.1, 0, 0), 0.2}),
+      *Body::make(motion::BoxShape{Vec3(0, 0, 0.1), Vec3(0.3, 0.2, 0.1)})};
   const SceneIndex nothing;
   const DetectOptions options;
   int outside_samples = 0;

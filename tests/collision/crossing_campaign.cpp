@@ -105,12 +105,12 @@ CrossingTally CampaignResult::total() const {
 CrossingTally run_crossing_case(const CrossingCase& c) {
   CrossingTally tally{.cases = 1, .redrawn = std::uint64_t(c.redrawn)};
   const scene::SceneIndex index = scene::SceneIndex::build(c.obstacle, {.threads = 1});
-  const scene::DistanceFieldResult field =
-      c.with_field ? scene::DistanceField::build(c.obstacle, {.threads = 1})
-                   : scene::DistanceFieldResult{};
   collision::Obstacles obstacles(index);
   std::optional<scene::ClearanceField> clearance;
-  if (field.field) obstacles.field = &clearance.emplace(field.field);
+  if (c.with_field) {
+    const auto field = scene::DistanceField::build(c.obstacle, {.threads = 1});
+    if (field) obstacles.field = &clearance.emplace(*field);
+  }
   const Intervals found = certified_intervals(obstacles, c.path, c.camera, options_for(c));
   if (c.collides) {
     tally.misses = covers(found, c.known_s) ? 0 : 1;

@@ -53,8 +53,7 @@ std::vector<CollisionInterval> detect(const scene::Snapshot& snapshot, const Pat
 /// The block is [0, 4]^3 m, and the body is far smaller than a voxel.
 TEST(Solids, ABodyThatNeverLeavesTheInsideCollidesAllTheTime) {
   const auto snapshot = scene_of(block(8));
-  std::string error;
-  const auto ball = motion::Body::make(motion::SphereShape{Vec3::Zero(), 0.01}, error);
+  const auto ball = motion::Body::make(motion::SphereShape{Vec3::Zero(), 0.01});
   for (const motion::Body& body : {motion::Body(testing::small_camera()), *ball}) {
     const std::vector<CollisionInterval> found =
         detect(*snapshot, straight({1.7, 1.7, 1.8}, {2.3, 2.2, 2.4}), body);
@@ -71,8 +70,7 @@ TEST(Solids, ABodyThatNeverLeavesTheInsideCollidesAllTheTime) {
 
 TEST(Solids, AWayInCollidesFromTheFaceOnAndOutAgainToIt) {
   const auto snapshot = scene_of(block(8));
-  std::string error;
-  const auto ball = motion::Body::make(motion::SphereShape{Vec3::Zero(), 0.01}, error);
+  const auto ball = motion::Body::make(motion::SphereShape{Vec3::Zero(), 0.01});
   const auto in = detect(*snapshot, straight({-2, 2, 2}, {2, 2, 2}), *ball);
   ASSERT_EQ(in.size(), 1U);
   EXPECT_NEAR(in[0].t_begin_s, 1.99 / 4.0, 1e-3);

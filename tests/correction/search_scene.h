@@ -61,8 +61,7 @@ struct SearchScene {
 };
 
 inline motion::Body sphere(double radius_m) {
-  std::string error;
-  return *motion::Body::make(motion::SphereShape{Vec3::Zero(), radius_m}, error);
+  return *motion::Body::make(motion::SphereShape{Vec3::Zero(), radius_m});
 }
 
 /// Returns a wall in the plane z = 0, 10 cm thick, open for x from `from_m` to `to_m`.

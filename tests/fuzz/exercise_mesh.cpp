@@ -14,9 +14,9 @@ namespace format = scene::import_format;
 }  // namespace
 
 bool exercise_mesh(std::string_view extension, std::string_view bytes) {
-  const scene::mesh_readers::ReadResult read = scene::mesh_readers::read_mesh(extension, bytes);
-  if (!read.refusal.empty()) return false;
-  const format::Record& record = read.record;
+  const auto read = scene::mesh_readers::read_mesh(extension, bytes);
+  if (!read) return false;
+  const format::Record& record = *read;
   promise(record.vertices.size() <= bytes.size(), "no vertex without a byte");
   promise(record.triangles.size() <= bytes.size(), "no triangle without a byte");
   promise(!record.text.empty(), "the format has a name");

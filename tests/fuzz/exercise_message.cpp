@@ -63,9 +63,9 @@ void exercise(const plan_request_t& message) {
           "a page completes a message, waits or is refused");
   if (!outcome.whole) return;
   static_cast<void>(service::digest_of(*outcome.whole));
-  const messages::ConvertedRequest converted = messages::from_wire(*outcome.whole);
-  promise(converted.request.has_value() == converted.error.empty(), "a request or a reason");
-  if (converted.request) static_cast<void>(planning::validate(*converted.request));
+  const auto converted = messages::from_wire(*outcome.whole);
+  promise(converted.value.has_value() == converted.error.empty(), "a request or a reason");
+  if (converted) static_cast<void>(planning::validate(*converted));
 }
 
 /// Runs a scene request on a scene of one box. It reads no files, because there are neither roots
@@ -76,8 +76,7 @@ void exercise(const scene_request_t& message) {
   scene::SceneStore scenes;
   scene::SnapshotOptions options;
   options.field.reset();
-  scenes.put(
-      scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}).mesh, options).snapshot);
+  scenes.put(scene::make_snapshot(message.scene, *scene::box_mesh({1, 1, 1}), options).snapshot);
   const service::SceneRules rules;
   std::mutex writing;
   const scene_response_t answer =
@@ -96,8 +95,8 @@ void exercise(const upload_page_t& message) {
 
 /// Processes an answer like `camway replay` and like a client.
 void exercise(const plan_response_t& message, std::span<const std::uint8_t> bytes) {
-  const messages::ConvertedResult converted = messages::from_wire(message);
-  promise(converted.result.has_value() == converted.error.empty(), "a result or a reason");
+  const auto converted = messages::from_wire(message);
+  promise(converted.value.has_value() == converted.error.empty(), "a result or a reason");
   PlanCollector collector(message.client_id, message.request_id);
   collector.take(bytes);
   if (collector.complete()) static_cast<void>(collector.response());

@@ -97,7 +97,7 @@ std::vector<FuzzBytes> map_file_seeds() {
   scene::SnapshotOptions options;
   options.occupancy_resolution_m = 0.25;
   std::ostringstream binary;
-  scene::make_snapshot("box", *scene::box_mesh({1, 1, 1}).mesh, options)
+  scene::make_snapshot("box", *scene::box_mesh({1, 1, 1}), options)
       .snapshot->occupancy->write_bt(binary);
   const std::string header = "# Octomap OcTree file\nid OcTree\nsize 1\nres 0.1\ndata\n";
   return {fuzz_bytes('\0' + binary.str()), fuzz_bytes('\1' + header + std::string(5, '\x7f')),

@@ -16,21 +16,21 @@ namespace camway::testing {
 namespace {
 
 template <class Value>
-bool is_value_or_reason(const tools::Parsed<Value>& parsed) {
+bool is_value_or_reason(const base::Result<Value>& parsed) {
   promise(parsed.value.has_value() == parsed.error.empty(), "a value or a reason");
-  promise(parsed.value || parsed.error.starts_with("fuzzed"), "the reason names the file");
+  promise(parsed || parsed.error.starts_with("fuzzed"), "the reason names the file");
   return parsed.value.has_value();
 }
 
 bool exercise_request_json(std::span<const std::uint8_t> bytes) {
   const auto parsed = tools::parse_plan_request(as_text(bytes), "fuzzed");
-  if (parsed.value) static_cast<void>(planning::validate(*parsed.value));
+  if (parsed) static_cast<void>(planning::validate(*parsed));
   return is_value_or_reason(parsed);
 }
 
 bool exercise_response_json(std::span<const std::uint8_t> bytes) {
   const auto parsed = tools::parse_plan_response(as_text(bytes), "fuzzed");
-  if (parsed.value) static_cast<void>(tools::write_plan_response(*parsed.value));
+  if (parsed) static_cast<void>(tools::write_plan_response(*parsed));
   return is_value_or_reason(parsed);
 }
 
@@ -73,7 +73,7 @@ planning::PlanResult planned(const planning::PlanRequest& request) {
 
 std::vector<FuzzBytes> response_json_seeds() {
   const auto request = tools::parse_plan_request(kRequest, "seed");
-  return {fuzz_bytes(*tools::write_plan_response(planned(*request.value)).value),
+  return {fuzz_bytes(*tools::write_plan_response(planned(*request))),
           fuzz_bytes(R"({"status": "invalid", "message": "scene: is missing"})")};
 }
 
@@ -107,7 +107,7 @@ std::vector<FuzzBytes> session_seeds() {
   Random random(kSeed);
   FuzzBytes log;
   for (std::int64_t id = 1; id <= 3; ++id) {
-    const planning::PlanRequest request = *tools::parse_plan_request(kRequest, "seed").value;
+    const planning::PlanRequest request = *tools::parse_plan_request(kRequest, "seed");
     const messages::AnswerHeader header{{"tester", id, 0}, request.scene, 1, ""};
     for (const FuzzBytes& page : wire::encode_pages(messages::to_wire(request, header.ids))) {
       append_event("CAMWAY_PLAN_REQUEST", page, log);

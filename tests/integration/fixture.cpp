@@ -26,8 +26,8 @@ std::string request_file(const std::string& name) {
 
 PlanRequest request_of(const std::string& name, const std::string& scene) {
   const auto request = tools::read_plan_request(request_file(name));
-  EXPECT_TRUE(request.value) << request.error;
-  return request.value ? tools::to_client_request(*request.value, scene) : PlanRequest{};
+  EXPECT_TRUE(request) << request.error;
+  return request.value ? tools::to_client_request(*request, scene) : PlanRequest{};
 }
 
 SceneMesh long_mesh(std::size_t bytes) {

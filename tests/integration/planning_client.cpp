@@ -43,12 +43,12 @@ int main(int argc, char** argv) {
   bool all_answered = true;
   for (int i = 3; i < argc; ++i) {
     const auto request = camway::tools::read_plan_request(argv[i]);
-    if (!request.value) {
+    if (!request) {
       std::cerr << request.error << '\n';
       return 2;
     }
     const camway::PlanResponse response =
-        client.plan(camway::tools::to_client_request(*request.value, argv[2]));
+        client.plan(camway::tools::to_client_request(*request, argv[2]));
     std::cout << "answer " << argv[i] << ' ' << to_string(response.status) << ' ' << std::hex
               << hash_of(response.path) << std::dec << std::endl;
     if (!response.ok()) std::cout << "error " << response.error << std::endl;

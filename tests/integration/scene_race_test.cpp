@@ -38,7 +38,7 @@ class Expected {
     const geometry::Vec3 position(position_m.data());
     const auto placement = scene::Placement::make(position, geometry::Quat::Identity(), fault);
     const geometry::Vec3 size(kCrateSize_m.data());
-    scene::Mesh mesh = *scene::box_mesh(size).mesh;
+    scene::Mesh mesh = *scene::box_mesh(size);
     scene::ImportReport report = scene::report_of(mesh, "box");
     const auto source = scene::make_source(scene::ObjectKind::kBox, std::move(mesh),
                                            std::move(report), office_->options);
@@ -111,11 +111,11 @@ TEST_F(SceneRaceTest, AHundredAnswersHoldForTheRevisionsThatTheyNameWhileTheScen
     auto result = results.find({name, answer.scene_revision});
     if (result == results.end()) {
       const auto request = tools::read_plan_request(request_file(name));
-      ASSERT_TRUE(request.value) << request.error;
-      result = results
-                   .emplace(std::pair(name, answer.scene_revision),
-                            planning::plan(*snapshot, *request.value))
-                   .first;
+      ASSERT_TRUE(request) << request.error;
+      result =
+          results
+              .emplace(std::pair(name, answer.scene_revision), planning::plan(*snapshot, *request))
+              .first;
     }
     EXPECT_TRUE(tools::is_expected(result->second, answer)) << answer.error;
     revisions.insert(answer.scene_revision);

@@ -37,9 +37,9 @@ TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
     EXPECT_EQ(wire.client_id, kIds.client_id);
     EXPECT_EQ(wire.request_id, kIds.request_id);
     EXPECT_EQ(wire.num_keyframes, static_cast<std::int32_t>(keyframes));
-    const ConvertedRequest back = from_wire(wire);
-    ASSERT_TRUE(back.request) << back.error;
-    EXPECT_EQ(wire::encode(to_wire(*back.request, kIds)), wire::encode(wire));
+    const auto back = from_wire(wire);
+    ASSERT_TRUE(back) << back.error;
+    EXPECT_EQ(wire::encode(to_wire(*back, kIds)), wire::encode(wire));
   }
 }
 
@@ -49,9 +49,9 @@ TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
     SCOPED_TRACE(::testing::Message() << "trial " << trial);
     planning::PlanRequest request = sample_request(2, random);
     request.options = testing::sample_options(random);
-    const ConvertedRequest back = from_wire(to_wire(request, kIds));
-    ASSERT_TRUE(back.request) << back.error;
-    EXPECT_EQ(back.request->options, request.options);
+    const auto back = from_wire(to_wire(request, kIds));
+    ASSERT_TRUE(back) << back.error;
+    EXPECT_EQ(back->options, request.options);
   }
 }
 
@@ -83,20 +83,19 @@ TEST(WireConvert, OptionsHaveTheirNumbersWhereTheTypesSayTheyAre) {
   EXPECT_EQ(wire.bounds.has_min[0] + wire.bounds.has_min[2] + wire.bounds.has_max[0] +
                 wire.bounds.has_max[1],
             0);
-  EXPECT_EQ(from_wire(wire).request->options.bounds, options.bounds);
-  EXPECT_FALSE(from_wire(minimal_request()).request->options.bounds.any());
+  EXPECT_EQ(from_wire(wire)->options.bounds, options.bounds);
+  EXPECT_FALSE(from_wire(minimal_request())->options.bounds.any());
   EXPECT_EQ(wire.seed, 99);
 }
 
 TEST(WireConvert, DirectionsNeedNotBeOfUnitLength) {
   plan_request_t wire = minimal_request();
   wire.orientation.policy = orientation_t::LEVEL;
-  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitY())
-      << "the default";
+  EXPECT_EQ(from_wire(wire)->options.orientation.up_W, geometry::Vec3::UnitY()) << "the default";
   wire.orientation.up[2] = 1e200;
-  EXPECT_EQ(from_wire(wire).request->options.orientation.up_W, geometry::Vec3::UnitZ());
+  EXPECT_EQ(from_wire(wire)->options.orientation.up_W, geometry::Vec3::UnitZ());
   wire.orientation.up[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(std::isnan(from_wire(wire).request->options.orientation.up_W.y()))
+  EXPECT_TRUE(std::isnan(from_wire(wire)->options.orientation.up_W.y()))
       << "for planning::validate to refuse";
 }
 
@@ -111,24 +110,24 @@ TEST(WireConvert, UnknownObjectivesAndPoliciesAreErrors) {
 
 // A program that does not know an option leaves it zero.
 TEST(WireConvert, AZeroMessageAsksForEveryDefault) {
-  const ConvertedRequest read = from_wire(minimal_request());
-  ASSERT_TRUE(read.request) << read.error;
+  const auto read = from_wire(minimal_request());
+  ASSERT_TRUE(read) << read.error;
   planning::PlanOptions defaults;
   defaults.deadline_s = DeadlineLimits{}.default_s;
-  EXPECT_EQ(read.request->options, defaults);
-  EXPECT_FALSE(read.request->body);
-  EXPECT_FALSE(read.request->has_times);
+  EXPECT_EQ(read->options, defaults);
+  EXPECT_FALSE(read->body);
+  EXPECT_FALSE(read->has_times);
 }
 
 TEST(WireConvert, NothingIsCorrectedOnlyWhereItIsAskedFor) {
   plan_request_t wire = minimal_request();
   wire.correct_nothing = 1;
-  EXPECT_EQ(from_wire(wire).request->options.max_inserted_keyframes, 0);
+  EXPECT_EQ(from_wire(wire)->options.max_inserted_keyframes, 0);
   wire.max_inserted_keyframes = 7;
   EXPECT_THAT(from_wire(wire).error,
               StartsWith("max_inserted_keyframes: is 7, which does not count"));
   wire.correct_nothing = 0;
-  EXPECT_EQ(from_wire(wire).request->options.max_inserted_keyframes, 7);
+  EXPECT_EQ(from_wire(wire)->options.max_inserted_keyframes, 7);
   planning::PlanRequest none;
   none.options.max_inserted_keyframes = 0;
   EXPECT_EQ(to_wire(none, kIds).correct_nothing, 1);
@@ -178,12 +177,12 @@ TEST(WireConvert, WhatWouldNotCountIsRefusedByName) {
   };
   plan_request_t good = minimal_request();
   good.keyframes.resize(2);
-  ASSERT_TRUE(from_wire(good).request);
+  ASSERT_TRUE(from_wire(good));
   for (const auto& [field, change] : kIdle) {
     plan_request_t wire = good;
     change(wire);
-    const ConvertedRequest read = from_wire(wire);
-    EXPECT_FALSE(read.request) << field;
+    const auto read = from_wire(wire);
+    EXPECT_FALSE(read) << field;
     EXPECT_THAT(read.error, StartsWith(field));
   }
 }
@@ -222,10 +221,10 @@ TEST(WireConvert, MessagesNameMembersAsTheWireDoes) {
       {"options.limits.retime", "limits.may_retime"},
   };
   plan_request_t wire = minimal_request();
-  const planning::PlanRequest request = *from_wire(wire).request;
+  const planning::PlanRequest request = *from_wire(wire);
   for (const auto& [path, name] : kNames) EXPECT_EQ(request.name_of(path), name);
   wire.correct_nothing = 1;
-  EXPECT_EQ(from_wire(wire).request->name_of("options.max_inserted_keyframes"), "correct_nothing");
+  EXPECT_EQ(from_wire(wire)->name_of("options.max_inserted_keyframes"), "correct_nothing");
 }
 
 TEST(WireConvert, EveryBodySurvivesTheWayThereAndBack) {
@@ -238,14 +237,14 @@ TEST(WireConvert, EveryBodySurvivesTheWayThereAndBack) {
     request.body = body;
     const plan_request_t wire = to_wire(request, kIds);
     ASSERT_FALSE(wire::check(wire::layout_of<plan_request_t>(), wire::encode(wire)));
-    const ConvertedRequest back = from_wire(wire);
-    ASSERT_TRUE(back.request) << back.error;
-    ASSERT_EQ(back.request->body.has_value(), body.has_value());
+    const auto back = from_wire(wire);
+    ASSERT_TRUE(back) << back.error;
+    ASSERT_EQ(back->body.has_value(), body.has_value());
     if (body) {
-      EXPECT_EQ(back.request->body->index(), body->index());
+      EXPECT_EQ(back->body->index(), body->index());
     }
-    EXPECT_EQ(back.request->options.clearance_m, 0.0625);
-    EXPECT_EQ(wire::encode(to_wire(*back.request, kIds)), wire::encode(wire));
+    EXPECT_EQ(back->options.clearance_m, 0.0625);
+    EXPECT_EQ(wire::encode(to_wire(*back, kIds)), wire::encode(wire));
   }
 }
 
@@ -262,16 +261,15 @@ TEST(WireConvert, ABodyHasItsNumbersWhereTheTypeSaysTheyAre) {
   wire = to_wire(request, kIds);
   EXPECT_EQ(wire.body.piece_sizes, (std::vector<std::int32_t>{1, 2}));
   EXPECT_EQ(wire.body.points_m[2], (std::vector<double>{7, 8, 9}));
-  const ConvertedRequest convex = from_wire(wire);
-  EXPECT_EQ(std::get<motion::ConvexShape>(*convex.request->body).pieces_C[1][0],
-            geometry::Vec3(4, 5, 6));
+  const auto convex = from_wire(wire);
+  EXPECT_EQ(std::get<motion::ConvexShape>(*convex->body).pieces_C[1][0], geometry::Vec3(4, 5, 6));
   request.body = motion::MeshShape{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, {{2, 0, 1}}};
   wire = to_wire(request, kIds);
   EXPECT_EQ(wire.body.triangles[0], (std::vector<std::int32_t>{2, 0, 1}));
   request.body = motion::Camera{1.0, 0.5, 0.25};
   wire = to_wire(request, kIds);
   EXPECT_EQ(wire.camera.near_m, 0.25) << "goes as the camera";
-  EXPECT_FALSE(from_wire(wire).request->body);
+  EXPECT_FALSE(from_wire(wire)->body);
 }
 
 TEST(WireConvert, BodiesThatCannotBeAreErrorsThatNameTheField) {
@@ -324,32 +322,32 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
   for (const std::size_t segments : {0U, 1U, 40U}) {
     const planning::PlanResult result = sample_result(segments, random);
     const plan_response_t wire = to_wire(result, header);
-    const ConvertedResult back = from_wire(wire);
-    ASSERT_TRUE(back.result) << back.error;
-    EXPECT_EQ(wire::encode(to_wire(*back.result, header)), wire::encode(wire));
-    EXPECT_EQ(back.result->status, result.status);
-    EXPECT_EQ(back.result->message, result.message);
-    EXPECT_EQ(back.result->path.segments().size(), segments);
-    EXPECT_EQ(back.result->collisions, result.collisions);
-    EXPECT_EQ(back.result->collision_names, result.collision_names);
-    EXPECT_EQ(back.result->remaining_collisions, result.remaining_collisions);
-    EXPECT_EQ(back.result->remaining_names, result.remaining_names);
-    EXPECT_FALSE(back.result->keyframe);
-    EXPECT_EQ(back.result->corrections.size(), segments);
-    EXPECT_TRUE(std::ranges::equal(back.result->keyframes, result.keyframes, {},
+    const auto back = from_wire(wire);
+    ASSERT_TRUE(back) << back.error;
+    EXPECT_EQ(wire::encode(to_wire(*back, header)), wire::encode(wire));
+    EXPECT_EQ(back->status, result.status);
+    EXPECT_EQ(back->message, result.message);
+    EXPECT_EQ(back->path.segments().size(), segments);
+    EXPECT_EQ(back->collisions, result.collisions);
+    EXPECT_EQ(back->collision_names, result.collision_names);
+    EXPECT_EQ(back->remaining_collisions, result.remaining_collisions);
+    EXPECT_EQ(back->remaining_names, result.remaining_names);
+    EXPECT_FALSE(back->keyframe);
+    EXPECT_EQ(back->corrections.size(), segments);
+    EXPECT_TRUE(std::ranges::equal(back->keyframes, result.keyframes, {},
                                    &motion::Keyframe::is_repaired, &motion::Keyframe::is_repaired));
-    EXPECT_EQ(back.result->measures_before, result.measures_before);
-    EXPECT_EQ(back.result->measures, result.measures);
-    EXPECT_EQ(back.result->near_scale, 0.75);
-    EXPECT_EQ(back.result->time_scale, 1.25);
-    EXPECT_TRUE(back.result->deadline_reached);
-    EXPECT_EQ(back.result->slowed, result.slowed);
-    EXPECT_EQ(back.result->keyframe_faults.size(), result.keyframe_faults.size());
-    ASSERT_TRUE(back.result->infeasibility);
-    EXPECT_EQ(back.result->infeasibility->keyframe_inside, 3U);
-    EXPECT_EQ(back.result->infeasibility->triangles, result.infeasibility->triangles);
+    EXPECT_EQ(back->measures_before, result.measures_before);
+    EXPECT_EQ(back->measures, result.measures);
+    EXPECT_EQ(back->near_scale, 0.75);
+    EXPECT_EQ(back->time_scale, 1.25);
+    EXPECT_TRUE(back->deadline_reached);
+    EXPECT_EQ(back->slowed, result.slowed);
+    EXPECT_EQ(back->keyframe_faults.size(), result.keyframe_faults.size());
+    ASSERT_TRUE(back->infeasibility);
+    EXPECT_EQ(back->infeasibility->keyframe_inside, 3U);
+    EXPECT_EQ(back->infeasibility->triangles, result.infeasibility->triangles);
     const auto& cage = result.infeasibility->cage;
-    const auto& cage_back = back.result->infeasibility->cage;
+    const auto& cage_back = back->infeasibility->cage;
     ASSERT_EQ(cage_back.has_value(), cage.has_value());
     if (!cage) continue;
     EXPECT_EQ(cage_back->box.min(), cage->box.min());
@@ -394,8 +392,8 @@ TEST(WireConvert, AReportHasItsNumbersWhereTheTypesSayTheyAre) {
   EXPECT_EQ(wire.corrections[0].tried_paths, 2);
   EXPECT_EQ(wire.corrections[0].tried_lattice_points, 3);
   EXPECT_EQ(wire.corrections[0].tried_tree_samples, 4);
-  EXPECT_EQ(from_wire(wire).result->corrections[0].tried, correction.tried);
-  EXPECT_FALSE(from_wire(wire).result->corrections[0].interval.witness);
+  EXPECT_EQ(from_wire(wire)->corrections[0].tried, correction.tried);
+  EXPECT_FALSE(from_wire(wire)->corrections[0].interval.witness);
   EXPECT_EQ(wire.has_measures_before, 0);
   EXPECT_EQ(wire.has_measures, 1);
   EXPECT_EQ(wire.measures.length_m, 7.0);
@@ -443,7 +441,7 @@ TEST(WireConvert, QuaternionsAreOrderedWxyzOnTheWire) {
   const plan_request_t wire = to_wire(request, kIds);
   EXPECT_EQ(wire.keyframes[0].orientation_wxyz[0], 0.1);
   EXPECT_EQ(wire.keyframes[0].orientation_wxyz[3], 0.4);
-  EXPECT_EQ(from_wire(wire).request->keyframes[0].pose.orientation.w(), 0.1);
+  EXPECT_EQ(from_wire(wire)->keyframes[0].pose.orientation.w(), 0.1);
 }
 
 TEST(WireConvert, EveryPlanningStatusHasItsNumber) {
@@ -457,11 +455,11 @@ TEST(WireConvert, EveryPlanningStatusHasItsNumber) {
     result.status = status;
     const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
     EXPECT_EQ(wire.status, number);
-    EXPECT_EQ(from_wire(wire).result->status, status);
+    EXPECT_EQ(from_wire(wire)->status, status);
     EXPECT_EQ(status_name(number), planning::to_string(status));
   }
   for (const std::int32_t number : {7, 8, 9, -1, 1000}) {
-    EXPECT_FALSE(from_wire(plain_answer(number, "later", {kIds, "", 0, ""})).result);
+    EXPECT_FALSE(from_wire(plain_answer(number, "later", {kIds, "", 0, ""})));
   }
   EXPECT_EQ(from_wire(plain_answer(7, "later", {kIds, "", 0, ""})).error, "overloaded: later");
 }
@@ -472,23 +470,23 @@ TEST(WireConvert, KeyframeAtFaultIsMinusOneForNone) {
   result.keyframe = 3;
   const plan_response_t wire = to_wire(result, {kIds, "", 0, ""});
   EXPECT_EQ(wire.keyframe, 3);
-  EXPECT_EQ(from_wire(wire).result->keyframe, 3U);
+  EXPECT_EQ(from_wire(wire)->keyframe, 3U);
 }
 
 TEST(WireConvert, ZerosAskForDefaults) {
   const planning::PlanOptions defaults;
-  const ConvertedRequest converted = from_wire(minimal_request(), {.default_s = 4.0, .max_s = 8.0});
-  ASSERT_TRUE(converted.request);
+  const auto converted = from_wire(minimal_request(), {.default_s = 4.0, .max_s = 8.0});
+  ASSERT_TRUE(converted);
   planning::PlanOptions expected = defaults;
   expected.deadline_s = 4.0;
-  EXPECT_EQ(converted.request->options, expected);
+  EXPECT_EQ(converted->options, expected);
 }
 
 TEST(WireConvert, DeadlinesAreCutToTheMaximum) {
   const auto deadline_of = [](double wire_s) {
     plan_request_t wire = minimal_request();
     wire.deadline_s = wire_s;
-    return from_wire(wire, {.default_s = 4.0, .max_s = 8.0}).request->options.deadline_s;
+    return from_wire(wire, {.default_s = 4.0, .max_s = 8.0})->options.deadline_s;
   };
   EXPECT_EQ(deadline_of(7.5), 7.5);
   EXPECT_EQ(deadline_of(8.5), 8.0);
@@ -504,12 +502,12 @@ TEST(WireConvert, ValuesAreLeftToValidation) {
   wire.keyframes.resize(1);
   wire.keyframes[0].position_m[1] = std::numeric_limits<double>::quiet_NaN();
   wire.keyframes[0].origin = keyframe_t::ORIGIN_INSERTED;
-  const ConvertedRequest converted = from_wire(wire);
-  ASSERT_TRUE(converted.request);
-  EXPECT_EQ(converted.request->options.chord_error_m, -1.0);
-  EXPECT_TRUE(std::isnan(converted.request->keyframes[0].pose.position.y()));
-  EXPECT_EQ(converted.request->keyframes[0].origin, motion::KeyframeOrigin::kGiven);
-  EXPECT_TRUE(planning::validate(*converted.request));
+  const auto converted = from_wire(wire);
+  ASSERT_TRUE(converted);
+  EXPECT_EQ(converted->options.chord_error_m, -1.0);
+  EXPECT_TRUE(std::isnan(converted->keyframes[0].pose.position.y()));
+  EXPECT_EQ(converted->keyframes[0].origin, motion::KeyframeOrigin::kGiven);
+  EXPECT_TRUE(planning::validate(*converted));
 }
 
 TEST(WireConvert, UnknownMethodIsAnErrorThatNamesIt) {

@@ -20,7 +20,7 @@ inline scene::Placement at(const geometry::Vec3& position,
 
 /// Returns the source of a box object.
 inline std::shared_ptr<const scene::ObjectSource> box_source(const geometry::Vec3& size_m) {
-  scene::Mesh mesh = *scene::box_mesh(size_m).mesh;
+  scene::Mesh mesh = *scene::box_mesh(size_m);
   const scene::ImportReport report = scene::report_of(mesh, "box");
   return scene::make_source(scene::ObjectKind::kBox, std::move(mesh), report, {});
 }

@@ -66,30 +66,30 @@ ExitCode invalid(const std::string& error) {
 
 /// Warns if the path was made for another scene than the one that is drawn.
 void warn_of_another_scene(const DrawFlags& flags, const scene::Snapshot& snapshot) {
-  const Parsed<PathFile> response = read_path_file(flags.response);
-  if (!response.value || response.value->scene_digest.empty()) return;
-  if (response.value->scene_digest == snapshot.digest) return;
+  const base::Result<PathFile> response = read_path_file(flags.response);
+  if (!response || response->scene_digest.empty()) return;
+  if (response->scene_digest == snapshot.digest) return;
   print_error(fmt::format(
       "warning: {}: was made for another scene: its scene_digest is {}, that of {} is {}",
-      source_of(flags.response), response.value->scene_digest, snapshot.name, snapshot.digest));
+      source_of(flags.response), response->scene_digest, snapshot.name, snapshot.digest));
 }
 
 ExitCode run_draw(const DrawFlags& flags) {
   if (const std::string fault = why_unwritable(flags.picture); !fault.empty()) {
     return invalid(fault);
   }
-  const Parsed<RequestFile> request = read_plan_request(flags.request);
-  if (!request.value) return invalid(request.error);
-  const Parsed<planning::PlanResult> result = read_plan_response(flags.response);
-  if (!result.value) return invalid(result.error);
-  if (result.value->path.empty())
+  const base::Result<RequestFile> request = read_plan_request(flags.request);
+  if (!request) return invalid(request.error);
+  const base::Result<planning::PlanResult> result = read_plan_response(flags.response);
+  if (!result) return invalid(result.error);
+  if (result->path.empty())
     return invalid(source_of(flags.response) + ": segments: has no path to draw");
-  const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
+  const std::string scene_file = flags.scene.file_for(flags.request, *request);
   if (scene_file.empty()) {
     return invalid(source_of(flags.request) + ": scene: is missing, and there is no --scene");
   }
   scene::SnapshotOptions options;
-  options.import = flags.scene.import_options(request.value->reading);
+  options.import = flags.scene.import_options(request->reading);
   const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
   if (!loaded.snapshot) return invalid(loaded.error);
   warn_of_another_scene(flags, *loaded.snapshot);
@@ -97,7 +97,7 @@ ExitCode run_draw(const DrawFlags& flags) {
   draw::PictureFiles files;
   (picture.extension() == ".svg" ? files.svg : files.png) = picture;
   const std::shared_ptr<const scene::Mesh> mesh = loaded.snapshot->mesh.share();
-  const draw::FloorPlan plan = floor_plan(flags, *request.value, *result.value, *mesh);
+  const draw::FloorPlan plan = floor_plan(flags, *request, *result, *mesh);
   const std::string error = flags.is_side_by_side ? draw::draw_side_by_side(plan, files)
                                                   : draw::draw_floor_plan(plan, files);
   return error.empty() ? ExitCode::kSuccess : invalid(error);

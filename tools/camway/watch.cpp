@@ -257,13 +257,13 @@ ExitCode invalid_input(std::string_view message) {
 }
 
 ExitCode run_watch(WatchFlags flags) {
-  const Parsed<RequestFile> request = read_plan_request(flags.request);
-  if (!request.value) return invalid_input(request.error);
+  const base::Result<RequestFile> request = read_plan_request(flags.request);
+  if (!request) return invalid_input(request.error);
   // The daemon would refuse this, too, but with the names of the wire.
-  if (const auto fault = planning::validate(*request.value)) {
+  if (const auto fault = planning::validate(*request)) {
     return invalid_input(source_of(flags.request) + ": " + fault->message);
   }
-  warn_of_reading(source_of(flags.request), *request.value);
+  warn_of_reading(source_of(flags.request), *request);
   if (const std::string fault = use_key_file(flags.key_file, flags.client); !fault.empty()) {
     return invalid_input(fault);
   }
@@ -278,7 +278,7 @@ ExitCode run_watch(WatchFlags flags) {
       client.take_better(event.request_id);
     }
   };
-  const std::int64_t id = client.watch(to_client_request(*request.value, flags.scene), take);
+  const std::int64_t id = client.watch(to_client_request(*request, flags.scene), take);
   const auto [code, is_daemon_there] = follow(flags, interruption, events);
   if (!is_daemon_there) return code;
   // Otherwise the daemon would watch and plan again until the lease is over.

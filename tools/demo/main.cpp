@@ -49,13 +49,13 @@ bool from_daemon(const PlanResponse& response) {
 
 std::optional<Answered> ask(Client& client, const std::string& scene, const std::string& file) {
   const auto read = tools::read_plan_request(file);
-  if (!read.value) {
+  if (!read) {
     print_error(read.error);
     return std::nullopt;
   }
   Answered answered;
   answered.name = std::filesystem::path(file).stem().string();
-  answered.request = tools::to_client_request(*read.value, scene);
+  answered.request = tools::to_client_request(*read, scene);
   answered.response = client.plan(answered.request);
   return answered;
 }

@@ -205,7 +205,8 @@ PlanResult read_result(const Field& root) {
 
 }  // namespace
 
-Parsed<std::string> write_plan_response(const PlanResult& result, const ResponseFormat& format) {
+base::Result<std::string> write_plan_response(const PlanResult& result,
+                                              const ResponseFormat& format) {
   std::string out;
   JsonWriter io(out);
   io.object(2, [&] {
@@ -221,15 +222,15 @@ Parsed<std::string> write_plan_response(const PlanResult& result, const Response
     io.may("timing_ms", result.timing, format.timing == TimingField::kWritten);
   });
   out += '\n';
-  if (!io.error().empty()) return {{}, io.error()};
-  return {std::move(out), {}};
+  if (!io.error().empty()) return base::Failure{io.error()};
+  return out;
 }
 
-Parsed<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
+base::Result<PlanResult> parse_plan_response(std::string_view text, std::string_view source) {
   return parse_as(read_result, text, source);
 }
 
-Parsed<PlanResult> read_plan_response(const std::string& file) {
+base::Result<PlanResult> read_plan_response(const std::string& file) {
   return read_as(read_result, file);
 }
 

@@ -174,32 +174,33 @@ const char* type_name(const json& value) {
 
 }  // namespace
 
-Parsed<json> parse_document(std::string_view text, std::string_view source) {
+base::Result<json> parse_document(std::string_view text, std::string_view source) {
   const std::string prefix = std::string(source) + ": ";
   if (text.size() > kMaxDocumentBytes) {
-    return {{}, prefix + "larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
+    return base::Failure{prefix + "larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
   }
   json root;
   const char* read_to = text.data();
   DocumentBuilder builder(root, text.data(), read_to);
   const TextReader begin(text.data(), read_to);
   const TextReader end(text.data() + text.size(), read_to);
-  if (json::sax_parse(begin, end, &builder)) return {std::move(root), {}};
-  return {{}, prefix + line_and_column(text, builder.position()) + ": " + builder.reason()};
+  if (json::sax_parse(begin, end, &builder)) return root;
+  return base::Failure{prefix + line_and_column(text, builder.position()) + ": " +
+                       builder.reason()};
 }
 
 std::string source_of(const std::string& file) { return file == "-" ? "standard input" : file; }
 
-Parsed<std::string> read_text(const std::string& file) {
+base::Result<std::string> read_text(const std::string& file) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) return {{}, file + ": is a directory"};
+  if (std::filesystem::is_directory(file, ignored)) return base::Failure{file + ": is a directory"};
   std::ifstream stream;
   const bool from_stdin = file == "-";
   if (!from_stdin) {
     errno = 0;
     stream.open(file, std::ios::binary);
     if (!stream) {
-      return {{}, file + ": cannot be opened: " + std::generic_category().message(errno)};
+      return base::Failure{file + ": cannot be opened: " + std::generic_category().message(errno)};
     }
   }
   std::istream& input = from_stdin ? std::cin : stream;
@@ -208,12 +209,12 @@ Parsed<std::string> read_text(const std::string& file) {
   while (input.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), input.gcount() > 0) {
     text.append(chunk.data(), static_cast<std::size_t>(input.gcount()));
     if (text.size() > kMaxDocumentBytes) {
-      return {{},
-              source_of(file) + ": larger than " + std::to_string(kMaxDocumentBytes >> 20) + " MB"};
+      return base::Failure{source_of(file) + ": larger than " +
+                           std::to_string(kMaxDocumentBytes >> 20) + " MB"};
     }
   }
-  if (input.bad()) return {{}, source_of(file) + ": cannot be read"};
-  return {std::move(text), {}};
+  if (input.bad()) return base::Failure{source_of(file) + ": cannot be read"};
+  return text;
 }
 
 Field Field::member(std::string_view key, std::string_view old) const {

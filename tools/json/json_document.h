@@ -12,6 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "daemon/base/result.h"
+
 namespace camway::tools {
 
 /// Limits of a document, beyond which it is refused. The largest request and its response stay
@@ -20,24 +22,18 @@ inline constexpr std::size_t kMaxDocumentBytes = std::size_t{256} << 20;
 inline constexpr std::size_t kMaxDocumentValues = 16'000'000;
 inline constexpr std::size_t kMaxDocumentDepth = 32;
 
-/// A value, or the reason why there is none.
-template <typename T>
-struct Parsed {
-  std::optional<T> value;
-  std::string error;  ///< names the source and the fault; empty exactly if there is a value
-};
-
 /// Parses strict JSON. Also refuses documents beyond the limits above, numbers that overflow a
 /// double, and a key that occurs twice in one object, because readers differ in which one they
 /// take. `source` begins the error: `R.json: line 3, column 14: ...`. Lines and columns count from
 /// 1, columns in bytes. Never throws for a bad document.
-Parsed<nlohmann::json> parse_document(std::string_view text, std::string_view source);
+base::Result<nlohmann::json> parse_document(std::string_view text, std::string_view source);
 
 /// Returns the name of a file in messages: "standard input" for "-".
 std::string source_of(const std::string& file);
 
-/// Reads the whole `file` ("-": standard input). Refuses more than kMaxDocumentBytes.
-Parsed<std::string> read_text(const std::string& file);
+/// Reads the whole `file` ("-": standard input). Refuses more than kMaxDocumentBytes. The error
+/// names the file.
+base::Result<std::string> read_text(const std::string& file);
 
 /// A value of a document together with its path, for errors such as
 /// `keyframes[3].orientation: must be an array of 4 numbers`. Only the first error is kept; after
@@ -113,21 +109,21 @@ Value named(const Field& field,
 /// Parses `text` and converts the document by `read`. Returns the value, or the first error of
 /// either step.
 template <typename T>
-Parsed<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_view source) {
-  const Parsed<nlohmann::json> document = parse_document(text, source);
-  if (!document.value) return {{}, document.error};
+base::Result<T> parse_as(T (*read)(const Field&), std::string_view text, std::string_view source) {
+  const base::Result<nlohmann::json> document = parse_document(text, source);
+  if (!document) return base::Failure{document.error};
   std::string error;
-  T value = read(Field(*document.value, error));
-  if (!error.empty()) return {{}, std::string(source) + ": " + error};
-  return {std::move(value), {}};
+  T value = read(Field(*document, error));
+  if (!error.empty()) return base::Failure{std::string(source) + ": " + error};
+  return value;
 }
 
 /// Reads a file ("-": standard input) and converts it like `parse_as`.
 template <typename T>
-Parsed<T> read_as(T (*read)(const Field&), const std::string& file) {
-  const Parsed<std::string> text = read_text(file);
-  if (!text.value) return {{}, text.error};
-  return parse_as(read, *text.value, source_of(file));
+base::Result<T> read_as(T (*read)(const Field&), const std::string& file) {
+  const base::Result<std::string> text = read_text(file);
+  if (!text) return base::Failure{text.error};
+  return parse_as(read, *text, source_of(file));
 }
 
 }  // namespace camway::tools

@@ -111,11 +111,11 @@ RequestFile read_request(const Field& root) {
 
 }  // namespace
 
-Parsed<RequestFile> parse_plan_request(std::string_view text, std::string_view source) {
+base::Result<RequestFile> parse_plan_request(std::string_view text, std::string_view source) {
   return parse_as(read_request, text, source);
 }
 
-Parsed<RequestFile> read_plan_request(const std::string& file) {
+base::Result<RequestFile> read_plan_request(const std::string& file) {
   return read_as(read_request, file);
 }
 

@@ -41,10 +41,10 @@ struct RequestFile : planning::PlanRequest {
 /// ignoring an unknown field could drop a required clearance. The camera may be left out if there
 /// is another body. `planning::validate` checks the ranges and the order of times. `source` begins
 /// the error, such as `R.json: keyframes[3].orientation: has length zero`. Keyframes count from 0.
-Parsed<RequestFile> parse_plan_request(std::string_view text, std::string_view source);
+base::Result<RequestFile> parse_plan_request(std::string_view text, std::string_view source);
 
 /// Reads a request from a file ("-": standard input).
-Parsed<RequestFile> read_plan_request(const std::string& file);
+base::Result<RequestFile> read_plan_request(const std::string& file);
 
 enum class TimingField {
   kWritten,
@@ -62,17 +62,18 @@ struct ResponseFormat {
 /// Returns a response as JSON text, with keys in a fixed order and doubles that read back to the
 /// same bits. JSON cannot hold NaN or infinity: a result with one is a program fault, for which the
 /// error names the field.
-Parsed<std::string> write_plan_response(const planning::PlanResult& result,
-                                        const ResponseFormat& format = {});
+base::Result<std::string> write_plan_response(const planning::PlanResult& result,
+                                              const ResponseFormat& format = {});
 
 /// Reads a response back to the same bits, with three exceptions: of a witness's feature only the
 /// name is written, not the number; the witness of a correction's collision is only in
 /// `collisions`; angles of corrections and measures may be off by a rounding. Checks that the
 /// segments are a path: each ends after it begins, and begins where the one before ends. Ignores
 /// unknown fields, which later versions may have.
-Parsed<planning::PlanResult> parse_plan_response(std::string_view text, std::string_view source);
+base::Result<planning::PlanResult> parse_plan_response(std::string_view text,
+                                                       std::string_view source);
 
 /// Reads a response from a file ("-": standard input).
-Parsed<planning::PlanResult> read_plan_response(const std::string& file);
+base::Result<planning::PlanResult> read_plan_response(const std::string& file);
 
 }  // namespace camway::tools

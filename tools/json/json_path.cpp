@@ -102,10 +102,10 @@ motion::KeyframeOrigin read_origin(const Field& field) {
   return origin == "inserted" ? motion::KeyframeOrigin::kInserted : motion::KeyframeOrigin::kGiven;
 }
 
-Parsed<PathFile> parse_path_file(std::string_view text, std::string_view source) {
+base::Result<PathFile> parse_path_file(std::string_view text, std::string_view source) {
   return parse_as(read_path, text, source);
 }
 
-Parsed<PathFile> read_path_file(const std::string& file) { return read_as(read_path, file); }
+base::Result<PathFile> read_path_file(const std::string& file) { return read_as(read_path, file); }
 
 }  // namespace camway::tools

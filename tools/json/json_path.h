@@ -32,10 +32,10 @@ struct PathFile {
 /// `keyframes` (with `time` and `origin`: "given" or "inserted"), `scene_digest`, `bounds`,
 /// `near_scale` and `time_scale` are optional. Unknown fields outside of the segments are ignored,
 /// because they cannot change what is proved.
-Parsed<PathFile> parse_path_file(std::string_view text, std::string_view source);
+base::Result<PathFile> parse_path_file(std::string_view text, std::string_view source);
 
 /// Reads a path from a file ("-": standard input).
-Parsed<PathFile> read_path_file(const std::string& file);
+base::Result<PathFile> read_path_file(const std::string& file);
 
 /// Reads a list of segments. Each must end after it begins, and begin when the one before ends.
 /// Ignores unknown fields.

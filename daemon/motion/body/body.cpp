@@ -57,10 +57,10 @@ Body::Body(const Camera& camera) : Body(near_corners_C(camera)) {
   slack_m_ = kCameraCornerRounding * radius_m_;
 }
 
-std::optional<Body> Body::make(const BodyShape& shape, std::string& error) {
+base::Result<Body> Body::make(const BodyShape& shape) {
   if (const std::optional<ShapeFault> fault = fault_in(shape)) {
-    error = fault->field.empty() ? fault->reason : fault->field + ": " + fault->reason;
-    return std::nullopt;
+    return base::Failure{fault->field.empty() ? fault->reason
+                                              : fault->field + ": " + fault->reason};
   }
   if (const Camera* camera = std::get_if<Camera>(&shape)) return Body(*camera);
   Body body;

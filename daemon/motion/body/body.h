@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "daemon/base/result.h"
 #include "daemon/geometry/half_space.h"
 #include "daemon/motion/body/camera.h"
 
@@ -74,9 +75,8 @@ class Body {
   /// The filled near quadrilateral with these corners.
   explicit Body(const Corners& corners_C);
 
-  /// A body of any shape. Returns nothing, with the reason in `error`, exactly if `fault_in`
-  /// returns a fault.
-  static std::optional<Body> make(const BodyShape& shape, std::string& error);
+  /// Returns a body of any shape. Fails exactly if `fault_in` returns a fault.
+  static base::Result<Body> make(const BodyShape& shape);
 
   /// Triangles of solids are counter-clockwise seen from outside, those of a mesh as given.
   [[nodiscard]] std::span<const geometry::Triangle> triangles_C() const { return triangles_C_; }

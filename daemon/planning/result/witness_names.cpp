@@ -35,8 +35,7 @@ WitnessNames describe_witness(const scene::WholeMesh& mesh, const motion::Body& 
 void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, PlanResult& result) {
   if (result.collisions.empty() && result.remaining_collisions.empty()) return;
   if (!result.collision_names.empty() || !result.remaining_names.empty()) return;
-  std::string fault;
-  const auto body = motion::Body::make(body_shape(request), fault);
+  const auto body = motion::Body::make(body_shape(request));
   if (!body) return;
   result.collision_names = names_of(mesh, *body, result.collisions);
   result.remaining_names = names_of(mesh, *body, result.remaining_collisions);

@@ -48,10 +48,9 @@ std::optional<motion::Body> valid_body(const collision::Obstacles& obstacles,
            std::nullopt, result);
     return std::nullopt;
   }
-  std::string fault;
-  std::optional<motion::Body> body = motion::Body::make(body_shape(request), fault);
-  if (!body) refuse("body: " + fault, std::nullopt, result);
-  return body;
+  base::Result<motion::Body> body = motion::Body::make(body_shape(request));
+  if (!body) refuse("body: " + body.error, std::nullopt, result);
+  return std::move(body.value);
 }
 
 // Repairs the keyframes of `result` that are at fault, if the request asks for that. Returns false

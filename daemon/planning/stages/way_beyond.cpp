@@ -54,8 +54,7 @@ void add_way_beyond(const PlanResult& unbounded, const PlanRequest& request, Pla
   result.timing.correct_ms += unbounded.timing.total_ms;
   result.timing.total_ms += unbounded.timing.total_ms;
   if (!unbounded.certificate.certified) return;
-  std::string unused;
-  const auto body = motion::Body::make(body_shape(request, unbounded.near_scale), unused);
+  const auto body = motion::Body::make(body_shape(request, unbounded.near_scale));
   if (!body) return;
   const Excess excess = largest_excess(unbounded.path, *body, result.bounds);
   result.message += fmt::format("; a way was found only beyond the bounds, by up to {:.2g} m at {}",

@@ -216,22 +216,23 @@ bool is_address_of_this_machine(const std::string& text) {
          bind(socket.get(), reinterpret_cast<const sockaddr*>(&address.storage), address.size) == 0;
 }
 
-OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
-                              const HttpLimits& limits) {
+base::Result<std::unique_ptr<HttpPage>> open_http_page(const HttpAddress& address,
+                                                       HttpContent content,
+                                                       const HttpLimits& limits) {
   Address parsed;
   if (!parse(address, parsed)) {
-    return {nullptr, fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
+    return base::Failure{fmt::format("'{}' is no IPv4 or IPv6 address", address.ip)};
   }
   const std::string where = fmt::format("cannot listen on {} port {}", address.ip, address.port);
   Descriptor socket(::socket(parsed.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!listen_on(socket.get(), parsed)) {
-    return {nullptr, fmt::format("{}: {}", where, std::strerror(errno))};
+    return base::Failure{fmt::format("{}: {}", where, std::strerror(errno))};
   }
   auto page = std::make_unique<MicroHttpPage>(std::move(content), limits);
   if (!page->start(socket)) {
-    return {nullptr, fmt::format("{}: the HTTP server does not start", where)};
+    return base::Failure{fmt::format("{}: the HTTP server does not start", where)};
   }
-  return {std::move(page), {}};
+  return std::unique_ptr<HttpPage>(std::move(page));
 }
 
 }  // namespace camway::process

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "daemon/base/result.h"
+
 namespace camway::process {
 
 /// Serves one page of text over HTTP on a thread of its own, to a limited number of connections at
@@ -41,13 +43,10 @@ struct HttpContent {
   std::function<void()> full = nullptr;  ///< called when no connection is free; may be null
 };
 
-/// A page, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in use".
-struct OpenedHttpPage {
-  std::unique_ptr<HttpPage> page;
-  std::string error;  ///< empty exactly when `page` is set
-};
-
-OpenedHttpPage open_http_page(const HttpAddress& address, HttpContent content,
-                              const HttpLimits& limits = {});
+/// Returns the page, or an error, e.g. "cannot listen on 127.0.0.1 port 9464: Address already in
+/// use". The page is not null.
+base::Result<std::unique_ptr<HttpPage>> open_http_page(const HttpAddress& address,
+                                                       HttpContent content,
+                                                       const HttpLimits& limits = {});
 
 }  // namespace camway::process

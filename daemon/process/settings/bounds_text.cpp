@@ -19,9 +19,9 @@ bool read_limit(std::string_view text, double& limit_m) {
 
 }  // namespace
 
-ParsedBounds parse_bounds(std::string_view text) {
-  const auto fail = [&](const std::string& reason) -> ParsedBounds {
-    return {std::nullopt, "bounds '" + std::string(text) + "': " + reason};
+base::Result<geometry::Bounds> parse_bounds(std::string_view text) {
+  const auto fail = [&](const std::string& reason) {
+    return base::Failure{"bounds '" + std::string(text) + "': " + reason};
   };
   geometry::Bounds bounds;
   std::string_view rest = text;
@@ -38,7 +38,7 @@ ParsedBounds parse_bounds(std::string_view text) {
   }
   if (const auto fault = geometry::fault_in(bounds))
     return fail(fault->field + " " + fault->reason);
-  return {bounds, {}};
+  return bounds;
 }
 
 std::string bounds_text(const geometry::Bounds& bounds) {

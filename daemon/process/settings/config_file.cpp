@@ -147,8 +147,8 @@ std::string apply_to_scene(std::string_view key, const toml::node& node, SceneAr
     return messages::is_scene_name(scene.name) ? std::string() : messages::kSceneNameRule;
   }
   if (key == "bounds") {
-    const ParsedBounds parsed = parse_bounds(text->get());
-    if (parsed.bounds) scene.options.bounds = *parsed.bounds;
+    const base::Result<geometry::Bounds> parsed = parse_bounds(text->get());
+    if (parsed) scene.options.bounds = *parsed;
     return parsed.error;
   }
   if (key == "file") {

@@ -151,13 +151,13 @@ std::optional<ParsedOptions> read_flags(int argc, const char* const* argv, Raw& 
 std::string add_scenes(const std::vector<std::string>& texts, std::vector<SceneArgument>& scenes) {
   std::set<std::string> names;
   for (const std::string& text : texts) {
-    ParsedSceneArgument parsed = parse_scene_argument(text);
-    if (!parsed.scene) return "--scene: " + parsed.error;
-    const std::string& name = parsed.scene->name;
+    base::Result<SceneArgument> parsed = parse_scene_argument(text);
+    if (!parsed) return "--scene: " + parsed.error;
+    const std::string& name = parsed->name;
     if (!names.insert(name).second) return "--scene: the name '" + name + "' is given twice";
-    parsed.scene->said_at = "--scene";
+    parsed->said_at = "--scene";
     std::erase_if(scenes, [&](const SceneArgument& scene) { return scene.name == name; });
-    scenes.push_back(std::move(*parsed.scene));
+    scenes.push_back(*std::move(parsed));
   }
   return {};
 }
@@ -169,9 +169,9 @@ std::string open_roots(const std::string& folders, service::SceneRoots& roots) {
   for (std::string folder; std::getline(text, folder, ':');) {
     if (!folder.empty()) paths.emplace_back(folder);
   }
-  std::string fault;
-  roots = service::SceneRoots::make(paths, fault);
-  return fault;
+  base::Result<service::SceneRoots> opened = service::SceneRoots::make(paths);
+  if (opened) roots = *std::move(opened);
+  return opened.error;
 }
 
 /// Completes the options. Returns their faults.

@@ -48,8 +48,8 @@ std::string apply_option(std::string_view key, std::string_view value, SceneArgu
     return {};
   }
   if (key == "bounds") {
-    const ParsedBounds parsed = parse_bounds(value);
-    if (parsed.bounds) scene.options.bounds = *parsed.bounds;
+    const base::Result<geometry::Bounds> parsed = parse_bounds(value);
+    if (parsed) scene.options.bounds = *parsed;
     return parsed.error;
   }
   const std::optional<double> number = positive_number(value);
@@ -101,9 +101,9 @@ std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word) {
   return std::nullopt;
 }
 
-ParsedSceneArgument parse_scene_argument(std::string_view text) {
-  const auto fail = [&](const std::string& reason) -> ParsedSceneArgument {
-    return {std::nullopt, "scene '" + std::string(text) + "': " + reason};
+base::Result<SceneArgument> parse_scene_argument(std::string_view text) {
+  const auto fail = [&](const std::string& reason) {
+    return base::Failure{"scene '" + std::string(text) + "': " + reason};
   };
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) return fail("must be NAME=FILE");
@@ -116,7 +116,7 @@ ParsedSceneArgument parse_scene_argument(std::string_view text) {
   if (std::string error = take_options(rest, scene); !error.empty()) return fail(error);
   if (rest.empty()) return fail("the file is missing");
   scene.file = std::filesystem::path(rest);
-  return {std::move(scene), {}};
+  return scene;
 }
 
 }  // namespace camway::process

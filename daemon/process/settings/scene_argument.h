@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/base/result.h"
 #include "daemon/scene/snapshot/snapshot.h"
 
 namespace camway::process {
@@ -25,12 +26,6 @@ std::optional<scene::UpAxis> up_axis_named(std::string_view word);
 /// Reads "free" or "occupied"; returns nothing for another word.
 std::optional<scene::UnknownSpace> unknown_space_named(std::string_view word);
 
-/// A scene argument, or an error about the text.
-struct ParsedSceneArgument {
-  std::optional<SceneArgument> scene;
-  std::string error;
-};
-
 /// The form of a scene argument, for `--help`.
 inline constexpr char kSceneArgumentForm[] =
     "NAME=FILE[,scale=FACTOR][,up=z-to-y|y-to-z][,unknown=occupied][,occupancy=RESOLUTION_M]"
@@ -39,6 +34,6 @@ inline constexpr char kSceneArgumentForm[] =
 /// Reads `text` of that form. Options are taken off the end, so a FILE may hold commas unless the
 /// text after one looks like an option. NAME consists of at most `wire::kMaxSceneNameBytes`
 /// characters of [A-Za-z0-9_.-].
-ParsedSceneArgument parse_scene_argument(std::string_view text);
+base::Result<SceneArgument> parse_scene_argument(std::string_view text);
 
 }  // namespace camway::process

@@ -165,8 +165,9 @@ double DistanceField::clearance_outside_m(const Vec3& point_W) const {
          std::sqrt(beyond_m.squaredNorm() + inside_m * inside_m);
 }
 
-DistanceFieldResult DistanceField::build(const Mesh& mesh, const DistanceFieldOptions& options) {
-  if (mesh.triangles.empty()) return {nullptr, "the scene has no triangles"};
+base::Result<std::shared_ptr<const DistanceField>> DistanceField::build(
+    const Mesh& mesh, const DistanceFieldOptions& options) {
+  if (mesh.triangles.empty()) return base::Failure{"the scene has no triangles"};
   const geometry::Box bounds = mesh.bounds();
   const std::size_t wanted = std::max(kSmallestCells, kCellsPerTriangle * mesh.triangles.size());
   const std::size_t fitting =
@@ -175,7 +176,7 @@ DistanceFieldResult DistanceField::build(const Mesh& mesh, const DistanceFieldOp
   const unsigned threads = wanted < 16 * kSmallestCells ? 1 : options.threads;
   const std::optional<CellGrid> grid =
       choose_grid(mesh, bounds, std::min(wanted, fitting), threads);
-  if (!grid) return {nullptr, "no grid holds a scene of this extent within the limits"};
+  if (!grid) return base::Failure{"no grid holds a scene of this extent within the limits"};
   std::vector<std::uint8_t> cells(grid->cells());
   mark_touched_cells(mesh, *grid, threads, cells);
   const CellDistanceCodes codes = level_codes();
@@ -183,11 +184,9 @@ DistanceFieldResult DistanceField::build(const Mesh& mesh, const DistanceFieldOp
   const double share = settled_share(*grid, cells, codes[kSettlingCells * kSettlingCells], threads);
   const bool flat = bounds.sizes().minCoeff() < kFlatness * bounds.sizes().maxCoeff();
   if (share < kLeastSettledShare && !flat) {
-    return {nullptr, too_little(share, grid->resolution_m)};
+    return base::Failure{too_little(share, grid->resolution_m)};
   }
-  DistanceFieldResult result;
-  result.field.reset(new DistanceField(*grid, std::move(cells), share));
-  return result;
+  return std::shared_ptr<const DistanceField>(new DistanceField(*grid, std::move(cells), share));
 }
 
 }  // namespace camway::scene

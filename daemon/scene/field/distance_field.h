@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "daemon/base/result.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/field/cell_grid.h"
 #include "daemon/scene/mesh/mesh.h"
@@ -29,8 +29,6 @@ struct DistanceFieldStatistics {
 
   bool operator==(const DistanceFieldStatistics&) const = default;
 };
-
-struct DistanceFieldResult;
 
 /// A lower bound of the clearance of any point by one look-up: a grid of coarse cells over the
 /// scene, each with a bound that holds for all of its points.
@@ -71,7 +69,8 @@ class DistanceField {
   /// no triangles, no grid can hold them, or too few cells are settled (as in a scene with more
   /// surface than the effort allows to mark in cells that are small enough). The result depends on
   /// the mesh and the memory limit alone: effort is counted, not timed.
-  static DistanceFieldResult build(const Mesh& mesh, const DistanceFieldOptions& options = {});
+  static base::Result<std::shared_ptr<const DistanceField>> build(
+      const Mesh& mesh, const DistanceFieldOptions& options = {});
 
   /// Lower bound of the distance from `point_W` to the nearest triangle, rounding included; 0 where
   /// nothing is known: near the scene, and for a point that is not finite. [Units: metres]
@@ -106,12 +105,6 @@ class DistanceField {
   std::array<double, 256> level_m_{};
   std::vector<std::uint8_t> codes_;
   DistanceFieldStatistics statistics_;
-};
-
-/// A field, or the reason why there is none.
-struct DistanceFieldResult {
-  std::shared_ptr<const DistanceField> field;
-  std::string why_off;  ///< empty exactly when `field` is set
 };
 
 }  // namespace camway::scene

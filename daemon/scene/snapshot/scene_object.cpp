@@ -200,9 +200,10 @@ std::shared_ptr<const ObjectSource> make_source(ObjectKind kind, Mesh mesh_O, Im
   source->kind = kind;
   source->report = std::move(report);
   if (options.field) {
-    DistanceFieldResult result = DistanceField::build(mesh_O, *options.field);
-    source->field_O = std::move(result.field);
-    source->why_no_field = std::move(result.why_off);
+    base::Result<std::shared_ptr<const DistanceField>> result =
+        DistanceField::build(mesh_O, *options.field);
+    if (result) source->field_O = *std::move(result);
+    source->why_no_field = std::move(result.error);
   } else {
     source->why_no_field = "it was not asked for";
   }

@@ -9,6 +9,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,14 +33,14 @@ std::string length_fault(const char* name, double value_m) {
   return std::string(name) + ": must be above 0 and at most 1e9 m";
 }
 
-ShapeMesh too_fine(double chord_error_m) {
-  return {std::nullopt, fmt::format("chord_error_m: {:g} m needs more than {} triangles",
-                                    chord_error_m, kMaxShapeTriangles)};
+base::Failure too_fine(double chord_error_m) {
+  return {fmt::format("chord_error_m: {:g} m needs more than {} triangles", chord_error_m,
+                      kMaxShapeTriangles)};
 }
 
-ShapeMesh finished(Mesh mesh) {
+Mesh finished(Mesh mesh) {
   mesh.objects.push_back({"", 0, static_cast<std::uint32_t>(mesh.triangles.size())});
-  return {std::move(mesh), {}};
+  return mesh;
 }
 
 /// The faces of an icosahedron about the origin, each divided into `frequency`² triangles of which
@@ -119,10 +121,10 @@ double inner_radius(std::uint32_t frequency) {
 
 }  // namespace
 
-ShapeMesh box_mesh(const Vec3& size_m) {
+base::Result<Mesh> box_mesh(const Vec3& size_m) {
   for (const double side_m : size_m) {
     if (std::string fault = length_fault("size_m", side_m); !fault.empty()) {
-      return {std::nullopt, std::move(fault)};
+      return base::Failure{std::move(fault)};
     }
   }
   Mesh mesh;
@@ -137,10 +139,10 @@ ShapeMesh box_mesh(const Vec3& size_m) {
   return finished(std::move(mesh));
 }
 
-ShapeMesh sphere_mesh(double radius_m, double chord_error_m) {
+base::Result<Mesh> sphere_mesh(double radius_m, double chord_error_m) {
   for (std::string fault :
        {length_fault("radius_m", radius_m), length_fault("chord_error_m", chord_error_m)}) {
-    if (!fault.empty()) return {std::nullopt, std::move(fault)};
+    if (!fault.empty()) return base::Failure{std::move(fault)};
   }
   // A face is about 1.1/n wide and its corners some 0.25/n² above it; the loop verifies that.
   const double wanted = std::sqrt(0.2 * radius_m / chord_error_m);
@@ -156,10 +158,10 @@ ShapeMesh sphere_mesh(double radius_m, double chord_error_m) {
   }
 }
 
-ShapeMesh cylinder_mesh(double radius_m, double height_m, double chord_error_m) {
+base::Result<Mesh> cylinder_mesh(double radius_m, double height_m, double chord_error_m) {
   for (std::string fault : {length_fault("radius_m", radius_m), length_fault("height_m", height_m),
                             length_fault("chord_error_m", chord_error_m)}) {
-    if (!fault.empty()) return {std::nullopt, std::move(fault)};
+    if (!fault.empty()) return base::Failure{std::move(fault)};
   }
   // The corners of n sides about a circle are r/cos(π/n) from its centre.
   const double half_angle_rad = std::acos(radius_m / (radius_m + chord_error_m));
@@ -202,25 +204,25 @@ std::optional<Voxel> cell_at(const Vec3& point, double cell_m) {
 
 }  // namespace
 
-ShapeMesh cloud_mesh(std::span<const Vec3> points, double cell_m) {
+base::Result<Mesh> cloud_mesh(std::span<const Vec3> points, double cell_m) {
   if (std::string fault = length_fault("cell_m", cell_m); !fault.empty()) {
-    return {std::nullopt, std::move(fault)};
+    return base::Failure{std::move(fault)};
   }
   VoxelSet cells;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::optional<Voxel> cell = cell_at(points[i], cell_m);
     if (!cell) {
-      return {std::nullopt, "points_m[" + std::to_string(i) + "]: is not finite or more than " +
-                                std::to_string(kMaxCloudCells) + " cells from the origin"};
+      return base::Failure{"points_m[" + std::to_string(i) + "]: is not finite or more than " +
+                           std::to_string(kMaxCloudCells) + " cells from the origin"};
     }
     cells.insert(*cell);
   }
   std::optional<Mesh> mesh = faces_of(cells, cell_m, kMaxShapeTriangles);
   if (!mesh) {
-    return {std::nullopt, "cell_m: the points need more than " +
-                              std::to_string(kMaxShapeTriangles) + " triangles"};
+    return base::Failure{"cell_m: the points need more than " + std::to_string(kMaxShapeTriangles) +
+                         " triangles"};
   }
-  return {std::move(mesh), {}};
+  return *std::move(mesh);
 }
 
 }  // namespace camway::scene

@@ -57,17 +57,17 @@ Answered answer_of(const Planner& planner, const scene::Snapshot& snapshot,
                    const base::Deadline& deadline) {
   std::string error;
   try {
-    const messages::ConvertedRequest converted = messages::from_wire(wire, limits);
-    if (!converted.request) {
+    const base::Result<planning::PlanRequest> converted = messages::from_wire(wire, limits);
+    if (!converted) {
       return {messages::plain_answer(plan_response_t::STATUS_INVALID, converted.error,
                                      header_of(wire, &snapshot)),
               nullptr};
     }
-    planning::PlanResult result = planner(snapshot, *converted.request, deadline);
-    planning::name_witnesses(snapshot.mesh, *converted.request, result);
-    append_warnings(snapshot.report, *converted.request, result);
+    planning::PlanResult result = planner(snapshot, *converted, deadline);
+    planning::name_witnesses(snapshot.mesh, *converted, result);
+    append_warnings(snapshot.report, *converted, result);
     return {messages::to_wire(result, header_of(wire, &snapshot)),
-            wire.watch_lease_s > 0.0 ? watchable_path(*converted.request, result) : nullptr};
+            wire.watch_lease_s > 0.0 ? watchable_path(*converted, result) : nullptr};
   } catch (const std::exception& exception) {
     error = exception.what();
   } catch (...) {

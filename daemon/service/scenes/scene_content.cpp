@@ -32,11 +32,11 @@ bool is_extension(std::string_view text) {
 Made<scene::UnknownSpace> unknown_space(const Request& request) {
   switch (request.unknown) {
     case Request::UNKNOWN_FREE:
-      return {scene::UnknownSpace::kFree, {}};
+      return scene::UnknownSpace::kFree;
     case Request::UNKNOWN_OCCUPIED:
-      return {scene::UnknownSpace::kOccupied, {}};
+      return scene::UnknownSpace::kOccupied;
     default:
-      return {std::nullopt, fmt::format("unknown: {} is unknown", request.unknown)};
+      return base::Failure{fmt::format("unknown: {} is unknown", request.unknown)};
   }
 }
 
@@ -45,11 +45,11 @@ Made<scene::ImportOptions> import_options(const Request& request, const SceneRul
   options.map_limits = rules.maps;
   if (request.scale != 0.0) options.scale = request.scale;
   if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
-    return {std::nullopt, "scale: must be a number above 0"};
+    return base::Failure{"scale: must be a number above 0"};
   }
   const Made<scene::UnknownSpace> unknown = unknown_space(request);
-  if (!unknown.value) return {std::nullopt, unknown.error};
-  options.unknown = *unknown.value;
+  if (!unknown) return base::Failure{unknown.error};
+  options.unknown = *unknown;
   switch (request.up) {
     case Request::UP_AS_IN_FILE:
       break;
@@ -60,9 +60,9 @@ Made<scene::ImportOptions> import_options(const Request& request, const SceneRul
       options.up = scene::UpAxis::kYToZ;
       break;
     default:
-      return {std::nullopt, fmt::format("up: {} is unknown", request.up)};
+      return base::Failure{fmt::format("up: {} is unknown", request.up)};
   }
-  return {options, {}};
+  return options;
 }
 
 Made<Content> imported(const std::filesystem::path& file, const std::string& shown,
@@ -70,20 +70,20 @@ Made<Content> imported(const std::filesystem::path& file, const std::string& sho
   scene::ImportResult result = scene::import_mesh(file, options, stop);
   if (result.mesh) {
     const scene::ObjectKind kind = result.map ? scene::ObjectKind::kMap : scene::ObjectKind::kMesh;
-    return {Content{kind, std::move(*result.mesh), std::move(result.report), result.map}, {}};
+    return Content{kind, std::move(*result.mesh), std::move(result.report), result.map};
   }
   // The path on the daemon's disk is replaced by the name in the request: clients must not see it.
   std::string error = std::move(result.error);
   if (const std::size_t at = error.find(file.string()); at != std::string::npos) {
     error.replace(at, file.string().size(), shown);
   }
-  return {std::nullopt, std::move(error), result.limit};
+  return {base::Failure{std::move(error)}, result.limit};
 }
 
-Made<Content> of_shape(scene::ShapeMesh shape, scene::ObjectKind kind) {
-  if (!shape.mesh) return {std::nullopt, std::move(shape.error)};
-  scene::ImportReport report = scene::report_of(*shape.mesh, scene::to_string(kind));
-  return {Content{kind, std::move(*shape.mesh), std::move(report)}, {}};
+Made<Content> of_shape(base::Result<scene::Mesh> shape, scene::ObjectKind kind) {
+  if (!shape) return base::Failure{std::move(shape.error)};
+  scene::ImportReport report = scene::report_of(*shape, scene::to_string(kind));
+  return Content{kind, std::move(*shape), std::move(report)};
 }
 
 Made<scene::SensorModel> sensor_of(const Request& request) {
@@ -97,18 +97,18 @@ Made<scene::SensorModel> sensor_of(const Request& request) {
   take(request.most_probability, sensor.most_probability);
   take(request.max_range_m, sensor.max_range_m);
   std::string fault = scene::fault_in(sensor);
-  if (!fault.empty()) return {std::nullopt, std::move(fault)};
-  return {sensor, {}};
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  return sensor;
 }
 
 Made<Content> empty_map(const Request& request, const SceneRules& rules) {
   const Made<scene::UnknownSpace> unknown = unknown_space(request);
-  if (!unknown.value) return {std::nullopt, unknown.error};
+  if (!unknown) return base::Failure{unknown.error};
   const Made<scene::SensorModel> sensor = sensor_of(request);
-  if (!sensor.value) return {std::nullopt, sensor.error};
+  if (!sensor) return base::Failure{sensor.error};
   scene::VoxelMapResult built =
-      scene::VoxelMap::build(request.cell_m, {}, {}, *unknown.value, rules.maps, *sensor.value);
-  if (!built.map) return {std::nullopt, "cell_m: the map " + built.error, built.limit};
+      scene::VoxelMap::build(request.cell_m, {}, {}, *unknown, rules.maps, *sensor);
+  if (!built.map) return {base::Failure{"cell_m: the map " + built.error}, built.limit};
   return of_map(std::move(built.map));
 }
 
@@ -128,35 +128,33 @@ Vec3 vec3(const double (&values)[3]) { return {values[0], values[1], values[2]};
 Made<Content> read_mesh(const Request& request, const UploadedBytes& upload,
                         const SceneContext& context) {
   const Made<scene::ImportOptions> options = import_options(request, context.rules);
-  if (!options.value) return {std::nullopt, options.error};
+  if (!options) return base::Failure{options.error};
   if (request.upload_bytes == 0) {
-    const RootedFile rooted = context.rules.roots.resolve(request.file);
-    if (!rooted.error.empty()) return {std::nullopt, rooted.error};
-    return imported(rooted.file, wire::printable(request.file), *options.value,
-                    context.ticket.stop());
+    const base::Result<std::filesystem::path> rooted = context.rules.roots.resolve(request.file);
+    if (!rooted) return base::Failure{rooted.error};
+    return imported(*rooted, wire::printable(request.file), *options, context.ticket.stop());
   }
-  if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
+  if (!upload) return base::Failure{"upload: is not complete, or was forgotten; send it again"};
   if (!is_extension(request.upload_format)) {
-    return {std::nullopt, "upload_format: must be a file name extension of [a-z0-9]{1,8}"};
+    return base::Failure{"upload_format: must be a file name extension of [a-z0-9]{1,8}"};
   }
   const UploadFile file(*upload, request.upload_format);
-  if (!file.is_good()) return {std::nullopt, "upload: the daemon has no room for the file"};
-  return imported(file.path(), "upload." + request.upload_format, *options.value,
-                  context.ticket.stop());
+  if (!file.is_good()) return base::Failure{"upload: the daemon has no room for the file"};
+  return imported(file.path(), "upload." + request.upload_format, *options, context.ticket.stop());
 }
 
 Made<std::vector<Vec3>> read_points(const UploadedBytes& upload) {
   static_assert(std::endian::native == std::endian::little, "as uploads are");
   constexpr std::size_t kPointBytes = 3 * sizeof(double);
-  if (!upload) return {std::nullopt, "upload: is not complete, or was forgotten; send it again"};
+  if (!upload) return base::Failure{"upload: is not complete, or was forgotten; send it again"};
   if (upload->size() % kPointBytes != 0) {
-    return {std::nullopt, "upload: its size is no multiple of 24, the bytes of a point"};
+    return base::Failure{"upload: its size is no multiple of 24, the bytes of a point"};
   }
   std::vector<Vec3> points(upload->size() / kPointBytes);
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::memcpy(points[i].data(), upload->data() + i * kPointBytes, kPointBytes);
   }
-  return {std::move(points), {}};
+  return points;
 }
 
 std::optional<scene::ObjectKind> kind_of(const Request& request) {
@@ -180,12 +178,12 @@ std::optional<scene::ObjectKind> kind_of(const Request& request) {
 
 Made<Content> of_map(std::shared_ptr<const scene::VoxelMap> map) {
   if (!map->faces()) {
-    return {std::nullopt,
-            fmt::format("the map has more than {} triangles", map->limits().triangles),
-            scene::Limit::kMapTriangles};
+    return {
+        base::Failure{fmt::format("the map has more than {} triangles", map->limits().triangles)},
+        scene::Limit::kMapTriangles};
   }
   scene::ImportReport report = scene::report_of(*map, "OctoMap");
-  return {Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map)}, {}};
+  return Content{scene::ObjectKind::kMap, {}, std::move(report), std::move(map)};
 }
 
 Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const UploadedBytes& upload,
@@ -207,22 +205,22 @@ Made<Content> make_mesh(const Request& request, scene::ObjectKind kind, const Up
       return empty_map(request, context.rules);
     case scene::ObjectKind::kPointCloud: {
       const Made<std::vector<Vec3>> points = read_points(upload);
-      if (!points.value) return {std::nullopt, points.error};
-      return of_shape(scene::cloud_mesh(*points.value, request.cell_m), kind);
+      if (!points) return base::Failure{points.error};
+      return of_shape(scene::cloud_mesh(*points, request.cell_m), kind);
     }
   }
-  return {std::nullopt, "kind: is unknown"};
+  return base::Failure{"kind: is unknown"};
 }
 
 Made<scene::Placement> placement_of(const Request& request) {
   geometry::Quat orientation(request.orientation_wxyz[0], request.orientation_wxyz[1],
                              request.orientation_wxyz[2], request.orientation_wxyz[3]);
   if (orientation.coeffs().isZero(0.0)) orientation = geometry::Quat::Identity();
-  Made<scene::Placement> made;
+  std::string fault;
   const scene::Placement placement =
-      scene::Placement::make(vec3(request.position_m), orientation, made.error);
-  if (made.error.empty()) made.value = placement;
-  return made;
+      scene::Placement::make(vec3(request.position_m), orientation, fault);
+  if (!fault.empty()) return base::Failure{std::move(fault)};
+  return placement;
 }
 
 }  // namespace camway::service

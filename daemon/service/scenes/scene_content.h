@@ -3,11 +3,12 @@
 
 #include <memory>
 #include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include <camway/scene_request_t.hpp>
 
+#include "daemon/base/result.h"
 #include "daemon/geometry/types.h"
 #include "daemon/scene/import/record/import_report.h"
 #include "daemon/scene/mesh/placement.h"
@@ -21,10 +22,12 @@ namespace camway::service {
 
 /// A value, or an error that begins with the name of the request's member.
 template <class Value>
-struct Made {
-  std::optional<Value> value;
-  std::string error;
+struct Made : base::Result<Value> {
   scene::Limit limit = scene::Limit::kNone;  ///< limit that the error is about
+
+  using base::Result<Value>::Result;
+  Made(base::Failure failure, scene::Limit about)
+      : base::Result<Value>(std::move(failure)), limit(about) {}
 };
 
 /// The content of an object that is to be made.

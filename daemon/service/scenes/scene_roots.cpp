@@ -74,24 +74,23 @@ std::string write_in(const FileDescriptor& folder, const std::string& name,
 
 }  // namespace
 
-SceneRoots SceneRoots::make(const std::vector<fs::path>& folders, std::string& error) {
+base::Result<SceneRoots> SceneRoots::make(const std::vector<fs::path>& folders) {
   SceneRoots roots;
   for (const fs::path& folder : folders) {
     std::error_code failed;
     fs::path canonical = fs::canonical(folder, failed);
     if (failed || !fs::is_directory(canonical, failed)) {
-      error = "scene root '" + folder.string() + "' is not a folder that can be read";
-      return {};
+      return base::Failure{"scene root '" + folder.string() + "' is not a folder that can be read"};
     }
     roots.folders_.push_back(std::move(canonical));
   }
   return roots;
 }
 
-RootedFile SceneRoots::resolve(std::string_view asked) const {
+base::Result<fs::path> SceneRoots::resolve(std::string_view asked) const {
   const std::string shown = wire::printable(std::string(asked));
   const auto refuse = [&](const std::string& reason) {
-    return RootedFile{{}, "file: '" + shown + "' " + reason};
+    return base::Failure{"file: '" + shown + "' " + reason};
   };
   if (folders_.empty()) return refuse("cannot be read: the daemon has no scene roots");
   const fs::path wanted(asked);
@@ -108,7 +107,7 @@ RootedFile SceneRoots::resolve(std::string_view asked) const {
       leads_out = true;
       continue;
     }
-    if (fs::is_regular_file(file, failed)) return {std::move(file), {}};
+    if (fs::is_regular_file(file, failed)) return file;
   }
   return refuse(leads_out ? "leads out of the scene roots" : "is no file below a scene root");
 }

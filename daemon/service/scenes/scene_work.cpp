@@ -168,10 +168,10 @@ class SceneOperation {
           "");
     }
     Made<Content> made = read_mesh(request_, upload_, context_);
-    if (!made.value) return refused(made.error, made.limit);
-    const std::string warnings = warnings_of(made.value->report);
+    if (!made) return refused(made.error, made.limit);
+    const std::string warnings = warnings_of(made->report);
     scene::ObjectResult placed =
-        scene::place_object(request_.scene, source_of(*std::move(made.value), options), {}, options,
+        scene::place_object(request_.scene, source_of(*std::move(made), options), {}, options,
                             nullptr, context_.ticket.stop());
     if (!placed.object) return refused(placed.error, placed.limit);
     return answer_to(
@@ -245,18 +245,18 @@ class SceneOperation {
     const std::optional<scene::ObjectKind> kind = kind_of(request_);
     if (!kind) return invalid(fmt::format("kind: {} is unknown", request_.kind));
     const Made<scene::Placement> placement = placement_of(request_);
-    if (!placement.value) return invalid(placement.error);
+    if (!placement) return invalid(placement.error);
     Made<Content> made = make_mesh(request_, *kind, upload_, context_);
-    if (!made.value) return refused(made.error, made.limit);
-    const std::string warnings = warnings_of(made.value->report);
-    const auto source = source_of(*std::move(made.value), snapshot->options);
-    return change({SceneChange::Kind::kPut, request_.object, source, *placement.value}, warnings);
+    if (!made) return refused(made.error, made.limit);
+    const std::string warnings = warnings_of(made->report);
+    const auto source = source_of(*std::move(made), snapshot->options);
+    return change({SceneChange::Kind::kPut, request_.object, source, *placement}, warnings);
   }
 
   Answer move() {
     const Made<scene::Placement> placement = placement_of(request_);
-    if (!placement.value) return invalid(placement.error);
-    return change({SceneChange::Kind::kMove, request_.object, nullptr, *placement.value}, "");
+    if (!placement) return invalid(placement.error);
+    return change({SceneChange::Kind::kMove, request_.object, nullptr, *placement}, "");
   }
 
   Answer scan() {
@@ -268,16 +268,16 @@ class SceneOperation {
                                  request_.scene));
     }
     Made<std::vector<Vec3>> points = read_points(upload_);
-    if (!points.value) return invalid(points.error);
+    if (!points) return invalid(points.error);
     const scene::Placement placement = object->placement;
-    for (Vec3& point : *points.value) point = placement.to_object(point);
-    const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points.value};
+    for (Vec3& point : *points) point = placement.to_object(point);
+    const scene::Scan seen{placement.to_object(vec3(request_.position_m)), *points};
     scene::VoxelMapResult next = scene::scanned(*object->source->map_O, seen, rules_.scan_voxels);
     if (!next.map) return refused(next.error, next.limit);
     Made<Content> made = of_map(std::move(next.map));
-    if (!made.value) return refused(made.error, made.limit);
+    if (!made) return refused(made.error, made.limit);
     return change({SceneChange::Kind::kPut, request_.object,
-                   source_of(*std::move(made.value), snapshot->options), placement},
+                   source_of(*std::move(made), snapshot->options), placement},
                   "");
   }
 

@@ -103,14 +103,14 @@ class LcmTransport final : public Transport {
 
 }  // namespace
 
-OpenedTransport open_lcm_transport(const std::string& url,
-                                   const std::function<void(const std::string&)>& warn) {
+base::Result<std::unique_ptr<Transport>> open_lcm_transport(
+    const std::string& url, const std::function<void(const std::string&)>& warn) {
   wire::OpenedLcm opened = wire::open_lcm(url);
-  if (!opened.lcm) return {nullptr, "LCM cannot open '" + url + "'. " + multicast_hint()};
+  if (!opened.lcm) return base::Failure{"LCM cannot open '" + url + "'. " + multicast_hint()};
   if (!opened.unguarded.empty() && warn) warn(opened.unguarded);
   auto transport = std::make_unique<LcmTransport>(std::move(opened.lcm));
-  if (!transport->good()) return {nullptr, "this process has no file descriptors left"};
-  return {std::move(transport), {}};
+  if (!transport->good()) return base::Failure{"this process has no file descriptors left"};
+  return std::unique_ptr<Transport>(std::move(transport));
 }
 
 std::string multicast_hint() {

@@ -239,8 +239,7 @@ TEST(Ladder, KeepsTheRequiredClearance) {
 
 TEST(Ladder, CorrectsBodiesThatAreNoCameras) {
   Case c = column();
-  std::string error;
-  c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)}, error);
+  c.body = *motion::Body::make(motion::BoxShape{Vec3::Zero(), Vec3(0.3, 0.2, 0.1)});
   expect_corrected(c, {CorrectionKind::kMove, CorrectionKind::kTurn, CorrectionKind::kGoRound});
 }
 

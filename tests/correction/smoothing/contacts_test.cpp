@@ -33,10 +33,7 @@ constexpr double kSize_m = 0.6;
 constexpr double kSecond_per_m = kSize_m * kTurn_per_m * kTurn_per_m;
 constexpr double kThird_per_m2 = kSecond_per_m * kTurn_per_m;
 
-motion::Body made(const motion::BodyShape& shape) {
-  std::string error;
-  return motion::Body::make(shape, error).value();
-}
+motion::Body made(const motion::BodyShape& shape) { return *motion::Body::make(shape); }
 
 /// Scattered triangles, and a pose of the body that is free of them.
 struct Case {

@@ -22,9 +22,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr Camera kCamera{1.5, 1.0, 0.2};
 
 Body made(const BodyShape& shape) {
-  std::string error;
-  std::optional<Body> body = Body::make(shape, error);
-  EXPECT_TRUE(body) << error;
+  const base::Result<Body> body = Body::make(shape);
+  EXPECT_TRUE(body) << body.error;
   return body ? *body : Body(kCamera);
 }
 
@@ -258,9 +257,7 @@ TEST(Body, RefusesShapesAndNamesTheFieldAtFault) {
       {"the camera has no near quadrilateral", Camera{3.1415926, 1.0, 1e9}},
   };
   for (const auto& [expected, shape] : cases) {
-    std::string error;
-    EXPECT_FALSE(Body::make(shape, error)) << expected;
-    EXPECT_THAT(error, ::testing::StartsWith(expected));
+    EXPECT_THAT(Body::make(shape).error, ::testing::StartsWith(expected));
   }
   EXPECT_FALSE(fault_in(box) || fault_in(two) || fault_in(mesh) || fault_in(kCamera));
   const ConvexShape rod{{{Vec3::Zero(), Vec3::UnitX()}}};

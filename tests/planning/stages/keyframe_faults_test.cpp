@@ -15,9 +15,8 @@ constexpr double kRadius_m = 0.1;
 
 std::vector<KeyframeFault> faults_of(const scene::Mesh& mesh, const std::vector<Vec3>& positions,
                                      const base::Deadline& deadline) {
-  std::string error;
   const auto snapshot = scene::make_snapshot("test", mesh).snapshot;
-  const auto body = motion::Body::make(motion::SphereShape{Vec3::Zero(), kRadius_m}, error);
+  const auto body = motion::Body::make(motion::SphereShape{Vec3::Zero(), kRadius_m});
   std::vector<motion::Keyframe> keyframes;
   for (const Vec3& position : positions) {
     keyframes.push_back({double(keyframes.size()), {position, Quat::Identity()}});

@@ -105,8 +105,7 @@ TEST(Limits, SlowThePathWhereItIsTooFastAndKeepItsProof) {
     EXPECT_NEAR(slower.path.end_s() - 6.0, lost_s, 1e-12);
     motion::test::expect_smooth(slower.path, 8.0);
     // The path is proved again by code that does not know how it was made.
-    std::string fault;
-    const auto body = motion::Body::make(request.camera, fault);
+    const auto body = motion::Body::make(request.camera);
     const PathCheck check = check_path({collision::Obstacles(*snapshot), *body}, slower.path,
                                        base::Deadline::never(), base::Deadline::never());
     EXPECT_TRUE(check.certificate.certified);
@@ -193,8 +192,7 @@ TEST(Limits, StretchAllTimesOfAPathThatCollides) {
 TEST(Limits, WithoutTimeForAnotherCurveAllTimesAreStretched) {
   const PlanRequest request = limited(bulging_tour(), 0.7);
   const auto snapshot = column_scene();
-  std::string fault;
-  const auto body = motion::Body::make(request.camera, fault);
+  const auto body = motion::Body::make(request.camera);
   const motion::CubicPath path = motion::interpolate_cubic(request.keyframes);
   const collision::Query query{collision::Obstacles(*snapshot), *body};
   const motion::TimeOrigin origin;

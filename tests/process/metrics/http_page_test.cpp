@@ -25,14 +25,15 @@ HttpContent hello() {
   return {"/page", "text/plain; charset=x", [] { return "hello\n"; }};
 }
 
-OpenedHttpPage open_page(const HttpAddress& address = {}, const HttpLimits& limits = {}) {
+base::Result<std::unique_ptr<HttpPage>> open_page(const HttpAddress& address = {},
+                                                  const HttpLimits& limits = {}) {
   return open_http_page(address, hello(), limits);
 }
 
 TEST(HttpPage, AnswersItsPathAndNothingElse) {
-  const OpenedHttpPage opened = open_page();
-  ASSERT_TRUE(opened.page) << opened.error;
-  const int port = opened.page->port();
+  const auto opened = open_page();
+  ASSERT_TRUE(opened) << opened.error;
+  const int port = (*opened)->port();
   const std::string answer = http_request(port, "GET", "/page");
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 "));
   EXPECT_THAT(answer, HasSubstr("Content-Type: text/plain; charset=x\r\n"));
@@ -44,11 +45,11 @@ TEST(HttpPage, AnswersItsPathAndNothingElse) {
 }
 
 TEST(HttpPage, ATakenPortIsAnErrorThatSaysSo) {
-  const OpenedHttpPage first = open_page();
-  ASSERT_TRUE(first.page) << first.error;
-  const int port = first.page->port();
-  const OpenedHttpPage second = open_page({"127.0.0.1", port});
-  EXPECT_FALSE(second.page);
+  const auto first = open_page();
+  ASSERT_TRUE(first) << first.error;
+  const int port = (*first)->port();
+  const auto second = open_page({"127.0.0.1", port});
+  EXPECT_FALSE(second);
   EXPECT_EQ(second.error,
             "cannot listen on 127.0.0.1 port " + std::to_string(port) + ": Address already in use");
 }
@@ -59,9 +60,9 @@ TEST(HttpPage, AnAddressThatIsNoneOrNotOurs) {
 }
 
 TEST(HttpPage, SlowOnesAndManyHoldUpNobody) {
-  const OpenedHttpPage opened = open_page();
-  ASSERT_TRUE(opened.page) << opened.error;
-  const int port = opened.page->port();
+  const auto opened = open_page();
+  ASSERT_TRUE(opened) << opened.error;
+  const int port = (*opened)->port();
   std::list<LocalConnection> slow;
   for (int i = 0; i < 8; ++i) {
     slow.emplace_back(port);
@@ -82,11 +83,11 @@ TEST(HttpPage, SlowOnesAndManyHoldUpNobody) {
 }
 
 TEST(HttpPage, ASilentConnectionIsClosed) {
-  const OpenedHttpPage opened = open_page({}, {.idle_s = 1});
-  ASSERT_TRUE(opened.page) << opened.error;
-  const LocalConnection silent(opened.page->port());
+  const auto opened = open_page({}, {.idle_s = 1});
+  ASSERT_TRUE(opened) << opened.error;
+  const LocalConnection silent((*opened)->port());
   ASSERT_TRUE(silent.good());
-  const LocalConnection slow(opened.page->port());
+  const LocalConnection slow((*opened)->port());
   ASSERT_TRUE(slow.send("GET /page HT"));
   EXPECT_TRUE(silent.ends()) << "and this test did not give up first";
   EXPECT_TRUE(slow.ends());
@@ -97,9 +98,9 @@ TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
   std::atomic<int> full = 0;
   HttpContent content = hello();
   content.full = [&full] { ++full; };
-  const OpenedHttpPage opened = open_http_page({}, content, {.connections = 3, .idle_s = 600});
-  ASSERT_TRUE(opened.page) << opened.error;
-  const int port = opened.page->port();
+  const auto opened = open_http_page({}, content, {.connections = 3, .idle_s = 600});
+  ASSERT_TRUE(opened) << opened.error;
+  const int port = (*opened)->port();
   std::list<LocalConnection> silent;
   for (int i = 0; i < 3; ++i) silent.emplace_back(port);
   std::list<LocalConnection> others;
@@ -117,11 +118,11 @@ TEST(HttpPage, NoMoreThanSoManyAreServedAtATime) {
 
 /// The only event that can make it serve a waiting connection is the end of another.
 TEST(HttpPage, TheOnlyPlaceIsGivenOn) {
-  const OpenedHttpPage opened = open_page({}, {.connections = 1, .idle_s = 600});
-  ASSERT_TRUE(opened.page) << opened.error;
+  const auto opened = open_page({}, {.connections = 1, .idle_s = 600});
+  ASSERT_TRUE(opened) << opened.error;
   std::list<LocalConnection> silent;
-  silent.emplace_back(opened.page->port());
-  const LocalConnection next(opened.page->port());
+  silent.emplace_back((*opened)->port());
+  const LocalConnection next((*opened)->port());
   ASSERT_TRUE(next.send("GET /page HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"));
   EXPECT_FALSE(next.has_something(0.3));
   silent.clear();
@@ -136,9 +137,9 @@ std::vector<std::string> rubbish() {
 }
 
 TEST(HttpPage, RubbishDoesNotEndIt) {
-  const OpenedHttpPage opened = open_page();
-  ASSERT_TRUE(opened.page) << opened.error;
-  const int port = opened.page->port();
+  const auto opened = open_page();
+  ASSERT_TRUE(opened) << opened.error;
+  const int port = (*opened)->port();
   for (const std::string& sent : rubbish()) LocalConnection(port).send(sent);
   EXPECT_EQ(body_of(http_request(port, "GET", "/page")), "hello\n");
 }
@@ -146,10 +147,10 @@ TEST(HttpPage, RubbishDoesNotEndIt) {
 /// On the library's own thread this ended the process in about one of fifty stops.
 TEST(HttpPage, RubbishWhileItStopsDoesNoHarm) {
   for (int i = 0; i < 300; ++i) {
-    OpenedHttpPage opened = open_page();
-    ASSERT_TRUE(opened.page) << opened.error;
+    auto opened = open_page();
+    ASSERT_TRUE(opened) << opened.error;
     std::list<LocalConnection> connections;
-    for (int k = 0; k < 12; ++k) connections.emplace_back(opened.page->port());
+    for (int k = 0; k < 12; ++k) connections.emplace_back((*opened)->port());
     std::atomic<int> sent = 0;
     const std::jthread sender([&] {
       for (const LocalConnection& connection : connections) {
@@ -158,16 +159,16 @@ TEST(HttpPage, RubbishWhileItStopsDoesNoHarm) {
       }
     });
     while (sent < 1 + i % 12) std::this_thread::yield();
-    opened.page.reset();
+    opened->reset();
   }
 }
 
 /// Without connections the page waits and does not poll.
 TEST(HttpPage, CostsNothingWhenNobodyAsks) {
-  const OpenedHttpPage opened = open_page({}, {.idle_s = 600});
-  ASSERT_TRUE(opened.page) << opened.error;
-  const LocalConnection silent(opened.page->port());
-  EXPECT_EQ(body_of(http_request(opened.page->port(), "GET", "/page")), "hello\n");
+  const auto opened = open_page({}, {.idle_s = 600});
+  ASSERT_TRUE(opened) << opened.error;
+  const LocalConnection silent((*opened)->port());
+  EXPECT_EQ(body_of(http_request((*opened)->port(), "GET", "/page")), "hello\n");
   const std::clock_t before = std::clock();
   EXPECT_FALSE(silent.has_something(0.5));
   EXPECT_LT(std::clock() - before, CLOCKS_PER_SEC / 4) << "of the processor in half a second";

@@ -16,13 +16,13 @@ using geometry::Bounds;
 using ::testing::HasSubstr;
 
 TEST(BoundsText, LeavesOutWhatIsNoLimit) {
-  const Bounds bounds = parse_bounds("-3..3/0..2.6/..").bounds.value();
+  const Bounds bounds = *parse_bounds("-3..3/0..2.6/..");
   EXPECT_EQ(bounds.min_W.head<2>(), Eigen::Vector2d(-3, 0));
   EXPECT_EQ(bounds.max_W.head<2>(), Eigen::Vector2d(3, 2.6));
   EXPECT_EQ(bounds.min_W.z(), Bounds().min_W.z());
   EXPECT_EQ(bounds.max_W.z(), Bounds().max_W.z());
   EXPECT_EQ(bounds_text(bounds), "-3..3/0..2.6/..");
-  EXPECT_EQ(parse_bounds("../../..").bounds, Bounds());
+  EXPECT_EQ(*parse_bounds("../../.."), Bounds());
   EXPECT_EQ(bounds_text({}), "../../..");
 }
 
@@ -37,8 +37,8 @@ TEST(BoundsText, FaultsQuoteWhatIsWrong) {
            {"../../..inf", "'..inf' must be two numbers"},
            {"../2..1/..", "min[1] is not below max[1]"},
            {"..2e9/../..", "max[0] is more than 1e9 m"}}) {
-    const ParsedBounds parsed = parse_bounds(text);
-    EXPECT_FALSE(parsed.bounds) << text;
+    const base::Result<Bounds> parsed = parse_bounds(text);
+    EXPECT_FALSE(parsed) << text;
     EXPECT_THAT(parsed.error, HasSubstr(expected));
   }
 }
@@ -54,7 +54,7 @@ TEST(BoundsText, AndTheWireKeepEveryNumber) {
       if (random() % 2 == 0) bounds.min_W[axis] = number(random) - 20.0;
       if (random() % 2 == 0) bounds.max_W[axis] = number(random);
     }
-    EXPECT_EQ(parse_bounds(bounds_text(bounds)).bounds, bounds) << bounds_text(bounds);
+    EXPECT_EQ(*parse_bounds(bounds_text(bounds)), bounds) << bounds_text(bounds);
     EXPECT_EQ(messages::bounds_of(messages::wire_bounds(bounds)), bounds) << bounds_text(bounds);
   }
   EXPECT_FALSE(messages::bounds_of(bounds_t{}).any());

@@ -7,9 +7,9 @@ namespace camway::process {
 namespace {
 
 SceneArgument parsed(std::string_view text) {
-  ParsedSceneArgument result = parse_scene_argument(text);
-  EXPECT_TRUE(result.scene) << result.error;
-  return result.scene.value_or(SceneArgument{});
+  base::Result<SceneArgument> result = parse_scene_argument(text);
+  EXPECT_TRUE(result) << result.error;
+  return result.value.value_or(SceneArgument{});
 }
 
 TEST(SceneArgument, NameAndFile) {
@@ -65,8 +65,8 @@ TEST(SceneArgument, ErrorsQuoteTheTextAndSayWhatIsWrong) {
       {"a=b,ocupancy=0.1", "'ocupancy' is no option"},
   };
   for (const auto& [text, reason] : table) {
-    const ParsedSceneArgument result = parse_scene_argument(text);
-    EXPECT_FALSE(result.scene) << text;
+    const base::Result<SceneArgument> result = parse_scene_argument(text);
+    EXPECT_FALSE(result) << text;
     EXPECT_NE(result.error.find("scene '" + text + "': "), std::string::npos) << result.error;
     EXPECT_NE(result.error.find(reason), std::string::npos) << result.error;
   }

@@ -80,10 +80,10 @@ double checked_mean_loss(testing::Random& random, const Mesh& mesh, const Distan
 }
 
 void expect_never_more(testing::Random& random, const Mesh& mesh, int points) {
-  const DistanceFieldResult result = DistanceField::build(mesh);
-  ASSERT_TRUE(result.field) << result.why_off;
-  EXPECT_EQ(result.why_off, "");
-  checked_mean_loss(random, mesh, *result.field, points);
+  const auto result = DistanceField::build(mesh);
+  ASSERT_TRUE(result) << result.error;
+  EXPECT_EQ(result.error, "");
+  checked_mean_loss(random, mesh, **result, points);
 }
 
 /// Returns triangles of sizes from a thousandth of the scene to the whole scene.
@@ -153,18 +153,18 @@ TEST(DistanceField, IsNeverMoreThanTheDistanceBetweenWalls) {
 TEST(DistanceField, IsNeverMoreThanTheDistanceToWallsBetweenCells) {
   testing::Random random(4);
   const Mesh outside = room(1.0, 0.0, Vec3::Zero());
-  const DistanceFieldResult first = DistanceField::build(outside);
-  ASSERT_TRUE(first.field);
-  const auto grid = CellGrid::around(outside.bounds(), first.field->statistics().resolution_m);
+  const auto first = DistanceField::build(outside);
+  ASSERT_TRUE(first);
+  const auto grid = CellGrid::around(outside.bounds(), (*first)->statistics().resolution_m);
   for (int trial = 0; trial < 20; ++trial) {
     Mesh mesh = outside;
     const Vec3 low = snapped_to_faces(random, *grid, Vec3(1.0, 1.0, 0.5));
     const Vec3 high = snapped_to_faces(random, *grid, Vec3(2.0, 2.0, 0.5));
     testing::add_cuboid(mesh, low, high);
-    const DistanceFieldResult result = DistanceField::build(mesh);
-    ASSERT_TRUE(result.field);
-    ASSERT_EQ(result.field->statistics().cells[0], first.field->statistics().cells[0]);
-    checked_mean_loss(random, mesh, *result.field, 1000);
+    const auto result = DistanceField::build(mesh);
+    ASSERT_TRUE(result);
+    ASSERT_EQ((*result)->statistics().cells[0], (*first)->statistics().cells[0]);
+    checked_mean_loss(random, mesh, **result, 1000);
   }
 }
 
@@ -184,26 +184,26 @@ TEST(DistanceField, LosesLessThanACellAndAHalf) {
   testing::Random random(6);
   Mesh mesh = room(1.0, 0.05, Vec3::Zero());
   testing::add_cuboid(mesh, {1.0, 1.0, 0.0}, {2.0, 1.6, 0.7});
-  const DistanceFieldResult result = DistanceField::build(mesh);
-  ASSERT_TRUE(result.field);
-  const double loss = checked_mean_loss(random, mesh, *result.field, 10000);
-  std::cout << "mean loss " << loss << " cells of " << result.field->statistics().resolution_m
+  const auto result = DistanceField::build(mesh);
+  ASSERT_TRUE(result);
+  const double loss = checked_mean_loss(random, mesh, **result, 10000);
+  std::cout << "mean loss " << loss << " cells of " << (*result)->statistics().resolution_m
             << " m\n";
   EXPECT_LT(loss, 1.5);
 }
 
 TEST(DistanceField, KnowsHowFarAPointOutsideIs) {
   const Mesh mesh = room(1.0, 0.1, Vec3::Zero());
-  const DistanceFieldResult result = DistanceField::build(mesh);
-  ASSERT_TRUE(result.field);
-  const double resolution_m = result.field->statistics().resolution_m;
+  const auto result = DistanceField::build(mesh);
+  ASSERT_TRUE(result);
+  const double resolution_m = (*result)->statistics().resolution_m;
   for (const double away_m : {1.0, 1e3, 1e9, 1e90, 1e150, 1e300}) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (const double side : {-1.0, 1.0}) {
         Vec3 point(2.0, 1.5, 1.0);
         point[axis] = side * away_m + (side > 0.0 ? mesh.bounds().max()[axis] : 0.0);
         const oracle::Real distance_m = true_distance_m(mesh, point);
-        const double bound_m = result.field->clearance_at_least_m(point);
+        const double bound_m = (*result)->clearance_at_least_m(point);
         EXPECT_LE(static_cast<oracle::Real>(bound_m), distance_m);
         // From about 1e90 on a nearer point replaces it.
         EXPECT_GE(bound_m, std::min(away_m * (1.0 - 1e-12), 1e90) - resolution_m);
@@ -213,14 +213,14 @@ TEST(DistanceField, KnowsHowFarAPointOutsideIs) {
 }
 
 TEST(DistanceField, KnowsNothingOfPointsThatAreNotFinite) {
-  const DistanceFieldResult result = DistanceField::build(room(1.0, 0.1, Vec3::Zero()));
-  ASSERT_TRUE(result.field);
+  const auto result = DistanceField::build(room(1.0, 0.1, Vec3::Zero()));
+  ASSERT_TRUE(result);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (const double other_m : {1.0, -100.0}) {
         Vec3 point = Vec3::Constant(other_m);
         point[axis] = bad;
-        EXPECT_EQ(result.field->clearance_at_least_m(point), 0.0);
+        EXPECT_EQ((*result)->clearance_at_least_m(point), 0.0);
       }
     }
   }
@@ -233,9 +233,9 @@ TEST(DistanceField, StaysWithinTheMemoryAllowed) {
   for (const std::size_t limit : {3000U, 10'000U, 50'000U}) {
     DistanceFieldOptions options;
     options.memory_limit_bytes = limit;
-    const DistanceFieldResult result = DistanceField::build(mesh, options);
-    if (!result.field) continue;
-    const DistanceFieldStatistics& statistics = result.field->statistics();
+    const auto result = DistanceField::build(mesh, options);
+    if (!result) continue;
+    const DistanceFieldStatistics& statistics = (*result)->statistics();
     EXPECT_LE(statistics.memory_bytes, limit);
     EXPECT_GT(2 * statistics.memory_bytes, limit) << "it uses what it may";
     EXPECT_LT(statistics.resolution_m, coarser_m);
@@ -249,29 +249,29 @@ TEST(DistanceField, IsTheSameForAnyNumberOfThreads) {
   const Mesh mesh = soup(random, 3000, 10.0, Vec3::Zero());
   DistanceFieldOptions options;
   options.threads = 1;
-  const DistanceFieldResult one = DistanceField::build(mesh, options);
-  ASSERT_TRUE(one.field) << one.why_off;
+  const auto one = DistanceField::build(mesh, options);
+  ASSERT_TRUE(one) << one.error;
   for (const unsigned threads : {2U, 7U}) {
     options.threads = threads;
-    const DistanceFieldResult many = DistanceField::build(mesh, options);
-    ASSERT_TRUE(many.field);
-    EXPECT_EQ(many.field->statistics(), one.field->statistics());
+    const auto many = DistanceField::build(mesh, options);
+    ASSERT_TRUE(many);
+    EXPECT_EQ((*many)->statistics(), (*one)->statistics());
     for (int i = 0; i < 20000; ++i) {
       const Vec3 point = point_about(random, mesh.bounds());
-      ASSERT_EQ(many.field->clearance_at_least_m(point), one.field->clearance_at_least_m(point));
+      ASSERT_EQ((*many)->clearance_at_least_m(point), (*one)->clearance_at_least_m(point));
     }
   }
 }
 
 TEST(DistanceField, IsOffWhereThereIsNothingToKnow) {
-  EXPECT_THAT(DistanceField::build(Mesh()).why_off, HasSubstr("no triangles"));
+  EXPECT_THAT(DistanceField::build(Mesh()).error, HasSubstr("no triangles"));
   const Vec3 p(1, 2, 3);
-  EXPECT_THAT(DistanceField::build(mesh_of_triangles({{p, p, p}})).why_off, HasSubstr("no grid"));
+  EXPECT_THAT(DistanceField::build(mesh_of_triangles({{p, p, p}})).error, HasSubstr("no grid"));
   DistanceFieldOptions options;
   options.memory_limit_bytes = 0;
-  const DistanceFieldResult none = DistanceField::build(room(1.0, 0.1, Vec3::Zero()), options);
-  EXPECT_THAT(none.why_off, HasSubstr("no grid"));
-  EXPECT_FALSE(none.field);
+  const auto none = DistanceField::build(room(1.0, 0.1, Vec3::Zero()), options);
+  EXPECT_THAT(none.error, HasSubstr("no grid"));
+  EXPECT_FALSE(none);
 }
 
 TEST(DistanceField, IsOffWhereTheSceneFillsItsBox) {
@@ -281,10 +281,10 @@ TEST(DistanceField, IsOffWhereTheSceneFillsItsBox) {
     sheets.push_back({Vec3(0, 0, z), Vec3(4, 0, z), Vec3(0, 4, z)});
     sheets.push_back({Vec3(4, 4, z), Vec3(4, 0, z), Vec3(0, 4, z)});
   }
-  const DistanceFieldResult result = DistanceField::build(mesh_of_triangles(sheets));
-  EXPECT_FALSE(result.field);
-  EXPECT_THAT(result.why_off, HasSubstr("0.0 % of the cells of 0.1"));
-  EXPECT_THAT(result.why_off, HasSubstr("does not pay"));
+  const auto result = DistanceField::build(mesh_of_triangles(sheets));
+  EXPECT_FALSE(result);
+  EXPECT_THAT(result.error, HasSubstr("0.0 % of the cells of 0.1"));
+  EXPECT_THAT(result.error, HasSubstr("does not pay"));
 }
 
 /// The allowed effort makes the cells coarse; otherwise these scenes would take minutes.
@@ -302,17 +302,17 @@ TEST(DistanceField, SpendsBoundedEffortOnHostileScenes) {
   }
   for (const std::vector<Triangle>* triangles : {&copies, &fan, &dust}) {
     const Mesh mesh = mesh_of_triangles(*triangles);
-    const DistanceFieldResult result = DistanceField::build(mesh);
-    if (!result.field) {
-      EXPECT_THAT(result.why_off, HasSubstr("does not pay"));
+    const auto result = DistanceField::build(mesh);
+    if (!result) {
+      EXPECT_THAT(result.error, HasSubstr("does not pay"));
       continue;
     }
-    const double resolution_m = result.field->statistics().resolution_m;
+    const double resolution_m = (*result)->statistics().resolution_m;
     EXPECT_LE(surface_extent(mesh, 1).effort(resolution_m),
               DistanceField::kEffort + DistanceField::kEffortPerTriangle * (kCopies + 1));
     for (int i = 0; i < 10; ++i) {
       const Vec3 point = point_about(random, mesh.bounds());
-      EXPECT_LE(static_cast<oracle::Real>(result.field->clearance_at_least_m(point)),
+      EXPECT_LE(static_cast<oracle::Real>((*result)->clearance_at_least_m(point)),
                 true_distance_m(mesh, point));
     }
   }
@@ -322,11 +322,11 @@ TEST(DistanceField, SpendsBoundedEffortOnHostileScenes) {
 TEST(DistanceField, IsOnForFlatScenes) {
   const Mesh floor = mesh_of_triangles({{Vec3(0, 0, 0), Vec3(9, 0, 0), Vec3(0, 9, 0)},
                                         {Vec3(9, 9, 0), Vec3(9, 0, 0), Vec3(0, 9, 0)}});
-  const DistanceFieldResult result = DistanceField::build(floor);
-  ASSERT_TRUE(result.field) << result.why_off;
-  const double bound_m = result.field->clearance_at_least_m({4, 4, 2});
+  const auto result = DistanceField::build(floor);
+  ASSERT_TRUE(result) << result.error;
+  const double bound_m = (*result)->clearance_at_least_m({4, 4, 2});
   EXPECT_LE(bound_m, 2.0);
-  EXPECT_GE(bound_m, 2.0 - result.field->statistics().resolution_m);
+  EXPECT_GE(bound_m, 2.0 - (*result)->statistics().resolution_m);
 }
 
 }  // namespace

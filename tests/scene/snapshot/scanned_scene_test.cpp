@@ -93,7 +93,7 @@ std::shared_ptr<const Snapshot> empty_scene(const Case& at) {
   auto scene = assemble("room", 1, {}, at.options);
   std::string fault;
   for (const std::string name : {"box", "wall"}) {
-    Mesh mesh = *box_mesh(Vec3(0.3, 0.4, 0.5)).mesh;
+    Mesh mesh = *box_mesh(Vec3(0.3, 0.4, 0.5));
     const ImportReport report = report_of(mesh, "box");
     const auto source = make_source(ObjectKind::kBox, std::move(mesh), report, at.options);
     const double at_m = name == "box" ? 1.0 : -1.0;

@@ -25,7 +25,7 @@ ObjectOptions mirrored() {
 }
 
 std::shared_ptr<const ObjectSource> box(const Vec3& size_m) {
-  Mesh mesh = *box_mesh(size_m).mesh;
+  Mesh mesh = *box_mesh(size_m);
   const ImportReport report = report_of(mesh, "box");
   return make_source(ObjectKind::kBox, std::move(mesh), report, mirrored());
 }

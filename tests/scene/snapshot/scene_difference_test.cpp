@@ -25,7 +25,7 @@ Placement at(const Vec3& position) {
 }
 
 std::shared_ptr<const ObjectSource> box(double side_m) {
-  Mesh mesh = *box_mesh(Vec3::Constant(side_m)).mesh;
+  Mesh mesh = *box_mesh(Vec3::Constant(side_m));
   const ImportReport report = report_of(mesh, "box");
   return make_source(ObjectKind::kBox, std::move(mesh), report, {});
 }

@@ -51,7 +51,7 @@ std::shared_ptr<const ObjectSource> random_source(testing::Random& random) {
   if (random() % 2 == 0) options.field.reset();
   if (random() % 3 != 0) {
     const double chord_error_m = 1e-4 * static_cast<double>(1 + random() % 20);
-    Mesh mesh = *sphere_mesh(1.0, chord_error_m).mesh;
+    Mesh mesh = *sphere_mesh(1.0, chord_error_m);
     const ImportReport report = report_of(mesh, "sphere");
     return make_source(ObjectKind::kSphere, std::move(mesh), report, options);
   }

@@ -53,7 +53,7 @@ TEST(SceneStore, ListsInOrderOfName) {
 }
 
 SceneChange put_box(const std::string& object) {
-  Mesh mesh = *box_mesh(geometry::Vec3(1, 1, 1)).mesh;
+  Mesh mesh = *box_mesh(geometry::Vec3(1, 1, 1));
   const ImportReport report = report_of(mesh, "box");
   return {SceneChange::Kind::kPut,
           object,
@@ -227,7 +227,7 @@ TEST(SceneStore, HoldsNoMoreBytesOfOccupancyThanItsLimit) {
   const auto with_map = [](const std::string& name) {
     SnapshotOptions options;
     options.occupancy_resolution_m = 0.1;
-    return make_snapshot(name, *box_mesh({1, 1, 1}).mesh, options).snapshot;
+    return make_snapshot(name, *box_mesh({1, 1, 1}), options).snapshot;
   };
   const std::uint64_t of_one = with_map("room")->occupancy->statistics().memory_bytes;
   ASSERT_GT(of_one, 0U);

@@ -56,30 +56,30 @@ Real plane_distance(const Triangle& t) {
 }
 
 TEST(BoxMesh, IsTheBox) {
-  const ShapeMesh box = box_mesh(Vec3(1, 2, 4));
-  ASSERT_TRUE(box.mesh) << box.error;
-  expect_closed(*box.mesh);
-  EXPECT_EQ(volume(*box.mesh), 8);
-  EXPECT_EQ(box.mesh->bounds().max(), Vec3(0.5, 1, 2));
-  EXPECT_EQ(box.mesh->bounds().min(), Vec3(-0.5, -1, -2));
-  EXPECT_EQ(box.mesh->objects.front().triangle_count, 12U);
+  const auto box = box_mesh(Vec3(1, 2, 4));
+  ASSERT_TRUE(box) << box.error;
+  expect_closed(*box);
+  EXPECT_EQ(volume(*box), 8);
+  EXPECT_EQ(box->bounds().max(), Vec3(0.5, 1, 2));
+  EXPECT_EQ(box->bounds().min(), Vec3(-0.5, -1, -2));
+  EXPECT_EQ(box->objects.front().triangle_count, 12U);
 }
 
 TEST(SphereMesh, EnclosesTheBallWithinItsChordError) {
   for (const double radius_m : {1e-3, 1.0, 7.5e5}) {
     for (const double share : {0.5, 0.1, 1e-2, 1e-3}) {
       const double chord_m = share * radius_m;
-      const ShapeMesh sphere = sphere_mesh(radius_m, chord_m);
-      ASSERT_TRUE(sphere.mesh) << sphere.error;
-      expect_closed(*sphere.mesh);
-      EXPECT_GT(volume(*sphere.mesh), 0);
-      for (std::size_t i = 0; i < sphere.mesh->triangles.size(); ++i) {
-        ASSERT_GE(plane_distance(sphere.mesh->triangle(i)), static_cast<Real>(radius_m));
+      const auto sphere = sphere_mesh(radius_m, chord_m);
+      ASSERT_TRUE(sphere) << sphere.error;
+      expect_closed(*sphere);
+      EXPECT_GT(volume(*sphere), 0);
+      for (std::size_t i = 0; i < sphere->triangles.size(); ++i) {
+        ASSERT_GE(plane_distance(sphere->triangle(i)), static_cast<Real>(radius_m));
       }
-      for (const Vec3& vertex : sphere.mesh->vertices) {
+      for (const Vec3& vertex : sphere->vertices) {
         ASSERT_LE(vertex.cast<Real>().norm(), static_cast<Real>(radius_m) + chord_m);
       }
-      EXPECT_LT(static_cast<double>(sphere.mesh->triangles.size()), 20.0 + 20.0 / share);
+      EXPECT_LT(static_cast<double>(sphere->triangles.size()), 20.0 + 20.0 / share);
     }
   }
 }
@@ -87,18 +87,18 @@ TEST(SphereMesh, EnclosesTheBallWithinItsChordError) {
 TEST(CylinderMesh, EnclosesTheCylinderWithinItsChordError) {
   for (const double share : {1.0, 0.1, 1e-3, 1e-5}) {
     const double radius_m = 0.3;
-    const ShapeMesh cylinder = cylinder_mesh(radius_m, 2.0, share * radius_m);
-    ASSERT_TRUE(cylinder.mesh) << cylinder.error;
-    expect_closed(*cylinder.mesh);
-    EXPECT_GT(volume(*cylinder.mesh), 0);
-    EXPECT_EQ(cylinder.mesh->bounds().max().z(), 1.0);
-    EXPECT_EQ(cylinder.mesh->bounds().min().z(), -1.0);
-    for (std::size_t i = 0; i < cylinder.mesh->triangles.size(); ++i) {
-      Triangle t = cylinder.mesh->triangle(i);
+    const auto cylinder = cylinder_mesh(radius_m, 2.0, share * radius_m);
+    ASSERT_TRUE(cylinder) << cylinder.error;
+    expect_closed(*cylinder);
+    EXPECT_GT(volume(*cylinder), 0);
+    EXPECT_EQ(cylinder->bounds().max().z(), 1.0);
+    EXPECT_EQ(cylinder->bounds().min().z(), -1.0);
+    for (std::size_t i = 0; i < cylinder->triangles.size(); ++i) {
+      Triangle t = cylinder->triangle(i);
       if (t[0].z() == t[1].z() && t[1].z() == t[2].z()) continue;  // an end
       ASSERT_GE(plane_distance(t), static_cast<Real>(radius_m));
     }
-    for (const Vec3& vertex : cylinder.mesh->vertices) {
+    for (const Vec3& vertex : cylinder->vertices) {
       const Real out = vertex.head<2>().cast<Real>().norm();
       ASSERT_LE(out, static_cast<Real>(radius_m) * (1 + static_cast<Real>(share)));
     }
@@ -118,12 +118,12 @@ TEST(CloudMesh, EnclosesEveryPointAndNoMoreThanTheirCells) {
                     std::lround(std::floor(point.y() / cell_m)),
                     std::lround(std::floor(point.z() / cell_m))});
     }
-    const ShapeMesh cloud = cloud_mesh(points, cell_m);
-    ASSERT_TRUE(cloud.mesh) << cloud.error;
-    EXPECT_NEAR(static_cast<double>(volume(*cloud.mesh)),
+    const auto cloud = cloud_mesh(points, cell_m);
+    ASSERT_TRUE(cloud) << cloud.error;
+    EXPECT_NEAR(static_cast<double>(volume(*cloud)),
                 static_cast<double>(cells.size()) * std::pow(cell_m, 3), 1e-9);
     // A ray from a point inside meets an odd number of triangles, counted by the winding number.
-    const SceneIndex index = SceneIndex::build(*cloud.mesh);
+    const SceneIndex index = SceneIndex::build(*cloud);
     for (const auto& cell : cells) {
       const Vec3 middle = (Vec3(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
                                 static_cast<double>(cell[2]))
@@ -140,8 +140,8 @@ TEST(CloudMesh, EnclosesEveryPointAndNoMoreThanTheirCells) {
 TEST(CloudMesh, DoesNotDependOnTheOrderOfItsPoints) {
   const std::vector<Vec3> points = {Vec3(0.5, 0.5, 0.5), Vec3(1.5, 0.5, 0.5), Vec3(9, 9, 9)};
   const std::vector<Vec3> turned(points.rbegin(), points.rend());
-  EXPECT_EQ(cloud_mesh(points, 1.0).mesh->vertices, cloud_mesh(turned, 1.0).mesh->vertices);
-  EXPECT_EQ(cloud_mesh(points, 1.0).mesh->triangles.size(), 2U * 10 + 12);
+  EXPECT_EQ(cloud_mesh(points, 1.0)->vertices, cloud_mesh(turned, 1.0)->vertices);
+  EXPECT_EQ(cloud_mesh(points, 1.0)->triangles.size(), 2U * 10 + 12);
 }
 
 TEST(ShapeMesh, RefusesWhatIsNoLengthByName) {

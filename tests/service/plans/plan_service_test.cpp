@@ -37,7 +37,7 @@ Bytes without_time(plan_response_t answer) {
 
 /// Returns the expected answer to `request` if `planner` is the echo.
 Bytes expected_echo(const plan_request_t& request, const messages::DeadlineLimits& limits = {}) {
-  return without_time(messages::to_wire(echo_result(*messages::from_wire(request, limits).request),
+  return without_time(messages::to_wire(echo_result(*messages::from_wire(request, limits)),
                                         {{request.client_id, request.request_id, 0},
                                          request.scene,
                                          7,
@@ -66,7 +66,7 @@ TEST(PlanService, SaysBehindTheMessageWhatTheImportLeftOut) {
   daemon.send(request);
   const std::optional<plan_response_t> answer = daemon.answer_to(request);
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->message, echo_result(*messages::from_wire(request).request).message +
+  EXPECT_EQ(answer->message, echo_result(*messages::from_wire(request)).message +
                                  "; warning: the scene is without faces of its file: 3 with a "
                                  "coordinate that is no usable number");
 }

@@ -31,8 +31,8 @@ constexpr double kCell_m = 0.5;
 
 /// Returns the size of the mirror of a box at the origin.
 std::uint64_t mirror_bytes(double side_m) {
-  const scene::ShapeMesh box = scene::box_mesh(geometry::Vec3::Constant(side_m));
-  return scene::MirrorMap::build(*box.mesh, kCell_m).map->statistics().memory_bytes;
+  const auto box = scene::box_mesh(geometry::Vec3::Constant(side_m));
+  return scene::MirrorMap::build(*box, kCell_m).map->statistics().memory_bytes;
 }
 
 scene::SceneStoreLimits tight_store() {

@@ -31,15 +31,13 @@ class SceneRootsTest : public ::testing::Test {
     fs::create_directory_symlink(base_, base_ / "root" / "up");
     fs::create_symlink(base_ / "root" / "a.obj", base_ / "root" / "inner" / "in.obj");
     fs::create_symlink(base_ / "nowhere", base_ / "root" / "dangling.obj");
-    std::string error;
-    roots_ = SceneRoots::make({base_ / "root"}, error);
-    EXPECT_EQ(error, "");
+    roots_ = *SceneRoots::make({base_ / "root"});
   }
   ~SceneRootsTest() override { fs::remove_all(base_); }
 
   [[nodiscard]] std::string refusal(const std::string& asked) const {
-    const RootedFile rooted = roots_.resolve(asked);
-    EXPECT_TRUE(rooted.file.empty()) << rooted.file;
+    const base::Result<fs::path> rooted = roots_.resolve(asked);
+    EXPECT_FALSE(rooted) << asked;
     EXPECT_THAT(rooted.error, Not(HasSubstr("secret")));
     return rooted.error;
   }
@@ -49,11 +47,11 @@ class SceneRootsTest : public ::testing::Test {
 };
 
 TEST_F(SceneRootsTest, FindsFilesBelowARoot) {
-  EXPECT_EQ(roots_.resolve("a.obj").file, base_ / "root/a.obj");
-  EXPECT_EQ(roots_.resolve("inner/b.obj").file, base_ / "root/inner/b.obj");
-  EXPECT_EQ(roots_.resolve("./inner//b.obj").file, base_ / "root/inner/b.obj");
-  EXPECT_EQ(roots_.resolve((base_ / "root/a.obj").string()).file, base_ / "root/a.obj");
-  EXPECT_EQ(roots_.resolve("inner/in.obj").file, base_ / "root/a.obj") << "a link that stays in";
+  EXPECT_EQ(roots_.resolve("a.obj").value, base_ / "root/a.obj");
+  EXPECT_EQ(roots_.resolve("inner/b.obj").value, base_ / "root/inner/b.obj");
+  EXPECT_EQ(roots_.resolve("./inner//b.obj").value, base_ / "root/inner/b.obj");
+  EXPECT_EQ(roots_.resolve((base_ / "root/a.obj").string()).value, base_ / "root/a.obj");
+  EXPECT_EQ(roots_.resolve("inner/in.obj").value, base_ / "root/a.obj") << "a link that stays in";
 }
 
 TEST_F(SceneRootsTest, RefusesWhatLeadsOut) {
@@ -76,15 +74,11 @@ TEST_F(SceneRootsTest, RefusesWhatIsNoFile) {
 }
 
 TEST_F(SceneRootsTest, AsksItsRootsInTurn) {
-  std::string error;
-  const SceneRoots both = SceneRoots::make({base_ / "root", base_ / "root2"}, error);
-  EXPECT_EQ(both.resolve("c.obj").file, base_ / "root2/c.obj");
+  const SceneRoots both = *SceneRoots::make({base_ / "root", base_ / "root2"});
+  EXPECT_EQ(both.resolve("c.obj").value, base_ / "root2/c.obj");
   EXPECT_THAT(SceneRoots().resolve("a.obj").error, HasSubstr("no scene roots"));
-  EXPECT_TRUE(SceneRoots::make({base_ / "none"}, error).empty());
-  EXPECT_THAT(error, HasSubstr("none"));
-  error.clear();
-  EXPECT_TRUE(SceneRoots::make({base_ / "root/a.obj"}, error).empty());
-  EXPECT_THAT(error, HasSubstr("not a folder"));
+  EXPECT_THAT(SceneRoots::make({base_ / "none"}).error, HasSubstr("none"));
+  EXPECT_THAT(SceneRoots::make({base_ / "root/a.obj"}).error, HasSubstr("not a folder"));
 }
 
 /// Returns the content of a file; nothing if there is none.

@@ -46,9 +46,7 @@ scene_request_t put_box(std::int64_t id, const std::string& scene, const std::st
 
 ServiceConfig with_root(const testing::TemporaryFolder& folder, int scene_workers) {
   ServiceConfig config;
-  std::string error;
-  config.scene_rules.roots = SceneRoots::make({folder.path()}, error);
-  EXPECT_EQ(error, "");
+  config.scene_rules.roots = *SceneRoots::make({folder.path()});
   config.scene_workers = scene_workers;
   return config;
 }

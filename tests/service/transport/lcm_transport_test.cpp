@@ -17,9 +17,9 @@ constexpr char kInMemory[] = "memq://";
 const std::vector<std::uint8_t> kMessage{1, 2, 3, 0, 255};
 
 std::unique_ptr<Transport> in_memory() {
-  OpenedTransport opened = open_lcm_transport(kInMemory);
-  EXPECT_TRUE(opened.transport) << opened.error;
-  return std::move(opened.transport);
+  auto opened = open_lcm_transport(kInMemory);
+  EXPECT_TRUE(opened) << opened.error;
+  return *std::move(opened);
 }
 
 TEST(LcmTransport, CarriesBytes) {
@@ -73,8 +73,8 @@ TEST(LcmTransport, SurvivesAHandlerThatThrows) {
 }
 
 TEST(LcmTransport, SaysWhatToDoWhenItCannotOpen) {
-  const OpenedTransport opened = open_lcm_transport("nonsense://");
-  EXPECT_FALSE(opened.transport);
+  const auto opened = open_lcm_transport("nonsense://");
+  EXPECT_FALSE(opened);
   EXPECT_NE(opened.error.find("nonsense://"), std::string::npos) << opened.error;
   EXPECT_NE(opened.error.find("ip route add 224.0.0.0/4 dev lo"), std::string::npos);
 }

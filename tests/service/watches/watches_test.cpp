@@ -101,7 +101,7 @@ class WatchesTest : public ::testing::Test {
 
   /// Puts a crate of `side_m` at a place.
   void put(const Vec3& position, double side_m = 0.5) {
-    scene::Mesh mesh = *scene::box_mesh(Vec3::Constant(side_m)).mesh;
+    scene::Mesh mesh = *scene::box_mesh(Vec3::Constant(side_m));
     const scene::ImportReport report = scene::report_of(mesh, "box");
     std::string fault;
     scenes_.change("room",
@@ -263,9 +263,9 @@ TEST_F(WatchesTest, TheCorrectedPathIsWatchedInItsTurn) {
   const plan_response_t corrected = next_answer();
   ASSERT_EQ(corrected.status, plan_response_t::STATUS_OK) << corrected.message;
   // Where the corrected path is at its middle now.
-  const messages::ConvertedResult result = messages::from_wire(corrected);
-  ASSERT_TRUE(result.result) << result.error;
-  put(result.result->path.pose(2.0).position, 0.3);
+  const auto result = messages::from_wire(corrected);
+  ASSERT_TRUE(result) << result.error;
+  put(result->path.pose(2.0).position, 0.3);
   const auto changed = static_cast<std::int64_t>(scenes_.find("room")->revision);
   State broken = wait_for(1, path_state_t::BROKEN);
   while (broken.path.scene_revision != changed) broken = wait_for(1, path_state_t::BROKEN);
@@ -331,11 +331,11 @@ TEST_F(WatchesTest, LooksForABetterPathOnlyWhereAnObstacleWent) {
   const int planned = planned_;
   std::string fault;
   for (int i = 0; i < 5; ++i) {
-    scenes_.change("room",
-                   {SceneChange::Kind::kPut, "far",
-                    scene::make_source(scene::ObjectKind::kBox,
-                                       *scene::box_mesh(Vec3::Constant(0.5)).mesh, {}, {}),
-                    scene::Placement::make(Vec3(100.0 + i, 0, 0), Quat::Identity(), fault)});
+    scenes_.change(
+        "room",
+        {SceneChange::Kind::kPut, "far",
+         scene::make_source(scene::ObjectKind::kBox, *scene::box_mesh(Vec3::Constant(0.5)), {}, {}),
+         scene::Placement::make(Vec3(100.0 + i, 0, 0), Quat::Identity(), fault)});
   }
   std::this_thread::sleep_for(500ms);
   EXPECT_EQ(planned_, planned);

@@ -68,9 +68,9 @@ TEST_F(CliCheck, ListsWhereAndWithWhatAPathCollides) {
 TEST_F(CliCheck, ListsWhereAPathLeavesItsBounds) {
   const std::string file = planned("free", 1);
   auto response = read_plan_response(file);
-  ASSERT_TRUE(response.value) << response.error;
-  response.value->bounds.max_W.x() = 1.0;
-  const std::string bounded = folder_.write("P.json", *write_plan_response(*response.value).value);
+  ASSERT_TRUE(response) << response.error;
+  response->bounds.max_W.x() = 1.0;
+  const std::string bounded = folder_.write("P.json", *write_plan_response(*response));
   const CliRun run = check(bounded);
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_THAT(run.out, HasSubstr("bounds.max.x"));
@@ -88,15 +88,15 @@ TEST_F(CliCheck, ListsWhereAPathLeavesItsBounds) {
 TEST_F(CliCheck, RefusesAPathThatJumps) {
   const std::string file = planned("free", 1);
   auto response = read_plan_response(file);
-  ASSERT_TRUE(response.value) << response.error;
-  motion::Segment first = response.value->path.segments()[0];
+  ASSERT_TRUE(response) << response.error;
+  motion::Segment first = response->path.segments()[0];
   motion::Segment second = first;
   second.t0_s = first.t1_s;
   second.t1_s = first.t1_s + 1.0;
-  response.value->path = motion::Path({first, second});
-  const auto text = write_plan_response(*response.value);
-  ASSERT_TRUE(text.value) << text.error;
-  const CliRun run = check(folder_.write("jump.json", *text.value));
+  response->path = motion::Path({first, second});
+  const auto text = write_plan_response(*response);
+  ASSERT_TRUE(text) << text.error;
+  const CliRun run = check(folder_.write("jump.json", *text));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("segments[1]"));
 }

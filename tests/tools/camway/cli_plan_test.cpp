@@ -35,10 +35,10 @@ TEST_F(CliPlan, WritesTheResponseToStandardOutput) {
   const CliRun run = run_camway({"plan", "--request", free_});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto response = parse_plan_response(run.out, "stdout");
-  ASSERT_TRUE(response.value) << response.error;
-  EXPECT_EQ(response.value->status, Status::kOk);
-  EXPECT_EQ(response.value->keyframes.size(), 2U);
-  EXPECT_GT(response.value->timing.load_scene_ms, 0.0);
+  ASSERT_TRUE(response) << response.error;
+  EXPECT_EQ(response->status, Status::kOk);
+  EXPECT_EQ(response->keyframes.size(), 2U);
+  EXPECT_GT(response->timing.load_scene_ms, 0.0);
   EXPECT_THAT(run.err,
               HasSubstr("free.json: ok: no collision to correct; the path is proved free"));
 }
@@ -52,11 +52,11 @@ TEST_F(CliPlan, CorrectsAPathThatClipsTheFin) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, "");
   const auto response = read_plan_response(file);
-  ASSERT_TRUE(response.value) << response.error;
-  EXPECT_EQ(response.value->status, Status::kOk);
-  EXPECT_FALSE(response.value->collisions.empty());
-  EXPECT_GT(response.value->keyframes.size(), 2U);
-  EXPECT_TRUE(response.value->remaining_collisions.empty());
+  ASSERT_TRUE(response) << response.error;
+  EXPECT_EQ(response->status, Status::kOk);
+  EXPECT_FALSE(response->collisions.empty());
+  EXPECT_GT(response->keyframes.size(), 2U);
+  EXPECT_TRUE(response->remaining_collisions.empty());
 }
 
 TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {
@@ -68,9 +68,9 @@ TEST_F(CliPlan, EndsWithThreeWhereNoFreePathWasFound) {
   const CliRun run = run_camway({"plan", "--request", request, "--deadline-s", "5"});
   EXPECT_EQ(run.exit_code, 3) << run.err;
   const auto response = parse_plan_response(run.out, "stdout");
-  ASSERT_TRUE(response.value) << response.error;
-  EXPECT_NE(response.value->status, Status::kOk);
-  EXPECT_FALSE(response.value->remaining_collisions.empty());
+  ASSERT_TRUE(response) << response.error;
+  EXPECT_NE(response->status, Status::kOk);
+  EXPECT_FALSE(response->remaining_collisions.empty());
 }
 
 TEST_F(CliPlan, NamesFieldKeyframeOrFileOfInvalidInput) {
@@ -113,9 +113,9 @@ TEST_F(CliPlan, NamesFieldKeyframeOrFileOfInvalidInput) {
     EXPECT_THAT(run.err, StartsWith("camway: " + folder_.file("")));
     EXPECT_THAT(run.err, HasSubstr(c.expected));
     const auto written = read_plan_response(response);
-    ASSERT_TRUE(written.value) << written.error;
-    EXPECT_EQ(written.value->status, Status::kInvalid);
-    EXPECT_THAT(written.value->message, HasSubstr(c.expected));
+    ASSERT_TRUE(written) << written.error;
+    EXPECT_EQ(written->status, Status::kInvalid);
+    EXPECT_THAT(written->message, HasSubstr(c.expected));
     const CliRun bare = run_camway({"plan", "--request", request});
     EXPECT_EQ(bare.exit_code, 2);
     EXPECT_EQ(bare.out, "");
@@ -128,8 +128,8 @@ TEST_F(CliPlan, NamesTheKeyframeInTheWallInTheResponseToo) {
   const std::string file = folder_.file("P.json");
   EXPECT_EQ(run_camway({"plan", "--request", request, "--response", file}).exit_code, 2);
   const auto response = read_plan_response(file);
-  ASSERT_TRUE(response.value) << response.error;
-  EXPECT_EQ(response.value->keyframe, std::optional<std::size_t>(1));
+  ASSERT_TRUE(response) << response.error;
+  EXPECT_EQ(response->keyframe, std::optional<std::size_t>(1));
 }
 
 TEST_F(CliPlan, PlansForAnyBodyWithClearance) {
@@ -169,12 +169,12 @@ TEST_F(CliPlan, WitnessesSayWhatCollides) {
       "graze.json", request_json({keyframe_json(2.05, 0, 1), keyframe_json(2.05, 0, -1)}));
   const CliRun run = run_camway({"plan", "--request", request});
   const auto response = parse_plan_response(run.out, "stdout");
-  ASSERT_TRUE(response.value) << response.error;
-  ASSERT_EQ(response.value->collisions.size(), 1U);
-  ASSERT_TRUE(response.value->collisions[0].witness);
-  EXPECT_EQ(response.value->collision_names.at(0).object, "fin");
-  EXPECT_NE(response.value->collision_names.at(0).feature, "");
-  EXPECT_GT(response.value->collisions[0].witness->depth_m, 0.0);
+  ASSERT_TRUE(response) << response.error;
+  ASSERT_EQ(response->collisions.size(), 1U);
+  ASSERT_TRUE(response->collisions[0].witness);
+  EXPECT_EQ(response->collision_names.at(0).object, "fin");
+  EXPECT_NE(response->collision_names.at(0).feature, "");
+  EXPECT_GT(response->collisions[0].witness->depth_m, 0.0);
 }
 
 TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
@@ -185,11 +185,11 @@ TEST_F(CliPlan, SaysWhatEachCorrectionDid) {
                                  "--max-shrink", "0.5", "--method", "ladder"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto response = parse_plan_response(run.out, "stdout");
-  ASSERT_TRUE(response.value) << response.error;
-  ASSERT_EQ(response.value->corrections.size(), response.value->collisions.size());
-  EXPECT_NE(response.value->corrections.at(0).kind, correction::CorrectionKind::kNone);
-  EXPECT_TRUE(response.value->measures_before);
-  EXPECT_TRUE(response.value->measures);
+  ASSERT_TRUE(response) << response.error;
+  ASSERT_EQ(response->corrections.size(), response->collisions.size());
+  EXPECT_NE(response->corrections.at(0).kind, correction::CorrectionKind::kNone);
+  EXPECT_TRUE(response->measures_before);
+  EXPECT_TRUE(response->measures);
   EXPECT_THAT(run.err, HasSubstr("\n  0."));
   EXPECT_THAT(run.err, HasSubstr(" s: collides with fin; moved up to "));
 }
@@ -204,10 +204,10 @@ TEST_F(CliPlan, KeepsWithinBounds) {
   const CliRun run = run_camway({"plan", "--request", request, "--response", response});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto read = read_plan_response(response);
-  ASSERT_TRUE(read.value) << read.error;
-  EXPECT_EQ(read.value->bounds.min_W.y(), -1.5);
-  EXPECT_EQ(read.value->bounds.max_W.head<2>(), Eigen::Vector2d(3.0, 1.5));
-  EXPECT_FALSE(std::isfinite(read.value->bounds.max_W.z()));
+  ASSERT_TRUE(read) << read.error;
+  EXPECT_EQ(read->bounds.min_W.y(), -1.5);
+  EXPECT_EQ(read->bounds.max_W.head<2>(), Eigen::Vector2d(3.0, 1.5));
+  EXPECT_FALSE(std::isfinite(read->bounds.max_W.z()));
 
   // A request with bounds that the path leaves.
   text.replace(text.find("[3, 1.5, null]"), 14, "[2.05, 1.5, null]");
@@ -302,7 +302,7 @@ TEST_F(CliPlan, TimesAreDerivedAtTheSpeedThatIsAskedFor) {
   std::string text = request_json({keyframe_json(1, 0, 1), keyframe_json(1, 0, -1)});
   text.replace(text.find("\"camera\""), 0, R"("options": {"default_speed_m_per_s": 0.5}, )");
   const CliRun run = run_camway({"plan", "--request", folder_.write("R.json", text)});
-  EXPECT_EQ(parse_plan_response(run.out, "stdout").value->keyframes[1].time_s, 4.0) << run.err;
+  EXPECT_EQ(parse_plan_response(run.out, "stdout")->keyframes[1].time_s, 4.0) << run.err;
 }
 
 TEST_F(CliPlan, HelpNamesBodyAndClearance) {
@@ -368,16 +368,16 @@ TEST_F(CliPlan, SaysWhichFilesCannotBeUsed) {
 TEST_F(CliPlan, ScalesAndTurnsTheScene) {
   // At 10 m per unit the wall ends at x = 2 m and is in the way; rotated to Y up it is horizontal.
   CliRun run = run_camway({"plan", "--request", free_, "--scale", "10", "--deadline-s", "5"});
-  ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
-  EXPECT_FALSE(parse_plan_response(run.out, "stdout").value->collisions.empty());
+  ASSERT_TRUE(parse_plan_response(run.out, "stdout")) << run.err;
+  EXPECT_FALSE(parse_plan_response(run.out, "stdout")->collisions.empty());
   const std::string through = folder_.write(
       "through.json", request_json({keyframe_json(0, 0.5, 1.5), keyframe_json(0, 0.5, -1.5)}));
   run = run_camway({"plan", "--request", through, "--deadline-s", "5"});
-  ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
-  EXPECT_FALSE(parse_plan_response(run.out, "stdout").value->collisions.empty());
+  ASSERT_TRUE(parse_plan_response(run.out, "stdout")) << run.err;
+  EXPECT_FALSE(parse_plan_response(run.out, "stdout")->collisions.empty());
   run = run_camway({"plan", "--request", through, "--up", "z-to-y"});
-  ASSERT_TRUE(parse_plan_response(run.out, "stdout").value) << run.err;
-  EXPECT_TRUE(parse_plan_response(run.out, "stdout").value->collisions.empty());
+  ASSERT_TRUE(parse_plan_response(run.out, "stdout")) << run.err;
+  EXPECT_TRUE(parse_plan_response(run.out, "stdout")->collisions.empty());
 }
 
 TEST_F(CliPlan, TheRequestSaysHowToReadItsSceneAndFlagsGoBefore) {
@@ -389,8 +389,8 @@ TEST_F(CliPlan, TheRequestSaysHowToReadItsSceneAndFlagsGoBefore) {
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     const CliRun run = run_camway(arguments);
     const auto path = parse_path_file(run.out, "stdout");
-    EXPECT_TRUE(path.value) << run.err;
-    return path.value ? path.value->scene_digest : "";
+    EXPECT_TRUE(path) << run.err;
+    return path.value ? path->scene_digest : "";
   };
   const std::string large = digest_with("", {"--scale", "10"});
   EXPECT_EQ(digest_with(R"("scale": 10, )", {}), large);
@@ -409,8 +409,8 @@ TEST_F(CliPlan, PlansASetWithATable) {
   EXPECT_EQ(run.exit_code, 2) << run.err;
   EXPECT_THAT(run.out, HasSubstr("1 of 2 requests ok"));
   EXPECT_THAT(run.out, HasSubstr(free_));
-  EXPECT_EQ(read_plan_response(dir + "/free.json").value->status, Status::kOk);
-  EXPECT_EQ(read_plan_response(dir + "/bad.json").value->status, Status::kInvalid);
+  EXPECT_EQ(read_plan_response(dir + "/free.json")->status, Status::kOk);
+  EXPECT_EQ(read_plan_response(dir + "/bad.json")->status, Status::kInvalid);
   const std::string first = read_all(dir + "/free.json");
   EXPECT_EQ(
       run_camway({"plan", "--request", free_, "--response-dir", dir, "--no-timing"}).exit_code, 0);

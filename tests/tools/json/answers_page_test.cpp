@@ -92,7 +92,7 @@ std::set<std::string> names_in_answers() {
     result.keyframe = 1;
     const auto text =
         write_plan_response(result, {.scene = "room", .scene_digest = "0", .warnings = {"w"}});
-    if (!text.value) ADD_FAILURE() << text.error;
+    if (!text) ADD_FAILURE() << text.error;
     add_names(nlohmann::json::parse(text.value.value_or("{}")), names);
   }
   return names;

@@ -23,7 +23,7 @@ std::string request_with(const std::string& body, bool with_camera = false) {
 
 planning::PlanRequest read(const std::string& body, bool with_camera = false) {
   const auto parsed = parse_plan_request(request_with(body, with_camera), "R.json");
-  EXPECT_TRUE(parsed.value) << parsed.error;
+  EXPECT_TRUE(parsed) << parsed.error;
   return parsed.value.value_or(RequestFile{});
 }
 
@@ -113,7 +113,7 @@ TEST(JsonBody, NamesTheFieldAtFault) {
   };
   for (const auto& [body, expected] : cases) {
     const auto parsed = parse_plan_request(request_with(body), "R.json");
-    EXPECT_FALSE(parsed.value) << body;
+    EXPECT_FALSE(parsed) << body;
     EXPECT_THAT(parsed.error, StartsWith(std::string("R.json: ") + expected)) << body;
   }
 }

@@ -32,7 +32,7 @@ TEST(JsonDocument, NamesSourceLineAndColumnOfBadSyntax) {
   };
   for (const BadDocument& bad : cases) {
     const auto parsed = parse_document(bad.text, "R.json");
-    EXPECT_FALSE(parsed.value) << bad.text;
+    EXPECT_FALSE(parsed) << bad.text;
     EXPECT_THAT(parsed.error, StartsWith("R.json: ")) << bad.text;
     EXPECT_THAT(parsed.error, HasSubstr(bad.expected)) << bad.text;
     EXPECT_THAT(parsed.error, ::testing::Not(HasSubstr("json.exception"))) << bad.text;
@@ -41,7 +41,7 @@ TEST(JsonDocument, NamesSourceLineAndColumnOfBadSyntax) {
 
 TEST(JsonDocument, RefusesAKeyThatStandsTwice) {
   const auto parsed = parse_document(R"({"a": {"near": 1, "near": 2}})", "R.json");
-  EXPECT_FALSE(parsed.value);
+  EXPECT_FALSE(parsed);
   EXPECT_EQ(parsed.error, "R.json: line 1, column 24: the key 'near' stands twice");
   EXPECT_EQ(parse_document("{\"a\": 1,\n \"b\": [\n],\n  \"a\" : 2}", "R.json").error,
             "R.json: line 4, column 5: the key 'a' stands twice");
@@ -50,19 +50,19 @@ TEST(JsonDocument, RefusesAKeyThatStandsTwice) {
 TEST(JsonDocument, RefusesDeepNestingAndTakesWhatIsJustNotTooDeep) {
   const std::string just(kMaxDocumentDepth, '[');
   const std::string closed = just + std::string(kMaxDocumentDepth, ']');
-  EXPECT_TRUE(parse_document(closed, "R.json").value);
+  EXPECT_TRUE(parse_document(closed, "R.json"));
   const auto deeper = parse_document("[" + closed + "]", "R.json");
-  EXPECT_FALSE(deeper.value);
+  EXPECT_FALSE(deeper);
   EXPECT_THAT(deeper.error, HasSubstr("line 1, column 33: nested deeper than 32"));
   // Deep enough to exhaust the stack of a recursive reader.
-  EXPECT_FALSE(parse_document(std::string(5'000'000, '['), "R.json").value);
+  EXPECT_FALSE(parse_document(std::string(5'000'000, '['), "R.json"));
 }
 
 TEST(JsonDocument, RefusesMoreValuesThanItsLimit) {
   std::string text = "[0";
   for (std::size_t i = 0; i <= kMaxDocumentValues; ++i) text += ",0";
   const auto parsed = parse_document(text + "]", "R.json");
-  EXPECT_FALSE(parsed.value);
+  EXPECT_FALSE(parsed);
   EXPECT_THAT(parsed.error, HasSubstr("more than 16000000 values"));
 }
 
@@ -73,9 +73,9 @@ TEST(JsonDocument, SaysWhyAFileCannotBeRead) {
 
 TEST(Field, ReportsTheFirstErrorWithItsPath) {
   const auto document = parse_document(R"({"list": [{"a": 1}, {"a": "x", "b": true}]})", "R.json");
-  ASSERT_TRUE(document.value);
+  ASSERT_TRUE(document);
   std::string error;
-  const Field root(*document.value, error);
+  const Field root(*document, error);
   const Field list = root.member("list");
   ASSERT_EQ(list.size(), 2U);
   EXPECT_EQ(list.element(0).member("a").number(), 1.0);
@@ -90,10 +90,10 @@ TEST(Field, ReportsTheFirstErrorWithItsPath) {
 
 TEST(Field, TakesWholeNumbersWithinTheirRangeOnly) {
   const auto document = parse_document("[7, 7.0, -1, 18446744073709551615, \"7\"]", "R.json");
-  ASSERT_TRUE(document.value);
+  ASSERT_TRUE(document);
   const auto error_of = [&](std::size_t index) {
     std::string error;
-    static_cast<void>(Field(*document.value, error).element(index).integer(0, 100));
+    static_cast<void>(Field(*document, error).element(index).integer(0, 100));
     return error;
   };
   EXPECT_EQ(error_of(0), "");

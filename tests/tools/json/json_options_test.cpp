@@ -25,7 +25,7 @@ using planning::PlanOptions;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-Parsed<PlanOptions> options_of(const std::string& text) {
+base::Result<PlanOptions> options_of(const std::string& text) {
   return parse_as(read_options, text, "R.json");
 }
 
@@ -37,8 +37,8 @@ TEST(JsonOptions, ReadsEveryField) {
                "retime": true},
     "bounds": {"min": [null, -0.5, 0], "max": [3, null, null]},
     "max_shrink": 0.25, "repair_keyframes": true, "seed": 42})");
-  ASSERT_TRUE(parsed.value) << parsed.error;
-  const PlanOptions& options = *parsed.value;
+  ASSERT_TRUE(parsed) << parsed.error;
+  const PlanOptions& options = *parsed;
   EXPECT_EQ(options.method, planning::Method::kLadder);
   EXPECT_EQ(options.objective, Objective::kSmoothest);
   EXPECT_EQ(options.orientation.rule, OrientationRule::kTarget);
@@ -74,26 +74,26 @@ TEST(JsonOptions, HasDefaultsForAllThatMayBeMissing) {
   EXPECT_EQ(options_of(R"({"orientation": {}})").value, planning::PlanOptions{});
   EXPECT_EQ(options_of(R"({"bounds": {}})").value, planning::PlanOptions{});
   const auto parsed = options_of(R"({"orientation": {"max_turn_deg": 90}})");
-  ASSERT_TRUE(parsed.value) << parsed.error;
-  EXPECT_EQ(parsed.value->orientation.rule, correction::OrientationRule::kFree);
-  EXPECT_NEAR(parsed.value->orientation.max_turn_rad, std::numbers::pi / 2, 1e-15);
+  ASSERT_TRUE(parsed) << parsed.error;
+  EXPECT_EQ(parsed->orientation.rule, correction::OrientationRule::kFree);
+  EXPECT_NEAR(parsed->orientation.max_turn_rad, std::numbers::pi / 2, 1e-15);
   EXPECT_EQ(options_of(R"({"orientation": {"policy": "free"}, "limits": {}})").value,
             PlanOptions{});
 }
 
 TEST(JsonOptions, DirectionsNeedNotBeOfUnitLength) {
   const auto parsed = options_of(R"({"orientation": {"policy": "level", "up": [0, 0, 1e-200]}})");
-  ASSERT_TRUE(parsed.value) << parsed.error;
-  EXPECT_EQ(parsed.value->orientation.rule, OrientationRule::kLevel);
-  EXPECT_EQ(parsed.value->orientation.up_W, geometry::Vec3::UnitZ());
+  ASSERT_TRUE(parsed) << parsed.error;
+  EXPECT_EQ(parsed->orientation.rule, OrientationRule::kLevel);
+  EXPECT_EQ(parsed->orientation.up_W, geometry::Vec3::UnitZ());
 }
 
 TEST(JsonOptions, HalfATurnIsTheMost) {
   const auto parsed = options_of(R"({"orientation": {"policy": "target", "target": [0, 0, 0],
                                      "cone_deg": 180, "max_turn_deg": 180}})");
-  ASSERT_TRUE(parsed.value) << parsed.error;
-  EXPECT_LE(parsed.value->orientation.cone_rad, std::numbers::pi);
-  EXPECT_LE(parsed.value->orientation.max_turn_rad, std::numbers::pi);
+  ASSERT_TRUE(parsed) << parsed.error;
+  EXPECT_LE(parsed->orientation.cone_rad, std::numbers::pi);
+  EXPECT_LE(parsed->orientation.max_turn_rad, std::numbers::pi);
 }
 
 TEST(JsonOptions, NamesTheFieldAtFault) {
@@ -147,7 +147,7 @@ TEST(JsonOptions, NamesTheFieldAtFault) {
   };
   for (const auto& c : cases) {
     const auto parsed = options_of(c.options);
-    EXPECT_FALSE(parsed.value) << c.options;
+    EXPECT_FALSE(parsed) << c.options;
     EXPECT_THAT(parsed.error, StartsWith(std::string("R.json: ") + c.expected));
   }
 }
@@ -215,14 +215,14 @@ TEST(JsonOptions, WhatIsWrittenIsReadBitForBit) {
     std::string text;
     planning::visit_options(OptionText{text}, options);
     const auto parsed = options_of("{" + text + "}");
-    ASSERT_TRUE(parsed.value) << parsed.error;
-    ASSERT_EQ(*parsed.value, options) << "trial " << i << ": " << text;
+    ASSERT_TRUE(parsed) << parsed.error;
+    ASSERT_EQ(*parsed, options) << "trial " << i << ": " << text;
   }
 }
 
 TEST(JsonOptions, TheSpeedOfDerivedTimesIsRead) {
-  EXPECT_EQ(options_of(R"({"default_speed_m_per_s": 2.5})").value->default_speed_m_per_s, 2.5);
-  EXPECT_FALSE(options_of("{}").value->default_speed_m_per_s);
+  EXPECT_EQ(options_of(R"({"default_speed_m_per_s": 2.5})")->default_speed_m_per_s, 2.5);
+  EXPECT_FALSE(options_of("{}")->default_speed_m_per_s);
 }
 
 }  // namespace

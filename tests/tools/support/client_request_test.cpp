@@ -24,9 +24,9 @@ TEST(ClientRequest, EveryOptionReachesTheDaemon) {
     ASSERT_EQ(pages.size(), 1U);
     const auto page = wire::decode<plan_request_t>(pages[0]);
     ASSERT_TRUE(page.message) << page.fault.text("plan_request_t");
-    const messages::ConvertedRequest read = messages::from_wire(*page.message);
-    ASSERT_TRUE(read.request) << read.error;
-    EXPECT_EQ(read.request->options, request.options);
+    const auto read = messages::from_wire(*page.message);
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(read->options, request.options);
   }
 }
 

@@ -25,7 +25,7 @@ struct CheckFlags {
   bool json = false;
 };
 
-Parsed<CheckInput> failed(std::string error) { return {std::nullopt, std::move(error)}; }
+base::Failure failed(std::string error) { return {std::move(error)}; }
 
 /// Returns the request's keyframes with their times: those of the request, or those of the response
 /// if the request has none or the path was slowed. Returns nothing if the times of the response do
@@ -44,41 +44,45 @@ std::vector<motion::Keyframe> timed_keyframes(const planning::PlanRequest& reque
 }
 
 /// Reads request and response and checks each on its own.
-Parsed<CheckInput> read_files(const CheckFlags& flags, const Parsed<RequestFile>& request) {
-  if (!request.value) return failed(request.error);
-  if (const auto fault = planning::validate(*request.value)) {
+base::Result<CheckInput> read_files(const CheckFlags& flags,
+                                    const base::Result<RequestFile>& request) {
+  if (!request) return failed(request.error);
+  if (const auto fault = planning::validate(*request)) {
     return failed(source_of(flags.request) + ": " + fault->message);
   }
-  const Parsed<PathFile> response = read_path_file(flags.response);
-  if (!response.value) return failed(response.error);
-  std::string fault;
-  auto body =
-      motion::Body::make(planning::body_shape(*request.value, response.value->near_scale), fault);
-  if (!body) return failed(source_of(flags.request) + ": body: " + fault);
+  const base::Result<PathFile> response = read_path_file(flags.response);
+  if (!response) return failed(response.error);
+  auto body = motion::Body::make(planning::body_shape(*request, response->near_scale));
+  if (!body) return failed(source_of(flags.request) + ": body: " + body.error);
   // Only the response has the bounds of the scene that it was planned in.
-  const geometry::Bounds bounds = request.value->options.bounds.within(response.value->bounds);
-  return {CheckInput{*request.value, response.value->path, source_of(flags.response),
-                     timed_keyframes(*request.value, *response.value), std::move(body), nullptr,
-                     response.value->scene_digest, response.value->near_scale, bounds},
-          {}};
+  const geometry::Bounds bounds = request->options.bounds.within(response->bounds);
+  return CheckInput{*request,
+                    response->path,
+                    source_of(flags.response),
+                    timed_keyframes(*request, *response),
+                    *std::move(body),
+                    nullptr,
+                    response->scene_digest,
+                    response->near_scale,
+                    bounds};
 }
 
-Parsed<CheckInput> read_input(const CheckFlags& flags) {
-  const Parsed<RequestFile> request = read_plan_request(flags.request);
-  Parsed<CheckInput> input = read_files(flags, request);
-  if (!input.value) return input;
-  std::optional<std::string> fault = planning::find_fault(input.value->path.segments());
-  if (!fault) fault = planning::find_jump(input.value->path, input.value->body->radius_m());
+base::Result<CheckInput> read_input(const CheckFlags& flags) {
+  const base::Result<RequestFile> request = read_plan_request(flags.request);
+  base::Result<CheckInput> input = read_files(flags, request);
+  if (!input) return input;
+  std::optional<std::string> fault = planning::find_fault(input->path.segments());
+  if (!fault) fault = planning::find_jump(input->path, input->body->radius_m());
   if (fault) return failed(source_of(flags.response) + ": " + *fault);
-  const std::string scene_file = flags.scene.file_for(flags.request, *request.value);
+  const std::string scene_file = flags.scene.file_for(flags.request, *request);
   if (scene_file.empty()) {
     return failed(source_of(flags.request) + ": scene: is missing, and there is no --scene");
   }
   scene::SnapshotOptions options;
-  options.import = flags.scene.import_options(request.value->reading);
+  options.import = flags.scene.import_options(request->reading);
   const scene::SnapshotResult loaded = scene::load_snapshot(scene_file, scene_file, options);
   if (!loaded.snapshot) return failed(loaded.error);
-  input.value->snapshot = loaded.snapshot;
+  input->snapshot = loaded.snapshot;
   return input;
 }
 
@@ -89,12 +93,12 @@ PathSearch search(const CheckInput& input) {
 }
 
 ExitCode run_check(const CheckFlags& flags) {
-  const Parsed<CheckInput> read = read_input(flags);
-  if (!read.value) {
+  const base::Result<CheckInput> read = read_input(flags);
+  if (!read) {
     print_error(read.error);
     return ExitCode::kInvalidInput;
   }
-  const CheckInput& input = *read.value;
+  const CheckInput& input = *read;
   const PathSearch found = search(input);
   for (const std::string& warning : check_warnings(input, found)) {
     print_error("warning: " + warning);

@@ -54,29 +54,28 @@ struct LoadPlan {
 /// returns none.
 LoadPlan make_questions(const LoadFlags& flags) {
   const auto parsed = process::parse_scene_argument(flags.scene);
-  if (!parsed.scene) {
+  if (!parsed) {
     print_error("--scene " + flags.scene + ": " + parsed.error);
     return {};
   }
   // Planning does not use the occupancy map, so none is made.
-  scene::SnapshotOptions options = parsed.scene->options;
+  scene::SnapshotOptions options = parsed->options;
   options.occupancy_resolution_m.reset();
-  const LoadedScene scene = load_timed(parsed.scene->name, parsed.scene->file.string(), options);
+  const LoadedScene scene = load_timed(parsed->name, parsed->file.string(), options);
   if (!scene.result.snapshot) {
     print_error(scene.result.error);
     return {};
   }
-  LoadPlan plan{{parsed.scene->name, scene.result.snapshot->digest}, {}};
+  LoadPlan plan{{parsed->name, scene.result.snapshot->digest}, {}};
   for (const std::string& file : flags.requests) {
-    const Parsed<RequestFile> request = read_plan_request(file);
-    if (!request.value) {
+    const base::Result<RequestFile> request = read_plan_request(file);
+    if (!request) {
       print_error(request.error);
       return {};
     }
-    warn_of_reading(source_of(file), *request.value);
-    plan.questions.push_back({source_of(file),
-                              to_client_request(*request.value, parsed.scene->name),
-                              planning::plan(*scene.result.snapshot, *request.value)});
+    warn_of_reading(source_of(file), *request);
+    plan.questions.push_back({source_of(file), to_client_request(*request, parsed->name),
+                              planning::plan(*scene.result.snapshot, *request)});
   }
   return plan;
 }
@@ -168,12 +167,11 @@ std::string summary(const LoadFlags& flags, const LoadResult& result) {
 
 ExitCode load_occupancy(const LoadFlags& flags) {
   const auto parsed = process::parse_scene_argument(flags.scene);
-  if (!parsed.scene) return invalid_input("--scene " + flags.scene + ": " + parsed.error);
-  if (!parsed.scene->options.occupancy_resolution_m) {
+  if (!parsed) return invalid_input("--scene " + flags.scene + ": " + parsed.error);
+  if (!parsed->options.occupancy_resolution_m) {
     return invalid_input("--scene " + flags.scene + ": needs ,occupancy=RESOLUTION_M");
   }
-  const LoadedScene scene =
-      load_timed(parsed.scene->name, parsed.scene->file.string(), parsed.scene->options);
+  const LoadedScene scene = load_timed(parsed->name, parsed->file.string(), parsed->options);
   if (!scene.result.snapshot) return invalid_input(scene.result.error);
   const scene::Snapshot& snapshot = *scene.result.snapshot;
   const OccupancyLoad load =

@@ -76,7 +76,7 @@ ExitCode ask_daemon(const OccupancyFlags& flags, OccupancyBatch batch) {
 }
 
 ExitCode run_occupancy(const OccupancyFlags& flags) {
-  const ParsedBatch parsed = parse_batch(flags.queries);
+  const base::Result<OccupancyBatch> parsed = parse_batch(flags.queries);
   std::string error = parsed.error;
   if (error.empty() && flags.scene.file.empty() == flags.daemon_scene.empty()) {
     error = "either --scene FILE or --daemon NAME says whose occupancy is asked";
@@ -88,8 +88,7 @@ ExitCode run_occupancy(const OccupancyFlags& flags) {
     print_error(error);
     return ExitCode::kInvalidInput;
   }
-  return flags.daemon_scene.empty() ? ask_map(flags, parsed.batch)
-                                    : ask_daemon(flags, parsed.batch);
+  return flags.daemon_scene.empty() ? ask_map(flags, *parsed) : ask_daemon(flags, *parsed);
 }
 
 /// Adds an option for a query. It may be repeated, each time with one text.

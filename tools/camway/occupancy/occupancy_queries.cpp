@@ -109,19 +109,19 @@ void describe_lengths(std::string& out, std::string_view option,
 
 }  // namespace
 
-ParsedBatch parse_batch(const OccupancyTexts& texts) {
-  ParsedBatch parsed;
-  OccupancyBatch& batch = parsed.batch;
-  parsed.error = parse_all<3>("point", texts.points, [&](const std::array<double, 3>& n) {
+base::Result<OccupancyBatch> parse_batch(const OccupancyTexts& texts) {
+  OccupancyBatch batch;
+  std::string error = parse_all<3>("point", texts.points, [&](const std::array<double, 3>& n) {
     batch.points_m.push_back(n);
     return std::string_view();
   });
-  if (parsed.error.empty()) parsed.error = parse_boxes(texts.boxes, batch);
-  if (parsed.error.empty()) parsed.error = parse_spheres(texts.spheres, batch);
-  if (parsed.error.empty()) parsed.error = parse_rays(texts.rays, batch);
-  if (parsed.error.empty()) parsed.error = parse_distances(texts.distances, batch);
-  if (parsed.error.empty()) parsed.error = parse_sphere_paths(texts.sphere_paths, batch);
-  return parsed;
+  if (error.empty()) error = parse_boxes(texts.boxes, batch);
+  if (error.empty()) error = parse_spheres(texts.spheres, batch);
+  if (error.empty()) error = parse_rays(texts.rays, batch);
+  if (error.empty()) error = parse_distances(texts.distances, batch);
+  if (error.empty()) error = parse_sphere_paths(texts.sphere_paths, batch);
+  if (!error.empty()) return base::Failure{std::move(error)};
+  return batch;
 }
 
 OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/base/result.h"
 #include "daemon/scene/mirror/occupancy_mirror.h"
 
 namespace camway::tools {
@@ -20,14 +21,10 @@ struct OccupancyTexts {
   std::vector<std::string> sphere_paths;  ///< x,y,z,x,y,z,radius
 };
 
-/// A batch, or an error that names the option and the text: wrong count, not a finite number, a box
-/// with min above max, a negative radius, range or distance, or a ray of zero length.
-struct ParsedBatch {
-  OccupancyBatch batch;
-  std::string error;  ///< empty on success
-};
-/// Returns the queries of `texts` in their order.
-ParsedBatch parse_batch(const OccupancyTexts& texts);
+/// Returns the queries of `texts` in their order, or an error that names the option and the text:
+/// wrong count, not a finite number, a box with min above max, a negative radius, range or
+/// distance, or a ray of zero length.
+base::Result<OccupancyBatch> parse_batch(const OccupancyTexts& texts);
 
 /// Returns the answer to a batch from a map in this process, the same as a daemon's.
 OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch);

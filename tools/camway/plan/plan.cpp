@@ -82,38 +82,38 @@ std::vector<std::string> warnings_of(const RequestFile& request) {
 
 Answer answer_request(const PlanFlags& flags, const std::string& file, SceneCache& scenes) {
   Answer answer;
-  Parsed<RequestFile> request = read_plan_request(file);
-  if (!request.value) {
+  base::Result<RequestFile> request = read_plan_request(file);
+  if (!request) {
     answer.result = invalid(request.error);
     return answer;
   }
   const std::string source = source_of(file);
-  flags.options.apply(*request.value);
-  if (const auto fault = planning::validate(*request.value)) {
+  flags.options.apply(*request);
+  if (const auto fault = planning::validate(*request)) {
     answer.result = invalid(source + ": " + fault->message);
     answer.result.keyframe = fault->keyframe;
     return answer;
   }
-  answer.scene_file = flags.scene.file_for(file, *request.value);
+  answer.scene_file = flags.scene.file_for(file, *request);
   if (answer.scene_file.empty()) {
     answer.result = invalid(source + ": scene: is missing, and there is no --scene");
     return answer;
   }
   const LoadedScene& scene =
-      scenes.load(answer.scene_file, flags.scene.import_options(request.value->reading));
+      scenes.load(answer.scene_file, flags.scene.import_options(request->reading));
   if (!scene.result.snapshot) {
     answer.result = invalid(scene.result.error);
     return answer;
   }
   answer.scene_digest = scene.result.snapshot->digest;
   answer.mesh = scene.result.snapshot->mesh.share();
-  const planning::PlanOptions& options = request.value->options;
+  const planning::PlanOptions& options = request->options;
   answer.scene_warnings = scene::import_warnings(
       scene.result.snapshot->report,
       scene::finest_length_m(options.interval_tolerance_m, options.clearance_m));
-  answer.request_warnings = warnings_of(*request.value);
-  answer.result = planning::plan(*scene.result.snapshot, *request.value);
-  planning::name_witnesses(scene.result.snapshot->mesh, *request.value, answer.result);
+  answer.request_warnings = warnings_of(*request);
+  answer.result = planning::plan(*scene.result.snapshot, *request);
+  planning::name_witnesses(scene.result.snapshot->mesh, *request, answer.result);
   answer.result.timing.load_scene_ms = scene.load_ms;
   if (answer.result.status == Status::kInvalid) {
     answer.result.message = source + ": " + answer.result.message;
@@ -134,20 +134,19 @@ ExitCode write_response(const Answer& answer, const std::string& file, bool no_t
   format.warnings = answer.scene_warnings;
   format.warnings.insert(format.warnings.end(), answer.request_warnings.begin(),
                          answer.request_warnings.end());
-  const Parsed<std::string> text = write_plan_response(answer.result, format);
-  if (!text.value) {
+  const base::Result<std::string> text = write_plan_response(answer.result, format);
+  if (!text) {
     print_error("the response cannot be written: " + text.error);
     return ExitCode::kOurFault;
   }
   if (file.empty()) {
-    const bool written =
-        std::fwrite(text.value->data(), 1, text.value->size(), stdout) == text.value->size() &&
-        std::fflush(stdout) == 0;
+    const bool written = std::fwrite(text->data(), 1, text->size(), stdout) == text->size() &&
+                         std::fflush(stdout) == 0;
     if (written) return ExitCode::kSuccess;
     print_error("standard output cannot be written");
     return ExitCode::kInvalidInput;
   }
-  const std::string error = write_file(file, *text.value);
+  const std::string error = write_file(file, *text);
   if (error.empty()) return ExitCode::kSuccess;
   print_error(error);
   return ExitCode::kInvalidInput;
@@ -185,21 +184,23 @@ ExitCode plan_one(const PlanFlags& flags, SceneCache& scenes) {
 
 /// Returns the file of each response. An error if one cannot be written, if two would go to one
 /// file, or if one would overwrite a request.
-Parsed<std::vector<std::string>> response_files(const PlanFlags& flags) {
+base::Result<std::vector<std::string>> response_files(const PlanFlags& flags) {
   std::vector<std::string> files;
   std::set<std::string> taken;
   for (const std::string& request : flags.requests) {
     const std::filesystem::path name = std::filesystem::path(request).filename();
     const std::string file = (flags.response_dir / name).string();
-    if (!taken.insert(file).second) return {{}, file + ": is the response file of two requests"};
+    if (!taken.insert(file).second)
+      return base::Failure{file + ": is the response file of two requests"};
     std::error_code ignored;
     if (std::filesystem::equivalent(file, request, ignored)) {
-      return {{}, file + ": the response would overwrite the request"};
+      return base::Failure{file + ": the response would overwrite the request"};
     }
-    if (std::string fault = why_unwritable(file); !fault.empty()) return {{}, std::move(fault)};
+    if (std::string fault = why_unwritable(file); !fault.empty())
+      return base::Failure{std::move(fault)};
     files.push_back(file);
   }
-  return {std::move(files), {}};
+  return files;
 }
 
 ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
@@ -209,8 +210,8 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
     print_error(flags.response_dir + ": cannot be made: " + error.message());
     return ExitCode::kInvalidInput;
   }
-  const Parsed<std::vector<std::string>> files = response_files(flags);
-  if (!files.value) {
+  const base::Result<std::vector<std::string>> files = response_files(flags);
+  if (!files) {
     print_error(files.error);
     return ExitCode::kInvalidInput;
   }
@@ -238,7 +239,7 @@ ExitCode plan_set(const PlanFlags& flags, SceneCache& scenes) {
       print_summary(source, answer);
     }
     outcome = worse(outcome, code);
-    outcome = worse(outcome, write_response(answer, (*files.value)[i], flags.no_timing));
+    outcome = worse(outcome, write_response(answer, (*files)[i], flags.no_timing));
   }
   fmt::print("{} of {} ok\n", ok_count, plural(flags.requests.size(), "request"));
   return outcome;

@@ -41,19 +41,19 @@ std::optional<Scenes> load_scenes(const std::vector<std::string>& arguments) {
   Scenes scenes;
   for (const std::string& argument : arguments) {
     const auto parsed = process::parse_scene_argument(argument);
-    if (!parsed.scene) {
+    if (!parsed) {
       print_error("--scene " + argument + ": " + parsed.error);
       return std::nullopt;
     }
     // Planning does not use the occupancy map, so none is made.
-    scene::SnapshotOptions options = parsed.scene->options;
+    scene::SnapshotOptions options = parsed->options;
     options.occupancy_resolution_m.reset();
-    LoadedScene loaded = load_timed(parsed.scene->name, parsed.scene->file.string(), options);
+    LoadedScene loaded = load_timed(parsed->name, parsed->file.string(), options);
     if (!loaded.result.snapshot) {
       print_error(loaded.result.error);
       return std::nullopt;
     }
-    if (!scenes.emplace(parsed.scene->name, std::move(loaded.result.snapshot)).second) {
+    if (!scenes.emplace(parsed->name, std::move(loaded.result.snapshot)).second) {
       print_error("--scene " + argument + ": the name stands twice");
       return std::nullopt;
     }
@@ -72,12 +72,12 @@ std::string write_responses(const ReplayFlags& flags, const Session& session, co
     format.scene = recorded.scene;
     const auto scene = scenes.find(recorded.scene);
     if (scene != scenes.end()) format.scene_digest = scene->second->digest;
-    const Parsed<std::string> text = write_plan_response(replayed[i].result, format);
-    if (!text.value) return "the response cannot be written: " + text.error;
+    const base::Result<std::string> text = write_plan_response(replayed[i].result, format);
+    if (!text) return "the response cannot be written: " + text.error;
     const std::string name =
         fmt::format("{:04}_{}_{}.json", i, recorded.ids.client_id, recorded.ids.request_id);
     const auto file = std::filesystem::path(flags.responses_dir) / name;
-    if (std::string fault = write_file(file, *text.value); !fault.empty()) return fault;
+    if (std::string fault = write_file(file, *text); !fault.empty()) return fault;
   }
   return {};
 }

@@ -64,8 +64,7 @@ std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& 
 /// Returns the body of the request; a point if its body is not valid.
 motion::Body body_of(const RecordedRequest& recorded) {
   if (recorded.request) {
-    std::string fault;
-    auto body = motion::Body::make(planning::body_shape(*recorded.request), fault);
+    auto body = motion::Body::make(planning::body_shape(*recorded.request));
     if (body) return *body;
   }
   return motion::Body(motion::Camera{});

@@ -72,8 +72,8 @@ class SessionBuilder {
     recorded.ids = {whole.client_id, whole.request_id, whole.utime};
     recorded.scene = whole.scene;
     recorded.sent = 1;
-    messages::ConvertedRequest converted = messages::from_wire(whole);
-    recorded.request = std::move(converted.request);
+    base::Result<planning::PlanRequest> converted = messages::from_wire(whole);
+    recorded.request = std::move(converted.value);
     recorded.error = std::move(converted.error);
     whole.utime = 0;  // does not count as content
     wire::Bytes content = wire::encode(whole);
@@ -90,10 +90,10 @@ class SessionBuilder {
   }
 
   void add_answer(const plan_response_t& whole) {
-    messages::ConvertedResult converted = messages::from_wire(whole);
+    base::Result<planning::PlanResult> converted = messages::from_wire(whole);
     RecordedAnswer answer;
     answer.status = messages::status_name(whole.status);
-    answer.result = std::move(converted.result);
+    answer.result = std::move(converted.value);
     answer.scene_digest = whole.scene_digest;
     const auto [position, is_new] = answers_.try_emplace({whole.client_id, whole.request_id});
     if (is_new || (!position->second.result && answer.result)) position->second = std::move(answer);

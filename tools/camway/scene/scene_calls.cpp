@@ -190,12 +190,12 @@ ExitCode load_scene(const SceneCommandFlags& flags) {
   if (!mesh) return ExitCode::kInvalidInput;
   Bounds bounds;
   if (!flags.bounds.empty()) {
-    const process::ParsedBounds parsed = process::parse_bounds(flags.bounds);
-    if (!parsed.bounds) {
+    const base::Result<geometry::Bounds> parsed = process::parse_bounds(flags.bounds);
+    if (!parsed) {
       print_error("--bounds: " + parsed.error);
       return ExitCode::kInvalidInput;
     }
-    bounds = to_client_bounds(*parsed.bounds);
+    bounds = to_client_bounds(*parsed);
   }
   return ask_daemon(flags, [&](Client& client) {
     return client.load_scene(flags.scene, *mesh, flags.occupancy_m, bounds);

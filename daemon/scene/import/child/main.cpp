@@ -277,9 +277,9 @@ int import_directly(const std::string& file, const std::string& extension) {
     // The file is there and not empty, so what is missing is address space.
     return errno == ENOMEM ? format::kExitOutOfMemory : refuse("cannot be opened");
   }
-  mesh_readers::ReadResult read = mesh_readers::read_mesh(extension, mapped.bytes());
-  if (!read.refusal.empty()) return refuse(std::move(read.refusal));
-  return write_record(read.record) ? format::kExitOk : format::kExitInternal;
+  camway::base::Result<format::Record> read = mesh_readers::read_mesh(extension, mapped.bytes());
+  if (!read) return refuse(std::move(read.error));
+  return write_record(*read) ? format::kExitOk : format::kExitInternal;
 }
 
 int import_map(const std::string& file, const std::string& extension) {

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
 #include <string_view>
 
+#include "daemon/base/result.h"
 #include "daemon/scene/import/record/import_format.h"
 
 namespace camway::scene::mesh_readers {
-
-struct ReadResult {
-  import_format::Record record;  ///< as in `import_format.h`; without the header's counts
-  std::string refusal;           ///< why the file cannot be read; empty if it was
-};
 
 /// Whether `read_mesh` reads files with this extension (".obj", ".off", ".ply", ".stl", in any
 /// case).
@@ -20,7 +15,8 @@ bool is_known_extension(std::string_view extension);
 /// Reads a file of one of these formats, with coordinates in doubles. Accepts any bytes. Memory:
 /// two to four times the size of the file, a hundred times for one made for that (a single face
 /// whose indices take a byte each). Time: linear, except for polygons of very many corners, where
-/// it may grow with their cube. Requires `is_known_extension(extension)`.
-ReadResult read_mesh(std::string_view extension, std::string_view bytes);
+/// it may grow with their cube. Returns a record as in `import_format.h` without the header's
+/// counts, or the reason why the file cannot be read. Requires `is_known_extension(extension)`.
+base::Result<import_format::Record> read_mesh(std::string_view extension, std::string_view bytes);
 
 }  // namespace camway::scene::mesh_readers

@@ -17,9 +17,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 Record read(std::string_view extension, std::string_view text) {
-  ReadResult result = read_mesh(extension, text);
-  EXPECT_EQ(result.refusal, "");
-  return std::move(result.record);
+  base::Result<Record> result = read_mesh(extension, text);
+  EXPECT_EQ(result.error, "");
+  return *std::move(result);
 }
 
 std::vector<std::string> names_of(const Record& record) {
@@ -92,18 +92,18 @@ TEST(ObjReader, CountsWhatNoReaderKnows) {
 // Faces beyond the announced number would be lost silently, and a path through them certified.
 TEST(Headers, MustNotPromiseLessThanThereIs) {
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  EXPECT_EQ(read_mesh(".off", off + " # the end\n\n").refusal, "");
-  EXPECT_THAT(read_mesh(".off", off + "3 0 2 1\n").refusal, HasSubstr("goes on after the 1 faces"));
+  EXPECT_EQ(read_mesh(".off", off + " # the end\n\n").error, "");
+  EXPECT_THAT(read_mesh(".off", off + "3 0 2 1\n").error, HasSubstr("goes on after the 1 faces"));
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  EXPECT_EQ(read_mesh(".ply", ply + " \n").refusal, "");
-  EXPECT_THAT(read_mesh(".ply", ply + "3 0 2 1\n").refusal, HasSubstr("goes on after"));
+  EXPECT_EQ(read_mesh(".ply", ply + " \n").error, "");
+  EXPECT_THAT(read_mesh(".ply", ply + "3 0 2 1\n").error, HasSubstr("goes on after"));
   std::string stl(80, ' ');
   stl += std::string("\1\0\0\0", 4) + std::string(50, '\0');
-  EXPECT_EQ(read_mesh(".stl", stl + std::string(3, '\0')).refusal, "");
-  EXPECT_THAT(read_mesh(".stl", stl + std::string(50, 'x')).refusal,
+  EXPECT_EQ(read_mesh(".stl", stl + std::string(3, '\0')).error, "");
+  EXPECT_THAT(read_mesh(".stl", stl + std::string(50, 'x')).error,
               HasSubstr("goes on after the 1 facets"));
 }
 

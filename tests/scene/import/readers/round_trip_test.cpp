@@ -19,15 +19,15 @@ std::array<std::uint64_t, 3> bits_of(const std::array<double, 3>& v) {
 
 /// Expects every triangle, in order, with the same bits in every coordinate.
 void expect_same(const TriangleSoup& soup, std::string_view extension, const std::string& file) {
-  const mesh_readers::ReadResult read = mesh_readers::read_mesh(extension, file);
-  ASSERT_EQ(read.refusal, "") << file;
-  ASSERT_EQ(read.record.triangles.size(), soup.triangles.size()) << file;
-  EXPECT_EQ(read.record.header.dropped_points_and_lines, 0U);
+  const auto read = mesh_readers::read_mesh(extension, file);
+  ASSERT_EQ(read.error, "") << file;
+  ASSERT_EQ(read->triangles.size(), soup.triangles.size()) << file;
+  EXPECT_EQ(read->header.dropped_points_and_lines, 0U);
   for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t corner = read.record.triangles[i][k];
-      ASSERT_LT(corner, read.record.vertices.size());
-      ASSERT_EQ(bits_of(read.record.vertices[corner]), bits_of(soup.vertices[soup.triangles[i][k]]))
+      const std::uint32_t corner = read->triangles[i][k];
+      ASSERT_LT(corner, read->vertices.size());
+      ASSERT_EQ(bits_of(read->vertices[corner]), bits_of(soup.vertices[soup.triangles[i][k]]))
           << "triangle " << i << " of\n"
           << file;
     }
@@ -69,7 +69,7 @@ TEST(RoundTrip, SaysWhatItRounds) {
   Random random(kMeshSeed);
   const TriangleSoup soup = random_soup(random, Numbers::kFloats);
   const auto rounding = [](std::string_view extension, const std::string& file) {
-    return mesh_readers::read_mesh(extension, file).record.header.relative_rounding;
+    return mesh_readers::read_mesh(extension, file)->header.relative_rounding;
   };
   EXPECT_EQ(rounding(".stl", write_binary_stl(soup)), 0.0);
   EXPECT_EQ(rounding(".ply", write_ply(soup, Numbers::kFloats, PlyEncoding::kBigEndian, random)),

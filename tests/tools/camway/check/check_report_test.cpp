@@ -24,9 +24,7 @@ TEST(CheckReport, SaysWhereOnTheBodyAContactIs) {
 std::vector<std::string> warnings_of(const motion::BodyShape& shape, double tolerance_m,
                                      bool collides) {
   CheckInput input;
-  std::string fault;
-  input.body = motion::Body::make(shape, fault);
-  EXPECT_TRUE(input.body) << fault;
+  input.body = *motion::Body::make(shape);
   input.request.options.interval_tolerance_m = tolerance_m;
   input.snapshot = scene::make_snapshot("wall", wall_mesh()).snapshot;
   PathSearch search;

@@ -191,9 +191,8 @@ TEST(Compare, MeasuresATurnByTheCornersOfAnyBody) {
   for (motion::Keyframe& keyframe : turned) {
     keyframe.pose.orientation = Eigen::AngleAxisd(std::numbers::pi, geometry::Vec3::UnitZ());
   }
-  std::string error;
-  const auto rod = motion::Body::make(motion::ConvexShape{{{{2, 0, 0}, {0, 0, 5}}}}, error);
-  ASSERT_TRUE(rod) << error;
+  const auto rod = motion::Body::make(motion::ConvexShape{{{{2, 0, 0}, {0, 0, 5}}}});
+  ASSERT_TRUE(rod) << rod.error;
   EXPECT_NEAR(compare(a, result_through(turned), *rod).path_m, 4.0, 1e-13);
 }
 
