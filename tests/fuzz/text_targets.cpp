@@ -46,7 +46,7 @@ constexpr char kRequest[] = R"({"scene": "a.obj", "comment": [1, {"x": null}],
     "orientation": {"policy": "target", "target": [1, 2, 3], "cone_deg": 20, "max_turn_deg": 9},
     "limits": {"speed_m_per_s": 1, "acceleration_m_per_s2": 2, "turn_rate_deg_per_s": 90,
       "retime": true}}})";
-/// Names before 0.2, and an option by both of its names.
+/// Old names, and an option by both of its names.
 constexpr char kOldNames[] = R"({"body": {"type": "sphere", "radius": 0.5},
   "keyframes": [{"position": [0, 0, 0], "orientation": [1, 0, 0, 0]},
                 {"position": [1, 0, 0], "orientation": [1, 0, 0, 0]}],

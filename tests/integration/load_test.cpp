@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,9 +21,10 @@ using ::testing::HasSubstr;
 /// `camway load` against a daemon.
 class LoadTest : public IntegrationTest {
  protected:
-  /// Runs `camway load` on the scene `office` with a few requests and the arguments `more`. Returns
-  /// its exit code.
-  int load(const std::vector<std::string>& more) {
+  /// Runs `camway load` on the scene `office` with a few requests and the arguments `more`, and
+  /// does `meanwhile` beside it. Returns its exit code.
+  int load(
+      const std::vector<std::string>& more, const std::function<void()>& meanwhile = [] {}) {
     std::vector<std::string> arguments{CAMWAY_BINARY, "load",
                                        "--json",      file("load.json"),
                                        "--scene",     "office=" + scene_file("office")};
@@ -30,6 +33,7 @@ class LoadTest : public IntegrationTest {
     }
     arguments.insert(arguments.end(), more.begin(), more.end());
     Process process(arguments, file("load.log"));
+    meanwhile();
     const std::optional<int> code = process.wait();
     output_ = process.output();
     return code.value_or(-1);
@@ -92,6 +96,18 @@ TEST_F(LoadTest, AnotherSceneUnderTheSameNameIsFoundOut) {
   EXPECT_EQ(load({"--clients", "1", "--requests", "3"}), 2) << output_;
   EXPECT_THAT(output_, HasSubstr("the daemon's scene 'office' (digest "));
   EXPECT_THAT(output_, HasSubstr(" is not the one of --scene (digest "));
+}
+
+TEST_F(LoadTest, EndsWithFourIfTheDaemonIsKilledMeanwhile) {
+  start_daemon();
+  const auto kill_the_daemon = [&] {
+    EXPECT_TRUE(eventually(
+        [&] { return daemon().output().find("] answered client=") != std::string::npos; }));
+    daemon().signal(SIGKILL);
+    EXPECT_EQ(daemon().wait(), 128 + SIGKILL);
+  };
+  EXPECT_EQ(load({"--clients", "1", "--seconds", "3"}, kill_the_daemon), 4) << output_;
+  EXPECT_THAT(output_, HasSubstr("the daemon fell silent meanwhile"));
 }
 
 TEST_F(LoadTest, SaysThatThereIsNoDaemon) {

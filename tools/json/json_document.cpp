@@ -235,7 +235,7 @@ std::optional<Field> Field::optional_member(std::string_view key, std::string_vi
   const auto found_old = old.empty() ? value_->end() : value_->find(old);
   if (found != value_->end() && found_old != value_->end()) {
     fail("has both " + std::string(key) + " and " + std::string(old) +
-         ", its name before 0.2; leave one out");
+         ", its old name; leave one out");
     return std::nullopt;
   }
   if (found != value_->end()) return Field(&*found, this, key, 0);

@@ -45,7 +45,7 @@ class Field {
   Field(const nlohmann::json& root, std::string& error) : value_(&root), error_(&error) {}
 
   /// Returns a required member. If the object does not have `key`, returns the member `old`, the
-  /// name of that member before 0.2. Records an error if the object has both.
+  /// old name of that member. Records an error if the object has both.
   [[nodiscard]] Field member(std::string_view key, std::string_view old = {}) const;
   /// Returns an optional member as `member` does, or nothing if it is missing.
   [[nodiscard]] std::optional<Field> optional_member(std::string_view key,

@@ -54,7 +54,7 @@ struct TriangleOrSide {
 template <class Number>
 TriangleOrSide(Number&) -> TriangleOrSide<Number>;
 
-/// The name of a member before 0.2, which is still read and no longer written.
+/// The old name of a member, which is still read and no longer written.
 struct Old {
   std::string_view name = {};
 };

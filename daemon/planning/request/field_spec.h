@@ -28,7 +28,7 @@ struct FieldSpec {
   /// Name in structs, on the wire and in the client, if not `name`: "turn_rate_rad_per_s".
   std::string_view wire = {};
   std::string_view file = {};      ///< name in request files, if not `name`: "turn_rate_deg_per_s"
-  std::string_view old_file = {};  ///< name in request files before 0.2, which is still read
+  std::string_view old_file = {};  ///< old name in request files, which is still read
   std::string_view unit = {};      ///< unit in messages about a value
   Range range = {};
   /// Text of the default in documents, if it is not the initial value of the member.

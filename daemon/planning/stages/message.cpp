@@ -112,7 +112,9 @@ std::string note_of_method(const PlanRequest& request) {
   if (request.options.bounds.any())
     note += "; note: keyframe_insertion corrects without regard to " +
             request.name_of("options.bounds") + ", and is checked";
-  if (request.body) note += "; note: keyframe_insertion corrects paths of cameras alone";
+  if (moving_camera(request) == nullptr) {
+    note += "; note: keyframe_insertion corrects paths of cameras alone";
+  }
   return note;
 }
 
@@ -210,8 +212,9 @@ std::string why_refused(const std::vector<KeyframeFault>& faults, const PlanRequ
           ? fmt::format("is nearer to the scene than the clearance of {:.3g} m that was asked for",
                         clearance_m)
           : std::string("collides with the scene");
-  std::string message = fmt::format("keyframes[{}]: the {} {} there", first.keyframe,
-                                    request.body ? "body" : "near quadrilateral", rule);
+  std::string message =
+      fmt::format("keyframes[{}]: the {} {} there", first.keyframe,
+                  moving_camera(request) != nullptr ? "near quadrilateral" : "body", rule);
   if (first.depth_m > 0.0) message += fmt::format(", by about {:.3g} m", first.depth_m);
   const bool may_repair = request.options.repair_keyframes;
   if (first.free_pose) {

@@ -58,6 +58,16 @@ TEST(EffortText, SaysWhyThereIsNoPath) {
   EXPECT_THAT(why_infeasible(proof, true), HasSubstr("(0.123 m at its smallest)"));
 }
 
+TEST(NoteOfMethod, TellsThatKeyframeInsertionCorrectsCamerasAlone) {
+  PlanRequest request;
+  request.options.method = Method::kKeyframeInsertion;
+  EXPECT_EQ(note_of_method(request), "");
+  request.body = motion::Camera{1.2, 0.9, 0.1};
+  EXPECT_EQ(note_of_method(request), "") << "a camera, too";
+  request.body = motion::SphereShape{geometry::Vec3::Zero(), 0.5};
+  EXPECT_THAT(note_of_method(request), HasSubstr("corrects paths of cameras alone"));
+}
+
 TEST(NoteOfTolerance, TellsTheSizeOfAnyBody) {
   PlanRequest request;
   const auto note_of = [&](double near_m) {

@@ -383,10 +383,10 @@ TEST(JsonResponse, OfEarlierVersionsHasOldNames) {
 
 TEST(JsonResponse, AMemberByBothOfItsNamesIsRefused) {
   const char* const expected[] = {
-      "P.json: collisions[0].witness: has both depth_m and depth, its name before 0.2; leave one "
+      "P.json: collisions[0].witness: has both depth_m and depth, its old name; leave one "
       "out",
-      "P.json: corrections[0]: has both kind and method, its name before 0.2; leave one out",
-      "P.json: keyframe_faults[0]: has both depth_m and depth, its name before 0.2; leave one out",
+      "P.json: corrections[0]: has both kind and method, its old name; leave one out",
+      "P.json: keyframe_faults[0]: has both depth_m and depth, its old name; leave one out",
   };
   std::size_t i = 0;
   for (const auto& [member, old_member] : kOldNamesOfAnswers) {

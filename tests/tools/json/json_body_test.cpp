@@ -55,7 +55,7 @@ TEST(JsonBody, ReadsTheRadiusByItsOldName) {
   EXPECT_EQ(parse_plan_request(request_with(R"({"type": "sphere", "radius": 1, "radius_m": 1})"),
                                "R.json")
                 .error,
-            "R.json: body: has both radius_m and radius, its name before 0.2; leave one out");
+            "R.json: body: has both radius_m and radius, its old name; leave one out");
 }
 
 TEST(JsonBody, ReadsConvexPieces) {
