@@ -11,6 +11,7 @@
 
 #include "daemon/geometry/rounding.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/scenes.h"
 
 namespace camway::geometry {
@@ -54,7 +55,7 @@ TEST(ExactOrientation, NearlyDegenerateAgainstWideArithmetic) {
   testing::Random random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::array<int, 3> seen{};
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < testing::runs(20'000); ++i) {
     const double size = std::exp2(std::uniform_int_distribution<int>(-150, 150)(random));
     const auto vec = [&] { return Vec3(size * Vec3(unit(random), unit(random), unit(random))); };
     const auto nudged = [&](Vec3 v) {
@@ -79,7 +80,7 @@ TEST(ExactOrientation, NearlyDegenerateAgainstWideArithmetic) {
     ASSERT_EQ(orientation(a2, b2, c2), oracle(a2, b2, c2)) << i;
     ASSERT_EQ(orientation(b2, c2, a2), orientation(a2, b2, c2)) << i;
   }
-  for (const int count : seen) EXPECT_GT(count, 500);
+  for (const int count : seen) EXPECT_GT(count, testing::runs(500));
 }
 
 // Products underflow or are as large as possible.

@@ -9,6 +9,7 @@
 #include "daemon/geometry/triangle_distance.h"
 #include "tests/geometry/exact_oracle.h"
 #include "tests/geometry/random_triangles.h"
+#include "tests/support/sanitizer.h"
 
 namespace camway::geometry {
 namespace {
@@ -20,19 +21,19 @@ Vec3 point_at(const LineSegment& s, double fraction) { return s.from + fraction 
 TEST(HitFraction, HitsExactlyWhatTouches) {
   RandomTriangles random(401);
   int hits = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < testing::runs(4000); ++i) {
     const LineSegment segment{random.on_grid(4), random.on_grid(4)};
     const Triangle t = random.grid_triangle(4);
     const bool expected = oracle::squared_distance(as_triangle(segment), t) == 0;
     hits += expected ? 1 : 0;
     ASSERT_EQ(hit_fraction(segment, t).has_value(), expected) << to_text(t);
   }
-  EXPECT_GT(hits, 300);
+  EXPECT_GT(hits, testing::runs(300));
 }
 
 TEST(HitFraction, NamesAPointOfTheTriangleAndNoneBefore) {
   RandomTriangles random(402);
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < testing::runs(4000); ++i) {
     const LineSegment segment{random.on_grid(4), random.on_grid(4)};
     const Triangle t = random.grid_triangle(4);
     const std::optional<double> fraction = hit_fraction(segment, t);
@@ -53,7 +54,7 @@ TEST(HitFraction, NamesAPointOfTheTriangleAndNoneBefore) {
 
 TEST(HitFraction, NothingSlipsThroughASharedEdgeOrVertex) {
   RandomTriangles random(403);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < testing::runs(3000); ++i) {
     // A fan of four triangles about a vertex, far from the origin, and a segment aimed at the
     // vertex or a shared edge as closely as doubles allow.
     const Vec3 center = random.in_cube(1e6);

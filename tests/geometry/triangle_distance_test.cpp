@@ -10,6 +10,7 @@
 #include "daemon/geometry/triangle_intersection.h"
 #include "tests/geometry/exact_oracle.h"
 #include "tests/geometry/random_triangles.h"
+#include "tests/support/sanitizer.h"
 
 namespace camway::geometry {
 namespace {
@@ -29,7 +30,7 @@ void report(double worst) { std::printf("worst error: %.4f of the bound\n", wors
 TEST(TriangleDistance, StaysWithinItsBoundForThinAndNearPairs) {
   RandomTriangles random(301);
   double worst = 0.0;
-  for (int i = 0; i < 4000 && !::testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < testing::runs(4000) && !::testing::Test::HasFailure(); ++i) {
     const auto [a, b] = random.close_pair();
     worst = std::max(worst, error_of(a, b));
   }
@@ -39,7 +40,7 @@ TEST(TriangleDistance, StaysWithinItsBoundForThinAndNearPairs) {
 TEST(TriangleDistance, StaysWithinItsBoundForFarPairs) {
   RandomTriangles random(302);
   double worst = 0.0;
-  for (int i = 0; i < 2000 && !::testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < testing::runs(2000) && !::testing::Test::HasFailure(); ++i) {
     const Triangle a = random.thin_triangle();
     const Triangle b = moved(random.thin_triangle(), random.in_cube(random.log_uniform(1e-6, 1e6)));
     worst = std::max(worst, error_of(a, b));
@@ -50,7 +51,7 @@ TEST(TriangleDistance, StaysWithinItsBoundForFarPairs) {
 TEST(TriangleDistance, StaysWithinItsBoundForEdgesNearlyParallel) {
   RandomTriangles random(303);
   double worst = 0.0;
-  for (int i = 0; i < 3000 && !::testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < testing::runs(3000) && !::testing::Test::HasFailure(); ++i) {
     // Two ridges that cross at a small angle and a small distance.
     const double angle = random.log_uniform(1e-18, 1e-3);
     const double gap = random.log_uniform(1e-18, 1.0);
@@ -70,7 +71,7 @@ TEST(TriangleDistance, StaysWithinItsBoundForEdgesNearlyParallel) {
 TEST(TriangleDistance, IsExactlyZeroWhereTheyTouch) {
   RandomTriangles random(304);
   double worst = 0.0;
-  for (int i = 0; i < 3000 && !::testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < testing::runs(3000) && !::testing::Test::HasFailure(); ++i) {
     worst = std::max(worst, error_of(random.grid_triangle(3), random.grid_triangle(3)));
   }
   report(worst);
@@ -79,7 +80,7 @@ TEST(TriangleDistance, IsExactlyZeroWhereTheyTouch) {
 TEST(TriangleDistance, StaysWithinItsBoundFarFromTheOrigin) {
   RandomTriangles random(305);
   double worst = 0.0;
-  for (int i = 0; i < 1500 && !::testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < testing::runs(1500) && !::testing::Test::HasFailure(); ++i) {
     const auto [a, b] = random.close_pair();
     const Vec3 far = 1e6 * random.in_cube(1.0);
     // The bound is relative to the pair, not to its distance from the origin.

@@ -6,6 +6,7 @@
 #include "daemon/geometry/exact_triangles.h"
 #include "tests/geometry/exact_oracle.h"
 #include "tests/geometry/random_triangles.h"
+#include "tests/support/sanitizer.h"
 
 namespace camway::geometry {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 TEST(TrianglesTouch, AgreesWithTheExactDistanceOnAGrid) {
   RandomTriangles random(101);
   int touching = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < testing::runs(4000); ++i) {
     const Triangle a = random.grid_triangle(3);
     const Triangle b = random.grid_triangle(3);
     const bool expected = oracle::squared_distance(a, b) == 0;
@@ -22,13 +23,13 @@ TEST(TrianglesTouch, AgreesWithTheExactDistanceOnAGrid) {
     ASSERT_EQ(triangles_touch_exactly(a, b), expected) << to_text(a) << "| " << to_text(b);
   }
   // Both answers occur.
-  EXPECT_GT(touching, 800);
+  EXPECT_GT(touching, testing::runs(800));
   EXPECT_LT(touching, 3200);
 }
 
 TEST(TrianglesTouch, AgreesWithTheExactDistanceOfDegeneratePairs) {
   RandomTriangles random(102);
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < testing::runs(4000); ++i) {
     Triangle a = random.grid_triangle(3);
     Triangle b = random.grid_triangle(3);
     if (i % 2 == 0) a[2] = a[1];
@@ -43,13 +44,13 @@ TEST(TrianglesTouch, AgreesWithTheExactDistanceOfDegeneratePairs) {
 TEST(TrianglesTouch, AgreesWithTheExactDistanceOfThinAndNearPairs) {
   RandomTriangles random(103);
   int touching = 0;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < testing::runs(3000); ++i) {
     const auto [a, b] = random.close_pair();
     const bool expected = oracle::squared_distance(a, b) == 0;
     touching += expected ? 1 : 0;
     ASSERT_EQ(triangles_touch(a, b), expected) << to_text(a) << "| " << to_text(b);
   }
-  EXPECT_GT(touching, 200);
+  EXPECT_GT(touching, testing::runs(200));
 }
 
 TEST(TrianglesTouch, DoesNotDependOnTheOrderOfArgumentsAndVertices) {
@@ -69,7 +70,7 @@ TEST(TrianglesTouch, DoesNotDependOnTheOrderOfArgumentsAndVertices) {
 
 TEST(TrianglesTouch, IsExactFarFromTheOrigin) {
   RandomTriangles random(105);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < testing::runs(2000); ++i) {
     // Multiples of 2^-20 are exact at 2^20, so the moved pair is the same pair.
     const Vec3 far(0x1p20, -0x1p20, 0x1p19);
     Triangle a = random.grid_triangle(3);

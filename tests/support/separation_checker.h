@@ -83,7 +83,7 @@ class SeparationChecker {
     const int shift = exponent - kDigits - kUnitExponent;
     if (shift >= 0) return mantissa << shift;
     Integer result = mantissa / (Integer(1) << -shift);
-    if (result << -shift != mantissa) throw std::range_error("a coordinate is too fine");
+    if ((result << -shift) != mantissa) throw std::range_error("a coordinate is too fine");
     return result;
   }
   static Point exact(const geometry::Vec3& v) { return {exact(v.x()), exact(v.y()), exact(v.z())}; }

@@ -38,7 +38,6 @@ class Attack {
       : cage_(cage),
         random_(random),
         index_(scene::SceneIndex::build(cage.mesh)),
-        short_m_(short_m),
         long_m_(short_m * within(1.0, 2.0)),
         body_(rectangle(short_m, long_m_)),
         space_({collision::Obstacles(index_), body_, options_}) {}
@@ -120,7 +119,6 @@ class Attack {
   const RandomCage& cage_;
   testing::Random& random_;
   scene::SceneIndex index_;
-  double short_m_;
   double long_m_;
   motion::Body body_;
   collision::DetectOptions options_;

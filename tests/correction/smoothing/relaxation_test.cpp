@@ -13,6 +13,7 @@
 #include "daemon/correction/smoothing/smoothing_form.h"
 #include "daemon/motion/path/measures.h"
 #include "tests/support/gap_problems.h"
+#include "tests/support/sanitizer.h"
 
 namespace camway::correction {
 namespace {
@@ -173,7 +174,7 @@ void expect_free(const Case& c, const CubicPath& path) {
 TEST(Relaxation, StaysFreeKeepsKeyframesAndIsNoWorse) {
   Draw draw(9901);  // among them one that keeping away from what is near makes worse
   int better = 0;
-  constexpr int kRuns = 70;
+  constexpr int kRuns = testing::runs(70);
   for (int run = 0; run < kRuns; ++run) {
     const Swing swing = random_swing(draw);
     for (const Objective objective : kObjectives) {

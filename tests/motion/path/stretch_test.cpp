@@ -9,6 +9,7 @@
 #include "daemon/motion/body/camera.h"
 #include "tests/motion/fifty_digits.h"
 #include "tests/motion/random_motion.h"
+#include "tests/support/sanitizer.h"
 
 namespace camway::motion::test {
 namespace {
@@ -56,7 +57,7 @@ double sampled_bend_m(const Segment& segment, double u0, double u1, const Stretc
 // segments to stretches with rounding only, with orientation control points that nearly cancel.
 TEST(Stretch, ReachHoldsAgainstFiftyDigits) {
   Random random(20261);
-  for (int run = 0; run < 1'500; ++run) {
+  for (int run = 0; run < testing::runs(1'500); ++run) {
     const double place_m = random.log_uniform(1e-3, 1e6);
     const double path_m = random.log_uniform(1e-6, 1e3);
     Segment segment = random_segment(random, random.log_uniform(1e-6, 3.0));
