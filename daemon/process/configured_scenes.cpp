@@ -10,7 +10,7 @@
 #include "daemon/planning/request/request.h"
 #include "daemon/scene/import/import.h"
 #include "daemon/scene/import/import_warnings.h"
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "daemon/service/scenes/scene_rules.h"
 
 namespace camway::process {

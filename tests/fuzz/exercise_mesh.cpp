@@ -9,7 +9,7 @@
 namespace camway::testing {
 namespace {
 
-namespace format = scene::import_format;
+namespace format = scene::import_record;
 
 }  // namespace
 

@@ -2,9 +2,9 @@
 #include <sstream>
 
 #include "daemon/scene/import/import.h"
-#include "daemon/scene/import/record/import_format.h"
 #include "daemon/scene/import/record/import_record.h"
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/import/record/record_layout.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "daemon/scene/snapshot/snapshot.h"
 #include "tests/fuzz/targets.h"
@@ -13,7 +13,7 @@
 namespace camway::testing {
 namespace {
 
-namespace format = scene::import_format;
+namespace format = scene::import_record;
 
 bool exercise_import_record(std::span<const std::uint8_t> bytes) {
   scene::ImportReport report;

@@ -235,7 +235,7 @@ class Daemon {
 
   const std::string memory_;
   Signatures* const signatures_;
-  const wire::Channels channels_;
+  const wire::Channels channels_{};
   lcm::LCM lcm_;
   std::int64_t asked_ = 0;
   std::int64_t answered_ = 0;

@@ -21,7 +21,7 @@
 #include <system_error>
 #include <thread>
 
-#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene {
 namespace {
@@ -87,8 +87,8 @@ class SpawnSettings {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
       posix_spawn_file_actions_addopen(&actions_, stream, "/dev/null", O_RDWR, 0);
     }
-    posix_spawn_file_actions_adddup2(&actions_, output_fd, import_format::kOutputFd);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, import_format::kOutputFd + 1);
+    posix_spawn_file_actions_adddup2(&actions_, output_fd, import_record::kOutputFd);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, import_record::kOutputFd + 1);
     sigset_t none;
     sigset_t all;
     sigemptyset(&none);
@@ -166,18 +166,18 @@ ImportProcessResult result_of_signal(int signal) {
 
 ImportProcessResult result_of_exit(int code, int output_fd) {
   switch (code) {
-    case import_format::kExitOk:
-    case import_format::kExitRefused: {
+    case import_record::kExitOk:
+    case import_record::kExitRefused: {
       std::optional<std::vector<std::byte>> output = read_all(output_fd);
       if (!output)
         return {End::kNotStarted, {}, "cannot read what " + std::string(kProgram) + " wrote"};
       return {End::kFinished, std::move(*output), ""};
     }
-    case import_format::kExitOutOfMemory:
+    case import_record::kExitOutOfMemory:
       return {End::kOutOfMemory, {}, ""};
-    case import_format::kExitInternal:
+    case import_record::kExitInternal:
       return {End::kNotStarted, {}, std::string(kProgram) + " cannot set its limits or write"};
-    case import_format::kExitNotConfined:
+    case import_record::kExitNotConfined:
       return {End::kNotStarted,
               {},
               std::string(kProgram) + " cannot confine itself: seccomp is not permitted here"};

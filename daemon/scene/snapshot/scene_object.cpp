@@ -107,19 +107,20 @@ bool has_own_voxels(const SceneObject& object, const ObjectOptions& options) {
          object.source->map_O->resolution_m() == *options.occupancy_resolution_m;
 }
 
-MirrorMap::BuildResult mirror_of(const SceneObject& object, const ObjectOptions& options,
-                                 const SceneObject* before, const std::stop_token& stop) {
+ObjectMirror::BuildResult mirror_of(const SceneObject& object, const ObjectOptions& options,
+                                    const SceneObject* before, const std::stop_token& stop) {
   if (has_own_voxels(object, options)) {
     const bool is_like_before = before != nullptr && has_own_voxels(*before, options);
-    return MirrorMap::of_map(*object.source->map_O, object.source->bounds_O, options.mirror_voxels,
-                             is_like_before ? before->occupancy.get() : nullptr,
-                             is_like_before ? before->source->map_O.get() : nullptr, stop);
+    return ObjectMirror::of_map(*object.source->map_O, object.source->bounds_O,
+                                options.mirror_voxels,
+                                is_like_before ? before->occupancy.get() : nullptr,
+                                is_like_before ? before->source->map_O.get() : nullptr, stop);
   }
   std::vector<const Mesh*> meshes;
   meshes.reserve(object.parts.size());
   for (const auto& part : object.parts) meshes.push_back(part->indexed->mesh.get());
-  return MirrorMap::build(meshes, *options.occupancy_resolution_m, object.solid(),
-                          options.mirror_voxels, stop);
+  return ObjectMirror::build(meshes, *options.occupancy_resolution_m, object.solid(),
+                             options.mirror_voxels, stop);
 }
 
 bool is_too_far(const geometry::Box& bounds) {
@@ -251,7 +252,7 @@ ObjectResult place_object(std::string name, std::shared_ptr<const ObjectSource> 
   object->placement = placement;
   object->digest = digest_of(*object);
   if (options.occupancy_resolution_m) {
-    MirrorMap::BuildResult mirror = mirror_of(*object, options, before, stop);
+    ObjectMirror::BuildResult mirror = mirror_of(*object, options, before, stop);
     if (!mirror.map) return {nullptr, name + ": " + mirror.error, mirror.limit};
     object->occupancy = std::move(mirror.map);
   }

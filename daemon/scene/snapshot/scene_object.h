@@ -16,7 +16,7 @@
 #include "daemon/scene/mesh/mesh.h"
 #include "daemon/scene/mesh/placement.h"
 #include "daemon/scene/mesh/resource_limit.h"
-#include "daemon/scene/mirror/mirror_map.h"
+#include "daemon/scene/mirror/object_mirror.h"
 #include "daemon/scene/voxels/voxel_map.h"
 
 namespace camway::scene {
@@ -25,8 +25,8 @@ namespace camway::scene {
 struct ObjectOptions {
   IndexOptions index;
   std::optional<DistanceFieldOptions> field = DistanceFieldOptions{};  ///< nothing: no field
-  std::optional<double> occupancy_resolution_m;               ///< nothing: no occupancy mirror
-  std::uint64_t mirror_voxels = MirrorMap::kUsualMostVoxels;  ///< limit for each object
+  std::optional<double> occupancy_resolution_m;                  ///< nothing: no occupancy mirror
+  std::uint64_t mirror_voxels = ObjectMirror::kUsualMostVoxels;  ///< limit for each object
   /// Bounds of the whole scene, which no body may leave, whatever a request says. Objects and
   /// digests do not depend on them.
   geometry::Bounds bounds = {};
@@ -89,7 +89,7 @@ struct SceneObject {
   std::vector<std::shared_ptr<const PlacedPart>> parts;  ///< the source's parts, in their order
   geometry::Box bounds_W;                                ///< bounds of all parts
   std::size_t triangles = 0;
-  std::shared_ptr<const MirrorMap> occupancy;  ///< null if no resolution was given
+  std::shared_ptr<const ObjectMirror> occupancy;  ///< null if no resolution was given
   /// Digest of the triangles in the world: `mesh_digest` for an object of one part, a digest of the
   /// parts' digests in their order for an occupancy map.
   std::string digest;

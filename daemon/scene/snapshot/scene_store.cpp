@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 
 namespace camway::scene {
 namespace {

@@ -94,7 +94,7 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
   snapshot->report = report_of(objects);
   std::vector<WholeMesh::Part> meshes;
   std::vector<std::shared_ptr<const IndexedMesh>> indexed;
-  std::vector<std::shared_ptr<const MirrorMap>> maps;
+  std::vector<std::shared_ptr<const ObjectMirror>> maps;
   std::vector<PlacedVoxelMap> solids;
   for (const auto& object : objects) {
     assert(object->occupancy || !options.occupancy_resolution_m);
@@ -111,7 +111,7 @@ std::shared_ptr<const Snapshot> assemble(std::string name, std::uint64_t revisio
   snapshot->index = SceneIndex::of(indexed);
   if (options.occupancy_resolution_m) {
     snapshot->occupancy =
-        std::make_shared<const OccupancyMirror>(*options.occupancy_resolution_m, std::move(maps));
+        std::make_shared<const SceneMirror>(*options.occupancy_resolution_m, std::move(maps));
   }
   if (!solids.empty()) snapshot->solids = std::make_shared<const SceneSolids>(std::move(solids));
   snapshot->objects = std::move(objects);

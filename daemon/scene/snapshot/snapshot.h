@@ -16,7 +16,7 @@
 #include "daemon/scene/index/scene_index.h"
 #include "daemon/scene/mesh/resource_limit.h"
 #include "daemon/scene/mesh/whole_mesh.h"
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "daemon/scene/snapshot/scene_object.h"
 
 namespace camway::scene {
@@ -42,11 +42,11 @@ struct Snapshot {
   ObjectOptions options;  ///< options that objects are built with, and bounds of the scene
   WholeMesh mesh;         ///< all triangles, numbered as in `index`
   SceneIndex index;
-  std::shared_ptr<const SceneSolids> solids;         ///< null if no object has an inside
-  std::shared_ptr<const ClearanceField> field;       ///< null if there is none
-  std::string why_no_field;                          ///< empty exactly when `field` is set
-  std::shared_ptr<const OccupancyMirror> occupancy;  ///< null if no resolution was given
-  ImportReport report;                               ///< report on all objects together
+  std::shared_ptr<const SceneSolids> solids;     ///< null if no object has an inside
+  std::shared_ptr<const ClearanceField> field;   ///< null if there is none
+  std::string why_no_field;                      ///< empty exactly when `field` is set
+  std::shared_ptr<const SceneMirror> occupancy;  ///< null if no resolution was given
+  ImportReport report;                           ///< report on all objects together
 
   /// The object of that name; null if there is none.
   [[nodiscard]] const SceneObject* find(std::string_view object) const;

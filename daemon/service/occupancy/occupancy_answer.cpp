@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "daemon/messages/convert.h"
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::service {
@@ -86,7 +86,7 @@ std::int32_t answer_list(const std::vector<Numbers>& queries, std::vector<Answer
 /// On the wire -1 means that nothing was found.
 double wire_distance(const std::optional<double>& distance_m) { return distance_m.value_or(-1.0); }
 
-void answer_on(const scene::OccupancyMirror& map, const occupancy_request_t& request,
+void answer_on(const scene::SceneMirror& map, const occupancy_request_t& request,
                const base::Deadline& deadline, occupancy_response_t& answer) {
   const auto at = [&](const auto& queries, auto& answers, const auto& ask) {
     return answer_list(queries, answers, deadline, ask);

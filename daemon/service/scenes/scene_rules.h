@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "daemon/scene/mesh/resource_limit.h"
-#include "daemon/scene/mirror/mirror_map.h"
+#include "daemon/scene/mirror/object_mirror.h"
 #include "daemon/scene/voxels/map_scan.h"
 #include "daemon/service/scenes/scene_roots.h"
 
@@ -20,7 +20,7 @@ struct SceneRules {
   double scan_voxels = scene::kMostScanVoxels;  ///< most voxels that the rays of a scan may pass
   scene::VoxelMapLimits maps;                   ///< `scenes.map_voxels` and `scenes.map_triangles`
   /// Largest number of voxels of the mirror of an object; `scenes.mirror_voxels`.
-  std::uint64_t mirror_voxels = scene::MirrorMap::kUsualMostVoxels;
+  std::uint64_t mirror_voxels = scene::ObjectMirror::kUsualMostVoxels;
 };
 
 /// Returns the key of the setting of a limit, e.g. "scenes.map_voxels"; empty for kNone.

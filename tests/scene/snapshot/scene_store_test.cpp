@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 
 namespace camway::scene {

@@ -8,7 +8,7 @@
 
 #include <camway/cancel_t.hpp>
 
-#include "daemon/scene/mirror/mirror_map.h"
+#include "daemon/scene/mirror/object_mirror.h"
 #include "daemon/service/occupancy/occupancy_answer.h"
 #include "tests/messages/plan_samples.h"
 #include "tests/service/running_service.h"
@@ -32,9 +32,9 @@ std::shared_ptr<const scene::Snapshot> wall_scene() {
   mesh.vertices = {{0.25, -2, -2}, {0.25, 2, -2}, {0.25, 2, 2}, {0.25, -2, 2}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.objects = {{"wall", 0, 2}};
-  scene::MirrorMap::BuildResult built = scene::MirrorMap::build(mesh, 0.5);
+  scene::ObjectMirror::BuildResult built = scene::ObjectMirror::build(mesh, 0.5);
   EXPECT_TRUE(built.map) << built.error;
-  snapshot->occupancy = std::make_shared<const scene::OccupancyMirror>(built.map);
+  snapshot->occupancy = std::make_shared<const scene::SceneMirror>(built.map);
   return snapshot;
 }
 

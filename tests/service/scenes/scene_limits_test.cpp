@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "daemon/scene/snapshot/shape_mesh.h"
 #include "lcmtypes/wire/checksum.h"
 #include "tests/service/running_service.h"
@@ -32,7 +32,7 @@ constexpr double kCell_m = 0.5;
 /// Returns the size of the mirror of a box at the origin.
 std::uint64_t mirror_bytes(double side_m) {
   const auto box = scene::box_mesh(geometry::Vec3::Constant(side_m));
-  return scene::MirrorMap::build(*box, kCell_m).map->statistics().memory_bytes;
+  return scene::ObjectMirror::build(*box, kCell_m).map->statistics().memory_bytes;
 }
 
 scene::SceneStoreLimits tight_store() {

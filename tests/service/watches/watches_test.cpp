@@ -205,7 +205,7 @@ class WatchesTest : public ::testing::Test {
   testing::CapturedLog log_;
   testing::FakeTransport transport_;
   scene::SceneStore scenes_;
-  const wire::Channels channels_;
+  const wire::Channels channels_{};
   std::atomic<int> planned_ = 0;
   std::size_t report_ = 0;
   std::size_t answer_ = 0;

@@ -133,7 +133,7 @@ void add(const OccupancyLoad& part, OccupancyLoad& sum) {
 
 }  // namespace
 
-OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geometry::Box& bounds_W,
+OccupancyLoad run_occupancy_load(const scene::SceneMirror& map, const geometry::Box& bounds_W,
                                  const LoadScene& scene, std::size_t queries,
                                  const LoadOptions& options) {
   OccupancyLoad load;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "tools/camway/load/load_run.h"
 
 namespace camway::tools {
@@ -26,7 +26,7 @@ struct OccupancyLoad {
 /// Runs clients that query the daemon's map of `scene`, batch after batch, and compares all answers
 /// with those of `map`, which is made of the same scene. A batch has `queries` queries, equally
 /// many of each kind, in the box of the scene. They are the same in every run.
-OccupancyLoad run_occupancy_load(const scene::OccupancyMirror& map, const geometry::Box& bounds_W,
+OccupancyLoad run_occupancy_load(const scene::SceneMirror& map, const geometry::Box& bounds_W,
                                  const LoadScene& scene, std::size_t queries,
                                  const LoadOptions& options);
 

@@ -39,7 +39,7 @@ ExitCode ask_map(const OccupancyFlags& flags, const OccupancyBatch& batch) {
     print_error(loaded.result.error);
     return ExitCode::kInvalidInput;
   }
-  const scene::OccupancyMirror& map = *loaded.result.snapshot->occupancy;
+  const scene::SceneMirror& map = *loaded.result.snapshot->occupancy;
   const scene::OccupancyStatistics statistics = map.statistics();
   print_error(fmt::format("{} occupied voxels of {} m", statistics.occupied_voxels,
                           statistics.resolution_m));

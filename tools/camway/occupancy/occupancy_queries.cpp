@@ -124,7 +124,7 @@ base::Result<OccupancyBatch> parse_batch(const OccupancyTexts& texts) {
   return batch;
 }
 
-OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch) {
+OccupancyAnswer answer_offline(const scene::SceneMirror& map, const OccupancyBatch& batch) {
   OccupancyAnswer answer;
   answer.status = Status::kOk;
   answer.resolution_m = map.resolution_m();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "daemon/base/result.h"
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 
 namespace camway::tools {
 
@@ -27,7 +27,7 @@ struct OccupancyTexts {
 base::Result<OccupancyBatch> parse_batch(const OccupancyTexts& texts);
 
 /// Returns the answer to a batch from a map in this process, the same as a daemon's.
-OccupancyAnswer answer_offline(const scene::OccupancyMirror& map, const OccupancyBatch& batch);
+OccupancyAnswer answer_offline(const scene::SceneMirror& map, const OccupancyBatch& batch);
 
 /// Returns a line for each query, with its text from the command line.
 std::string describe(const OccupancyTexts& texts, const OccupancyAnswer& answer);

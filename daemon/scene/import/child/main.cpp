@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 /// camway-import FILE MEMORY_BYTES CPU_SECONDS: reads FILE and writes the record of
-/// `import_format.h` to file descriptor 3. OBJ, OFF, PLY and STL are read by our own readers,
+/// `record_layout.h` to file descriptor 3. OBJ, OFF, PLY and STL are read by our own readers,
 /// occupancy maps by OctoMap, all else by assimp. Started by `import_mesh` only. The only program
 /// that sees assimp; a process of its own, because a file of a few bytes can make assimp crash or
 /// take all memory.
@@ -37,11 +37,11 @@
 #include "daemon/scene/import/child/import_confinement.h"
 #include "daemon/scene/import/child/map_reader.h"
 #include "daemon/scene/import/readers/mesh_reader.h"
-#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/record_layout.h"
 
 namespace {
 
-namespace format = camway::scene::import_format;
+namespace layout = camway::scene::import_record;
 namespace mesh_readers = camway::scene::mesh_readers;
 
 /// Enough for a scene file and the files that it refers to, one after the other.
@@ -68,14 +68,14 @@ bool confine([[maybe_unused]] const char* file) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return true;  // sanitizers need more system calls than are left
 #else
-  return camway::scene::confine_this_process(file, format::kOutputFd);
+  return camway::scene::confine_this_process(file, layout::kOutputFd);
 #endif
 }
 
 bool write_all(const void* data, std::size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
-    const ssize_t written = write(format::kOutputFd, at, size);
+    const ssize_t written = write(layout::kOutputFd, at, size);
     if (written <= 0) return false;
     at += written;
     size -= static_cast<std::size_t>(written);
@@ -88,7 +88,7 @@ bool write_all(const std::vector<T>& values) {
   return write_all(values.data(), values.size() * sizeof(T));
 }
 
-bool write_record(format::Record& record) {
+bool write_record(layout::Record& record) {
   record.header.text_bytes = record.text.size();
   record.header.vertices = record.vertices.size();
   record.header.triangles = record.triangles.size();
@@ -104,9 +104,9 @@ bool write_record(format::Record& record) {
 }
 
 int refuse(std::string reason) {
-  format::Record record;
+  layout::Record record;
   record.text = std::move(reason);
-  return write_record(record) ? format::kExitRefused : format::kExitInternal;
+  return write_record(record) ? layout::kExitRefused : layout::kExitInternal;
 }
 
 std::string object_name(const aiNode& node, const aiMesh& mesh) {
@@ -117,7 +117,7 @@ std::string object_name(const aiNode& node, const aiMesh& mesh) {
   return std::string(node_name) + "/" + std::string(mesh_name);
 }
 
-void append_mesh(const aiNode& node, const aiMesh& mesh, format::Record& record) {
+void append_mesh(const aiNode& node, const aiMesh& mesh, layout::Record& record) {
   const auto base = static_cast<std::uint32_t>(record.vertices.size());
   const std::size_t first_triangle = record.triangles.size();
   for (const aiVector3D& v : std::span(mesh.mVertices, mesh.mNumVertices)) {
@@ -129,7 +129,7 @@ void append_mesh(const aiNode& node, const aiMesh& mesh, format::Record& record)
       ++record.header.dropped_points_and_lines;
       continue;
     }
-    format::Triangle triangle{};
+    layout::Triangle triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       // assimp passes on an index that no vertex has; it must not reach into the next mesh.
       const std::uint32_t index = face.mIndices[k];
@@ -143,7 +143,7 @@ void append_mesh(const aiNode& node, const aiMesh& mesh, format::Record& record)
   record.names += name;
 }
 
-void append_nodes(const aiNode& node, const aiScene& scene, format::Record& record) {
+void append_nodes(const aiNode& node, const aiScene& scene, layout::Record& record) {
   for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) {
     if (mesh < scene.mNumMeshes) append_mesh(node, *scene.mMeshes[mesh], record);
   }
@@ -232,7 +232,7 @@ int import_with_assimp(const std::string& file) {
   const aiScene* scene = importer.ReadFile(file, aiProcess_RemoveComponent);
   if (scene == nullptr) return refuse(importer.GetErrorString());
   if (scene->mRootNode == nullptr || !scene->HasMeshes()) return refuse("holds no mesh");
-  format::Record record;
+  layout::Record record;
   record.header.single_precision = 1;
   record.header.relative_rounding = kReadingRoundoffs * kRoundoff;
   record.header.absolute_rounding = TransformRounding(*scene).bound();
@@ -243,7 +243,7 @@ int import_with_assimp(const std::string& file) {
   scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices | aiProcess_Triangulate);
   if (scene == nullptr) return refuse(importer.GetErrorString());
   append_nodes(*scene->mRootNode, *scene, record);
-  return write_record(record) ? format::kExitOk : format::kExitInternal;
+  return write_record(record) ? layout::kExitOk : layout::kExitInternal;
 }
 
 /// The bytes of a file, mapped. If the file shrinks meanwhile this process crashes, as it may.
@@ -275,18 +275,18 @@ int import_directly(const std::string& file, const std::string& extension) {
   const MappedFile mapped(file);
   if (!mapped.is_open()) {
     // The file is there and not empty, so what is missing is address space.
-    return errno == ENOMEM ? format::kExitOutOfMemory : refuse("cannot be opened");
+    return errno == ENOMEM ? layout::kExitOutOfMemory : refuse("cannot be opened");
   }
-  camway::base::Result<format::Record> read = mesh_readers::read_mesh(extension, mapped.bytes());
+  camway::base::Result<layout::Record> read = mesh_readers::read_mesh(extension, mapped.bytes());
   if (!read) return refuse(std::move(read.error));
-  return write_record(*read) ? format::kExitOk : format::kExitInternal;
+  return write_record(*read) ? layout::kExitOk : layout::kExitInternal;
 }
 
 int import_map(const std::string& file, const std::string& extension) {
-  format::Record record;
+  layout::Record record;
   std::string refusal = camway::scene::read_map(file, extension, record);
   if (!refusal.empty()) return refuse(std::move(refusal));
-  return write_record(record) ? format::kExitOk : format::kExitInternal;
+  return write_record(record) ? layout::kExitOk : layout::kExitInternal;
 }
 
 int import_file(const std::string& file) {
@@ -306,16 +306,16 @@ std::optional<rlim_t> parse_limit(std::string_view text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return format::kExitInternal;
+  if (argc != 4) return layout::kExitInternal;
   const std::optional<rlim_t> memory_bytes = parse_limit(argv[2]);
   const std::optional<rlim_t> cpu_s = parse_limit(argv[3]);
   if (!memory_bytes || !cpu_s || !limit_this_process(*memory_bytes, *cpu_s)) {
-    return format::kExitInternal;
+    return layout::kExitInternal;
   }
-  if (!confine(argv[1])) return format::kExitNotConfined;
+  if (!confine(argv[1])) return layout::kExitNotConfined;
   // Called before assimp can catch bad_alloc and report it as something else.
-  std::set_new_handler([] { _exit(format::kExitOutOfMemory); });
-  int code = format::kExitInternal;
+  std::set_new_handler([] { _exit(layout::kExitOutOfMemory); });
+  int code = layout::kExitInternal;
   try {
     code = import_file(argv[1]);
   } catch (const std::exception& e) {

@@ -15,7 +15,7 @@
 namespace camway::scene {
 namespace {
 
-namespace format = import_format;
+namespace layout = import_record;
 
 bool equals_ignoring_case(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
@@ -23,12 +23,12 @@ bool equals_ignoring_case(std::string_view a, std::string_view b) {
 }
 
 template <class Tree>
-void take_leaves(const Tree& tree, format::Record& record) {
+void take_leaves(const Tree& tree, layout::Record& record) {
   record.header.map_resolution = tree.getResolution();
   if (tree.getRoot() == nullptr) return;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     const octomap::OcTreeKey key = leaf.getIndexKey();
-    format::Cube cube;
+    layout::Cube cube;
     for (unsigned k = 0; k < 3; ++k) cube.min[k] = std::int32_t{key[k]} + VoxelGrid::kMinVoxel;
     cube.size = std::int32_t{1} << (tree.getTreeDepth() - leaf.getDepth());
     (tree.isNodeOccupied(*leaf) ? record.occupied : record.free).push_back(cube);
@@ -37,13 +37,13 @@ void take_leaves(const Tree& tree, format::Record& record) {
 
 /// Takes the leaves if the tree is of that type.
 template <class Tree>
-bool took_leaves(const octomap::AbstractOcTree& tree, format::Record& record) {
+bool took_leaves(const octomap::AbstractOcTree& tree, layout::Record& record) {
   const auto* const typed = dynamic_cast<const Tree*>(&tree);
   if (typed != nullptr) take_leaves(*typed, record);
   return typed != nullptr;
 }
 
-std::string read_binary(const std::string& file, format::Record& record) {
+std::string read_binary(const std::string& file, layout::Record& record) {
   constexpr double kUntilRead = 1.0;
   octomap::OcTree tree(kUntilRead);
   if (!tree.readBinary(file)) return "is no binary OctoMap file";
@@ -51,7 +51,7 @@ std::string read_binary(const std::string& file, format::Record& record) {
   return {};
 }
 
-std::string read_full(const std::string& file, format::Record& record) {
+std::string read_full(const std::string& file, layout::Record& record) {
   // OctoMap knows these types once an object of them was made.
   const octomap::ColorOcTree with_colours(1.0);
   const octomap::OcTreeStamped with_times(1.0);
@@ -71,7 +71,7 @@ bool is_map_extension(std::string_view extension) {
   return equals_ignoring_case(extension, ".bt") || equals_ignoring_case(extension, ".ot");
 }
 
-std::string read_map(const std::string& file, std::string_view extension, format::Record& record) {
+std::string read_map(const std::string& file, std::string_view extension, layout::Record& record) {
   record.text = "OctoMap";
   record.header.relative_rounding = geometry::kUnitRoundoff;  // of a face: number times edge
   return equals_ignoring_case(extension, ".bt") ? read_binary(file, record)

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene {
 
@@ -15,6 +15,6 @@ bool is_map_extension(std::string_view extension);
 /// own thresholds. These readers trust the file, and may crash or use any amount of memory: for the
 /// import process only. Returns why the file is refused, or an empty text.
 std::string read_map(const std::string& file, std::string_view extension,
-                     import_format::Record& record);
+                     import_record::Record& record);
 
 }  // namespace camway::scene

@@ -77,7 +77,7 @@ void MeshCollector::add_fan(std::span<const std::uint32_t> corners, std::size_t 
   }
 }
 
-import_format::Record MeshCollector::finish(std::string_view format, double relative_rounding) {
+import_record::Record MeshCollector::finish(std::string_view format, double relative_rounding) {
   end_object();
   if (record_.objects.empty()) record_.objects.push_back({0, 0});
   record_.text = format;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "daemon/scene/import/readers/polygon_cutter.h"
-#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene::mesh_readers {
 
@@ -46,13 +46,13 @@ class MeshCollector {
   void add_ignored_statement() { ++record_.header.ignored_statements; }
 
   /// Returns the record, with at least one object. `relative_rounding`: of reading one number.
-  import_format::Record finish(std::string_view format, double relative_rounding);
+  import_record::Record finish(std::string_view format, double relative_rounding);
 
  private:
   void end_object();
   void add_fan(std::span<const std::uint32_t> corners, std::size_t first);
 
-  import_format::Record record_;
+  import_record::Record record_;
   std::string name_;
   bool weighted_ = false;
   std::size_t first_triangle_ = 0;  ///< first triangle of the current object

@@ -20,34 +20,34 @@ namespace {
 /// A decimal becomes the nearest double.
 constexpr double kOneRounding = geometry::kUnitRoundoff;
 
-using Reader = base::Result<import_format::Record> (*)(std::string_view);
+using Reader = base::Result<import_record::Record> (*)(std::string_view);
 
-base::Result<import_format::Record> finished(MeshCollector& mesh, std::string_view format,
+base::Result<import_record::Record> finished(MeshCollector& mesh, std::string_view format,
                                              double relative_rounding, std::string refusal) {
   if (!refusal.empty()) return base::Failure{std::move(refusal)};
   return mesh.finish(format, relative_rounding);
 }
 
-base::Result<import_format::Record> read_obj_file(std::string_view bytes) {
+base::Result<import_record::Record> read_obj_file(std::string_view bytes) {
   MeshCollector mesh;
   read_obj(bytes, mesh);
   return finished(mesh, "Wavefront OBJ", kOneRounding, "");
 }
 
-base::Result<import_format::Record> read_off_file(std::string_view bytes) {
+base::Result<import_record::Record> read_off_file(std::string_view bytes) {
   MeshCollector mesh;
   std::string refusal = read_off(bytes, mesh);
   return finished(mesh, "OFF", kOneRounding, std::move(refusal));
 }
 
-base::Result<import_format::Record> read_ply_file(std::string_view bytes) {
+base::Result<import_record::Record> read_ply_file(std::string_view bytes) {
   MeshCollector mesh;
   PlyKind kind;
   std::string refusal = read_ply(bytes, mesh, kind);
   return finished(mesh, kind.format, kind.relative_rounding, std::move(refusal));
 }
 
-base::Result<import_format::Record> read_stl_file(std::string_view bytes) {
+base::Result<import_record::Record> read_stl_file(std::string_view bytes) {
   MeshCollector mesh;
   std::string refusal = read_stl(bytes, mesh);
   const bool binary = is_binary_stl(bytes);
@@ -71,7 +71,7 @@ Reader reader_for(std::string_view extension) {
 
 bool is_known_extension(std::string_view extension) { return reader_for(extension) != nullptr; }
 
-base::Result<import_format::Record> read_mesh(std::string_view extension, std::string_view bytes) {
+base::Result<import_record::Record> read_mesh(std::string_view extension, std::string_view bytes) {
   // Every vertex and every triangle takes a byte at least, so their numbers fit 32 bits.
   if (bytes.size() >= std::numeric_limits<std::uint32_t>::max()) {
     return base::Failure{"is larger than 4 GiB"};

@@ -9,14 +9,14 @@
 
 #include "daemon/geometry/exact_triangles.h"
 #include "daemon/geometry/rounding.h"
-#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene {
 namespace {
 
-namespace format = import_format;
-using format::Record;
+namespace layout = import_record;
 using geometry::Vec3;
+using layout::Record;
 
 /// Parses a record. Checks every count against the remaining bytes before it allocates anything.
 class RecordReader {
@@ -49,7 +49,7 @@ class RecordReader {
 
 bool parse(std::span<const std::byte> bytes, Record& record) {
   RecordReader reader(bytes);
-  return reader.read(record.header) && record.header.magic == format::kMagic &&
+  return reader.read(record.header) && record.header.magic == layout::kMagic &&
          record.header.relative_rounding >= 0.0 && record.header.absolute_rounding >= 0.0 &&
          reader.read(record.text, record.header.text_bytes) &&
          reader.read(record.vertices, record.header.vertices) &&
@@ -69,7 +69,7 @@ std::string printable(std::string text) {
 }
 
 /// File coordinates to metres in the asked orientation.
-Vec3 to_scene(const format::Vertex& v, const ImportOptions& options) {
+Vec3 to_scene(const layout::Vertex& v, const ImportOptions& options) {
   const Vec3 p = options.scale * Vec3(v[0], v[1], v[2]);
   switch (options.up) {
     case UpAxis::kZToY:
@@ -99,7 +99,7 @@ class MeshBuilder {
   Mesh build() {
     std::size_t next = 0;
     std::size_t name_at = 0;
-    for (const format::Object& object : record_.objects) {
+    for (const layout::Object& object : record_.objects) {
       const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
       const std::size_t end =
           std::min<std::size_t>(record_.triangles.size(), next + object.triangles);
@@ -126,7 +126,7 @@ class MeshBuilder {
     if (count > 0) mesh_.objects.push_back({"", first, count});
   }
 
-  void add(const format::Triangle& indices) {
+  void add(const layout::Triangle& indices) {
     geometry::Triangle triangle;
     for (std::size_t k = 0; k < 3; ++k) {
       if (indices[k] >= record_.vertices.size()) {
@@ -165,7 +165,7 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-bool is_sound(const format::Cube& cube) {
+bool is_sound(const layout::Cube& cube) {
   const auto size = static_cast<std::uint32_t>(cube.size);
   if (cube.size < 1 || cube.size > VoxelGrid::kRoot.size || !std::has_single_bit(size))
     return false;
@@ -177,7 +177,7 @@ bool is_sound(const format::Cube& cube) {
 
 /// As `to_scene` above, for voxels: on a reversed axis a cube ends at the voxel before the mirrored
 /// first one.
-VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
+VoxelCube to_scene(const layout::Cube& cube, UpAxis up) {
   const auto turned = [&](std::int32_t low) { return -low - cube.size; };
   switch (up) {
     case UpAxis::kZToY:
@@ -191,16 +191,16 @@ VoxelCube to_scene(const format::Cube& cube, UpAxis up) {
 }
 
 /// The voxels of the cubes, or nothing if there are too many. Requires that all are sound.
-std::optional<VoxelSet> voxels_of(const std::vector<format::Cube>& cubes, UpAxis up,
+std::optional<VoxelSet> voxels_of(const std::vector<layout::Cube>& cubes, UpAxis up,
                                   std::uint64_t most_voxels) {
   std::uint64_t voxels = 0;
-  for (const format::Cube& cube : cubes) {
+  for (const layout::Cube& cube : cubes) {
     const auto edge = static_cast<std::uint64_t>(cube.size);
     voxels += edge * edge * edge;
     if (voxels > most_voxels) return std::nullopt;
   }
   VoxelSet set;
-  for (const format::Cube& cube : cubes) set.insert(to_scene(cube, up));
+  for (const layout::Cube& cube : cubes) set.insert(to_scene(cube, up));
   return set;
 }
 

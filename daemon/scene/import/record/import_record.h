@@ -26,7 +26,7 @@ struct ImportRecordResult {
   double absolute_rounding = 0.0;
 };
 
-/// Parses the record of `import_format.h`: believes no count before its bytes are seen, checks
+/// Parses the record of `record_layout.h`: believes no count before its bytes are seen, checks
 /// every index and coordinate, applies scale and axes. Leaves out unusable triangles and counts
 /// them in `report`, which also gets the name of the format. The mesh of an occupancy map is the
 /// faces of its voxels.

@@ -12,7 +12,7 @@
 namespace camway::scene::mesh_readers {
 namespace {
 
-using import_format::Record;
+using import_record::Record;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -25,7 +25,7 @@ Record read(std::string_view extension, std::string_view text) {
 std::vector<std::string> names_of(const Record& record) {
   std::vector<std::string> names;
   std::size_t at = 0;
-  for (const import_format::Object& object : record.objects) {
+  for (const import_record::Object& object : record.objects) {
     names.push_back(record.names.substr(at, object.name_bytes) + ":" +
                     std::to_string(object.triangles));
     at += object.name_bytes;
@@ -57,8 +57,8 @@ TEST(ObjReader, ResolvesIndicesFromEitherEnd) {
                              "v 0 0 0\nv 1 0 0\nv 2 0 0\nf -3 -2 -1\nf 1 2 4\nv 3 0 0\nf -1 "
                              "-2 -4\n");
   EXPECT_THAT(record.triangles,
-              ElementsAre(import_format::Triangle{0, 1, 2}, import_format::Triangle{0, 1, 3},
-                          import_format::Triangle{3, 2, 0}));
+              ElementsAre(import_record::Triangle{0, 1, 2}, import_record::Triangle{0, 1, 3},
+                          import_record::Triangle{3, 2, 0}));
 }
 
 TEST(ObjReader, DividesByWeightsAndPassesOverColours) {
@@ -113,7 +113,7 @@ TEST(ObjReader, JoinsLinesAndKnowsAllLineEnds) {
         std::string(
             "\xef\xbb\xbfv 0 0 \\\r\n 0\r\nv 1 0 0\r\n\r\n  v 0 1 0\r\nf \\\r\n1 \\\r\n2 3\\"),
         std::string("v 0 0 0\nv 1 0 0\nv 0 1 0 \nf 1\\\n 2 3\n")}) {
-    EXPECT_THAT(read(".obj", text).triangles, ElementsAre(import_format::Triangle{0, 1, 2}));
+    EXPECT_THAT(read(".obj", text).triangles, ElementsAre(import_record::Triangle{0, 1, 2}));
   }
 }
 
@@ -133,7 +133,7 @@ TEST(OffReader, TakesHeadersAsTheyAreFound) {
         "OFF\n# c\n\n3\n1\n0\n", "# c\nOFF # c\n3 1 0 # c\n", "COFF\n3 1 0\n", "nOFF 3\n3 1 0\n"}) {
     SCOPED_TRACE(header);
     const Record record = read(".off", std::string(header) + "0 0 0\n1 0 0\n\n0 1 0 # c\n3 0 1 2");
-    EXPECT_THAT(record.triangles, ElementsAre(import_format::Triangle{0, 1, 2}));
+    EXPECT_THAT(record.triangles, ElementsAre(import_record::Triangle{0, 1, 2}));
     EXPECT_THAT(names_of(record), ElementsAre("<OFFRoot>:1"));
   }
   const Record weighted = read(".off", "4OFF\n3 2 0\n2 4 6 2\n1 0 0 1\n0 1 0 1\n3 0 1 2\n2 0 1\n");
@@ -151,8 +151,8 @@ TEST(PlyReader, ReadsStripsAndCountsEdgesAndClouds) {
                        "property int vertex1\nproperty int vertex2\nend_header\n" +
                        points + "8 0 1 2 3 -1 1 2 3\n0 1\n1 2\n");
   EXPECT_THAT(strips.triangles,
-              ElementsAre(import_format::Triangle{0, 1, 2}, import_format::Triangle{1, 3, 2},
-                          import_format::Triangle{1, 2, 3}));
+              ElementsAre(import_record::Triangle{0, 1, 2}, import_record::Triangle{1, 3, 2},
+                          import_record::Triangle{1, 2, 3}));
   EXPECT_EQ(strips.header.dropped_points_and_lines, 2U);
   const Record cloud =
       read(".ply",

@@ -7,21 +7,21 @@
 #include <limits>
 #include <vector>
 
-#include "daemon/scene/import/record/import_format.h"
+#include "daemon/scene/import/record/record_layout.h"
 
 namespace camway::scene {
 namespace {
 
-namespace format = import_format;
+namespace layout = import_record;
 using geometry::Vec3;
 
 /// A record as the import process writes it, in which every part may be wrong.
 struct Forged {
-  format::Header header;
+  layout::Header header;
   std::string text = "test format";
-  std::vector<format::Vertex> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  std::vector<format::Triangle> triangles = {{0, 1, 2}, {0, 1, 3}};
-  std::vector<format::Object> objects = {{1, 3}, {1, 3}};
+  std::vector<layout::Vertex> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<layout::Triangle> triangles = {{0, 1, 2}, {0, 1, 3}};
+  std::vector<layout::Object> objects = {{1, 3}, {1, 3}};
   std::string names = "onetwo";
 
   Forged() {
@@ -80,9 +80,9 @@ TEST(ImportRecord, NoCountIsBelieved) {
   for (const std::uint64_t count :
        {std::uint64_t{5}, std::uint64_t{1} << 32, std::uint64_t{1} << 60,
         std::numeric_limits<std::uint64_t>::max()}) {
-    for (std::uint64_t format::Header::*member :
-         {&format::Header::text_bytes, &format::Header::vertices, &format::Header::triangles,
-          &format::Header::objects, &format::Header::name_bytes}) {
+    for (std::uint64_t layout::Header::*member :
+         {&layout::Header::text_bytes, &layout::Header::vertices, &layout::Header::triangles,
+          &layout::Header::objects, &layout::Header::name_bytes}) {
       Forged forged;
       forged.header.*member = count;
       ImportReport report;
@@ -97,8 +97,8 @@ TEST(ImportRecord, NoCountIsBelieved) {
 
 TEST(ImportRecord, ARoundingThatIsNoBoundIsBroken) {
   for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    for (double format::Header::*member :
-         {&format::Header::relative_rounding, &format::Header::absolute_rounding}) {
+    for (double layout::Header::*member :
+         {&layout::Header::relative_rounding, &layout::Header::absolute_rounding}) {
       Forged forged;
       forged.header.*member = bad;
       ImportReport report;

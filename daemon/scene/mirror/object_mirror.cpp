@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/mirror/mirror_map.h"
+#include "daemon/scene/mirror/object_mirror.h"
 
 #include <algorithm>
 #include <array>
@@ -136,8 +136,8 @@ std::string refusal(const Box& bounds, double resolution_m) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (voxels_touching(grid, bounds.min()[axis], bounds.max()[axis])) continue;
     text << "scene extent " << describe(bounds) << " exceeds what an occupancy map of resolution "
-         << resolution_m << " m can hold: " << MirrorMap::kMaxKeyVoxels
-         << " voxels from the origin, " << MirrorMap::kMaxKeyVoxels * resolution_m << " m";
+         << resolution_m << " m can hold: " << ObjectMirror::kMaxKeyVoxels
+         << " voxels from the origin, " << ObjectMirror::kMaxKeyVoxels * resolution_m << " m";
     return text.str();
   }
   return {};
@@ -167,9 +167,10 @@ std::string too_many(const Box& bounds, double resolution_m, std::uint64_t max_v
 
 }  // namespace
 
-MirrorMap::BuildResult MirrorMap::build(Meshes meshes, double resolution_m,
-                                        const std::optional<PlacedVoxelMap>& solid,
-                                        std::uint64_t max_voxels, const std::stop_token& stop) {
+ObjectMirror::BuildResult ObjectMirror::build(Meshes meshes, double resolution_m,
+                                              const std::optional<PlacedVoxelMap>& solid,
+                                              std::uint64_t max_voxels,
+                                              const std::stop_token& stop) {
   if (std::string error = refusal(meshes, resolution_m, stop); !error.empty()) {
     return {nullptr, error};
   }
@@ -186,9 +187,11 @@ MirrorMap::BuildResult MirrorMap::build(Meshes meshes, double resolution_m,
   return made_of(VoxelTree(*made.voxels, stop), grid, stop);
 }
 
-MirrorMap::BuildResult MirrorMap::of_map(const VoxelMap& map, const Box& bounds,
-                                         std::uint64_t max_voxels, const MirrorMap* mirror_before,
-                                         const VoxelMap* map_before, const std::stop_token& stop) {
+ObjectMirror::BuildResult ObjectMirror::of_map(const VoxelMap& map, const Box& bounds,
+                                               std::uint64_t max_voxels,
+                                               const ObjectMirror* mirror_before,
+                                               const VoxelMap* map_before,
+                                               const std::stop_token& stop) {
   const double resolution_m = map.resolution_m();
   if (std::string error = refusal(bounds, resolution_m); !error.empty()) return {nullptr, error};
   if (map.solid().size() > max_voxels) {
@@ -200,13 +203,14 @@ MirrorMap::BuildResult MirrorMap::of_map(const VoxelMap& map, const Box& bounds,
   return made_of(std::move(tree), VoxelGrid(resolution_m), stop);
 }
 
-MirrorMap::BuildResult MirrorMap::made_of(VoxelTree tree, const VoxelGrid& grid,
-                                          const std::stop_token& stop) {
+ObjectMirror::BuildResult ObjectMirror::made_of(VoxelTree tree, const VoxelGrid& grid,
+                                                const std::stop_token& stop) {
   if (stop.stop_requested()) return {nullptr, kCancelled};
-  return {std::shared_ptr<const MirrorMap>(new MirrorMap(std::move(tree), grid)), {}};
+  return {std::shared_ptr<const ObjectMirror>(new ObjectMirror(std::move(tree), grid)), {}};
 }
 
-MirrorMap::MirrorMap(VoxelTree tree, const VoxelGrid& grid) : tree_(std::move(tree)), grid_(grid) {
+ObjectMirror::ObjectMirror(VoxelTree tree, const VoxelGrid& grid)
+    : tree_(std::move(tree)), grid_(grid) {
   statistics_.resolution_m = grid.resolution_m();
   statistics_.nodes = tree_.node_count();
   statistics_.memory_bytes = tree_.memory_bytes();
@@ -221,7 +225,7 @@ MirrorMap::MirrorMap(VoxelTree tree, const VoxelGrid& grid) : tree_(std::move(tr
 
 /// With `enough` equal to `limit` it only finds out whether there is such a cube.
 template <typename Cost>
-std::optional<double> MirrorMap::cheapest(const Cost& cost, double limit, double enough) const {
+std::optional<double> ObjectMirror::cheapest(const Cost& cost, double limit, double enough) const {
   if (bounds_.isEmpty()) return std::nullopt;
   const auto along = [&](Eigen::Index axis) {
     return cost.along(axis, bounds_.min()[axis], bounds_.max()[axis]);
@@ -230,37 +234,37 @@ std::optional<double> MirrorMap::cheapest(const Cost& cost, double limit, double
   return CheapestCube<Cost>(tree_, grid_, cost, limit, enough).run();
 }
 
-bool MirrorMap::occupied_at(const Vec3& point_W) const {
+bool ObjectMirror::occupied_at(const Vec3& point_W) const {
   if (!bounds_.contains(point_W)) return false;
   const std::optional<Voxel> voxel = grid_.voxel_of(point_W);
   if (!voxel) return false;
   return tree_.contains(*voxel);
 }
 
-bool MirrorMap::occupied_in_box(const Box& box_W) const {
+bool ObjectMirror::occupied_in_box(const Box& box_W) const {
   if (!(box_W.min().array() <= box_W.max().array()).all()) return false;  // empty, or NaN
   return cheapest(BoxTouch(box_W), 0.0, 0.0).has_value();
 }
 
-bool MirrorMap::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
+bool ObjectMirror::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
   if (!center_W.allFinite()) return false;
   return cheapest(PointDistance(center_W), radius_m, radius_m).has_value();
 }
 
-std::optional<double> MirrorMap::ray_hit_m(const Vec3& origin_W, const Vec3& direction_W,
-                                           double max_range_m) const {
+std::optional<double> ObjectMirror::ray_hit_m(const Vec3& origin_W, const Vec3& direction_W,
+                                              double max_range_m) const {
   if (!origin_W.allFinite() || !direction_W.allFinite()) return std::nullopt;
   if ((direction_W.array() == 0.0).all()) return std::nullopt;
   return cheapest(RayEntry(origin_W, direction_W), max_range_m, 0.0);
 }
 
-std::optional<double> MirrorMap::distance_m(const Vec3& point_W, double max_distance_m) const {
+std::optional<double> ObjectMirror::distance_m(const Vec3& point_W, double max_distance_m) const {
   if (!point_W.allFinite()) return std::nullopt;
   return cheapest(PointDistance(point_W), max_distance_m, 0.0);
 }
 
-std::optional<double> MirrorMap::sphere_path_hit_m(const Vec3& from_W, const Vec3& to_W,
-                                                   double radius_m) const {
+std::optional<double> ObjectMirror::sphere_path_hit_m(const Vec3& from_W, const Vec3& to_W,
+                                                      double radius_m) const {
   if (!from_W.allFinite() || !to_W.allFinite() || !(radius_m >= 0.0)) return std::nullopt;
   const BallWay way(from_W, to_W, radius_m);
   return cheapest(way, way.length_m(), 0.0);

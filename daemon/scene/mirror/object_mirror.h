@@ -29,12 +29,12 @@ struct OccupancyStatistics {
 /// The OctoMap mirror of an object (Hornung et al. 2013, "OctoMap"): its occupied voxels and the
 /// cubes that OctoMap's tree makes of them, in a form that is faster to search (`VoxelTree`). Not
 /// to be confused with an occupancy map that is an object of a scene (`VoxelMap`).
-/// `OccupancyMirror` joins the mirrors of a scene, and writes them as OctoMap does. Conservative:
+/// `SceneMirror` joins the mirrors of a scene, and writes them as OctoMap does. Conservative:
 /// every voxel that a triangle touches is occupied; others are unknown to the tree, which counts as
 /// free. Queries take voxels as closed boxes with faces moved outwards by
 /// `VoxelGrid::face_error_m`, so rounding can add a touch but never lose one. They return false or
 /// nothing for NaN, and for infinity where it has no meaning. Immutable. Thread-safe.
-class MirrorMap {
+class ObjectMirror {
  public:
   /// Largest distance from the origin, in voxels, that OctoMap's 16-bit keys can hold.
   static constexpr std::int32_t kMaxKeyVoxels = 32768;
@@ -45,9 +45,9 @@ class MirrorMap {
   static constexpr double kDistanceRelativeError = kBoxCostRelativeError;
 
   struct BuildResult {
-    std::shared_ptr<const MirrorMap> map;  ///< null on error
-    std::string error;                     ///< empty exactly when `map` is set
-    Limit limit = Limit::kNone;            ///< limit that the error is about
+    std::shared_ptr<const ObjectMirror> map;  ///< null on error
+    std::string error;                        ///< empty exactly when `map` is set
+    Limit limit = Limit::kNone;               ///< limit that the error is about
   };
 
   /// Builds the mirror of `meshes` by an exact triangle-box test for every voxel, not from samples.
@@ -71,7 +71,7 @@ class MirrorMap {
   /// the mirror of `map_before` by this function; then both mirrors share what is equal, and the
   /// cost depends on the difference. Fails like `build`.
   static BuildResult of_map(const VoxelMap& map, const geometry::Box& bounds,
-                            std::uint64_t max_voxels, const MirrorMap* mirror_before,
+                            std::uint64_t max_voxels, const ObjectMirror* mirror_before,
                             const VoxelMap* map_before, const std::stop_token& stop);
 
   [[nodiscard]] double resolution_m() const { return grid_.resolution_m(); }
@@ -111,7 +111,7 @@ class MirrorMap {
   [[nodiscard]] const VoxelTree& tree() const { return tree_; }
 
  private:
-  MirrorMap(VoxelTree tree, const VoxelGrid& grid);
+  ObjectMirror(VoxelTree tree, const VoxelGrid& grid);
   static BuildResult made_of(VoxelTree tree, const VoxelGrid& grid, const std::stop_token& stop);
 
   template <typename Cost>

@@ -12,7 +12,7 @@
 ///     Header · text · vertices · triangles · objects · names · occupied cubes · free cubes
 ///
 /// A hostile file may have taken over its reader, so the receiver trusts no count.
-namespace camway::scene::import_format {
+namespace camway::scene::import_record {
 
 inline constexpr std::uint64_t kMagic = 0x344D'5941'574D'4143;  // "CAMWAYM4"
 inline constexpr int kOutputFd = 3;
@@ -73,4 +73,4 @@ struct Record {
   std::vector<Cube> free;
 };
 
-}  // namespace camway::scene::import_format
+}  // namespace camway::scene::import_record

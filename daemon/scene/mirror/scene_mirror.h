@@ -8,23 +8,23 @@
 #include <string>
 #include <vector>
 
-#include "daemon/scene/mirror/mirror_map.h"
+#include "daemon/scene/mirror/object_mirror.h"
 
 namespace camway::scene {
 
-/// The OctoMap mirror of a scene of several objects: a `MirrorMap` for each, all of one resolution.
-/// So a change of an object leaves the other maps as they are, and removing it frees the voxels
-/// that no other object touches. A voxel is occupied if any map occupies it. Queries are those of
-/// `MirrorMap` over all maps. Immutable. Thread-safe.
-class OccupancyMirror {
+/// The OctoMap mirror of a scene of several objects: an `ObjectMirror` for each, all of one
+/// resolution. So a change of an object leaves the other mirrors as they are, and removing it frees
+/// the voxels that no other object touches. A voxel is occupied if any mirror occupies it. Queries
+/// are those of `ObjectMirror` over all mirrors. Immutable. Thread-safe.
+class SceneMirror {
  public:
   /// Makes the mirror of a scene with one object.
-  explicit OccupancyMirror(std::shared_ptr<const MirrorMap> map);
-  /// Requires that no map is null and that all have this resolution.
-  OccupancyMirror(double resolution_m, std::vector<std::shared_ptr<const MirrorMap>> maps);
+  explicit SceneMirror(std::shared_ptr<const ObjectMirror> mirror);
+  /// Requires that no mirror is null and that all have this resolution.
+  SceneMirror(double resolution_m, std::vector<std::shared_ptr<const ObjectMirror>> mirrors);
 
   [[nodiscard]] double resolution_m() const { return statistics_.resolution_m; }
-  /// Sums over the maps: a voxel that two objects touch counts twice.
+  /// Sums over the mirrors: a voxel that two objects touch counts twice.
   [[nodiscard]] const OccupancyStatistics& statistics() const { return statistics_; }
 
   [[nodiscard]] bool occupied_at(const geometry::Vec3& point_W) const;
@@ -45,7 +45,7 @@ class OccupancyMirror {
   void write_bt(std::ostream& out) const;
 
  private:
-  std::vector<std::shared_ptr<const MirrorMap>> maps_;
+  std::vector<std::shared_ptr<const ObjectMirror>> mirrors_;
   OccupancyStatistics statistics_;
 };
 

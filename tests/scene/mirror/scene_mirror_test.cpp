@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -20,8 +20,8 @@ using geometry::Vec3;
 
 constexpr double kResolutionM = 0.25;
 
-std::shared_ptr<const MirrorMap> map_of(const Mesh& mesh) {
-  return MirrorMap::build(mesh, kResolutionM).map;
+std::shared_ptr<const ObjectMirror> map_of(const Mesh& mesh) {
+  return ObjectMirror::build(mesh, kResolutionM).map;
 }
 
 /// Several meshes mirrored one by one, and as one mesh.
@@ -29,7 +29,7 @@ struct Sample {
   explicit Sample(std::uint64_t seed, int count) {
     testing::Random random(seed);
     Mesh whole;
-    std::vector<std::shared_ptr<const MirrorMap>> maps;
+    std::vector<std::shared_ptr<const ObjectMirror>> maps;
     for (int i = 0; i < count; ++i) {
       const Mesh mesh = oracle::random_mesh(random, kResolutionM, 4);
       const auto first = static_cast<std::uint32_t>(whole.vertices.size());
@@ -40,14 +40,14 @@ struct Sample {
       maps.push_back(map_of(mesh));
     }
     one = map_of(whole);
-    several = std::make_unique<OccupancyMirror>(kResolutionM, maps);
+    several = std::make_unique<SceneMirror>(kResolutionM, maps);
   }
 
-  std::shared_ptr<const MirrorMap> one;
-  std::unique_ptr<OccupancyMirror> several;
+  std::shared_ptr<const ObjectMirror> one;
+  std::unique_ptr<SceneMirror> several;
 };
 
-TEST(OccupancyMirror, AnswersAsOneMapOfAllObjects) {
+TEST(SceneMirror, AnswersAsOneMapOfAllObjects) {
   RandomTriangles random(1301);
   int occupied = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -75,13 +75,13 @@ TEST(OccupancyMirror, AnswersAsOneMapOfAllObjects) {
   EXPECT_GT(occupied, 20);
 }
 
-TEST(OccupancyMirror, WritesOneMapOfAllObjects) {
+TEST(SceneMirror, WritesOneMapOfAllObjects) {
   for (std::uint64_t seed = 30; seed < 40; ++seed) {
     const Sample sample(seed, 3);
     std::stringstream united;
     std::stringstream whole;
     sample.several->write_bt(united);
-    OccupancyMirror(sample.one).write_bt(whole);
+    SceneMirror(sample.one).write_bt(whole);
     ASSERT_EQ(united.str(), whole.str());
     octomap::OcTree read(1.0);
     ASSERT_TRUE(read.readBinary(united));
@@ -89,8 +89,8 @@ TEST(OccupancyMirror, WritesOneMapOfAllObjects) {
   }
 }
 
-TEST(OccupancyMirror, OfNothingIsFree) {
-  const OccupancyMirror none(kResolutionM, {});
+TEST(SceneMirror, OfNothingIsFree) {
+  const SceneMirror none(kResolutionM, {});
   EXPECT_EQ(none.resolution_m(), kResolutionM);
   EXPECT_FALSE(none.occupied_at(Vec3::Zero()));
   EXPECT_FALSE(none.distance_m(Vec3::Zero(), 1e9));

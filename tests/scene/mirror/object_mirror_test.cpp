@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/scene/mirror/mirror_map.h"
+#include "daemon/scene/mirror/object_mirror.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <set>
 
 #include "daemon/scene/mirror/box_costs.h"
-#include "daemon/scene/mirror/occupancy_mirror.h"
+#include "daemon/scene/mirror/scene_mirror.h"
 #include "tests/scene/voxels/voxel_oracle.h"
 #include "tests/support/random.h"
 
@@ -41,8 +41,8 @@ Mesh mesh_of(const std::vector<Triangle>& triangles) {
   return mesh;
 }
 
-std::shared_ptr<const MirrorMap> build(const Mesh& mesh, double resolution_m) {
-  MirrorMap::BuildResult result = MirrorMap::build(mesh, resolution_m);
+std::shared_ptr<const ObjectMirror> build(const Mesh& mesh, double resolution_m) {
+  ObjectMirror::BuildResult result = ObjectMirror::build(mesh, resolution_m);
   EXPECT_TRUE(result.map) << result.error;
   EXPECT_TRUE(result.error.empty());
   return result.map;
@@ -56,7 +56,7 @@ Vec3 voxel_center(const Voxel& voxel, double resolution_m) {
 struct Sample {
   double resolution_m = 0.0;
   Mesh mesh;
-  std::shared_ptr<const MirrorMap> map;
+  std::shared_ptr<const ObjectMirror> map;
   std::vector<Voxel> occupied;
   double face_error_m = 0.0;  ///< an upper bound for all faces
 
@@ -85,7 +85,7 @@ struct Sample {
   }
 };
 
-TEST(MirrorMap, OccupiesWhatTheTrianglesTouch) {
+TEST(ObjectMirror, OccupiesWhatTheTrianglesTouch) {
   testing::Random random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
@@ -103,7 +103,7 @@ TEST(MirrorMap, OccupiesWhatTheTrianglesTouch) {
 }
 
 /// The promise of the map: no point of the scene is in free space.
-TEST(MirrorMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
+TEST(ObjectMirror, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
   testing::Random random(kSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
@@ -131,7 +131,7 @@ TEST(MirrorMap, EveryPointOfATriangleIsOccupiedAndNoDistanceIsTooLong) {
   }
 }
 
-TEST(MirrorMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
+TEST(ObjectMirror, DistanceSphereAndBoxAgreeWithEveryVoxel) {
   testing::Random random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
@@ -155,7 +155,7 @@ TEST(MirrorMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
       }
       const double distance = sample.map->distance_m(p, kInfinity).value();
       ASSERT_LE(distance, nearest);
-      ASSERT_GE(distance, nearest * (1 - static_cast<Real>(MirrorMap::kDistanceRelativeError)) -
+      ASSERT_GE(distance, nearest * (1 - static_cast<Real>(ObjectMirror::kDistanceRelativeError)) -
                               2 * static_cast<Real>(sample.face_error_m));
       EXPECT_TRUE(sample.map->occupied_in_sphere(p, distance));
       EXPECT_EQ(sample.map->distance_m(p, distance), distance);
@@ -170,7 +170,7 @@ TEST(MirrorMap, DistanceSphereAndBoxAgreeWithEveryVoxel) {
 }
 
 /// The searches skip nothing of relevance: their answers equal those of a test of every cube.
-TEST(MirrorMap, SearchesAnswerAsAskingEveryCubeDoes) {
+TEST(ObjectMirror, SearchesAnswerAsAskingEveryCubeDoes) {
   testing::Random random(kSeed);
   for (int trial = 0; trial < 300; ++trial) {
     const Sample sample(random);
@@ -202,7 +202,7 @@ TEST(MirrorMap, SearchesAnswerAsAskingEveryCubeDoes) {
 
 /// The answer is between the entries into the voxels grown by the face error and into the exact
 /// ones.
-TEST(MirrorMap, RayAgreesWithEveryVoxel) {
+TEST(ObjectMirror, RayAgreesWithEveryVoxel) {
   testing::Random random(kSeed);
   int hits = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -225,7 +225,7 @@ TEST(MirrorMap, RayAgreesWithEveryVoxel) {
       }
       const double hit = sample.map->ray_hit_m(origin, direction, kInfinity).value_or(kInfinity);
       ASSERT_LE(hit, exact) << "trial " << trial << ": passed through an occupied voxel";
-      ASSERT_GE(hit, grown * (1 - static_cast<Real>(MirrorMap::kDistanceRelativeError)))
+      ASSERT_GE(hit, grown * (1 - static_cast<Real>(ObjectMirror::kDistanceRelativeError)))
           << "trial " << trial;
       if (hit == kInfinity) continue;
       ++hits;
@@ -240,7 +240,7 @@ TEST(MirrorMap, RayAgreesWithEveryVoxel) {
 
 /// The answer is between the first contact with the voxels and with larger ones beyond all
 /// rounding.
-TEST(MirrorMap, SpherePathAgreesWithEveryVoxel) {
+TEST(ObjectMirror, SpherePathAgreesWithEveryVoxel) {
   testing::Random random(kSeed);
   int hits = 0;
   int misses = 0;
@@ -282,8 +282,8 @@ class OneVoxel : public ::testing::Test {
  protected:
   // No coordinate or distance below exceeds 12 m; a ray across a corner meets three moved faces.
   const double entry_error_m =
-      12.0 * MirrorMap::kDistanceRelativeError + 2.0 * VoxelGrid(1.0).face_error_m(3);
-  const std::shared_ptr<const MirrorMap> map =
+      12.0 * ObjectMirror::kDistanceRelativeError + 2.0 * VoxelGrid(1.0).face_error_m(3);
+  const std::shared_ptr<const ObjectMirror> map =
       build(mesh_of({{Vec3(2.4, 2.5, 2.6), Vec3(2.5, 2.5, 2.6), Vec3(2.5, 2.6, 2.6)}}), 1.0);
   static constexpr double kFar = 1e9;
 };
@@ -309,7 +309,7 @@ TEST_F(OneVoxel, RayFromOutsideTheKeysAndRanges) {
   const double away_m = 1e7;  // the keys of 1 m voxels end at 32768 m
   const double expected_m = away_m + 2.0;
   EXPECT_NEAR(map->ray_hit_m({-away_m, 2.5, 2.5}, {1, 0, 0}, kFar).value(), expected_m,
-              expected_m * MirrorMap::kDistanceRelativeError);
+              expected_m * ObjectMirror::kDistanceRelativeError);
   EXPECT_FALSE(map->ray_hit_m({0, 2.5, 2.5}, {1, 0, 0}, 1.999));
   EXPECT_TRUE(map->ray_hit_m({0, 2.5, 2.5}, {1, 0, 0}, 2.0));
   EXPECT_FALSE(map->ray_hit_m({0, 2.5, 2.5}, {1, 0, 0}, -1.0));
@@ -371,37 +371,37 @@ TEST_F(OneVoxel, NonsenseIsAnsweredAsDocumented) {
   EXPECT_TRUE(map->occupied_in_box(Box(Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity))));
 }
 
-TEST(MirrorMap, AnEmptySceneIsFreeEverywhere) {
-  const std::shared_ptr<const MirrorMap> map = build(Mesh{}, 0.1);
+TEST(ObjectMirror, AnEmptySceneIsFreeEverywhere) {
+  const std::shared_ptr<const ObjectMirror> map = build(Mesh{}, 0.1);
   EXPECT_FALSE(map->occupied_at({0, 0, 0}));
   EXPECT_FALSE(map->distance_m({0, 0, 0}, kInfinity));
   EXPECT_FALSE(map->ray_hit_m({0, 0, 0}, {1, 0, 0}, kInfinity));
   EXPECT_EQ(map->statistics().occupied_voxels, 0U);
 }
 
-TEST(MirrorMap, RefusesWhatItCannotHold) {
+TEST(ObjectMirror, RefusesWhatItCannotHold) {
   const Mesh far = mesh_of({{Vec3(0, 0, 0), Vec3(0, 1700, 0), Vec3(1, 0, 0)}});
-  const MirrorMap::BuildResult beyond = MirrorMap::build(far, 0.05);
+  const ObjectMirror::BuildResult beyond = ObjectMirror::build(far, 0.05);
   EXPECT_EQ(beyond.map, nullptr);
   EXPECT_THAT(beyond.error, HasSubstr("1700"));
   EXPECT_THAT(beyond.error, HasSubstr("0.05"));
   EXPECT_THAT(beyond.error, HasSubstr("1638.4 m"));
-  EXPECT_TRUE(MirrorMap::build(far, 0.1).map);
+  EXPECT_TRUE(ObjectMirror::build(far, 0.1).map);
 
-  const MirrorMap::BuildResult many = MirrorMap::build(far, 0.1, std::nullopt, 1000);
+  const ObjectMirror::BuildResult many = ObjectMirror::build(far, 0.1, std::nullopt, 1000);
   EXPECT_EQ(many.map, nullptr);
   EXPECT_THAT(many.error, HasSubstr("more than 1000 voxels"));
   EXPECT_THAT(many.error, HasSubstr("1700"));
 
   for (const double resolution_m : {0.0, -0.1, kNaN, kInfinity, 1e-300, 1e300}) {
-    const MirrorMap::BuildResult bad = MirrorMap::build(far, resolution_m);
+    const ObjectMirror::BuildResult bad = ObjectMirror::build(far, resolution_m);
     EXPECT_EQ(bad.map, nullptr);
     EXPECT_THAT(bad.error, HasSubstr("resolution"));
   }
 }
 
 // Filling the last one would take hours.
-TEST(MirrorMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
+TEST(ObjectMirror, KnowsFromTheLargestTriangleWhatIsHopeless) {
   testing::Random random(kSeed);
   std::uniform_real_distribution<double> place(-2.0, 2.0);
   for (int run = 0; run < 30; ++run) {
@@ -411,15 +411,16 @@ TEST(MirrorMap, KnowsFromTheLargestTriangleWhatIsHopeless) {
     }
     const Mesh mesh = mesh_of({{corners[0], corners[1], corners[2]}});
     const std::uint64_t voxels = build(mesh, 0.05)->statistics().occupied_voxels;
-    EXPECT_TRUE(MirrorMap::build(mesh, 0.05, std::nullopt, voxels).map) << "never too early";
+    EXPECT_TRUE(ObjectMirror::build(mesh, 0.05, std::nullopt, voxels).map) << "never too early";
   }
   const Mesh floor = mesh_of({{Vec3(0, 0, 0), Vec3(30, 0, 0), Vec3(0, 30, 0)}});
-  const MirrorMap::BuildResult result = MirrorMap::build(floor, 0.001, std::nullopt, 300'000'000);
+  const ObjectMirror::BuildResult result =
+      ObjectMirror::build(floor, 0.001, std::nullopt, 300'000'000);
   EXPECT_FALSE(result.map);
   EXPECT_THAT(result.error, HasSubstr("more than 300000000 voxels"));
 }
 
-TEST(MirrorMap, IsNotMadeAfterAStop) {
+TEST(ObjectMirror, IsNotMadeAfterAStop) {
   std::stop_source stop;
   stop.request_stop();
   testing::Random random(kSeed);
@@ -427,21 +428,21 @@ TEST(MirrorMap, IsNotMadeAfterAStop) {
   VoxelSet voxels;
   voxels.insert(Voxel{1, 2, 3});
   const auto map = VoxelMap::build(0.1, voxels, {}, UnknownSpace::kFree).map;
-  for (const MirrorMap::BuildResult& result :
-       {MirrorMap::build(mesh, 0.1, std::nullopt, 1000, stop.get_token()),
-        MirrorMap::of_map(*map, {}, 1000, nullptr, nullptr, stop.get_token())}) {
+  for (const ObjectMirror::BuildResult& result :
+       {ObjectMirror::build(mesh, 0.1, std::nullopt, 1000, stop.get_token()),
+        ObjectMirror::of_map(*map, {}, 1000, nullptr, nullptr, stop.get_token())}) {
     EXPECT_EQ(result.map, nullptr);
     EXPECT_THAT(result.error, HasSubstr("cancelled"));
     EXPECT_EQ(result.limit, Limit::kNone);
   }
 }
 
-TEST(MirrorMap, TheVoxelLimitIsExact) {
+TEST(ObjectMirror, TheVoxelLimitIsExact) {
   testing::Random random(kSeed);
   const Mesh mesh = oracle::random_mesh(random, 0.1, 5);
   const std::uint64_t voxels = build(mesh, 0.1)->statistics().occupied_voxels;
-  EXPECT_TRUE(MirrorMap::build(mesh, 0.1, std::nullopt, voxels).map);
-  EXPECT_FALSE(MirrorMap::build(mesh, 0.1, std::nullopt, voxels - 1).map);
+  EXPECT_TRUE(ObjectMirror::build(mesh, 0.1, std::nullopt, voxels).map);
+  EXPECT_FALSE(ObjectMirror::build(mesh, 0.1, std::nullopt, voxels - 1).map);
 }
 
 /// Returns the leaves of a tree as OctoMap has them: key of the lowest voxel and depth.
@@ -457,14 +458,14 @@ std::vector<std::array<int, 4>> occupied_leaves(const octomap::OcTree& tree) {
   return leaves;
 }
 
-std::string written(const std::shared_ptr<const MirrorMap>& map, const std::string& name) {
+std::string written(const std::shared_ptr<const ObjectMirror>& map, const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / name;
-  EXPECT_EQ(OccupancyMirror(map).write_bt(file), "");
+  EXPECT_EQ(SceneMirror(map).write_bt(file), "");
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-TEST(MirrorMap, OctoMapReadsBackWhatIsWritten) {
+TEST(ObjectMirror, OctoMapReadsBackWhatIsWritten) {
   testing::Random random(kSeed);
   for (const double resolution_m : {0.05, 1.0 / 3.0, 0.123456789}) {
     Mesh mesh = oracle::random_mesh(random, resolution_m, 6);
@@ -473,10 +474,10 @@ TEST(MirrorMap, OctoMapReadsBackWhatIsWritten) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.push_back(Vec3::Constant(101 * resolution_m));
     mesh.triangles.push_back({first, first, first});
-    const std::shared_ptr<const MirrorMap> map = build(mesh, resolution_m);
+    const std::shared_ptr<const ObjectMirror> map = build(mesh, resolution_m);
     const std::filesystem::path file =
         std::filesystem::path(::testing::TempDir()) / "round_trip.bt";
-    ASSERT_EQ(OccupancyMirror(map).write_bt(file), "");
+    ASSERT_EQ(SceneMirror(map).write_bt(file), "");
 
     octomap::OcTree tree(1.0);
     ASSERT_TRUE(tree.readBinary(file.string()));
@@ -497,14 +498,14 @@ TEST(MirrorMap, OctoMapReadsBackWhatIsWritten) {
   }
 }
 
-TEST(MirrorMap, FailureToWriteNamesTheFile) {
-  const std::shared_ptr<const MirrorMap> map = build(Mesh{}, 0.1);
-  EXPECT_THAT(OccupancyMirror(map).write_bt("/nonexistent/folder/map.bt"),
+TEST(ObjectMirror, FailureToWriteNamesTheFile) {
+  const std::shared_ptr<const ObjectMirror> map = build(Mesh{}, 0.1);
+  EXPECT_THAT(SceneMirror(map).write_bt("/nonexistent/folder/map.bt"),
               HasSubstr("/nonexistent/folder/map.bt"));
 }
 
 /// The map depends on the set of triangles only.
-TEST(MirrorMap, TheSameSceneGivesTheSameBytes) {
+TEST(ObjectMirror, TheSameSceneGivesTheSameBytes) {
   testing::Random random(kSeed);
   Mesh mesh = oracle::random_mesh(random, 0.1, 20);
   const std::string bytes = written(build(mesh, 0.1), "first.bt");
