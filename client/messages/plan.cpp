@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "client/messages/fields.h"
-#include "client/messages/plan_fields.h"
+#include "client/messages/members.h"
+#include "client/messages/plan_members.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"

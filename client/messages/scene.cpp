@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "client/messages/fields.h"
+#include "client/messages/constraints.h"
+#include "client/messages/members.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
 

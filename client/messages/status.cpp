@@ -5,7 +5,8 @@
 
 #include <camway/status_t.hpp>
 
-#include "client/messages/fields.h"
+#include "client/messages/constraints.h"
+#include "client/messages/members.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/latency_buckets.h"

@@ -3,7 +3,7 @@
 
 #include "daemon/messages/body.h"
 #include "daemon/messages/convert.h"
-#include "daemon/messages/fields.h"
+#include "daemon/messages/members.h"
 #include "daemon/messages/names.h"
 
 namespace camway::messages {

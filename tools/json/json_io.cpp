@@ -7,17 +7,17 @@
 #include "tools/json/json_body.h"
 #include "tools/json/json_names.h"
 #include "tools/json/json_options.h"
+#include "tools/json/json_reader.h"
 
 namespace camway::tools {
 namespace {
 
 using motion::Keyframe;
 
-template <typename Vector>
-Vector read_vector(const Field& field) {
-  Vector v;
-  field.numbers(v.data(), static_cast<std::size_t>(v.size()));
-  return v;
+geometry::Vec4 read_numbers(const Field& field) {
+  geometry::Vec4 numbers = geometry::Vec4::Zero();
+  read_value(field, numbers);
+  return numbers;
 }
 
 /// Returns the unit quaternion in the direction of `wxyz`. Divides by the largest coefficient
@@ -49,13 +49,13 @@ geometry::Quat read_orientation(const Field& item, RequestFile& request) {
   const std::optional<Field> xyzw_field = item.optional_member("orientation_xyzw");
   if (!xyzw_field) {
     const Field orientation = item.member("orientation");
-    return unit_quaternion(orientation, read_vector<geometry::Vec4>(orientation));
+    return unit_quaternion(orientation, read_numbers(orientation));
   }
   if (item.optional_member("orientation")) {
     item.fail("has both orientation and orientation_xyzw; leave one out");
   }
   request.says_xyzw = true;
-  const auto xyzw = read_vector<geometry::Vec4>(*xyzw_field);
+  const geometry::Vec4 xyzw = read_numbers(*xyzw_field);
   return unit_quaternion(*xyzw_field, {xyzw[3], xyzw[0], xyzw[1], xyzw[2]});
 }
 
@@ -73,7 +73,7 @@ void read_keyframes(const Field& list, RequestFile& request) {
     item.allow_only({"time", "position", "orientation", "orientation_xyzw", "origin", "repaired"});
     Keyframe keyframe;
     read_time(item, i, request, keyframe);
-    keyframe.pose.position = read_vector<geometry::Vec3>(item.member("position"));
+    read_value(item.member("position"), keyframe.pose.position);
     keyframe.pose.orientation = read_orientation(item, request);
     request.keyframes.push_back(keyframe);
   }

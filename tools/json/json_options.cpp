@@ -3,11 +3,10 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/json/json_angle.h"
+#include "tools/json/json_reader.h"
 
 namespace camway::tools {
 namespace {
@@ -51,27 +50,13 @@ struct MemberReader {
   static void read(const Field& field, const FieldSpec& spec, double& value) {
     value = spec.is_angle() ? radians(field.number()) : field.number();
   }
-  static void read(const Field& field, const FieldSpec&, std::optional<double>& value) {
-    value = field.number();
-  }
-  static void read(const Field& field, const FieldSpec&, bool& value) { value = field.boolean(); }
-  static void read(const Field& field, const FieldSpec&, std::int32_t& value) {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-    value = static_cast<std::int32_t>(field.integer(0, kMost));
-  }
-  static void read(const Field& field, const FieldSpec&, std::uint64_t& value) {
+  static void read(const Field& field, const FieldSpec&, std::uint64_t& seed) {
     constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-    value = static_cast<std::uint64_t>(field.integer(1, kMost));
+    seed = static_cast<std::uint64_t>(field.integer(1, kMost));
   }
-  template <base::NamedEnum Enum>
-  static void read(const Field& field, const FieldSpec&, Enum& value) {
-    value = named(field, base::named_values<Enum>());
-  }
-  static void read(const Field& field, const FieldSpec&, geometry::Vec3& point) {
-    field.numbers(point.data(), 3);
-  }
-  static void read(const Field& field, const FieldSpec&, geometry::Bounds& bounds) {
-    bounds = read_bounds(field);
+  template <class Member>
+  static void read(const Field& field, const FieldSpec&, Member& member) {
+    read_value(field, member);
   }
   static void read(const Field& field, const FieldSpec&, MotionLimits& limits) {
     allow_only(field, [](const auto& visit) { planning::visit_limits(visit); });
@@ -91,25 +76,7 @@ struct MemberReader {
   }
 };
 
-void read_corner(const Field& parent, std::string_view key, geometry::Vec3& corner_W) {
-  const auto list = parent.optional_member(key);
-  if (!list) return;
-  if (list->size() != 3) list->fail("must be an array of 3, each a number or null");
-  for (std::size_t axis = 0; axis < 3 && !list->failed(); ++axis) {
-    const Field item = list->element(axis);
-    if (!item.is_null()) corner_W[static_cast<Eigen::Index>(axis)] = item.number();
-  }
-}
-
 }  // namespace
-
-geometry::Bounds read_bounds(const Field& field) {
-  field.allow_only({"min", "max"});
-  geometry::Bounds bounds;
-  read_corner(field, "min", bounds.min_W);
-  read_corner(field, "max", bounds.max_W);
-  return bounds;
-}
 
 PlanOptions read_options(const Field& field) {
   allow_only(field, [](const auto& visit) { planning::visit_options(visit); });

@@ -12,13 +12,10 @@ namespace camway::tools {
 ///     {"deadline_s": 5, "orientation": {"policy": "level", "up": [0, 0, 1], "max_turn_deg": 20},
 ///      "limits": {"speed_m_per_s": 2, "retime": true}, "bounds": {"max": [10, null, 3]}}
 ///
-/// Angles are in degrees, and directions have any length. Either corner of the bounds may be left
-/// out, and null is no limit. Members that another policy of orientation uses are refused, because
-/// ignoring them would drop a wish. `planning::validate` checks the ranges.
+/// Angles are in degrees, and directions have any length. Members that another policy of
+/// orientation uses are refused, because ignoring them would drop a wish. `planning::validate`
+/// checks the ranges.
 planning::PlanOptions read_options(const Field& field);
-
-/// Reads the `bounds` of a request or a response.
-geometry::Bounds read_bounds(const Field& field);
 
 /// Reads the `camera` of a request. Requires all members.
 motion::Camera read_camera(const Field& field);

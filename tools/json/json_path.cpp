@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tools/json/json_path.h"
 
-#include <array>
 #include <utility>
 
-#include "tools/json/json_options.h"
+#include "tools/json/json_reader.h"
 
 namespace camway::tools {
 namespace {
-
-template <std::size_t kCount, typename Vector>
-void read_control_points(const Field& list, std::array<Vector, kCount>& points) {
-  const std::size_t count = list.size();
-  if (!list.failed() && count != kCount) {
-    list.fail("must hold " + std::to_string(kCount) + " control points, not " +
-              std::to_string(count));
-  }
-  if (list.failed()) return;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    list.element(i).numbers(points[i].data(), static_cast<std::size_t>(points[i].size()));
-  }
-}
 
 void refuse_unknown_fields(const Field& segments) {
   const std::size_t count = segments.size();
@@ -35,8 +21,9 @@ std::vector<double> read_keyframe_times(const Field& list) {
   const std::size_t count = list.size();
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
-    const auto origin = item.optional_member("origin");
-    if (origin && read_origin(*origin) == motion::KeyframeOrigin::kInserted) continue;
+    auto origin = motion::KeyframeOrigin::kGiven;
+    if (const auto field = item.optional_member("origin")) read_value(*field, origin);
+    if (origin == motion::KeyframeOrigin::kInserted) continue;
     const auto time = item.optional_member("time");
     if (time) times_s.push_back(time->number());
     all_timed = all_timed && time;
@@ -57,7 +44,7 @@ PathFile read_path(const Field& root) {
   }
   if (const auto digest = root.optional_member("scene_digest")) file.scene_digest = digest->text();
   if (const auto bounds = root.optional_member("bounds")) {
-    file.bounds = read_bounds(*bounds);
+    read_value(*bounds, file.bounds);
     if (const auto fault = geometry::fault_in(file.bounds))
       bounds->fail(fault->field + " " + fault->reason);
   }
@@ -81,25 +68,14 @@ std::vector<motion::Segment> read_segments(const Field& list) {
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
     motion::Segment segment;
-    const Field t0 = item.member("t0");
-    const Field t1 = item.member("t1");
-    segment.t0_s = t0.number();
-    segment.t1_s = t1.number();
-    if (!(segment.t1_s > segment.t0_s)) t1.fail("must be above t0");
+    read_value(item, segment);
+    if (!(segment.t1_s > segment.t0_s)) item.member("t1").fail("must be above t0");
     if (i > 0 && segment.t0_s != segments.back().t1_s) {
-      t0.fail("must equal t1 of the segment before");
+      item.member("t0").fail("must equal t1 of the segment before");
     }
-    read_control_points(item.member("position"), segment.position);
-    read_control_points(item.member("orientation"), segment.orientation);
     segments.push_back(segment);
   }
   return segments;
-}
-
-motion::KeyframeOrigin read_origin(const Field& field) {
-  const std::string origin = field.text();
-  if (origin != "given" && origin != "inserted") field.fail("must be \"given\" or \"inserted\"");
-  return origin == "inserted" ? motion::KeyframeOrigin::kInserted : motion::KeyframeOrigin::kGiven;
 }
 
 base::Result<PathFile> parse_path_file(std::string_view text, std::string_view source) {

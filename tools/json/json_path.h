@@ -41,7 +41,4 @@ base::Result<PathFile> read_path_file(const std::string& file);
 /// Ignores unknown fields.
 std::vector<motion::Segment> read_segments(const Field& list);
 
-/// Reads "given" or "inserted"; records an error for any other text.
-motion::KeyframeOrigin read_origin(const Field& field);
-
 }  // namespace camway::tools

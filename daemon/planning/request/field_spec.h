@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -21,6 +22,15 @@ struct Range {
 
 inline constexpr Range kAboveZero{.least = 0.0, .excludes_least = true};
 
+/// Returns whether a name in files is that of an angle, an angular rate or an angular acceleration:
+/// in degrees in files, in radians in memory.
+constexpr bool is_angle(std::string_view file_name) {
+  const std::size_t at = file_name.find("_deg");
+  if (at == std::string_view::npos) return false;
+  const std::string_view rest = file_name.substr(at + std::string_view("_deg").size());
+  return rest.empty() || rest.starts_with("_per_");
+}
+
 /// Describes a member of a request. `visit_options` and the functions like it are tables of these
 /// descriptions. The code that reads, writes, checks or documents requests follows the tables.
 struct FieldSpec {
@@ -38,11 +48,7 @@ struct FieldSpec {
 
   [[nodiscard]] constexpr std::string_view wire_name() const { return wire.empty() ? name : wire; }
   [[nodiscard]] constexpr std::string_view file_name() const { return file.empty() ? name : file; }
-  /// Returns whether the member is an angle, or an angle per second: in degrees in files, in
-  /// radians in memory.
-  [[nodiscard]] constexpr bool is_angle() const {
-    return file_name().ends_with("_deg") || file_name().ends_with("_deg_per_s");
-  }
+  [[nodiscard]] constexpr bool is_angle() const { return planning::is_angle(file_name()); }
   /// Returns whether messages about a value are in degrees: if it is an angle with a largest one.
   [[nodiscard]] bool is_told_in_degrees() const;
   /// Returns the range in words: "at least 0 and below 1", "from 1e-06 to 1e+06", "between 0 and

@@ -2,6 +2,7 @@
 #include "daemon/planning/result/witness_names.h"
 
 #include <string>
+#include <utility>
 
 #include "daemon/collision/obstacles.h"
 
@@ -39,6 +40,25 @@ void name_witnesses(const scene::WholeMesh& mesh, const PlanRequest& request, Pl
   if (!body) return;
   result.collision_names = names_of(mesh, *body, result.collisions);
   result.remaining_names = names_of(mesh, *body, result.remaining_collisions);
+}
+
+std::vector<NamedCollision> with_names(const std::vector<CollisionInterval>& collisions,
+                                       const std::vector<WitnessNames>& names) {
+  std::vector<NamedCollision> list;
+  list.reserve(collisions.size());
+  for (const CollisionInterval& interval : collisions) {
+    const std::size_t i = list.size();
+    list.push_back({interval, i < names.size() ? names[i] : WitnessNames{}});
+  }
+  return list;
+}
+
+void append(std::vector<NamedCollision> list, std::vector<CollisionInterval>& collisions,
+            std::vector<WitnessNames>& names) {
+  for (NamedCollision& collision : list) {
+    collisions.push_back(std::move(collision.interval));
+    names.push_back(std::move(collision.names));
+  }
 }
 
 }  // namespace camway::planning

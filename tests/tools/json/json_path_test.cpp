@@ -63,7 +63,7 @@ TEST(PathFile, TakesTheTimesOfGivenKeyframes) {
               ElementsAre(0.0));
   EXPECT_THAT(times_of(R"([{"time": 0}, {"position": [0, 0, 0]}])"), IsEmpty());
   EXPECT_EQ(error_of(path_with(R"(, "keyframes": [{"time": 0, "origin": "mine"}])")),
-            "P.json: keyframes[0].origin: must be \"given\" or \"inserted\"");
+            "P.json: keyframes[0].origin: 'mine' is unknown; there are given, inserted");
 }
 
 TEST(PathFile, IsEveryResponseOfOurs) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "client/messages/plan_fields.h"
+#include "client/messages/plan_members.h"
 
-#include "client/messages/fields.h"
+#include "client/messages/body.h"
+#include "client/messages/constraints.h"
+#include "client/messages/members.h"
 
 namespace camway {
 namespace {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tools/json/json_members.h"
+#include "tools/json/json_writer.h"
 
 #include <charconv>
 #include <cmath>
+
+#include <nlohmann/json.hpp>
 
 namespace camway::tools {
 

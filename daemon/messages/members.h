@@ -10,21 +10,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/messages/bounds.h"
-#include "daemon/motion/path/keyframe.h"
+#include "daemon/messages/convert.h"
+#include "daemon/planning/result/members.h"
 
-/// Conversion between planning's structs and messages, member by member. For two structs there is
-/// one list of pairs: a function `pair(io, mine, wire)` that calls `io(mine.member, wire.member)`
-/// for each member. It serves both directions: `io` is `ToWire` or `FromWire`. Structs whose
-/// members have the same names need no list.
+/// Conversion between planning's structs and messages, member by member: `ToWire` and `FromWire`
+/// follow the lists of `planning/result/members.h`. Structs whose members have the same names need
+/// no list.
 namespace camway::messages {
-
-template <class T, class Struct>
-concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
 template <class Number>
 requires std::is_arithmetic_v<Number>
@@ -47,6 +45,14 @@ void put(const std::array<Vector, kCount>& mine, double (&wire)[kCount][kSize]) 
   for (std::size_t i = 0; i < kCount; ++i) put(mine[i], wire[i]);
 }
 inline void put(const geometry::Bounds& mine, bounds_t& wire) { wire = wire_bounds(mine); }
+inline void put(const std::string& mine, std::string& wire) { wire = mine; }
+inline void put(std::tuple<const double&, const double&> mine, std::tuple<double&, double&> wire) {
+  wire = mine;
+}
+/// No index is -1.
+inline void put(std::optional<std::size_t> mine, std::int32_t& wire) {
+  wire = mine ? static_cast<std::int32_t>(*mine) : -1;
+}
 
 template <class Number>
 requires std::is_arithmetic_v<Number>
@@ -71,40 +77,68 @@ void read(const double (&wire)[kCount][kSize], std::array<Vector, kCount>& mine)
   for (std::size_t i = 0; i < kCount; ++i) read(wire[i], mine[i]);
 }
 inline void read(const bounds_t& wire, geometry::Bounds& mine) { mine = bounds_of(wire); }
-
-template <class Io>
-void pair(const Io& io, Is<motion::Keyframe> auto& mine, Is<keyframe_t> auto& wire) {
-  io(mine.time_s, wire.time_s);
-  io(mine.pose.position, wire.position_m);
-  io(mine.pose.orientation, wire.orientation_wxyz);
-  io(mine.origin, wire.origin);
-  io(mine.is_repaired, wire.repaired);
+inline void read(const std::string& wire, std::string& mine) { mine = wire; }
+inline void read(std::tuple<const double&, const double&> wire, std::tuple<double&, double&> mine) {
+  mine = wire;
+}
+inline void read(std::int32_t wire, std::optional<std::size_t>& mine) {
+  if (wire >= 0) mine = static_cast<std::size_t>(wire);
 }
 
-/// Calls `io(mine.member, wire.member)` for each name that both structs have.
+/// Calls `io(mine.member, wire.member)` for each member of a message of which `Mine` has all
+/// members by the same names.
 template <class Io, class Mine, wire::Described Wire>
-void pair_common(const Io& io, Mine& mine, Wire& wire) {
-  wire::Members<std::remove_const_t<Wire>>::common(
+void convert_by_name(const Io& io, Mine& mine, Wire& wire) {
+  using Message = std::remove_const_t<Wire>;
+  static_assert(wire::lacks_only<Message, std::remove_const_t<Mine>>({}),
+                "structs that differ need a list in planning/result/members.h");
+  wire::Members<Message>::common(
       wire, mine, [&io](auto& wire_member, auto& member) { io(member, wire_member); });
 }
 
-/// Converts structs of which `Mine` has all members of the message, by the same names.
-template <class Io, class Mine, wire::Described Wire>
-void pair_all(const Io& io, Mine& mine, Wire& wire) {
-  static_assert(wire::lacks_only<std::remove_const_t<Wire>, std::remove_const_t<Mine>>({}),
-                "structs that differ need a `pair`");
-  pair_common(io, mine, wire);
+/// Cuts the texts of a message to its limits.
+template <wire::Described Wire>
+void clip_texts(Wire& wire) {
+  wire::for_each_member<Wire>([&](const auto& described) {
+    if constexpr (requires { described.max_bytes; }) {
+      std::string& text = wire.*described.member;
+      text = clipped(text, described.max_bytes);
+    }
+  });
 }
 
-struct ToWire {
+/// What `ToWire` and `FromWire` have in common: in messages, members have no names or lines, none
+/// is left out, and a group is a part of the struct around it.
+template <class Io>
+struct Converter {
+  template <class Mine, class Wire>
+  void need(planning::FileName, Mine&& mine, Wire&& wire) const {
+    io()(mine, wire);
+  }
+  template <class Mine, class Wire>
+  void may(planning::FileName, bool, Mine&& mine, Wire&& wire) const {
+    io()(mine, wire);
+  }
+  template <class List>
+  void group(planning::FileName, bool, int, const List& list) const {
+    list(io());
+  }
+  void line(int) const {}
+
+ private:
+  [[nodiscard]] const Io& io() const { return static_cast<const Io&>(*this); }
+};
+
+struct ToWire : Converter<ToWire> {
   template <class Mine, class Wire>
   void operator()(const Mine& mine, Wire& wire) const {
     if constexpr (requires { put(mine, wire); }) {
       put(mine, wire);
-    } else if constexpr (requires { pair(*this, mine, wire); }) {
-      pair(*this, mine, wire);
+    } else if constexpr (requires { planning::members(*this, mine, wire); }) {
+      planning::members(*this, mine, wire);
+      clip_texts(wire);
     } else {
-      pair_all(*this, mine, wire);
+      convert_by_name(*this, mine, wire);
     }
   }
   template <class Mine, class Wire>
@@ -112,23 +146,23 @@ struct ToWire {
     wire.reserve(mine.size());
     for (const Mine& element : mine) (*this)(element, wire.emplace_back());
   }
-  /// Converts a member that may be missing: calls `each(*mine)` if it is there.
-  template <class Mine, class Each>
-  void optional(const std::optional<Mine>& mine, std::int8_t& has, const Each& each) const {
+  template <class Mine, class List>
+  void optional(planning::FileName, const std::optional<Mine>& mine, const List& list,
+                std::int8_t& has) const {
     has = mine ? 1 : 0;
-    if (mine) each(*mine);
+    if (mine) list(*this, *mine);
   }
 };
 
-struct FromWire {
+struct FromWire : Converter<FromWire> {
   template <class Mine, class Wire>
   void operator()(Mine& mine, const Wire& wire) const {
     if constexpr (requires { read(wire, mine); }) {
       read(wire, mine);
-    } else if constexpr (requires { pair(*this, mine, wire); }) {
-      pair(*this, mine, wire);
+    } else if constexpr (requires { planning::members(*this, mine, wire); }) {
+      planning::members(*this, mine, wire);
     } else {
-      pair_all(*this, mine, wire);
+      convert_by_name(*this, mine, wire);
     }
   }
   template <class Mine, class Wire>
@@ -136,9 +170,10 @@ struct FromWire {
     mine.reserve(wire.size());
     for (const Wire& element : wire) (*this)(mine.emplace_back(), element);
   }
-  template <class Mine, class Each>
-  void optional(std::optional<Mine>& mine, std::int8_t has, const Each& each) const {
-    if (has != 0) each(mine.emplace());
+  template <class Mine, class List>
+  void optional(planning::FileName, std::optional<Mine>& mine, const List& list,
+                std::int8_t has) const {
+    if (has != 0) list(*this, mine.emplace());
   }
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <camway/body.h>
-#include <camway/constraints.h>
 #include <camway/members.h>
 
 #include <algorithm>
@@ -39,9 +37,6 @@ template <class Mine, class Wire>
 void put(const std::optional<Mine>& mine, Wire& wire) {
   if (mine) put(*mine, wire);
 }
-void put(const Body& mine, body_t& wire);
-void put(const Bounds& mine, bounds_t& wire);
-void put(const Orientation& mine, orientation_t& wire);
 
 template <class T>
 void read(const T& wire, T& mine) {
@@ -64,7 +59,6 @@ template <class Wire, class Mine>
 void read(const Wire& wire, std::optional<Mine>& mine) {
   read(wire, mine.emplace());
 }
-void read(const bounds_t& wire, Bounds& mine);
 
 /// Writes every member that the struct and the message have under the same name.
 template <class Mine, wire::Described Wire>

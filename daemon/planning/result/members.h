@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+#include "daemon/planning/result/result.h"
+#include "daemon/planning/result/witness_names.h"
+
+/// The members of answers: one list for each struct, which files and messages follow in both
+/// directions. A list is a function `members(io, mine, wire...)` that calls
+/// `io.need(name, mine.member, wire.member...)` for each member. `name` is the name in files.
+/// `wire` is the corresponding message; it is left out where `io` reads or writes a file. These are
+/// the functions of `io`:
+///  - `need(name, mine, wire...)` handles a member that every file has;
+///  - `may(name, is_said, mine, wire...)` handles a member that files leave out if `is_said` is
+///    false;
+///  - `group(name, is_said, indent, list)` handles members that are an object of their own in files
+///    alone; `list(io)` lists them;
+///  - `optional(name, mine, list, has...)` handles an optional struct, which a message marks by the
+///    flag `has`; `list(io, *mine)` lists its members;
+///  - `line(indent)` sets on which line of a file the next member stands.
+/// A number whose name contains `_deg` is an angle: in degrees in files, in radians elsewhere. A
+/// pair of numbers (`std::tie`) is an array in files.
+namespace camway::planning {
+
+/// Name of a member in files, and its old name, which is still read.
+struct FileName {
+  constexpr FileName(const char* name_now, std::string_view old_name = {})  // NOLINT: implicit
+      : name(name_now), old(old_name) {}
+  std::string_view name;
+  std::string_view old;
+};
+
+template <class T, class Struct>
+concept Is = std::same_as<std::remove_const_t<T>, Struct>;
+
+template <class Io, class... Wire>
+void members(Io& io, Is<motion::Segment> auto& segment, Wire&... wire) {
+  io.need("t0", segment.t0_s, wire.t0_s...);
+  io.need("t1", segment.t1_s, wire.t1_s...);
+  io.line(5);
+  io.need("position", segment.position, wire.position_m...);
+  io.line(5);
+  io.need("orientation", segment.orientation, wire.orientation_wxyz...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<motion::Keyframe> auto& keyframe, Wire&... wire) {
+  io.need("time", keyframe.time_s, wire.time_s...);
+  io.need("position", keyframe.pose.position, wire.position_m...);
+  io.need("orientation", keyframe.pose.orientation, wire.orientation_wxyz...);
+  io.need("origin", keyframe.origin, wire.origin...);
+  io.may("repaired", keyframe.is_repaired, keyframe.is_repaired, wire.repaired...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<NamedCollision> auto& collision, Wire&... wire) {
+  io.need("t_begin", collision.interval.t_begin_s, wire.t_begin_s...);
+  io.need("t_end", collision.interval.t_end_s, wire.t_end_s...);
+  io.line(5);
+  const auto list = [&](auto& object, auto& witness) {
+    object.need("time", witness.time_s, wire.witness_time_s...);
+    object.need("object", collision.names.object, wire.witness_object...);
+    object.need("triangle", witness.triangle, wire.witness_triangle...);
+    object.need("feature", collision.names.feature, wire.witness_feature...);
+    object.need({"depth_m", "depth"}, witness.depth_m, wire.witness_depth_m...);
+    object.need("point", witness.point_W, wire.witness_point_m...);
+  };
+  io.optional("witness", collision.interval.witness, list, wire.has_witness...);
+}
+
+/// Files have the effort only of a collision that was not corrected.
+template <class Io, class... Wire>
+void members(Io& io, Is<correction::Correction> auto& correction, Wire&... wire) {
+  io.need("t_begin", correction.interval.t_begin_s, wire.t_begin_s...);
+  io.need("t_end", correction.interval.t_end_s, wire.t_end_s...);
+  io.need({"kind", "method"}, correction.kind, wire.method...);
+  io.need("changed", std::tie(correction.t_begin_s, correction.t_end_s),
+          std::tie(wire.changed_t_begin_s, wire.changed_t_end_s)...);
+  io.need("moved_m", correction.moved_m, wire.moved_m...);
+  io.need("turned_deg", correction.turned_rad, wire.turned_rad...);
+  io.line(5);
+  const bool is_said = correction.kind == correction::CorrectionKind::kNone;
+  io.group("tried", is_said, -1, [&](auto& object) {
+    object.need("directions", correction.tried.directions, wire.tried_directions...);
+    object.need("paths", correction.tried.paths, wire.tried_paths...);
+    object.need("lattice_points", correction.tried.lattice_points, wire.tried_lattice_points...);
+    object.need("tree_samples", correction.tried.tree_samples, wire.tried_tree_samples...);
+  });
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<motion::PathMeasures> auto& measures, Wire&... wire) {
+  io.need("length_m", measures.length_m, wire.length_m...);
+  io.need("largest_deviation_m", measures.largest_deviation_m, wire.largest_deviation_m...);
+  io.need("bending_energy_m2_per_s3", measures.bending_energy_m2_per_s3,
+          wire.bending_energy_m2_per_s3...);
+  io.need("largest_speed_m_per_s", measures.largest_speed_m_per_s, wire.largest_speed_m_per_s...);
+  io.need("largest_acceleration_m_per_s2", measures.largest_acceleration_m_per_s2,
+          wire.largest_acceleration_m_per_s2...);
+  io.need("largest_turn_rate_deg_per_s", measures.largest_turn_rate_rad_per_s,
+          wire.largest_turn_rate_rad_per_s...);
+  io.need("largest_turn_acceleration_deg_per_s2", measures.largest_turn_acceleration_rad_per_s2,
+          wire.largest_turn_acceleration_rad_per_s2...);
+  io.need("clearance_lower_bound_m", measures.clearance_lower_bound_m,
+          wire.clearance_lower_bound_m...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<SlowedStretch> auto& stretch, Wire&... wire) {
+  io.need("t_begin", stretch.t_begin_s, wire.t_begin_s...);
+  io.need("t_end", stretch.t_end_s, wire.t_end_s...);
+  io.need("given", std::tie(stretch.given_t_begin_s, stretch.given_t_end_s),
+          std::tie(wire.given_t_begin_s, wire.given_t_end_s)...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<KeyframeFault> auto& fault, Wire&... wire) {
+  io.need("keyframe", fault.keyframe, wire.keyframe...);
+  io.need({"depth_m", "depth"}, fault.depth_m, wire.depth_m...);
+  const auto list = [&](auto& object, auto& pose) {
+    object.need("position", pose.position, wire.free_position_m...);
+    object.need("orientation", pose.orientation, wire.free_orientation_wxyz...);
+  };
+  io.optional("free_pose", fault.free_pose, list, wire.has_free_pose...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<correction::CageBox> auto& cage, Wire&... wire) {
+  io.need("orientation", cage.orientation, wire.orientation_wxyz...);
+  io.need("min", cage.box.min(), wire.min_m...);
+  io.need("max", cage.box.max(), wire.max_m...);
+  io.line(6);
+  io.need("widest_hole_m", cage.widest_hole_m, wire.widest_hole_m...);
+  io.need("shortest_chord_m", cage.shortest_chord_m, wire.shortest_chord_m...);
+}
+
+/// `wire` is the whole answer, of which the proof is a part.
+template <class Io, class... Wire>
+void members(Io& io, Is<Infeasibility> auto& proof, Wire&... wire) {
+  io.need("keyframe_inside", proof.keyframe_inside, wire.keyframe_inside...);
+  io.need("keyframe_outside", proof.keyframe_outside, wire.keyframe_outside...);
+  io.line(4);
+  const auto list = [&](auto& object, auto& cage) { members(object, cage, wire.proof_cage...); };
+  io.optional("cage", proof.cage, list, wire.has_cage...);
+  io.line(4);
+  io.need("triangles", proof.triangles, wire.proof_triangles...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<Timing> auto& timing, Wire&... wire) {
+  if constexpr (sizeof...(Wire) == 0) io.may("load_scene", true, timing.load_scene_ms);
+  io.may("motion", true, timing.motion_ms, wire.motion_ms...);
+  io.may("detect", true, timing.detect_ms, wire.detect_ms...);
+  io.may("correct", true, timing.correct_ms, wire.correct_ms...);
+  io.may("certify", true, timing.certify_ms, wire.certify_ms...);
+  io.may("total", true, timing.total_ms, wire.total_ms...);
+}
+
+/// The members of a result in the order of files: those before the path, then, after path,
+/// keyframes and collisions, the report. The path is no plain list: its reader checks it.
+template <class Io, class... Wire>
+void head_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
+  io.need("status", result.status, wire.status...);
+  io.may("message", true, result.message, wire.message...);
+  io.may("keyframe", result.keyframe.has_value(), result.keyframe, wire.keyframe...);
+}
+
+template <class Io, class... Wire>
+void measures_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
+  const auto before = [&](auto& object, auto& measures) {
+    members(object, measures, wire.measures_before...);
+  };
+  io.optional("before", result.measures_before, before, wire.has_measures_before...);
+  const auto after = [&](auto& object, auto& measures) {
+    members(object, measures, wire.measures...);
+  };
+  io.optional("after", result.measures, after, wire.has_measures...);
+}
+
+template <class Io, class... Wire>
+void report_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
+  io.group("certificate", true, -1, [&](auto& object) {
+    object.need("certified", result.certificate.certified, wire.certified...);
+    object.may("clearance_lower_bound", true, result.certificate.clearance_lower_bound_m,
+               wire.clearance_lower_bound_m...);
+  });
+  io.may("corrections", true, result.corrections, wire.corrections...);
+  io.group("measures", result.measures_before || result.measures, 4,
+           [&](auto& object) { measures_members(object, result, wire...); });
+  io.may("bounds", result.bounds.any(), result.bounds, wire.bounds...);
+  io.may("near_scale", result.near_scale != 1.0, result.near_scale, wire.near_scale...);
+  io.may("time_scale", result.time_scale != 1.0, result.time_scale, wire.time_scale...);
+  io.may("deadline_reached", result.deadline_reached, result.deadline_reached,
+         wire.deadline_reached...);
+  io.may("slowed", !result.slowed.empty(), result.slowed, wire.slowed...);
+  io.may("keyframe_faults", !result.keyframe_faults.empty(), result.keyframe_faults,
+         wire.keyframe_faults...);
+  const auto proof = [&](auto& object, auto& mine) { members(object, mine, wire...); };
+  io.optional("infeasibility", result.infeasibility, proof, wire.has_infeasibility...);
+}
+
+}  // namespace camway::planning
