@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "daemon/planning/result/path_faults.h"
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 #include "tools/camway/check/check_report.h"
 #include "tools/camway/common/commands.h"
 #include "tools/camway/common/scene_flags.h"

@@ -11,7 +11,7 @@
 #include "daemon/collision/obstacles.h"
 #include "daemon/planning/result/path_faults.h"
 #include "daemon/planning/result/witness_names.h"
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 #include "daemon/scene/import/import_warnings.h"
 
 namespace camway::tools {

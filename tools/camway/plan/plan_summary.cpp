@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 #include "tools/json/json_angle.h"
 
 namespace camway::tools {

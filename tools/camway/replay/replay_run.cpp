@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/camway/replay/replay_run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <set>
@@ -45,46 +43,6 @@ PlanResult plan_again(const RecordedRequest& recorded, const Scenes& scenes) {
   return result;
 }
 
-/// Returns why the recorded answer cannot be compared with the new one; empty if it can.
-std::string why_not_compared(const RecordedRequest& recorded, const PlanResult& now) {
-  if (!recorded.answer) return "no answer in the log";
-  if (!recorded.answer->result) return "recorded: " + recorded.answer->status;
-  const Status then = recorded.answer->result->status;
-  if (then == Status::kTimeout || recorded.answer->result->deadline_reached) {
-    return fmt::format(
-        "recorded: {}, cut short by its deadline, which hangs on the machine's speed",
-        planning::to_string(then));
-  }
-  if (then == Status::kUnknownScene && now.status != Status::kUnknownScene) {
-    return "recorded: unknown_scene";
-  }
-  return {};
-}
-
-/// Returns the body of the request; a point if its body is not valid.
-motion::Body body_of(const RecordedRequest& recorded) {
-  if (recorded.request) {
-    auto body = motion::Body::make(planning::body_shape(*recorded.request));
-    if (body) return *body;
-  }
-  return motion::Body(motion::Camera{});
-}
-
-std::size_t keyframe_count(const PlanResult& result) { return result.keyframes.size(); }
-
-void judge(const RecordedRequest& recorded, const ReplayOptions& options, ReplayedRequest& item) {
-  item.note = why_not_compared(recorded, item.result);
-  if (!item.note.empty()) return;
-  const PlanResult& then = *recorded.answer->result;
-  item.difference = compare(then, item.result, body_of(recorded));
-  const bool close = then.status == item.result.status &&
-                     keyframe_count(then) == keyframe_count(item.result) &&
-                     item.difference.path_m <= options.tolerance_m && options.tolerance_m > 0.0;
-  const bool agrees = item.difference.what.empty() || close;
-  item.verdict = agrees ? Verdict::kAgrees : Verdict::kDiffers;
-  if (!agrees) item.note = item.difference.what;
-}
-
 }  // namespace
 
 std::vector<std::string> missing_scenes(const Session& session, const Scenes& scenes) {
@@ -107,7 +65,7 @@ std::vector<ReplayedRequest> replay(const Session& session, const Scenes& scenes
       const RecordedRequest& recorded = session.requests[i];
       ReplayedRequest& item = replayed[i];
       item.result = plan_again(recorded, scenes);
-      judge(recorded, options, item);
+      static_cast<Judgement&>(item) = judge(recorded, item.result, options.tolerance_m);
       const auto scene = scenes.find(recorded.scene);
       item.scene_changed = scene != scenes.end() && recorded.answer &&
                            !recorded.answer->scene_digest.empty() &&

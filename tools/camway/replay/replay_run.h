@@ -7,26 +7,17 @@
 #include <vector>
 
 #include "daemon/scene/snapshot/snapshot.h"
-#include "tools/camway/replay/compare.h"
 #include "tools/camway/replay/session.h"
+#include "tools/camway/replay/verdict.h"
 
 namespace camway::tools {
 
 /// Scenes by their names in the requests.
 using Scenes = std::map<std::string, std::shared_ptr<const scene::Snapshot>>;
 
-enum class Verdict {
-  kAgrees,
-  kDiffers,
-  kNotCompared,  ///< there was nothing to reproduce; `note` has the reason
-};
-
-/// A recorded request that was planned again.
-struct ReplayedRequest {
+/// A recorded request that was planned again, and the verdict on its answer.
+struct ReplayedRequest : Judgement {
   planning::PlanResult result;
-  Verdict verdict = Verdict::kNotCompared;
-  Difference difference;
-  std::string note;            ///< difference, or reason for no comparison; empty if it agrees
   bool scene_changed = false;  ///< whether the recorded answer is of a scene with other triangles
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/camway/replay/compare.h"
+#include "tools/camway/replay/difference.h"
 
 #include <gtest/gtest.h>
 
@@ -33,28 +33,28 @@ std::vector<motion::Keyframe> three_keyframes() {
   return keyframes;
 }
 
-TEST(Compare, FindsNothingBetweenEqualBits) {
+TEST(Difference, FindsNothingBetweenEqualBits) {
   const planning::PlanResult result = result_through(three_keyframes());
   planning::PlanResult other = result;
   other.message = "in other words";
   other.timing.total_ms = 5;
-  const Difference difference = compare(result, other, body());
+  const Difference difference = difference_of(result, other, body());
   EXPECT_EQ(difference.path_m, 0.0);
   EXPECT_EQ(difference.what, "");
 }
 
-TEST(Compare, MeasuresAShiftedPath) {
+TEST(Difference, MeasuresAShiftedPath) {
   const planning::PlanResult a = result_through(three_keyframes());
   std::vector<motion::Keyframe> shifted = three_keyframes();
   for (motion::Keyframe& keyframe : shifted) keyframe.pose.position.z() += 0.25;
-  const Difference difference = compare(a, result_through(shifted), body());
+  const Difference difference = difference_of(a, result_through(shifted), body());
   // Interpolation is affine: the whole path moves by the same vector, up to rounding at metre
   // scale.
   EXPECT_NEAR(difference.path_m, 0.25, 1e-14);
-  EXPECT_EQ(difference.what, "keyframes");
+  EXPECT_EQ(difference.what, "keyframes[0].position");
 }
 
-TEST(Compare, MeasuresATurnByTheCorners) {
+TEST(Difference, MeasuresATurnByTheCorners) {
   const planning::PlanResult a = result_through(three_keyframes());
   std::vector<motion::Keyframe> turned = three_keyframes();
   const double angle_rad = 0.1;
@@ -65,70 +65,70 @@ TEST(Compare, MeasuresATurnByTheCorners) {
   // quadrilateral.
   const motion::Corners corners = motion::near_corners_C(kCamera);
   const double expected_m = 2 * corners[0].head<2>().norm() * std::sin(angle_rad / 2);
-  EXPECT_NEAR(compare(a, result_through(turned), body()).path_m, expected_m, 1e-13);
+  EXPECT_NEAR(difference_of(a, result_through(turned), body()).path_m, expected_m, 1e-13);
 }
 
-TEST(Compare, SeesTheLastBitOfOneControlPoint) {
+TEST(Difference, SeesTheLastBitOfOneControlPoint) {
   const planning::PlanResult a = result_through(three_keyframes());
   planning::PlanResult b = a;
   std::vector<motion::Segment> segments(a.path.segments().begin(), a.path.segments().end());
   double& coordinate = segments[1].position[2].x();
   coordinate = std::nextafter(coordinate, 10.0);
   b.path = motion::Path(segments);
-  const Difference difference = compare(a, b, body());
+  const Difference difference = difference_of(a, b, body());
   EXPECT_GT(difference.path_m, 0.0);
   EXPECT_LT(difference.path_m, 1e-14);
-  EXPECT_EQ(difference.what, "segments");
+  EXPECT_EQ(difference.what, "segments[1].position");
 }
 
-TEST(Compare, IsInfiniteWhereThereIsNoCommonTime) {
+TEST(Difference, IsInfiniteWhereThereIsNoCommonTime) {
   const planning::PlanResult a = result_through(three_keyframes());
   planning::PlanResult none = a;
   none.path = {};
-  EXPECT_TRUE(std::isinf(compare(a, none, body()).path_m));
+  EXPECT_TRUE(std::isinf(difference_of(a, none, body()).path_m));
   std::vector<motion::Keyframe> longer = three_keyframes();
   longer.back().time_s += 1.0;
-  EXPECT_TRUE(std::isinf(compare(a, result_through(longer), body()).path_m));
-  EXPECT_EQ(compare(none, none, body()).path_m, 0.0);
+  EXPECT_TRUE(std::isinf(difference_of(a, result_through(longer), body()).path_m));
+  EXPECT_EQ(difference_of(none, none, body()).path_m, 0.0);
 }
 
-TEST(Compare, NamesWhatDiffersFirst) {
+TEST(Difference, NamesWhatDiffersFirst) {
   const planning::PlanResult a = result_through(three_keyframes());
   planning::PlanResult b = a;
   b.remaining_collisions = {{0.25, 0.5}};
-  EXPECT_EQ(compare(a, b, body()).what, "remaining collisions 0 -> 1");
+  EXPECT_EQ(difference_of(a, b, body()).what, "remaining_collisions 0 -> 1");
   b.status = planning::Status::kPartial;
-  EXPECT_EQ(compare(a, b, body()).what, "status ok -> partial");
+  EXPECT_EQ(difference_of(a, b, body()).what, "status ok -> partial");
   b = a;
   b.certificate.clearance_lower_bound_m = 0.5;
-  EXPECT_EQ(compare(a, b, body()).what, "certificate");
+  EXPECT_EQ(difference_of(a, b, body()).what, "certificate.clearance_lower_bound");
   b = a;
   b.keyframes[1].origin = motion::KeyframeOrigin::kInserted;
-  EXPECT_EQ(compare(a, b, body()).what, "keyframes");
+  EXPECT_EQ(difference_of(a, b, body()).what, "keyframes[1].origin");
   b = a;
   b.collisions = {{0.5, 0.5}};
   planning::PlanResult c = b;
   c.collisions = {{0.5, std::nextafter(0.5, 1.0)}};
-  EXPECT_EQ(compare(b, c, body()).what, "collisions");
+  EXPECT_EQ(difference_of(b, c, body()).what, "collisions[0].t_end");
 }
 
-TEST(Compare, SeesAnotherWitness) {
+TEST(Difference, SeesAnotherWitness) {
   planning::PlanResult a = result_through(three_keyframes());
   a.collisions = {{0.25, 0.5, collision::Witness{0.375, 7, 2, 0.01, {1, 2, 3}}}};
   a.collision_names = {{"table", "edge 1"}};
   planning::PlanResult b = a;
   b.collisions[0].witness->feature = 0;
-  EXPECT_EQ(compare(a, b, body()).what, "") << "answers hold the name alone";
+  EXPECT_EQ(difference_of(a, b, body()).what, "") << "answers hold the name alone";
   b.collision_names[0].feature = "edge 2";
-  EXPECT_EQ(compare(a, b, body()).what, "names of what collides");
+  EXPECT_EQ(difference_of(a, b, body()).what, "collisions[0].witness.feature");
   b = a;
   b.collisions[0].witness->point_W.z() = 3.5;
-  EXPECT_EQ(compare(a, b, body()).what, "collisions");
+  EXPECT_EQ(difference_of(a, b, body()).what, "collisions[0].witness.point");
   b.collisions[0].witness.reset();
-  EXPECT_EQ(compare(a, b, body()).what, "collisions");
+  EXPECT_EQ(difference_of(a, b, body()).what, "collisions[0].witness");
 }
 
-TEST(Compare, SeesWhatCorrectionDid) {
+TEST(Difference, SeesWhatCorrectionDid) {
   planning::PlanResult a = result_through(three_keyframes());
   a.corrections.resize(1);
   a.corrections[0].interval = {0.25, 0.5, collision::Witness{}};
@@ -139,53 +139,59 @@ TEST(Compare, SeesWhatCorrectionDid) {
   const auto difference_after = [&](const auto& edit) {
     planning::PlanResult b = a;
     edit(b);
-    return compare(a, b, body()).what;
+    return difference_of(a, b, body()).what;
   };
   using Result = planning::PlanResult;
   EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].interval.witness.reset(); }), "")
       << "it stands with the collision";
   EXPECT_EQ(difference_after([](Result& b) { b.corrections.clear(); }), "corrections 1 -> 0");
   EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].interval.t_end_s = 0.75; }),
-            "corrections");
+            "corrections[0].t_end");
   EXPECT_EQ(difference_after(
                 [](Result& b) { b.corrections[0].kind = correction::CorrectionKind::kTurn; }),
-            "corrections");
-  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_begin_s = -0.0; }), "corrections");
-  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_end_s = 1.0; }), "corrections");
-  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].moved_m = 1.0; }), "corrections");
-  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].turned_rad = 1.0; }), "corrections");
-  EXPECT_EQ(difference_after([](Result& b) { b.measures->length_m = 1.0; }), "measures");
-  EXPECT_EQ(difference_after([](Result& b) { b.measures_before.reset(); }),
-            "measures before correction");
+            "corrections[0].kind");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_begin_s = -0.0; }),
+            "corrections[0].changed");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].t_end_s = 1.0; }),
+            "corrections[0].changed");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].moved_m = 1.0; }),
+            "corrections[0].moved_m");
+  EXPECT_EQ(difference_after([](Result& b) { b.corrections[0].turned_rad = 1.0; }),
+            "corrections[0].turned_deg");
+  EXPECT_EQ(difference_after([](Result& b) { b.measures->length_m = 1.0; }),
+            "measures.after.length_m");
+  EXPECT_EQ(difference_after([](Result& b) { b.measures_before.reset(); }), "measures.before");
   EXPECT_EQ(difference_after([](Result& b) { b.bounds.min_W.y() = 0.5; }), "bounds");
-  EXPECT_EQ(difference_after([](Result& b) { b.near_scale = 0.5; }), "near scale");
-  EXPECT_EQ(difference_after([](Result& b) { b.time_scale = 2.0; }), "time scale");
-  EXPECT_EQ(difference_after([](Result& b) { b.slowed.resize(1); }), "slowed stretches 0 -> 1");
+  EXPECT_EQ(difference_after([](Result& b) { b.near_scale = 0.5; }), "near_scale");
+  EXPECT_EQ(difference_after([](Result& b) { b.time_scale = 2.0; }), "time_scale");
+  EXPECT_EQ(difference_after([](Result& b) { b.slowed.resize(1); }), "slowed 0 -> 1");
   EXPECT_EQ(difference_after([](Result& b) { b.keyframe_faults[0].depth_m = 1.0; }),
-            "keyframe faults");
+            "keyframe_faults[0].depth_m");
   EXPECT_EQ(difference_after([](Result& b) { b.keyframe_faults[0].free_pose.emplace(); }),
-            "keyframe faults");
+            "keyframe_faults[0].free_pose");
   EXPECT_EQ(difference_after([](Result& b) { b.infeasibility->triangles[1] = 4; }),
-            "proof that there is no path");
-  EXPECT_EQ(difference_after([](Result& b) { b.infeasibility.reset(); }),
-            "proof that there is no path");
+            "infeasibility.triangles[1]");
+  EXPECT_EQ(difference_after([](Result& b) { b.infeasibility.reset(); }), "infeasibility");
   a.infeasibility->cage = correction::CageBox{};
   a.infeasibility->cage->box = geometry::Box(geometry::Vec3::Zero(), geometry::Vec3::Ones());
   const auto cage_difference_after = [&](const auto& edit) {
     return difference_after([&](Result& b) { edit(b.infeasibility->cage); });
   };
   using Cage = std::optional<correction::CageBox>;
-  const std::string other_proof = "proof that there is no path";
+  const std::string cage = "infeasibility.cage";
   EXPECT_EQ(cage_difference_after([](Cage&) {}), "");
-  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage.reset(); }), other_proof);
-  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->box.max().y() = 2.0; }), other_proof);
-  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->box.min().z() = -0.0; }), other_proof);
-  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->orientation.x() = 1.0; }), other_proof);
-  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->widest_hole_m = 1.0; }), other_proof);
-  EXPECT_EQ(cage_difference_after([](Cage& cage) { cage->shortest_chord_m = 1.0; }), other_proof);
+  EXPECT_EQ(cage_difference_after([](Cage& its) { its.reset(); }), cage);
+  EXPECT_EQ(cage_difference_after([](Cage& its) { its->box.max().y() = 2.0; }), cage + ".max");
+  EXPECT_EQ(cage_difference_after([](Cage& its) { its->box.min().z() = -0.0; }), cage + ".min");
+  EXPECT_EQ(cage_difference_after([](Cage& its) { its->orientation.x() = 1.0; }),
+            cage + ".orientation");
+  EXPECT_EQ(cage_difference_after([](Cage& its) { its->widest_hole_m = 1.0; }),
+            cage + ".widest_hole_m");
+  EXPECT_EQ(cage_difference_after([](Cage& its) { its->shortest_chord_m = 1.0; }),
+            cage + ".shortest_chord_m");
 }
 
-TEST(Compare, MeasuresATurnByTheCornersOfAnyBody) {
+TEST(Difference, MeasuresATurnByTheCornersOfAnyBody) {
   const planning::PlanResult a = result_through(three_keyframes());
   std::vector<motion::Keyframe> turned = three_keyframes();
   for (motion::Keyframe& keyframe : turned) {
@@ -193,7 +199,7 @@ TEST(Compare, MeasuresATurnByTheCornersOfAnyBody) {
   }
   const auto rod = motion::Body::make(motion::ConvexShape{{{{2, 0, 0}, {0, 0, 5}}}});
   ASSERT_TRUE(rod) << rod.error;
-  EXPECT_NEAR(compare(a, result_through(turned), *rod).path_m, 4.0, 1e-13);
+  EXPECT_NEAR(difference_of(a, result_through(turned), *rod).path_m, 4.0, 1e-13);
 }
 
 }  // namespace

@@ -15,15 +15,15 @@ struct Difference {
   /// lower bound, but it is 0 exactly if the paths have the same bits. Infinite if only one path is
   /// empty or if the time spans differ. [Units: metres]
   double path_m = 0.0;
-  /// Description of the first difference; empty if all numbers except for timing have the same
-  /// bits.
+  /// The first member that differs, by its name in files: "corrections[1].moved_m", "segments 3 ->
+  /// 4", "status ok -> partial". Empty if all members have the same bits.
   std::string what;
 };
 
-/// Compares two answers except for timing, and for the message, whose wording may change between
-/// versions.
-Difference compare(const planning::PlanResult& recorded, const planning::PlanResult& now,
-                   const motion::Body& body);
+/// Compares two answers, but for what tells how they were found: times, effort, whether the
+/// deadline was reached, and the message, whose wording may change between versions.
+Difference difference_of(const planning::PlanResult& recorded, const planning::PlanResult& now,
+                         const motion::Body& body);
 
 /// Returns whether two paths have the same bits in every number.
 bool same_bits(const motion::Path& a, const motion::Path& b);
