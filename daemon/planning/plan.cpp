@@ -11,7 +11,7 @@
 #include "daemon/planning/stages/conclude.h"
 #include "daemon/planning/stages/correct.h"
 #include "daemon/planning/stages/meet_limits.h"
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 #include "daemon/planning/stages/prepare.h"
 #include "daemon/planning/stages/search_changes.h"
 #include "daemon/planning/stages/shrink.h"

@@ -13,6 +13,7 @@
 namespace camway::correction {
 namespace {
 
+using geometry::precedes;
 using geometry::Triangle;
 using geometry::Vec3;
 
@@ -38,10 +39,6 @@ void clip_to_row(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double low,
     if ((a.y() < v) == (b.y() < v)) continue;
     add(a.x() + (b.x() - a.x()) * ((v - a.y()) / (b.y() - a.y())));
   }
-}
-
-bool precedes(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
 /// A corner: its exact coordinates, which identify it, and its place in the face.

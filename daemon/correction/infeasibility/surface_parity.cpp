@@ -9,6 +9,7 @@
 namespace camway::correction {
 namespace {
 
+using geometry::precedes;
 using geometry::Triangle;
 using geometry::Vec2;
 using geometry::Vec3;
@@ -30,10 +31,6 @@ bool may_hit(const Vec3& origin, const Triangle& t) {
            (k != 0 && t[0][k] > origin[k] && t[1][k] > origin[k] && t[2][k] > origin[k]);
   };
   return !beside(1) && !beside(2) && !beside(0);
-}
-
-bool precedes(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
 }  // namespace

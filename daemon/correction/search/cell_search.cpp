@@ -33,7 +33,7 @@ enum class State : std::uint8_t { kFree, kMixed, kBlocked };
 
 constexpr std::array<std::uint8_t, 2> kEnds = {1, 2};  // bits: of the begin and of the end
 
-struct Cell {
+struct OctreeCell {
   Place at{};                      ///< from the corner of the whole, in sides of the cell
   std::uint32_t children = kNone;  ///< the first of eight
   float gap_m = 0.0F;              ///< of the ball in the middle, for free cells
@@ -55,22 +55,23 @@ class CellTree {
   }
 
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
-  Cell& operator[](std::uint32_t index) { return cells_[index]; }
-  const Cell& operator[](std::uint32_t index) const { return cells_[index]; }
+  OctreeCell& operator[](std::uint32_t index) { return cells_[index]; }
+  const OctreeCell& operator[](std::uint32_t index) const { return cells_[index]; }
 
   [[nodiscard]] double side_m(int level) const { return std::ldexp(side_m_, -level); }
-  [[nodiscard]] Vec3 center_W(const Cell& cell) const {
+  [[nodiscard]] Vec3 center_W(const OctreeCell& cell) const {
     const Vec3 at(static_cast<double>(cell.at[0]), static_cast<double>(cell.at[1]),
                   static_cast<double>(cell.at[2]));
     return low_W_.array() + side_m(cell.level) * (at.array() + 0.5);
   }
-  [[nodiscard]] bool may_divide(const Cell& cell) const {
+  [[nodiscard]] bool may_divide(const OctreeCell& cell) const {
     return cell.level < kFinestLevel && side_m(cell.level + 1) >= options_.smallest_m;
   }
 
   /// Returns the closed corner that a cell stands in, as seen from the middle of the cell beside
   /// it, with room for further cells of that size in front. Returns nothing if there is none.
-  [[nodiscard]] std::optional<ClosedCorner> corner_at(const Cell& cell, const Cell& beside) const {
+  [[nodiscard]] std::optional<ClosedCorner> corner_at(const OctreeCell& cell,
+                                                      const OctreeCell& beside) const {
     const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
     const double reach_m = kRoomInFront * side_m(cell.level) + keep_m;
     const Vec3 center_W = this->center_W(cell);
@@ -83,9 +84,9 @@ class CellTree {
   std::uint32_t divide(std::uint32_t index) {
     const auto first = static_cast<std::uint32_t>(cells_.size());
     cells_[index].children = first;
-    const Cell parent = cells_[index];
+    const OctreeCell parent = cells_[index];
     for (std::int32_t i = 0; i < 8; ++i) {
-      Cell child;
+      OctreeCell child;
       child.level = static_cast<std::int8_t>(parent.level + 1);
       child.at = {2 * parent.at[0] + (i & 1), 2 * parent.at[1] + (i >> 1 & 1),
                   2 * parent.at[2] + (i >> 2)};
@@ -152,7 +153,7 @@ class CellTree {
     }
   }
 
-  void classify(Cell& cell) const {
+  void classify(OctreeCell& cell) const {
     const double reach_m = kHalfDiagonal * side_m(cell.level);
     const double keep_m = options_.ball_radius_m + space_.detect().clearance_m;
     // As far as it takes to prove the cell free, and to tell how much room there is.
@@ -173,7 +174,7 @@ class CellTree {
   const CellOptions& options_;
   double side_m_;
   Vec3 low_W_;
-  std::vector<Cell> cells_;
+  std::vector<OctreeCell> cells_;
 };
 
 class CellSearch {
@@ -304,7 +305,7 @@ class CellSearch {
   }
 
   void put_off(std::uint32_t index, std::size_t end) {
-    Cell& cell = tree_[index];
+    OctreeCell& cell = tree_[index];
     if ((cell.waiting & kEnds[end]) != 0 || !tree_.may_divide(cell)) return;
     cell.waiting |= kEnds[end];
     const Vec3 center_W = tree_.center_W(cell);
@@ -336,7 +337,7 @@ class CellSearch {
     std::array<geometry::Box, 2> boxes;
     std::array<double, 2> unsure_m = {0.0, 0.0};
     for (std::uint32_t i = 0; i < tree_.size(); ++i) {
-      const Cell& cell = tree_[i];
+      const OctreeCell& cell = tree_[i];
       if (cell.children != kNone || cell.reached == 0) continue;
       const double half_m = 0.5 * tree_.side_m(cell.level);
       const Vec3 center_W = tree_.center_W(cell);

@@ -13,19 +13,19 @@ namespace {
 using geometry::Vec3;
 
 constexpr double kFirstShell = 0.02;  // radii
-constexpr double kGrowth = 1.2;       // ratio of a shell to the one before
+constexpr double kShellGrowth = 1.2;  // ratio of a shell to the one before
 // Ratio of the last shell to the first with a free pose. The direction found there may be off the
 // nearest by up to 20 degrees, 1 / cos of which is 1.06; the direction of another free region is
 // not limited.
 constexpr double kBeyondFirst = 1.25;
 constexpr int kShellSide = 2;  // half of a shell's points along an edge of a cube
-constexpr std::size_t kMostPlaces = 6;
+constexpr std::size_t kMostFreePlaces = 6;
 constexpr double kSamePlace = 0.75;  // cosine between directions
 
 constexpr double kFirstSwing_rad = 0.3;  // first angle of variations of a direction
 constexpr double kLastSwing_rad = 0.01;
 constexpr int kSwings = 8;  // about the direction
-constexpr int kMostSteps = 40;
+constexpr int kMostSwingSteps = 40;
 
 class Search {
  public:
@@ -40,7 +40,7 @@ class Search {
       const bool is_seen = std::ranges::any_of(places, [&](const Move& place) {
         return place.direction_W.dot(move.direction_W) > kSamePlace;
       });
-      if (!is_seen && places.size() < kMostPlaces) places.push_back(improved(move));
+      if (!is_seen && places.size() < kMostFreePlaces) places.push_back(improved(move));
     }
     if (places.empty()) return std::nullopt;
     const Move best = best_of(places);
@@ -88,7 +88,7 @@ class Search {
     double last_m = reach_m;
     double below_m = 0.0;
     for (double shell_m = kFirstShell * space_.ball_radius_m(); shell_m <= last_m;
-         below_m = shell_m, shell_m *= kGrowth) {
+         below_m = shell_m, shell_m *= kShellGrowth) {
       std::erase_if(directions_W, [&](const Vec3& direction_W) {
         if (!will_do(direction_W, shell_m)) return false;
         found.push_back({direction_W, least_m(direction_W, below_m, shell_m)});
@@ -114,7 +114,7 @@ class Search {
     for (double swing_rad = kFirstSwing_rad; swing_rad > kLastSwing_rad;) {
       const std::optional<Move> better = better_near(best, swing_rad);
       if (better) best = *better;
-      if (!better || ++steps > kMostSteps) swing_rad *= 0.5;
+      if (!better || ++steps > kMostSwingSteps) swing_rad *= 0.5;
     }
     return best;
   }

@@ -24,7 +24,7 @@ constexpr std::array<Level, 6> kLevels = {{{1.0, 4000, false},
                                            {0.125, 120000, false}}};
 constexpr int kOftenRunOut = 2;  // lattices in a row from which on wider ones are searched
 constexpr std::size_t kFirstCostlyLevel = 2;
-constexpr std::size_t kFinestLevel = kLevels.size() - 1;
+constexpr std::size_t kFinestLattice = kLevels.size() - 1;
 
 class LatticeWays {
  public:
@@ -79,8 +79,8 @@ std::size_t for_each_lattice_way(const FreeSpace& space, const BallMotion& ball,
                                  std::span<const geometry::Vec3> about_W, const LatticeWayUse& use,
                                  const base::Deadline& deadline) {
   LatticeWays ways(space, ball, about_W, deadline);
-  ways.search(lattices == Lattices::kFinest ? kFinestLevel : 0,
-              lattices == Lattices::kAllButFinest ? kFinestLevel - 1 : kFinestLevel, use);
+  ways.search(lattices == Lattices::kFinest ? kFinestLattice : 0,
+              lattices == Lattices::kAllButFinest ? kFinestLattice - 1 : kFinestLattice, use);
   return ways.points();
 }
 

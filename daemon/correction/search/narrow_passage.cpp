@@ -287,17 +287,17 @@ class Threader {
 };
 
 /// A place on a way, and the index of the way's point before it.
-struct Place {
+struct WayPlace {
   Vec3 at_W;
   std::size_t leg;
 };
 
 /// Places on `way_W` at most `step_m` apart; empty if they were too many.
-std::vector<Place> places_of(std::span<const Vec3> way_W, double step_m) {
+std::vector<WayPlace> places_of(std::span<const Vec3> way_W, double step_m) {
   double length_m = 0.0;
   for (std::size_t i = 1; i < way_W.size(); ++i) length_m += (way_W[i] - way_W[i - 1]).norm();
   if (!(length_m <= kMostPlaces * step_m)) return {};
-  std::vector<Place> places = {{way_W.front(), 0}};
+  std::vector<WayPlace> places = {{way_W.front(), 0}};
   for (std::size_t i = 1; i < way_W.size(); ++i) {
     const int parts = 1 + static_cast<int>((way_W[i] - way_W[i - 1]).norm() / step_m);
     for (int k = 1; k <= parts; ++k) {
@@ -316,7 +316,7 @@ struct Narrow {
 
 /// Ranges where the ball does not fit. Leaves out those at the ends of the way: the body is there
 /// already.
-std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const Place> places) {
+std::vector<Narrow> narrow_places(const FreeSpace& space, std::span<const WayPlace> places) {
   const double radius_m = space.ball_radius_m();
   const double comfort_m = kLeastShift * radius_m;
   const auto apart = static_cast<std::size_t>(kApart / kStep);
@@ -341,7 +341,7 @@ std::vector<NarrowPassage> narrow_passages(FreeSpace& space, std::span<const Vec
                                            const SignedPose& from, const SignedPose& to,
                                            double margin_m, const base::Deadline& deadline) {
   if (way_W.size() < 2 || !space.may_turn() || is_limited(space.policy())) return {};
-  const std::vector<Place> places = places_of(way_W, kStep * space.ball_radius_m());
+  const std::vector<WayPlace> places = places_of(way_W, kStep * space.ball_radius_m());
   Threader threader(space, from, to, margin_m, deadline);
   std::vector<NarrowPassage> passages;
   for (const Narrow& narrow : narrow_places(space, places)) {

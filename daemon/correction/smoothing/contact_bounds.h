@@ -6,7 +6,7 @@
 
 #include "daemon/correction/path/constraints.h"
 #include "daemon/correction/smoothing/contact_qp.h"
-#include "daemon/correction/smoothing/contacts.h"
+#include "daemon/correction/smoothing/contact_rows.h"
 
 namespace camway::correction {
 

@@ -11,8 +11,8 @@ namespace camway::correction {
 namespace {
 
 // Chosen by measurement; none changes what is proved.
-constexpr double kFloor = 0.03;     // least gap that a step may leave, in radii of the ball, ...
-constexpr double kKeptShare = 0.8;  // ... or this share of what there was, where that is less
+constexpr double kLeastGap = 0.03;  // least gap that a step may leave, in radii of the ball, ...
+constexpr double kKeptOfGap = 0.8;  // ... or this share of what there was, where that is less
 constexpr double kRuleMargin = 0.3 * kOrientationAllowance_rad;  // least room at the samples
 constexpr double kFarEnough = 0.5;  // share of the horizon beyond which a lower bound suffices
 constexpr std::size_t kMostContacts = 3;  // contacts per sample
@@ -46,9 +46,9 @@ std::optional<PathSample> SampleProbe::sample_at(double time_s, const FreeCoeffi
   sample.interpolated = problem_.original.pose(time_s);
   measure(sample, sample.at(variables));
   const double room = rule_room(space_.policy(), pose(sample.known), sample.interpolated);
-  sample.rule_floor = std::min(kRuleMargin, kKeptShare * std::max(0.0, room));
+  sample.rule_floor = std::min(kRuleMargin, kKeptOfGap * std::max(0.0, room));
   sample.floor_m =
-      std::min(kFloor * space_.ball_radius_m(), kKeptShare * std::max(0.0, sample.known_gap_m));
+      std::min(kLeastGap * space_.ball_radius_m(), kKeptOfGap * std::max(0.0, sample.known_gap_m));
   return sample;
 }
 

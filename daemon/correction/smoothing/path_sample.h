@@ -8,7 +8,7 @@
 #include "daemon/correction/path/candidate.h"
 #include "daemon/correction/path/free_space.h"
 #include "daemon/correction/smoothing/contact_bounds.h"
-#include "daemon/correction/smoothing/contacts.h"
+#include "daemon/correction/smoothing/contact_rows.h"
 #include "daemon/correction/smoothing/smoothing_form.h"
 
 namespace camway::correction {

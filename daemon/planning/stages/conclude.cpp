@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 
 namespace camway::planning {
 namespace {

@@ -13,7 +13,7 @@
 #include "daemon/planning/stages/check.h"
 #include "daemon/planning/stages/keyframe_faults.h"
 #include "daemon/planning/stages/keyframe_times.h"
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 #include "daemon/planning/stages/stage_times.h"
 
 namespace camway::planning {

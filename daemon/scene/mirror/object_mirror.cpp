@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -17,8 +16,6 @@ namespace {
 
 using geometry::Box;
 using geometry::Vec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Finds the least `cost` over the boxes of occupied cubes; nothing if none is finite and <=
 /// `limit`. Branch and bound, cheapest octant first; `box_costs.h` states the requirements on a
@@ -52,7 +49,8 @@ class CheapestCube {
   };
 
   [[nodiscard]] bool is_of_use(double cost) const {
-    return cost <= limit_ && cost < kInfinity && !(best_ && (cost >= *best_ || *best_ <= enough_));
+    return cost <= limit_ && std::isfinite(cost) &&
+           !(best_ && (cost >= *best_ || *best_ <= enough_));
   }
 
   void visit(const VoxelTree::Place& place, const VoxelCube& cube, const Faces& faces) {

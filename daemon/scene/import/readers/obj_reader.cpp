@@ -16,7 +16,7 @@
 namespace camway::scene::mesh_readers {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Splits a file into lines, joining those that end in a backslash to the next.
 class Lines {
@@ -64,7 +64,7 @@ Point read_vertex(std::string_view line, MeshCollector& mesh) {
     if (count >= 3 && std::isnan(number)) break;
     numbers[count++] = number;
   }
-  if (count < 3) return {kNaN, kNaN, kNaN};
+  if (count < 3) return {kNoNumber, kNoNumber, kNoNumber};
   Point point = {numbers[0], numbers[1], numbers[2]};
   if (count == 4 && numbers[3] != 1.0) {
     mesh.note_weight();

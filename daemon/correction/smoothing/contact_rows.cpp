@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/correction/smoothing/contacts.h"
+#include "daemon/correction/smoothing/contact_rows.h"
 
 #include <algorithm>
 #include <array>

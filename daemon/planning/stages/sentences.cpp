@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/planning/stages/message.h"
+#include "daemon/planning/stages/sentences.h"
 
 #include <fmt/format.h>
 
