@@ -18,9 +18,6 @@
 namespace camway {
 namespace {
 
-/// How often a large batch is sent again if the scene changes between its parts.
-constexpr int kMaxRestarts = 3;
-
 std::string explain(const occupancy_response_t& response) {
   const std::string said = response.message.empty() ? "(no reason given)" : response.message;
   return to_string(static_cast<Status>(response.status)) + " (scene \"" + response.scene +

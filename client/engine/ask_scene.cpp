@@ -23,9 +23,6 @@ namespace {
 
 /// Pages of an upload, about 3 MB, that are sent before the daemon is asked which ones came.
 constexpr std::size_t kPagesAtOnce = 64;
-/// How often a call begins anew if the list changes while it is read, or if the daemon has dropped
-/// the upload or the export.
-constexpr int kMaxRestarts = 3;
 
 std::string explain(std::int32_t status, const std::string& message) {
   return to_string(static_cast<Status>(status)) + ": " +

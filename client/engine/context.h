@@ -27,6 +27,10 @@ Answer failed(Failure failure) {
   return answer;
 }
 
+/// How often a call begins anew if the scene changes while it is read in parts, or if the daemon
+/// has dropped the upload or the export.
+inline constexpr int kMaxRestarts = 3;
+
 /// Returns the fault of options that cannot be used; empty if they can.
 std::string fault_in(const ClientOptions& options);
 

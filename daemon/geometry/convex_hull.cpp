@@ -193,9 +193,7 @@ std::vector<Index> polygon(const ExactPoints& points, std::size_t axis) {
 
 /// As many points in general position as there are, up to four.
 std::vector<Index> simplex_of(const ExactPoints& points) {
-  const auto less = [&](Index i, Index k) {
-    return std::ranges::lexicographical_compare(points[i], points[k]);
-  };
+  const auto less = [&](Index i, Index k) { return precedes(points[i], points[k]); };
   std::vector<Index> all(points.size());
   std::iota(all.begin(), all.end(), Index{0});
   const auto [low, high] = std::ranges::minmax_element(all, less);

@@ -6,20 +6,13 @@
 #include <cstdint>
 #include <limits>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
+#include "daemon/geometry/exact_integers.h"
 #include "daemon/geometry/rounding.h"
 
 namespace camway::geometry {
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
-using IntegerVec = std::array<Integer, 3>;
-
-/// Exponent of the lowest bit that can be set in a non-zero `x`.
-int lowest_exponent(double x) { return std::ilogb(x) + 1 - std::numeric_limits<double>::digits; }
-
-int lowest_exponent(std::span<const Vec3> points) {
+int lowest_exponent_of(std::span<const Vec3> points) {
   int lowest = std::numeric_limits<int>::max();
   for (const Vec3& point : points) {
     for (const double x : point) {
@@ -27,21 +20,6 @@ int lowest_exponent(std::span<const Vec3> points) {
     }
   }
   return lowest;
-}
-
-/// `x / 2^unit_exponent`, which is an integer.
-Integer to_integer(double x, int unit_exponent) {
-  if (x == 0.0) return 0;
-  const int exponent = lowest_exponent(x);
-  return Integer(static_cast<std::int64_t>(std::ldexp(x, -exponent))) << (exponent - unit_exponent);
-}
-
-IntegerVec difference(const IntegerVec& a, const IntegerVec& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-IntegerVec cross(const IntegerVec& a, const IntegerVec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// (7 + 56·2^-53)·2^-53: Shewchuk's bound, relative to the sum of the magnitudes of all products.
@@ -73,7 +51,7 @@ struct ExactPoints::Integers {
 };
 
 ExactPoints::ExactPoints(std::span<const Vec3> points) : points_(points) {
-  const int unit_exponent = lowest_exponent(points);
+  const int unit_exponent = lowest_exponent_of(points);
   auto integers = std::make_unique<Integers>();
   integers->points.reserve(points.size());
   for (const Vec3& point : points) {
@@ -97,8 +75,7 @@ int ExactPoints::side(std::size_t a, std::size_t b, std::size_t c, std::size_t d
 }
 
 bool ExactPoints::collinear(std::size_t a, std::size_t b, std::size_t c) const {
-  const IntegerVec normal = integers_->normal(a, b, c);
-  return normal[0].is_zero() && normal[1].is_zero() && normal[2].is_zero();
+  return is_zero(integers_->normal(a, b, c));
 }
 
 int ExactPoints::turn(std::size_t a, std::size_t b, std::size_t c, std::size_t axis) const {

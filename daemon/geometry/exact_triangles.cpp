@@ -7,39 +7,19 @@
 #include <limits>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
+#include "daemon/geometry/exact_integers.h"
 #include "daemon/geometry/rounding.h"
 
 namespace camway::geometry {
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
-using IntegerVec = std::array<Integer, 3>;
 using IntegerTriangle = std::array<IntegerVec, 3>;
-
-IntegerVec difference(const IntegerVec& a, const IntegerVec& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-IntegerVec cross(const IntegerVec& a, const IntegerVec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 Integer dot(const IntegerVec& a, const IntegerVec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-bool is_zero(const IntegerVec& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
-/// Exponent of the lowest bit that can be set in a non-zero `x`.
-int lowest_exponent(double x) {
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return exponent - std::numeric_limits<double>::digits;
-}
-
-int lowest_exponent(const Triangle& a, const Triangle& b) {
+int lowest_exponent_of(const Triangle& a, const Triangle& b) {
   int lowest = std::numeric_limits<int>::max();
   for (const Triangle* triangle : {&a, &b}) {
     for (const Vec3& v : *triangle) {
@@ -49,14 +29,6 @@ int lowest_exponent(const Triangle& a, const Triangle& b) {
     }
   }
   return lowest;
-}
-
-/// `x / 2^unit_exponent`, which is an integer.
-Integer to_integer(double x, int unit_exponent) {
-  if (x == 0.0) return 0;
-  const int shift = lowest_exponent(x) - unit_exponent;
-  const double mantissa = std::ldexp(x, -lowest_exponent(x));
-  return Integer(static_cast<std::int64_t>(mantissa)) << shift;
 }
 
 IntegerTriangle to_integers(const Triangle& triangle, int unit_exponent) {
@@ -139,7 +111,7 @@ class SeparationTest {
 }  // namespace
 
 bool triangles_touch_exactly(const Triangle& a, const Triangle& b) {
-  const int unit_exponent = lowest_exponent(a, b);
+  const int unit_exponent = lowest_exponent_of(a, b);
   return !SeparationTest(to_integers(a, unit_exponent), to_integers(b, unit_exponent)).separated();
 }
 
@@ -152,7 +124,7 @@ bool has_no_area_exactly(const Triangle& triangle) {
   // one more: (2·3u + 2u)·e_max·f_max to first order; 16 leaves room for the second.
   const double error = 16.0 * kUnitRoundoff * e_max * f_max + kSmallestNormal;
   if (e.cross(f).lpNorm<Eigen::Infinity>() > error) return false;
-  const IntegerTriangle t = to_integers(triangle, lowest_exponent(triangle, triangle));
+  const IntegerTriangle t = to_integers(triangle, lowest_exponent_of(triangle, triangle));
   return is_zero(cross(difference(t[1], t[0]), difference(t[2], t[0])));
 }
 

@@ -15,4 +15,7 @@ inline constexpr double kSmallestNormal = 0x1p-1022;
 /// overflow. It is far beyond any scene; import refuses larger ones.
 inline constexpr double kLargestCoordinate_m = 0x1p200;
 
+/// Returns the nearest number in [0, 1]; 0 for NaN.
+constexpr double clamp_to_unit(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
+
 }  // namespace camway::geometry

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/geometry/rounding.h"
 #include "daemon/geometry/triangle_distance.h"
 #include "daemon/geometry/triangle_intersection.h"
 
 namespace camway::geometry {
 namespace {
-
-double clamp_to_unit(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
 
 /// Fraction along `segment` of its point closest to the segment `edge`.
 double fraction_closest_to(const LineSegment& segment, const LineSegment& edge) {

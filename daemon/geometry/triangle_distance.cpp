@@ -13,8 +13,6 @@
 namespace camway::geometry {
 namespace {
 
-double clamp_to_unit(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }  // NaN gives 0
-
 /// Parameter in [0, 1] of the point of `from + s·edge` closest to `point`. For a zero edge: 0.
 [[gnu::always_inline]] inline double closest_parameter(const Vec3& from, const Vec3& edge,
                                                        const Vec3& point) {

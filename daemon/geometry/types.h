@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Core>
@@ -31,6 +32,11 @@ inline Vec4 wxyz(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 /// The inverse of `wxyz`. Does not normalise.
 inline Quat from_wxyz(const Vec4& c) { return {c[0], c[1], c[2], c[3]}; }
+
+/// Whether `a` comes before `b`: by x, then y, then z.
+inline bool precedes(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
 
 /// The smallest box that holds `triangle`.
 inline Box bounds(const Triangle& triangle) {

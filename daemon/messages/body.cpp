@@ -97,8 +97,6 @@ base::Result<std::optional<BodyShape>> mesh_of(const body_t& wire) {
   return std::optional<BodyShape>(std::move(mesh));
 }
 
-bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
-
 /// Returns the first member that is not zero or empty though the type does not use it: its sender
 /// meant it.
 std::string idle_member(const body_t& wire) {

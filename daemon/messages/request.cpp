@@ -14,8 +14,6 @@ using correction::OrientationRule;
 using geometry::Vec3;
 using planning::FieldSpec;
 
-bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
-
 /// Returns an error about a member that has a value but no effect: its sender meant it.
 std::string idle_member(const plan_request_t& wire) {
   if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {

@@ -8,28 +8,28 @@
 namespace camway::wire {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteSpan = std::span<const std::uint8_t>;
 
 constexpr std::string_view kFingerprint = "fingerprint";
 
 /// Reads big-endian numbers and skips bytes, never past the end.
 class Reader {
  public:
-  explicit Reader(Bytes bytes) : rest_(bytes) {}
+  explicit Reader(ByteSpan bytes) : rest_(bytes) {}
 
   [[nodiscard]] std::size_t left() const { return rest_.size(); }
 
   /// Returns the next `count` bytes, or nothing if there are fewer.
-  std::optional<Bytes> take(std::size_t count) {
+  std::optional<ByteSpan> take(std::size_t count) {
     if (count > rest_.size()) return std::nullopt;
-    const Bytes taken = rest_.first(count);
+    const ByteSpan taken = rest_.first(count);
     rest_ = rest_.subspan(count);
     return taken;
   }
 
   template <class Integer>
   std::optional<Integer> integer() {
-    const std::optional<Bytes> bytes = take(sizeof(Integer));
+    const std::optional<ByteSpan> bytes = take(sizeof(Integer));
     if (!bytes) return std::nullopt;
     std::uint64_t value = 0;
     for (const std::uint8_t byte : *bytes) value = (value << 8) | byte;
@@ -37,7 +37,7 @@ class Reader {
   }
 
  private:
-  Bytes rest_;
+  ByteSpan rest_;
 };
 
 Fault short_of(std::string_view field, std::size_t needed, std::size_t left) {
@@ -65,7 +65,7 @@ std::optional<Fault> check_string(const Field& field, Reader& reader) {
                                               std::to_string(field.max_length)};
   }
   const std::size_t left = reader.left();
-  const std::optional<Bytes> text = reader.take(size);
+  const std::optional<ByteSpan> text = reader.take(size);
   if (!text) return short_of(field.name, size, left);
   const auto nul = std::find(text->begin(), text->end(), std::uint8_t{0});
   if (nul != text->end() - 1) {
@@ -163,7 +163,7 @@ std::optional<Sender> peek_sender(const Layout& layout, std::span<const std::uin
   const std::optional<std::int32_t> length = reader.integer<std::int32_t>();
   if (!length || *length < 1) return std::nullopt;
   if (static_cast<std::size_t>(*length) > kMaxClientIdLength + 1) return std::nullopt;
-  const std::optional<Bytes> text = reader.take(static_cast<std::size_t>(*length));
+  const std::optional<ByteSpan> text = reader.take(static_cast<std::size_t>(*length));
   const std::optional<std::int64_t> request_id = reader.integer<std::int64_t>();
   if (!text || !request_id || text->back() != 0) return std::nullopt;
   std::string client_id(text->begin(), text->end() - 1);

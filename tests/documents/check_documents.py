@@ -96,14 +96,18 @@ class Documents:
             self.faults.append(f"{block.place()}: {command}: prints\n{output}\nand not\n{shown}")
 
 
-def documents_of(source):
+def files_of(source, pattern):
     """All that git knows of; in a tree without git, all beside build folders."""
-    listed = subprocess.run(["git", "-C", source, "ls-files", "*.md"], capture_output=True, text=True)
+    listed = subprocess.run(["git", "-C", source, "ls-files", pattern], capture_output=True, text=True)
     if listed.returncode == 0 and listed.stdout:
         return listed.stdout.split("\n")[:-1]
     root = pathlib.Path(source)
-    return sorted(str(file.relative_to(root)) for file in root.rglob("*.md")
+    return sorted(str(file.relative_to(root)) for file in root.rglob(pattern)
                   if "build" not in file.relative_to(root).parts)
+
+
+def documents_of(source):
+    return files_of(source, "*.md")
 
 
 def check_help(documents):

@@ -38,6 +38,12 @@ if(CAMWAY_PRECOMPILE)
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overread>")
 endif()
 
+# compile_as_one(TARGET): with CAMWAY_UNITY, a room is one unit of translation, which takes half the time
+# of its files one by one.
+function(compile_as_one name)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${CAMWAY_UNITY} UNITY_BUILD_BATCH_SIZE 0)
+endfunction()
+
 # camway_library(NAME SOURCES ... DEPENDS ... [PRIVATE_DEPENDS ...])
 function(camway_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
@@ -45,6 +51,7 @@ function(camway_library name)
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(${name} PUBLIC camway_flags ${arg_DEPENDS}
                         PRIVATE camway_warnings ${arg_PRIVATE_DEPENDS})
+  compile_as_one(${name})
   if(CAMWAY_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM camway_precompiled_library)
   endif()
@@ -65,6 +72,7 @@ function(camway_executable name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE camway_flags camway_warnings ${arg_DEPENDS})
+  compile_as_one(${name})
 endfunction()
 
 # camway_test(NAME [NETWORK] [QUICK] SOURCES ... DEPENDS ... [SLOW TEST ...]): one GoogleTest program per
@@ -75,6 +83,8 @@ function(camway_test name)
   cmake_parse_arguments(arg "NETWORK;QUICK" "" "SOURCES;DEPENDS;SLOW" ${ARGN})
   camway_executable(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} GTest::gtest
                     GTest::gmock GTest::gtest_main Eigen3::Eigen)
+  # Files of tests may repeat each other's short names.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   if(CAMWAY_PRECOMPILE)
     target_precompile_headers(${name} REUSE_FROM camway_precompiled_test)
   endif()

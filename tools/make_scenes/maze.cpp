@@ -8,7 +8,7 @@
 namespace camway::make_scenes {
 namespace {
 
-constexpr std::array<Maze::Cell, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::array<Maze::Cell, 4> kSides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
 Maze::Cell moved(const Maze::Cell& cell, const Maze::Cell& step) {
   return {cell.column + step.column, cell.row + step.row};
@@ -23,7 +23,7 @@ Maze::Maze(std::uint64_t seed) {
   for (int extra = 0; extra < 10; ++extra) {
     const Cell cell{static_cast<int>(dice.below(kColumns - 1)),
                     static_cast<int>(dice.below(kRows - 1))};
-    join(cell, moved(cell, kSteps[static_cast<std::size_t>(dice.below(2))]));
+    join(cell, moved(cell, kSides[static_cast<std::size_t>(dice.below(2))]));
   }
 }
 
@@ -44,7 +44,7 @@ void Maze::join(const Cell& a, const Cell& b) {
 /// Opens walls by a depth-first search in random order. Its depth is at most the number of cells.
 void Maze::carve(const Cell& from, Dice& dice, std::array<bool, kCells>& visited) {
   visited[index(from)] = true;
-  std::array<Cell, 4> steps = kSteps;
+  std::array<Cell, 4> steps = kSides;
   for (std::size_t left = steps.size(); left > 0; --left) {
     std::swap(steps[left - 1],
               steps[static_cast<std::size_t>(dice.below(static_cast<std::int64_t>(left)))]);
@@ -70,7 +70,7 @@ std::vector<Maze::Cell> Maze::way(const Cell& from, const Cell& to) const {
   seen[index(to)] = true;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const Cell here = queue[i];
-    for (const Cell& step : kSteps) {
+    for (const Cell& step : kSides) {
       const Cell neighbour = moved(here, step);
       if (!open(here, neighbour) || seen[index(neighbour)]) continue;
       seen[index(neighbour)] = true;

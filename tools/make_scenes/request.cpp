@@ -31,12 +31,6 @@ std::string number(double value) {
   return text;
 }
 
-std::string metres(Um value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6f", static_cast<double>(value) / 1e6);
-  return text;
-}
-
 }  // namespace
 
 Quaternion look_along(const Direction& f) {

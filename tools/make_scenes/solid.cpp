@@ -104,6 +104,8 @@ std::vector<Opening> swapped(const std::vector<Opening>& openings) {
   return result;
 }
 
+}  // namespace
+
 std::string metres(Um value) {
   char text[40];
   const std::int64_t magnitude = std::abs(value);
@@ -112,8 +114,6 @@ std::string metres(Um value) {
                 static_cast<long long>(magnitude % 1'000'000));
   return text;
 }
-
-}  // namespace
 
 Turn compose(const Turn& first, const Turn& second) {
   return {first.cosine * second.cosine - first.sine * second.sine,

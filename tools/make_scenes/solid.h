@@ -15,6 +15,9 @@ namespace camway::make_scenes {
 
 /// A length in micrometres.
 using Um = std::int64_t;
+
+/// Returns the metres of `value`, exactly: "-0.000125".
+std::string metres(Um value);
 constexpr Um mm(std::int64_t millimetres) { return millimetres * 1000; }
 
 /// A point of the scene: y up, right-handed.
