@@ -284,7 +284,7 @@ TEST_F(CliReplay, EndsWithThreeWhenAnAnswerDiffers) {
   const std::string log = folder_.write("log", recorded(true).bytes());
   const CliRun run = run_camway({"replay", log, "--scene", "wall=" + scene_});
   EXPECT_EQ(run.exit_code, 3) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("DIFFERS: remaining collisions"));
+  EXPECT_THAT(run.out, HasSubstr("DIFFERS: remaining_collisions"));
   EXPECT_THAT(run.out, HasSubstr("5 requests: 4 agree, 1 differ"));
 }
 

@@ -84,6 +84,11 @@ class MemberWalk {
     visit(std::get<0>(both));
     visit(std::get<1>(both));
   }
+  // A difference is one of the text, not of a character.
+  void visit(const std::string& text) {
+    sink_.size(text.size(), path_);
+    for (const char character : text) visit(static_cast<unsigned char>(character));
+  }
   template <int kSize>
   void visit(const Eigen::Matrix<double, kSize, 1>& vector) {
     for (const double number : vector) visit(number);

@@ -128,7 +128,7 @@ TEST_F(ReplayTest, SeesAChangedAnswer) {
   const Session recorded = session();
   const auto replayed = run(recorded);
   EXPECT_EQ(count(replayed, Verdict::kDiffers), 2U);
-  EXPECT_EQ(replayed[0].note, "segments");
+  EXPECT_EQ(replayed[0].note, "segments[0].position");
   EXPECT_GT(replayed[0].difference.path_m, 0.0);
   EXPECT_EQ(replayed[1].note, "status infeasible -> ok");
   EXPECT_THAT(report(recorded, replayed, Times::kHidden), HasSubstr("verdict: DIFFERENT"));
