@@ -114,10 +114,12 @@ TEST(PathFrame, GivenKeyframesStayAsGiven) {
 
 // At a whole turn from the reference, an orientation alone does not tell its image.
 TEST(PathFrame, AWholeTurnComesBackAsItWas) {
+  const geometry::Quat first = test::turned({1.0, -2.0, 0.5}, 1.0);
   std::vector<Keyframe> given;
   for (int i = 0; i <= 10; ++i) {
     const double angle_rad = std::numbers::pi / 4.0 * i;
-    given.push_back({1.0 * i, {{0.1 * i, 0, 0}, test::turned(Vec3::UnitY(), angle_rad)}});
+    given.push_back(
+        {1.0 * i, {{0.1 * i, 0, 0}, first * test::turned({0.3, 0.8, -0.5}, angle_rad)}});
   }
   CubicPath path = interpolate_cubic(given);
   const BumpRow row{{7.0, 8.0, 4}, 2, {{{0.1, 0.2, 0.0}, {0.02, 0.03, 0.0, 0.01}}}};
