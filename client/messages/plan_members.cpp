@@ -21,10 +21,11 @@ void put(const Keyframe& mine, keyframe_t& wire) {
 
 void put(const PlanRequest& mine, plan_request_t& wire) {
   static_assert(wire::lacks_only<plan_request_t, PlanRequest>(
-      {"client_id", "utime", "page", "num_pages", "correct_nothing", "has_times"}));
+      {"client_id", "utime", "page", "num_pages", "correct_nothing", "has_times", "has_frame"}));
   put_common(mine, wire);
   wire.correct_nothing = mine.max_inserted_keyframes == 0 ? 1 : 0;
   wire.has_times = !mine.keyframes.empty() && mine.keyframes.front().time_s ? 1 : 0;
+  wire.has_frame = mine.frame ? 1 : 0;
   wire::set_counts(wire);
 }
 
@@ -65,9 +66,10 @@ void read(const plan_response_t& wire, PlanResponse& mine) {
       {"client_id", "utime", "page", "num_pages", "has_measures_before", "has_measures",
        "has_infeasibility", "keyframe_inside", "keyframe_outside", "has_cage", "proof_cage",
        "motion_ms", "detect_ms", "correct_ms", "certify_ms", "total_ms", "segments",
-       "proof_triangles"}));
+       "proof_triangles", "has_frame"}));
   read_common(wire, mine);
   read_common(wire, mine.timing);
+  if (wire.has_frame == 0) mine.frame.reset();
   if (wire.has_measures_before == 0) mine.measures_before.reset();
   if (wire.has_measures == 0) mine.measures.reset();
   if (wire.has_infeasibility == 0) return;

@@ -47,6 +47,7 @@ std::string spelled(std::string_view path) {
              std::string(index == std::string_view::npos ? "" : path.substr(index));
     }
   }
+  if (path == "frame.reference") return "frame.reference_wxyz";
   for (const auto& [name, wire_name] : kKeyframeNames) {
     if (path.starts_with("keyframes[") && path.ends_with(name)) {
       return std::string(path.substr(0, path.size() - name.size())) + std::string(wire_name);

@@ -30,6 +30,17 @@ std::string idle_member(const plan_request_t& wire) {
   return {};
 }
 
+/// Returns an error about a frame that has a value and does not count.
+std::string idle_member(const path_frame_t& wire) {
+  motion::PathFrame frame;
+  FromWire{}(frame, wire);
+  const auto is_idle = [](const motion::PathEnd& end) {
+    return end.velocity_m_per_s.isZero(0.0) && end.image_rate_per_s.isZero(0.0);
+  };
+  if (frame.reference.isZero(0.0) && is_idle(frame.begin) && is_idle(frame.end)) return {};
+  return "frame: is not zero, and does not count without has_frame; set that, or leave it zero";
+}
+
 /// Returns an error about a member of an orientation that has a value but no effect with this rule.
 std::string idle_member(const orientation_t& wire, OrientationRule rule) {
   if (rule != OrientationRule::kLevel && !is_zero(wire.up)) {
@@ -165,12 +176,14 @@ base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
   request.body = *std::move(body);
 
   std::string error = idle_member(wire);
+  if (error.empty() && wire.has_frame == 0) error = idle_member(wire.frame);
   visit_options(OptionReader{error}, request.options, wire);
   if (!error.empty()) return base::Failure{std::move(error)};
   request.options.deadline_s = deadline_of(wire.deadline_s, limits);
   if (wire.correct_nothing != 0) request.options.max_inserted_keyframes = 0;
 
   request.has_times = wire.has_times != 0;
+  if (wire.has_frame != 0) io(request.frame.emplace(), wire.frame);
   request.spelling = wire_spelling(wire);
   io(request.keyframes, wire.keyframes);
   for (motion::Keyframe& keyframe : request.keyframes) {
@@ -196,6 +209,8 @@ plan_request_t to_wire(const planning::PlanRequest& request, const RequestIds& i
   visit_options(OptionWriter{}, request.options, wire);
   wire.correct_nothing = request.options.max_inserted_keyframes == 0 ? 1 : 0;
   wire.has_times = request.has_times ? 1 : 0;
+  wire.has_frame = request.frame ? 1 : 0;
+  if (request.frame) io(*request.frame, wire.frame);
   io(request.keyframes, wire.keyframes);
   for (keyframe_t& keyframe : wire.keyframes) {
     if (!request.has_times) keyframe.time_s = 0.0;

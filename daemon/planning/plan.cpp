@@ -116,7 +116,7 @@ class Planner {
 
   // Drops the corrections from `from_s` on, which there was no time to check.
   void give_up_corrections(double from_s) {
-    put_back(from_s, prepared_, corrected_, result_);
+    put_back(from_s, request_, prepared_, corrected_, result_);
     for (correction::Correction& correction : result_.corrections) {
       if (correction.interval.t_end_s > from_s) correction = {correction.interval};
     }
@@ -127,7 +127,7 @@ class Planner {
   void keep_the_better_path() {
     if (colliding_s(result_.remaining_collisions) <= colliding_s(result_.collisions)) return;
     if (result_.collisions.empty()) return;
-    put_back(result_.path.begin_s(), prepared_, corrected_, result_);
+    put_back(result_.path.begin_s(), request_, prepared_, corrected_, result_);
     result_.remaining_collisions = result_.collisions;
   }
 

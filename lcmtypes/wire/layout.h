@@ -66,7 +66,7 @@ inline constexpr std::size_t kMaxBodyPoints = 512;
 inline constexpr std::size_t kMaxBodyTriangles = 1024;
 
 /// Largest numbers of pages of a request and of an answer.
-inline constexpr std::int32_t kMaxRequestPages = 128;
+inline constexpr std::int32_t kMaxRequestPages = 192;
 inline constexpr std::int32_t kMaxResponsePages = 1024;
 
 /// A field of a message, in the order of the .lcm file. LCM encodes big-endian without padding.

@@ -43,6 +43,33 @@ TEST(WireConvert, RequestSurvivesTheWayThereAndBack) {
   }
 }
 
+TEST(WireConvert, AFrameSurvivesTheWayThereAndBack) {
+  Random random(kSeed);
+  int framed = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const planning::PlanRequest request = sample_request(5, random);
+    const auto back = from_wire(to_wire(request, kIds));
+    ASSERT_TRUE(back) << back.error;
+    EXPECT_EQ(back->frame, request.frame);
+    for (std::size_t i = 0; i < 5; ++i)
+      EXPECT_EQ(back->keyframes[i].image, request.keyframes[i].image);
+    framed += request.frame ? 1 : 0;
+  }
+  EXPECT_GT(framed, 0);
+}
+
+TEST(WireConvert, AFrameHasItsNumbersWhereTheTypesSayTheyAre) {
+  planning::PlanRequest request;
+  request.frame = {{1, 2, 3, 4}, {{5, 6, 7}, {8, 9, 10, 11}}, {{12, 13, 14}, {15, 16, 17, 18}}};
+  const plan_request_t wire = to_wire(request, kIds);
+  EXPECT_EQ(wire.has_frame, 1);
+  EXPECT_EQ(wire.frame.reference_wxyz[3], 4.0);
+  EXPECT_EQ(wire.frame.begin.velocity_m_per_s[0], 5.0);
+  EXPECT_EQ(wire.frame.begin.image_rate_per_s[3], 11.0);
+  EXPECT_EQ(wire.frame.end.velocity_m_per_s[2], 14.0);
+  EXPECT_EQ(wire.frame.end.image_rate_per_s[0], 15.0);
+}
+
 TEST(WireConvert, EveryOptionSurvivesTheWayThereAndBack) {
   Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
@@ -139,6 +166,7 @@ TEST(WireConvert, WhatWouldNotCountIsRefusedByName) {
       {"keyframes[1].time_s: ", [](plan_request_t& r) { r.keyframes[1].time_s = 0.5; }},
       {"keyframes[0].time_s: ",
        [](plan_request_t& r) { r.keyframes[0].time_s = std::numeric_limits<double>::quiet_NaN(); }},
+      {"frame: ", [](plan_request_t& r) { r.frame.end.image_rate_per_s[3] = 0.5; }},
       {"bounds.min_m[0]: ", [](plan_request_t& r) { r.bounds.min_m[0] = 14.0; }},
       {"bounds.max_m[2]: ",
        [](plan_request_t& r) { r.bounds.max_m[2] = std::numeric_limits<double>::quiet_NaN(); }},
@@ -198,6 +226,10 @@ TEST(WireConvert, MessagesNameMembersAsTheWireDoes) {
       {"keyframes[3].time", "keyframes[3].time_s"},
       {"keyframes[12].position", "keyframes[12].position_m"},
       {"keyframes[0].orientation", "keyframes[0].orientation_wxyz"},
+      {"keyframes[1].image", "keyframes[1].image"},
+      {"frame", "frame"},
+      {"frame.reference", "frame.reference_wxyz"},
+      {"frame.end.velocity_m_per_s", "frame.end.velocity_m_per_s"},
       {"body.size[2]", "body.size_m[2]"},
       {"body.center", "body.center_m"},
       {"body.radius_m", "body.radius_m"},
@@ -336,6 +368,7 @@ TEST(WireConvert, ResultSurvivesTheWayThereAndBack) {
     EXPECT_EQ(back->corrections.size(), segments);
     EXPECT_TRUE(std::ranges::equal(back->keyframes, result.keyframes, {},
                                    &motion::Keyframe::is_repaired, &motion::Keyframe::is_repaired));
+    EXPECT_EQ(back->frame, result.frame);
     EXPECT_EQ(back->measures_before, result.measures_before);
     EXPECT_EQ(back->measures, result.measures);
     EXPECT_EQ(back->near_scale, 0.75);

@@ -116,7 +116,7 @@ TEST(WirePages, TheBodyGoesOnPageZero) {
 
 TEST(WirePages, ABodyOnALaterPageDoesNotCount) {
   Random random(kSeed);
-  planning::PlanRequest request = sample_request(1800, random);
+  planning::PlanRequest request = sample_request(1100, random);
   request.body = motion::SphereShape{{1, 2, 3}, 0.5};
   const plan_request_t whole = to_wire(request, {"tester", 5, 0});
   std::vector<Bytes> pages = wire::encode_pages(whole);
@@ -157,7 +157,7 @@ TEST(WirePages, SameMessageSameBytes) {
 
 TEST(PageAssembly, PagesMayComeTwice) {
   Random random(kSeed);
-  const plan_request_t whole = request_of(3000, 5, random);
+  const plan_request_t whole = request_of(2200, 5, random);
   const std::vector<Bytes> pages = wire::encode_pages(whole);
   ASSERT_EQ(pages.size(), 4U);
   PageAssembly<plan_request_t> assembly;
@@ -171,7 +171,7 @@ TEST(PageAssembly, PagesMayComeTwice) {
 
 TEST(PageAssembly, ALaterTimeOfSendingIsStillTheSameMessage) {
   Random random(kSeed);
-  const std::vector<Bytes> pages = wire::encode_pages(request_of(1800, 5, random));
+  const std::vector<Bytes> pages = wire::encode_pages(request_of(1100, 5, random));
   ASSERT_EQ(pages.size(), 2U);
   PageAssembly<plan_request_t> assembly;
   EXPECT_FALSE(assembly.add(decoded<plan_request_t>(pages[0])).whole);
@@ -182,8 +182,8 @@ TEST(PageAssembly, ALaterTimeOfSendingIsStillTheSameMessage) {
 
 TEST(PageAssembly, AnotherMessageUnderTheSameIdsBeginsAnew) {
   Random random(kSeed);
-  const std::vector<Bytes> old_pages = wire::encode_pages(request_of(1800, 5, random));
-  plan_request_t other = request_of(1800, 5, random);
+  const std::vector<Bytes> old_pages = wire::encode_pages(request_of(1100, 5, random));
+  plan_request_t other = request_of(1100, 5, random);
   other.scene = "elsewhere";
   const std::vector<Bytes> new_pages = wire::encode_pages(other);
   PageAssembly<plan_request_t> assembly;
@@ -200,7 +200,7 @@ TEST(PageAssembly, GivesUpTheOneThatWaitedLongest) {
   PageAssembly<plan_request_t> assembly({.max_messages = 3, .max_bytes = std::size_t{1} << 30});
   std::vector<std::vector<Bytes>> messages;
   for (std::int64_t id = 0; id < 4; ++id) {
-    messages.push_back(wire::encode_pages(request_of(2500, id, random)));
+    messages.push_back(wire::encode_pages(request_of(1700, id, random)));
     ASSERT_EQ(messages.back().size(), 3U);
     // A second page for message 0 makes message 1 the one that has waited longest.
     if (id == 3) {
@@ -221,7 +221,7 @@ TEST(PageAssembly, HoldsABoundedNumberOfBytes) {
   constexpr std::size_t kMaxBytes = 200'000;
   PageAssembly<plan_request_t> assembly({.max_messages = 1000, .max_bytes = kMaxBytes});
   for (std::int64_t id = 0; id < 50; ++id) {
-    const std::vector<Bytes> pages = wire::encode_pages(request_of(1800, id, random));
+    const std::vector<Bytes> pages = wire::encode_pages(request_of(1100, id, random));
     EXPECT_FALSE(assembly.add(decoded<plan_request_t>(pages[0])).whole);
     EXPECT_LE(assembly.half_received() * (wire::kMaxMessageBytes - 500), kMaxBytes);
   }
@@ -235,9 +235,9 @@ TEST(PageAssembly, RefusesPageNumbersThatCannotBe) {
     message.num_pages = num_pages;
     return assembly.add(std::move(message)).error;
   };
-  EXPECT_EQ(error_of(0, 0), "num_pages: 0 is not within 1 to 128");
-  EXPECT_EQ(error_of(0, -4), "num_pages: -4 is not within 1 to 128");
-  EXPECT_EQ(error_of(0, 2'000'000'000), "num_pages: 2000000000 is not within 1 to 128");
+  EXPECT_EQ(error_of(0, 0), "num_pages: 0 is not within 1 to 192");
+  EXPECT_EQ(error_of(0, -4), "num_pages: -4 is not within 1 to 192");
+  EXPECT_EQ(error_of(0, 2'000'000'000), "num_pages: 2000000000 is not within 1 to 192");
   EXPECT_EQ(error_of(2, 2), "page: 2 is not within 0 to 1");
   EXPECT_EQ(error_of(-1, 2), "page: -1 is not within 0 to 1");
   EXPECT_EQ(error_of(1, 1), "page: 1 is not within 0 to 0");

@@ -38,6 +38,18 @@ motion::Segment segment(double t0_s, double t1_s, Random& random) {
 
 geometry::Vec3 point(Random& random) { return {number(random), number(random), number(random)}; }
 
+geometry::Vec4 four(Random& random) {
+  return {number(random), number(random), number(random), number(random)};
+}
+
+/// A frame, and images of the keyframes that belong to it. Some keyframes have none.
+motion::PathFrame add_frame(std::vector<motion::Keyframe>& keyframes, Random& random) {
+  for (motion::Keyframe& keyframe : keyframes) {
+    if (below(random, 4) != 0) keyframe.image = four(random);
+  }
+  return {four(random), {point(random), four(random)}, {point(random), four(random)}};
+}
+
 collision::Witness witness(double time_s, Random& random) {
   return {.time_s = time_s,
           .triangle = static_cast<std::uint32_t>(below(random, 100'000)),
@@ -178,6 +190,9 @@ planning::PlanRequest sample_request(std::size_t keyframes, Random& random) {
   for (std::size_t i = 0; i < keyframes; ++i) {
     request.keyframes.push_back(keyframe(0.5 * static_cast<double>(i), random));
   }
+  if (request.has_times && below(random, 2) == 0) {
+    request.frame = add_frame(request.keyframes, random);
+  }
   return request;
 }
 
@@ -227,6 +242,7 @@ planning::PlanResult sample_result(std::size_t segments, Random& random) {
   result.certificate = {true, 0.0123};
   result.timing = {0.0, 1.5, 2.5, 3.5, 4.5, 12.0};
   add_report(result, random);
+  if (below(random, 2) == 0) result.frame = add_frame(result.keyframes, random);
   return result;
 }
 

@@ -70,13 +70,25 @@ void read_keyframes(const Field& list, RequestFile& request) {
   for (std::size_t i = 0; i < count && !list.failed(); ++i) {
     const Field item = list.element(i);
     // Keyframes copied from a response have an origin, which is then "given".
-    item.allow_only({"time", "position", "orientation", "orientation_xyzw", "origin", "repaired"});
+    item.allow_only(
+        {"time", "position", "orientation", "orientation_xyzw", "origin", "repaired", "image"});
     Keyframe keyframe;
     read_time(item, i, request, keyframe);
     read_value(item.member("position"), keyframe.pose.position);
     keyframe.pose.orientation = read_orientation(item, request);
+    if (const auto image = item.optional_member("image")) read_value(*image, keyframe.image);
     request.keyframes.push_back(keyframe);
   }
+}
+
+motion::PathFrame read_frame(const Field& field) {
+  field.allow_only({"reference", "begin", "end"});
+  for (const std::string_view end : {"begin", "end"}) {
+    field.member(end).allow_only({"velocity_m_per_s", "image_rate_per_s"});
+  }
+  motion::PathFrame frame;
+  read_value(field, frame);
+  return frame;
 }
 
 SceneReading read_reading(const Field& root) {
@@ -93,7 +105,8 @@ SceneReading read_reading(const Field& root) {
 }
 
 RequestFile read_request(const Field& root) {
-  root.allow_only({"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "options"});
+  root.allow_only(
+      {"scene", "scale", "up", "unknown", "camera", "body", "keyframes", "frame", "options"});
   RequestFile request;
   if (const auto scene = root.optional_member("scene")) request.scene = scene->text();
   request.reading = read_reading(root);
@@ -102,6 +115,7 @@ RequestFile read_request(const Field& root) {
     request.camera = read_camera(root.member("camera"));
   }
   read_keyframes(root.member("keyframes"), request);
+  if (const auto frame = root.optional_member("frame")) request.frame = read_frame(*frame);
   if (const auto options = root.optional_member("options")) {
     request.options = read_options(*options);
   }

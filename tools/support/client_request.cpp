@@ -37,6 +37,15 @@ Body sent_body(const motion::MeshShape& mesh) {
   return Body::mesh(points(mesh.vertices_C), std::move(triangles));
 }
 
+std::array<double, 4> four(const geometry::Vec4& v) { return {v[0], v[1], v[2], v[3]}; }
+
+PathFrame sent_frame(const motion::PathFrame& frame) {
+  const auto sent = [](const motion::PathEnd& end) {
+    return PathEnd{point(end.velocity_m_per_s), four(end.image_rate_per_s)};
+  };
+  return {four(frame.reference), sent(frame.begin), sent(frame.end)};
+}
+
 /// Copies an option to that of the client. Enumerations have the same values there.
 struct OptionSender {
   template <class Mine, class Sent>
@@ -112,8 +121,10 @@ PlanRequest to_client_request(const planning::PlanRequest& request, const std::s
     const geometry::Quat& q = keyframe.pose.orientation;
     sent.keyframes.push_back({request.has_times ? std::optional(keyframe.time_s) : std::nullopt,
                               {p.x(), p.y(), p.z()},
-                              {q.w(), q.x(), q.y(), q.z()}});
+                              {q.w(), q.x(), q.y(), q.z()},
+                              four(keyframe.image)});
   }
+  if (request.frame) sent.frame = sent_frame(*request.frame);
   planning::visit_options(OptionSender{}, request.options, sent);
   return sent;
 }

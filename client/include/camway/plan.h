@@ -30,6 +30,7 @@ struct Keyframe {
   std::optional<double> time_s;  ///< set in all keyframes of a request, or in none
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
+  std::array<double, 4> image{};  ///< `PathKeyframe::image`; counts only with `PlanRequest::frame`
 };
 
 /// A pose that the path of an answer passes through.
@@ -39,6 +40,25 @@ struct PathKeyframe {
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};  ///< Hamilton quaternion, camera to world
   bool inserted = false;                               ///< whether a correction inserted it
   bool repaired = false;  ///< whether it is a given keyframe that was moved because it collided
+  /// Point of the spline of orientations, for planning again; zero without a frame.
+  std::array<double, 4> image{};
+
+  /// Returns the keyframe of a request for the same path (`PlanResponse::frame`).
+  Keyframe again() const { return {time_s, position_m, orientation_wxyz, image}; }
+};
+
+/// First derivatives of a path at one of its ends, as `PathFrame` has them.
+struct PathEnd {
+  std::array<double, 3> velocity_m_per_s{};
+  std::array<double, 4> image_rate_per_s{};
+};
+
+/// The part of a corrected path that its keyframes do not determine. Copy it from an answer to a
+/// request, together with the keyframes; its numbers are not meant to be edited.
+struct PathFrame {
+  std::array<double, 4> reference_wxyz{1, 0, 0, 0};
+  PathEnd begin;
+  PathEnd end;
 };
 
 /// The priority of a request in the daemon's queue. It orders the waiting requests of one client.
@@ -55,6 +75,9 @@ struct PlanRequest {
   /// Poses that the path must pass through. They must be free of collision unless
   /// `repair_keyframes` is set. [Limit: 2 to 100,000]
   std::vector<Keyframe> keyframes;
+  /// Frame of the answer whose keyframes these are, as they were or edited. Without edits, the path
+  /// is that of the answer. The keyframes must have times.
+  std::optional<PathFrame> frame;
   /// Speed for keyframes without times; 0 for the default of 1 m/s. The interval between two
   /// keyframes lasts √(t² + r²) seconds, where t is their distance divided by this speed and r is
   /// the angle between them in radians, but at least a hundredth of the mean interval. Leave it 0
@@ -158,8 +181,12 @@ struct PlanResponse {
 
   /// Index of the given keyframe that is at fault, or from which no way out was found; -1 if none.
   std::int32_t keyframe = -1;
-  Path path;                                  ///< empty unless ok, partial or timeout
-  std::vector<PathKeyframe> keyframes;        ///< given and inserted keyframes, with their times
+  Path path;                            ///< empty unless ok, partial or timeout
+  std::vector<PathKeyframe> keyframes;  ///< given and inserted keyframes, with their times
+  /// Set if the path was corrected, and not slowed. A request with this frame and
+  /// `PathKeyframe::again()` of each of `keyframes` has the same path; edit some of them to change
+  /// it there.
+  std::optional<PathFrame> frame;
   std::vector<CollisionInterval> collisions;  ///< collisions of the path as interpolated
   std::vector<CollisionInterval> remaining;   ///< collisions of `path`; none when `ok()`
 

@@ -23,6 +23,9 @@ struct Keyframe {
   /// Whether it is a given keyframe that was moved because it collided
   /// (`PlanOptions::repair_keyframes`).
   bool is_repaired = false;
+  /// The point x of the image spline (`CubicPath`) at the keyframe; zero where nothing is known of
+  /// it. Counts only together with a `PathFrame`.
+  geometry::Vec4 image = geometry::Vec4::Zero();
 };
 
 }  // namespace camway::motion

@@ -9,6 +9,7 @@
 
 #include "daemon/motion/body/body.h"
 #include "daemon/motion/path/keyframe.h"
+#include "daemon/motion/spline/path_frame.h"
 #include "daemon/planning/request/options.h"
 
 namespace camway::planning {
@@ -26,6 +27,9 @@ struct PlanRequest {
   std::optional<motion::BodyShape> body;
   std::vector<motion::Keyframe> keyframes;
   bool has_times = false;  ///< false: `keyframes[i].time_s` are ignored, and times are derived
+  /// The frame of an answer whose keyframes these are, as they were or edited. Without it the
+  /// interpolation chooses its own. Requires `has_times`.
+  std::optional<motion::PathFrame> frame = {};
   PlanOptions options;
   /// Spelling of paths in messages about the request. If empty, paths stay as they are.
   FieldSpelling spelling = {};
@@ -82,5 +86,9 @@ inline constexpr double kLeastTimeStepOfPath = 1e-9;
 inline constexpr double kLeastTimeStep_s = 1e-9;
 /// A shorter quaternion counts as zero; its square would lose digits to underflow.
 inline constexpr double kLeastQuaternionLength = 1e-100;
+/// Range of the length of an image (`motion::Keyframe::image`). Images of interpolated keyframes
+/// have unit length, and corrections change that by less than a factor of ten.
+inline constexpr double kLeastImageLength = 1e-3;
+inline constexpr double kMostImageLength = 1e3;
 
 }  // namespace camway::planning

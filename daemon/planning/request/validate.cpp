@@ -60,6 +60,15 @@ std::optional<InvalidRequest> check_body(const PlanRequest& request) {
   return invalid(fault->field.empty() ? "body" : "body." + fault->field, fault->reason);
 }
 
+std::optional<InvalidRequest> check_length(std::string field, double length,
+                                           std::optional<std::size_t> keyframe = std::nullopt) {
+  if (length >= kLeastQuaternionLength && std::isfinite(length)) return std::nullopt;
+  return invalid(
+      std::move(field),
+      fmt::format("has length {:g}; a rotation needs a quaternion that is not zero", length),
+      keyframe);
+}
+
 std::optional<InvalidRequest> check_pose(const Keyframe& keyframe, std::size_t index) {
   const std::string position = fmt::format("keyframes[{}].position", index);
   const std::string orientation = fmt::format("keyframes[{}].orientation", index);
@@ -71,14 +80,7 @@ std::optional<InvalidRequest> check_pose(const Keyframe& keyframe, std::size_t i
   if (!keyframe.pose.orientation.coeffs().allFinite()) {
     return invalid(orientation, "is not finite", index);
   }
-  const double length = keyframe.pose.orientation.norm();
-  if (!(length >= kLeastQuaternionLength) || !std::isfinite(length)) {
-    return invalid(
-        orientation,
-        fmt::format("has length {:g}; a rotation needs a quaternion that is not zero", length),
-        index);
-  }
-  return std::nullopt;
+  return check_length(orientation, keyframe.pose.orientation.norm(), index);
 }
 
 std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes) {
@@ -115,6 +117,62 @@ std::optional<InvalidRequest> check_times(const std::vector<Keyframe>& keyframes
     }
   }
   return std::nullopt;
+}
+
+std::optional<InvalidRequest> check_image(const Keyframe& keyframe, std::size_t index,
+                                          bool has_frame) {
+  if (keyframe.image.isZero(0.0)) return std::nullopt;
+  const std::string field = fmt::format("keyframes[{}].image", index);
+  if (!has_frame) {
+    return invalid(field, "counts only with a frame; copy that of the answer, too, or leave it out",
+                   index);
+  }
+  if (!keyframe.image.allFinite()) return invalid(field, "is not finite", index);
+  const double length = keyframe.image.norm();
+  if (length >= kLeastImageLength && length <= kMostImageLength) return std::nullopt;
+  return invalid(field,
+                 fmt::format("has length {:g}; it must be from {:g} to {:g}, or the image left out",
+                             length, kLeastImageLength, kMostImageLength),
+                 index);
+}
+
+/// Checks the derivatives at an end. `step_s` is the time to the next keyframe there.
+std::optional<InvalidRequest> check_end(const std::string& field, const motion::PathEnd& end,
+                                        double step_s) {
+  const auto check = [&](const char* member, double rate, double most, std::string_view what) {
+    // Also false for a rate that is no number.
+    if (rate * step_s <= most) return std::optional<InvalidRequest>();
+    return std::optional(
+        invalid(fmt::format("{}.{}", field, member),
+                fmt::format("is {:g}; {} to the next keyframe, {:g} s away, must be at most {:g}",
+                            rate, what, step_s, most)));
+  };
+  if (auto fault = check("velocity_m_per_s", end.velocity_m_per_s.norm(), kMaxCoordinate_m,
+                         "the way in metres")) {
+    return fault;
+  }
+  return check("image_rate_per_s", end.image_rate_per_s.norm(), kMostImageLength,
+               "the change of the image");
+}
+
+/// Checks the frame. Requires valid keyframes.
+std::optional<InvalidRequest> check_frame(const PlanRequest& request) {
+  for (std::size_t i = 0; i < request.keyframes.size(); ++i) {
+    if (auto fault = check_image(request.keyframes[i], i, request.frame.has_value())) return fault;
+  }
+  if (!request.frame) return std::nullopt;
+  const motion::PathFrame& frame = *request.frame;
+  if (!request.has_times)
+    return invalid("frame", "needs a time in each keyframe, and none has one");
+  if (request.options.method != Method::kLadder) {
+    return invalid("frame", "does not go with the method keyframe_insertion, which has none");
+  }
+  if (auto fault = check_length("frame.reference", frame.reference.norm())) return fault;
+  const auto& keyframes = request.keyframes;
+  const double first_s = keyframes[1].time_s - keyframes[0].time_s;
+  if (auto fault = check_end("frame.begin", frame.begin, first_s)) return fault;
+  const double last_s = keyframes.back().time_s - keyframes[keyframes.size() - 2].time_s;
+  return check_end("frame.end", frame.end, last_s);
 }
 
 bool is_within_scenes(const geometry::Vec3& point) {
@@ -235,6 +293,7 @@ std::optional<InvalidRequest> find_fault(const PlanRequest& request) {
   if (request.has_times) {
     if (auto fault = check_times(request.keyframes)) return fault;
   }
+  if (auto fault = check_frame(request)) return fault;
   return check_options(request);
 }
 

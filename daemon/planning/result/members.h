@@ -54,6 +54,22 @@ void members(Io& io, Is<motion::Keyframe> auto& keyframe, Wire&... wire) {
   io.need("orientation", keyframe.pose.orientation, wire.orientation_wxyz...);
   io.need("origin", keyframe.origin, wire.origin...);
   io.may("repaired", keyframe.is_repaired, keyframe.is_repaired, wire.repaired...);
+  io.may("image", !keyframe.image.isZero(0.0), keyframe.image, wire.image...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<motion::PathEnd> auto& end, Wire&... wire) {
+  io.need("velocity_m_per_s", end.velocity_m_per_s, wire.velocity_m_per_s...);
+  io.need("image_rate_per_s", end.image_rate_per_s, wire.image_rate_per_s...);
+}
+
+template <class Io, class... Wire>
+void members(Io& io, Is<motion::PathFrame> auto& frame, Wire&... wire) {
+  io.need("reference", frame.reference, wire.reference_wxyz...);
+  io.line(4);
+  io.need("begin", frame.begin, wire.begin...);
+  io.line(4);
+  io.need("end", frame.end, wire.end...);
 }
 
 template <class Io, class... Wire>
@@ -183,6 +199,8 @@ void measures_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
 
 template <class Io, class... Wire>
 void report_members(Io& io, Is<PlanResult> auto& result, Wire&... wire) {
+  const auto frame = [&](auto& object, auto& mine) { members(object, mine, wire.frame...); };
+  io.optional("frame", result.frame, frame, wire.has_frame...);
   io.group("certificate", true, -1, [&](auto& object) {
     object.need("certified", result.certificate.certified, wire.certified...);
     object.may("clearance_lower_bound", true, result.certificate.clearance_lower_bound_m,

@@ -17,6 +17,7 @@
 #include "daemon/motion/path/keyframe.h"
 #include "daemon/motion/path/measures.h"
 #include "daemon/motion/path/path.h"
+#include "daemon/motion/spline/path_frame.h"
 #include "daemon/planning/request/enum_names.h"
 
 namespace camway::planning {
@@ -107,6 +108,9 @@ struct PlanResult {
   std::optional<std::size_t> keyframe;
   motion::Path path;
   std::vector<motion::Keyframe> keyframes;  ///< given and inserted keyframes with their times
+  /// With it, a request with these keyframes has the same path. Nothing where the keyframes alone
+  /// give the path, and where nothing does: a slowed path (`planning/stages/path_keyframes.h`).
+  std::optional<motion::PathFrame> frame;
   std::vector<collision::CollisionInterval> collisions;            ///< collisions before correction
   std::vector<collision::CollisionInterval> remaining_collisions;  ///< collisions of `path`
   /// Names of the witnesses of the two lists above, one for each interval; empty strings where it

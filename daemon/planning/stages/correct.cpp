@@ -6,6 +6,7 @@
 
 #include "daemon/correction/ladder/ladder.h"
 #include "daemon/paper/keyframe_insertion.h"
+#include "daemon/planning/stages/path_keyframes.h"
 #include "daemon/planning/stages/search_changes.h"
 #include "daemon/planning/stages/stage_times.h"
 
@@ -39,6 +40,14 @@ std::optional<Infeasibility> infeasibility_of(correction::LadderResult& correcte
   return std::nullopt;
 }
 
+void add_keyframes(const std::vector<double>& inserted_s, PlanResult& result) {
+  for (const double time_s : inserted_s) {
+    result.keyframes.push_back(
+        {time_s, result.path.pose(time_s), motion::KeyframeOrigin::kInserted});
+  }
+  std::ranges::stable_sort(result.keyframes, {}, &Keyframe::time_s);
+}
+
 CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision::Query& query,
                                 const PlanRequest& request, const PreparedPlan& prepared,
                                 const base::Deadline& deadline, PlanResult& result) {
@@ -59,11 +68,10 @@ CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision
   plan.is_as_interpolated = false;
   plan.path = std::move(corrected.path);
   result.path = plan.path->path();
-  for (const double time_s : corrected.inserted_s) {
-    result.keyframes.push_back(
-        {time_s, result.path.pose(time_s), motion::KeyframeOrigin::kInserted});
+  if (!set_keyframes(*plan.path, request, prepared, result)) {
+    drop_frame(result);
+    add_keyframes(corrected.inserted_s, result);
   }
-  std::ranges::stable_sort(result.keyframes, {}, &Keyframe::time_s);
   return plan;
 }
 
@@ -101,18 +109,22 @@ CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Query& q
   return insert_keyframes(query, request, prepared, deadline, result);
 }
 
-void put_back(double from_s, const PreparedPlan& prepared, CorrectedPlan& corrected,
-              PlanResult& result) {
-  std::erase_if(result.keyframes, [&](const Keyframe& keyframe) {
-    return keyframe.origin == motion::KeyframeOrigin::kInserted && keyframe.time_s >= from_s;
-  });
+void put_back(double from_s, const PlanRequest& request, const PreparedPlan& prepared,
+              CorrectedPlan& corrected, PlanResult& result) {
   corrected.is_as_interpolated = from_s <= prepared.interpolated.begin_s();
   if (corrected.is_as_interpolated) {
     corrected.path.reset();
-  } else {
-    corrected.path = with_rest_of(*corrected.path, prepared.interpolated, from_s);
+    result.path = prepared.interpolated.path();
+    reset_keyframes(prepared, result);
+    return;
   }
-  result.path = (corrected.path ? *corrected.path : prepared.interpolated).path();
+  corrected.path = with_rest_of(*corrected.path, prepared.interpolated, from_s);
+  result.path = corrected.path->path();
+  if (set_keyframes(*corrected.path, request, prepared, result)) return;
+  drop_frame(result);
+  std::erase_if(result.keyframes, [&](const Keyframe& keyframe) {
+    return keyframe.origin == motion::KeyframeOrigin::kInserted && keyframe.time_s >= from_s;
+  });
 }
 
 }  // namespace camway::planning

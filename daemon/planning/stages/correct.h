@@ -33,7 +33,7 @@ CorrectedPlan correct(const scene::Snapshot& snapshot, const collision::Query& q
                       const base::Deadline& deadline, PlanResult& result);
 
 /// Restores the path as interpolated, whose collisions are known, from `from_s` on.
-void put_back(double from_s, const PreparedPlan& prepared, CorrectedPlan& corrected,
-              PlanResult& result);
+void put_back(double from_s, const PlanRequest& request, const PreparedPlan& prepared,
+              CorrectedPlan& corrected, PlanResult& result);
 
 }  // namespace camway::planning

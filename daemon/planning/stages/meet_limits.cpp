@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "daemon/planning/stages/path_keyframes.h"
 #include "daemon/planning/stages/stage_times.h"
 
 namespace camway::planning {
@@ -34,6 +35,7 @@ motion::CubicPath cubic_path(const PreparedPlan& prepared, const CorrectedPlan& 
 void take(Retimed slowed, const motion::TimeOrigin& origin, PlanResult& result) {
   move_times(slowed.law, result);
   result.path = slowed.path.path();
+  drop_frame(result);
   for (Keyframe& keyframe : result.keyframes) {
     if (keyframe.origin != motion::KeyframeOrigin::kInserted) continue;
     keyframe.time_s = origin.nearest_s(keyframe.time_s);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
+#include "daemon/motion/spline/path_frame.h"
 #include "daemon/planning/stages/check.h"
 #include "daemon/planning/stages/keyframe_faults.h"
 #include "daemon/planning/stages/keyframe_times.h"
@@ -95,9 +96,16 @@ std::optional<PreparedPlan> prepare(const scene::Snapshot& snapshot,
     give_up("the path was interpolated", request, result);
     return std::nullopt;
   }
-  motion::CubicPath interpolated = motion::interpolate_cubic(result.keyframes, prepared.origin);
+  motion::CubicPath interpolated =
+      request.frame ? motion::interpolate_cubic(result.keyframes, *request.frame)
+                    : motion::interpolate_cubic(result.keyframes, prepared.origin);
   result.path = interpolated.path();
-  return PreparedPlan{std::move(*body), prepared.origin, std::move(interpolated)};
+  if (request.frame) {
+    result.keyframes = motion::keyframes_of(interpolated, result.keyframes);
+    result.frame = motion::frame_of(interpolated);
+  }
+  return PreparedPlan{std::move(*body), prepared.origin, std::move(interpolated), result.keyframes,
+                      result.frame};
 }
 
 }  // namespace camway::planning

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "daemon/base/deadline.h"
 #include "daemon/collision/obstacles.h"
@@ -17,8 +18,10 @@ namespace camway::planning {
 /// The body of a request that can be planned, and its path as interpolated.
 struct PreparedPlan {
   motion::Body body;
-  motion::TimeOrigin origin;       ///< origin of all times until `to_sent_times`
-  motion::CubicPath interpolated;  ///< through the given keyframes, repaired ones included
+  motion::TimeOrigin origin;                ///< origin of all times until `to_sent_times`
+  motion::CubicPath interpolated;           ///< through the given keyframes, repaired ones included
+  std::vector<motion::Keyframe> keyframes;  ///< given keyframes, as the answer has them
+  std::optional<motion::PathFrame> frame;   ///< frame of the request
 };
 
 /// Checks a request, repairs its keyframes where it asks for that, and interpolates them. Adds the

@@ -195,6 +195,23 @@ TEST(PlanPages, TimesCountWhereTheyAreSet) {
   EXPECT_THAT(*fault_in_form(request), HasSubstr("keyframes[1].time_s: is not set"));
 }
 
+TEST(PlanPages, AFrameGoesWithTheImagesOfItsKeyframes) {
+  PlanRequest request = request_with(2);
+  request.keyframes[1] = PathKeyframe{2.0, {}, {1, 0, 0, 0}, true, false, {0, 0, 1, 0}}.again();
+  request.frame = {{1, 2, 3, 4}, {{5, 6, 7}, {8, 9, 10, 11}}, {{12, 13, 14}, {15, 16, 17, 18}}};
+  auto page = wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+  EXPECT_EQ(page->has_frame, 1);
+  EXPECT_EQ(page->frame.reference_wxyz[1], 2.0);
+  EXPECT_EQ(page->frame.begin.velocity_m_per_s[2], 7.0);
+  EXPECT_EQ(page->frame.end.image_rate_per_s[3], 18.0);
+  EXPECT_EQ(page->keyframes[1].time_s, 2.0);
+  EXPECT_EQ(page->keyframes[1].image[2], 1.0);
+  request.frame.reset();
+  page = wire::decode<plan_request_t>(to_pages(request, "me", 7).at(0)).message;
+  EXPECT_EQ(page->has_frame, 0);
+  EXPECT_EQ(page->frame.reference_wxyz[0], 0.0);
+}
+
 TEST(PlanPages, EveryOrientationHasItsForm) {
   const auto sent = [](const Orientation& orientation) {
     PlanRequest request = request_with(2);
@@ -372,6 +389,30 @@ TEST(PlanCollector, ReadsWhatCorrectionDidOverAllPages) {
   EXPECT_EQ(response.infeasibility->cage->max_m[2], 3.0);
   EXPECT_EQ(response.infeasibility->cage->widest_hole_m, 0.0625);
   EXPECT_EQ(response.infeasibility->cage->shortest_chord_m, 0.25);
+}
+
+TEST(PlanCollector, ReadsTheFrameWithTheImages) {
+  plan_response_t page = answer_pages(wire_request(), 1, 1).at(0);
+  page.keyframes.resize(1);
+  page.num_keyframes = 1;
+  page.keyframes[0].time_s = 2.5;
+  page.keyframes[0].image[3] = 0.5;
+  page.has_frame = 1;
+  page.frame.reference_wxyz[2] = 1.0;
+  page.frame.end.velocity_m_per_s[1] = 3.0;
+  const auto read = [](const plan_response_t& answer) {
+    PlanCollector collector("me", 7);
+    collector.take(wire::encode(answer));
+    return collector.response();
+  };
+  const PlanResponse response = read(page);
+  ASSERT_TRUE(response.frame);
+  EXPECT_EQ(response.frame->reference_wxyz[2], 1.0);
+  EXPECT_EQ(response.frame->end.velocity_m_per_s[1], 3.0);
+  EXPECT_EQ(response.keyframes.at(0).again().time_s, 2.5);
+  EXPECT_EQ(response.keyframes.at(0).again().image[3], 0.5);
+  page.has_frame = 0;
+  EXPECT_FALSE(read(page).frame);
 }
 
 TEST(PlanCollector, IsNotCompleteWhileAPageIsMissing) {

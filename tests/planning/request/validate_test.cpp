@@ -30,6 +30,13 @@ PlanRequest good_request() {
   return request;
 }
 
+PlanRequest framed_request() {
+  PlanRequest request = good_request();
+  request.frame.emplace();
+  request.keyframes[1].image = {0.0, 0.0, 2.0, 0.0};
+  return request;
+}
+
 struct Fault {
   const char* field;
   std::optional<std::size_t> keyframe;
@@ -183,6 +190,40 @@ TEST(Validate, NamesTheFieldAndTheKeyframeAtFault) {
     EXPECT_EQ(found->message, std::string(fault.field) + ": " + found->reason);
     request.spelling = [](std::string_view path) { return "<" + std::string(path) + ">"; };
     EXPECT_EQ(validate(request)->message, "<" + found->field + ">: " + found->reason);
+  }
+}
+
+TEST(Validate, NamesTheFieldOfAFrameAtFault) {
+  const Fault faults[] = {
+      {"frame", {}, [](PlanRequest& r) { r.has_times = false; }},
+      {"frame", {}, [](PlanRequest& r) { r.options.method = Method::kKeyframeInsertion; }},
+      {"frame.reference", {}, [](PlanRequest& r) { r.frame->reference.setZero(); }},
+      {"frame.reference", {}, [](PlanRequest& r) { r.frame->reference[1] = kNaN; }},
+      {"frame.begin.velocity_m_per_s",
+       {},
+       [](PlanRequest& r) { r.frame->begin.velocity_m_per_s.x() = kNaN; }},
+      {"frame.begin.image_rate_per_s",
+       {},
+       [](PlanRequest& r) { r.frame->begin.image_rate_per_s[2] = kInfinity; }},
+      {"frame.end.velocity_m_per_s",
+       {},
+       [](PlanRequest& r) { r.frame->end.velocity_m_per_s.y() = 2.0 * kMaxCoordinate_m; }},
+      {"frame.end.image_rate_per_s",
+       {},
+       [](PlanRequest& r) { r.frame->end.image_rate_per_s[0] = -2.0 * kMostImageLength; }},
+      {"keyframes[1].image", 1, [](PlanRequest& r) { r.frame.reset(); }},
+      {"keyframes[2].image", 2, [](PlanRequest& r) { r.keyframes[2].image[0] = kNaN; }},
+      {"keyframes[2].image", 2, [](PlanRequest& r) { r.keyframes[2].image[0] = 1e-4; }},
+      {"keyframes[0].image", 0, [](PlanRequest& r) { r.keyframes[0].image[3] = -1e4; }},
+  };
+  ASSERT_FALSE(validate(framed_request()));
+  for (const Fault& fault : faults) {
+    PlanRequest request = framed_request();
+    fault.make(request);
+    const std::optional<InvalidRequest> found = validate(request);
+    ASSERT_TRUE(found) << fault.field;
+    EXPECT_EQ(found->field, fault.field);
+    EXPECT_EQ(found->keyframe, fault.keyframe) << fault.field;
   }
 }
 

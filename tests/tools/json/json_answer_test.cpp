@@ -56,6 +56,12 @@ void add_any_report(planning::PlanResult& result, testing::Random& random) {
       correction.tried = {count(), count(), count(), count()};
     }
   }
+  if (random() % 2 == 0) {
+    const auto end = [&]() -> motion::PathEnd {
+      return {{number(), number(), number()}, {number(), number(), number(), number()}};
+    };
+    result.frame = {{number(), number(), number(), number()}, end(), end()};
+  }
   if (random() % 2 == 0) result.measures_before = any_measures(random);
   if (random() % 2 == 0) result.measures = any_measures(random);
   if (random() % 2 == 0) result.near_scale = number();
@@ -102,6 +108,7 @@ planning::PlanResult any_result(testing::Random& random) {
     keyframe.pose.orientation = geometry::from_wxyz({number(), number(), number(), number()});
     keyframe.origin = static_cast<motion::KeyframeOrigin>(random() % 2);
     keyframe.is_repaired = random() % 2 == 0;
+    if (random() % 2 == 0) keyframe.image = {number(), number(), number(), number()};
   }
   for (auto* list : {&result.collisions, &result.remaining_collisions}) {
     list->resize(random() % 4);
@@ -188,6 +195,7 @@ TEST(JsonResponse, NamesTheFieldAtFaultWhenRead) {
   testing::Random random(7);
   planning::PlanResult result = any_result(random);
   while (result.path.segments().size() < 2 || result.keyframes.empty()) result = any_result(random);
+  result.keyframes[0].origin = motion::KeyframeOrigin::kGiven;
   const std::string good = *write_plan_response(result).value;
   const auto error_of = [&](const std::string& from, const std::string& to) {
     std::string text = good;

@@ -86,14 +86,12 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
       {R"("near": 0.1)", R"("_near": 0.1)", "camera.near: is missing"},
       {R"("camera": {)", R"("kamera": {)",
        "kamera: is unknown; a request has scene, scale, up, unknown, camera, body, keyframes, "
-       "options, and for "
-       "remarks "
-       "comment or _..."},
+       "frame, options, and for remarks comment or _..."},
       {R"("near": 0.1)", R"("near": 0.1, "far": 9)",
        "camera.far: is unknown; camera has fov_x_deg, fov_y_deg, near"},
       {R"("_name": "door")", R"("name": "door")",
        "keyframes[1].name: is unknown; keyframes[1] has time, position, orientation, "
-       "orientation_xyzw, origin, repaired"},
+       "orientation_xyzw, origin, repaired, image"},
       {R"("fov_x_deg": 90)", R"("fov_x_deg": "90")",
        "camera.fov_x_deg: must be a number, not a string"},
       {R"("keyframes": [)", R"("keyframes": 5, "_old": [)",
@@ -154,6 +152,47 @@ TEST(JsonRequest, NamesTheFieldAtFault) {
   }
   EXPECT_THAT(parse_plan_request("[]", "R.json").error,
               HasSubstr("R.json: must be an object, not an array"));
+}
+
+constexpr const char* kFrame =
+    R"("frame": {"reference": [1, 2, 3, 4],
+                 "begin": {"velocity_m_per_s": [5, 6, 7], "image_rate_per_s": [8, 9, 10, 11]},
+                 "end": {"velocity_m_per_s": [12, 13, 14], "image_rate_per_s": [15, 16, 17, 18]}},
+       "scene": "office.obj")";
+
+TEST(JsonRequest, ReadsKeyframesAndFrameOfAnAnswer) {
+  std::string text = edited(R"("scene": "office.obj")", kFrame);
+  const std::string copied = R"("origin": "inserted", "repaired": true, "image": [0, 1, 0, 2])";
+  text.replace(text.find(R"("_name": "door")"), 15, copied);
+  const auto parsed = parse_plan_request(text, "R.json");
+  ASSERT_TRUE(parsed.value) << parsed.error;
+  EXPECT_EQ(parsed.value->keyframes[0].image, geometry::Vec4::Zero());
+  EXPECT_EQ(parsed.value->keyframes[1].image, geometry::Vec4(0, 1, 0, 2));
+  const motion::PathFrame frame{
+      {1, 2, 3, 4}, {{5, 6, 7}, {8, 9, 10, 11}}, {{12, 13, 14}, {15, 16, 17, 18}}};
+  EXPECT_EQ(parsed.value->frame, frame);
+}
+
+TEST(JsonRequest, NamesTheFieldOfAFrameAtFault) {
+  const std::pair<const char*, const char*> kFaults[] = {
+      {R"("reference": [1, 2, 3, 4],)", "frame.reference: is missing"},
+      {R"(,
+                 "end": {"velocity_m_per_s": [12, 13, 14], "image_rate_per_s": [15, 16, 17, 18]})",
+       "frame.end: is missing"},
+      {"13, ", "frame.end.velocity_m_per_s: must be an array of 3 numbers"},
+      {R"("velocity_m_per_s": [5, 6, 7], )", "frame.begin.velocity_m_per_s: is missing"},
+  };
+  for (const auto& [gone, message] : kFaults) {
+    std::string frame = kFrame;
+    frame.erase(frame.find(gone), std::string(gone).size());
+    const auto parsed = parse_plan_request(edited(R"("scene": "office.obj")", frame), "R.json");
+    EXPECT_THAT(parsed.error, HasSubstr(message));
+    EXPECT_FALSE(parsed.value) << gone;
+  }
+  std::string more = kFrame;
+  more.replace(more.find("reference"), 0, R"(far": 1, ")");
+  EXPECT_THAT(parse_plan_request(edited(R"("scene": "office.obj")", more), "R.json").error,
+              HasSubstr("frame.far: is unknown; frame has reference, begin, end"));
 }
 
 TEST(JsonRequest, LeavesRangesToValidationWhoseMessagesNameTheField) {

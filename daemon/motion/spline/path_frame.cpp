@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/motion/spline/path_frame.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "daemon/motion/path/quaternion.h"
+#include "daemon/motion/spline/cubic_spline.h"
+#include "daemon/motion/spline/quaternion_spline.h"
+
+namespace camway::motion {
+namespace {
+
+using geometry::Vec3;
+using geometry::Vec4;
+
+/// The image of `keyframe`, whose reference is `reference`; `before` is that of the one before.
+Vec4 image_at(const Keyframe& keyframe, const Vec4& reference, const Vec4& before) {
+  const Vec4 q = geometry::wxyz(keyframe.pose.orientation);
+  const double length = keyframe.image.norm();
+  if (!(length > 0.0)) return image_of(reference, q, before);
+  const Vec4 x = keyframe.image / length;
+  const Vec4 shown = quaternion::multiply(reference, quaternion::multiply(x, x));
+  const double apart = std::min((shown - q).norm(), (shown + q).norm());
+  if (apart <= kImageAgreement) return keyframe.image;
+  return length * image_of(reference, q, x);
+}
+
+/// Derivative of a Bézier curve over `duration_s` at its beginning.
+template <class Point>
+Point first_slope(const std::array<Point, 4>& curve, double duration_s) {
+  return Point((3.0 / duration_s) * (curve[1] - curve[0]));
+}
+template <class Point>
+Point last_slope(const std::array<Point, 4>& curve, double duration_s) {
+  return Point((3.0 / duration_s) * (curve[3] - curve[2]));
+}
+
+/// A keyframe at the beginning, or at the end, of a piece.
+Keyframe joint(const CubicPath& path, double time_s, const Vec3& position, const Vec4& image) {
+  return {time_s, pose_of(path.reference, {position, image}), KeyframeOrigin::kInserted, false,
+          image};
+}
+
+/// A value that is no number counts as infinite: no bound may pass it.
+void enlarge(double& largest, double value) {
+  largest = std::max(largest, std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
+}
+
+}  // namespace
+
+CubicPath interpolate_cubic(std::span<const Keyframe> keyframes, const PathFrame& frame) {
+  assert(keyframes.size() >= 2);
+  CubicPath result{frame.reference.normalized(), {}};
+  std::vector<double> times_s;
+  std::vector<Vec3> positions;
+  std::vector<Vec4> images;
+  for (const Keyframe& keyframe : keyframes) {
+    times_s.push_back(keyframe.time_s);
+    positions.push_back(keyframe.pose.position);
+    const Vec4 before = images.empty() ? Vec4::UnitX() : images.back();
+    images.push_back(image_at(keyframe, result.reference, before));
+  }
+  const std::vector<Vec3> velocities = spline_slopes<Vec3>(
+      times_s, positions, frame.begin.velocity_m_per_s, frame.end.velocity_m_per_s);
+  const std::vector<Vec4> rates = spline_slopes<Vec4>(times_s, images, frame.begin.image_rate_per_s,
+                                                      frame.end.image_rate_per_s);
+  for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
+    result.pieces.push_back({times_s[i], times_s[i + 1],
+                             spline_piece<Vec3>(times_s, positions, velocities, i),
+                             spline_piece<Vec4>(times_s, images, rates, i)});
+  }
+  return result;
+}
+
+PathFrame frame_of(const CubicPath& path) {
+  const CubicPiece& first = path.pieces.front();
+  const CubicPiece& last = path.pieces.back();
+  const double first_s = first.t1_s - first.t0_s;
+  const double last_s = last.t1_s - last.t0_s;
+  return {path.reference,
+          {first_slope(first.position, first_s), first_slope(first.image, first_s)},
+          {last_slope(last.position, last_s), last_slope(last.image, last_s)}};
+}
+
+std::vector<Keyframe> keyframes_of(const CubicPath& path, std::span<const Keyframe> given) {
+  std::vector<Keyframe> keyframes;
+  auto next = given.begin();
+  const auto take_given = [&](const Vec4& image) {
+    keyframes.push_back(*next++);
+    keyframes.back().image = image;
+  };
+  const auto take_joint = [&](double time_s, const Vec3& position, const Vec4& image) {
+    while (next != given.end() && next->time_s < time_s) take_given(path.at(next->time_s).image);
+    if (next != given.end() && next->time_s == time_s) return take_given(image);
+    keyframes.push_back(joint(path, time_s, position, image));
+  };
+  for (const CubicPiece& piece : path.pieces)
+    take_joint(piece.t0_s, piece.position.front(), piece.image.front());
+  const CubicPiece& last = path.pieces.back();
+  take_joint(last.t1_s, last.position.back(), last.image.back());
+  return keyframes;
+}
+
+PathDifference difference_of(const CubicPath& a, const CubicPath& b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (a.pieces.size() != b.pieces.size()) return {kInfinity, kInfinity};
+  PathDifference difference;
+  for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+    const CubicPiece& one = a.pieces[i];
+    const CubicPiece& other = b.pieces[i];
+    if (one.t0_s != other.t0_s || one.t1_s != other.t1_s) return {kInfinity, kInfinity};
+    for (std::size_t k = 0; k < 4; ++k) {
+      enlarge(difference.position_m, (one.position[k] - other.position[k]).norm());
+      enlarge(difference.image, (one.image[k] - other.image[k]).norm());
+    }
+  }
+  return difference;
+}
+
+}  // namespace camway::motion
