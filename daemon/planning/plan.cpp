@@ -142,6 +142,12 @@ class Planner {
     }
     result_.measures = corrected_.is_as_interpolated ? result_.measures_before
                                                      : motion::measure(result_.path, before);
+    if (corrected_.path) {
+      const correction::Shift shift = correction::shift_of(
+          *corrected_.path, prepared_.interpolated, corrected_.closeness);
+      result_.measures->largest_shift_rad = shift.largest_rad;
+      result_.measures->mean_shift_rad = shift.mean_rad;
+    }
   }
 
   void slow() {

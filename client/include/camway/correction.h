@@ -37,6 +37,8 @@ struct Correction {
   double changed_t_end_s = 0.0;    ///< end of the part of the path that was changed
   double moved_m = 0.0;            ///< largest distance of the eye from its former position
   double turned_rad = 0.0;         ///< largest angle of the camera from its former orientation
+  double largest_shift_rad = 0.0;  ///< largest shift of the picture in the changed part
+  double mean_shift_rad = 0.0;     ///< mean shift of the picture over that part
   /// Effort of the searches; reported only if the collision was not corrected (kNone), otherwise
   /// all zero.
   Effort tried = {};
@@ -49,6 +51,10 @@ struct PathMeasures {
   /// Largest distance of the eye from the path as interpolated at the same time. If the path was
   /// slowed, it is compared with the interpolated path under the same slow-down.
   double largest_deviation_m = 0.0;
+  /// Shift of the picture from the path as interpolated: the angle by which a point moves in the
+  /// picture that lies at the viewing distance. Before slowing.
+  double largest_shift_rad = 0.0;
+  double mean_shift_rad = 0.0;
   double bending_energy_m2_per_s3 = 0.0;  ///< integral of the squared acceleration
   double largest_speed_m_per_s = 0.0;
   double largest_acceleration_m_per_s2 = 0.0;

@@ -83,6 +83,9 @@ struct PlanRequest {
   /// the angle between them in radians, but at least a hundredth of the mean interval. Leave it 0
   /// if the keyframes have times. [Limit: 1e-6 to 1e6]
   double default_speed_m_per_s = 0.0;
+  /// Distance of what the picture shows, by which corrections weigh moves against turns; 0: taken
+  /// from the scene. [Limit: 0 <= value]
+  double viewing_distance_m = 0.0;
 
   std::string method;  ///< "ladder", "keyframe_insertion", or empty for the daemon's default
   Priority priority = Priority::kNormal;

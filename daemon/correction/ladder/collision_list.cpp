@@ -20,9 +20,11 @@ std::size_t leg_of(const CollisionInterval& interval, const std::vector<double>&
   return std::clamp<std::size_t>(index, 1, keyframes_s.size() - 1) - 1;
 }
 
-void measure(const CubicPath& path, const CubicPath& interpolated, Correction& correction) {
+void measure(const CubicPath& path, const CubicPath& interpolated, const Closeness& closeness,
+             Correction& correction) {
   constexpr int kSamples = 6;  // of a piece
   const CubicPath changed = path.around(correction.t_begin_s, correction.t_end_s);
+  correction.shift = shift_of(changed, interpolated, closeness);
   for (const motion::CubicPiece& piece : changed.pieces) {
     const double begin_s = std::max(piece.t0_s, correction.t_begin_s);
     const double end_s = std::min(piece.t1_s, correction.t_end_s);
@@ -121,16 +123,17 @@ std::vector<Correction> CollisionList::corrections() const {
 }
 
 void measure_corrections(const CubicPath& path, const CubicPath& interpolated,
-                         std::vector<Correction>& corrections) {
+                         const Closeness& closeness, std::vector<Correction>& corrections) {
   // Corrections of one interval between keyframes often have the same time range.
   std::map<std::pair<double, double>, const Correction*> measured;
   for (Correction& correction : corrections) {
     if (correction.kind == CorrectionKind::kNone) continue;
     const auto [same, is_new] =
         measured.try_emplace({correction.t_begin_s, correction.t_end_s}, &correction);
-    if (is_new) measure(path, interpolated, correction);
+    if (is_new) measure(path, interpolated, closeness, correction);
     correction.moved_m = same->second->moved_m;
     correction.turned_rad = same->second->turned_rad;
+    correction.shift = same->second->shift;
   }
 }
 

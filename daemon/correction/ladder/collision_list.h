@@ -59,9 +59,9 @@ class CollisionList {
   std::vector<ListedCollision> list_;
 };
 
-/// Sets `moved_m` and `turned_rad` of all corrections to what they are on `path`, compared with
-/// `interpolated`; by samples.
+/// Sets `moved_m`, `turned_rad` and `shift` of all corrections to what they are on `path`, compared
+/// with `interpolated`; by samples.
 void measure_corrections(const motion::CubicPath& path, const motion::CubicPath& interpolated,
-                         std::vector<Correction>& corrections);
+                         const Closeness& closeness, std::vector<Correction>& corrections);
 
 }  // namespace camway::correction

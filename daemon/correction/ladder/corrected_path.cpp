@@ -2,6 +2,7 @@
 #include "daemon/correction/ladder/corrected_path.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 namespace camway::correction {
@@ -64,45 +65,40 @@ Problem CorrectedPath::part_about(std::size_t leg, const motion::TimeOrigin& ori
 }
 
 bool CorrectedPath::take(const Candidate& candidate) {
-  std::set<double> fresh_s;
-  for (const double time_s : keyframes_of(candidate)) {
-    if (!inserted_s_.contains(time_s)) fresh_s.insert(time_s);
-  }
   const auto most = static_cast<std::size_t>(limits_.max_inserted_keyframes);
-  if (inserted_s_.size() + fresh_s.size() > most) return false;
-  inserted_s_.merge(fresh_s);
+  if (count_inserted() + count_added(candidate) > most) return false;
   path_.replace(candidate.path);
   leave_time_for_the_rest();
   return true;
 }
 
 void CorrectedPath::count_refused(const Candidate& candidate) {
-  refused_keyframes_ += keyframes_of(candidate).size();
+  refused_keyframes_ += count_added(candidate);
+}
+
+std::size_t CorrectedPath::count_inserted() const {
+  return path_.pieces.size() - interpolated_.pieces.size();
+}
+
+// Candidates split pieces, and join none.
+std::size_t CorrectedPath::count_added(const Candidate& candidate) const {
+  const CubicPath& part = candidate.path;
+  return part.pieces.size() - path_.around(part.begin_s(), part.end_s()).pieces.size();
+}
+
+std::vector<double> CorrectedPath::inserted_s() const {
+  std::vector<double> joints_s;
+  for (const motion::CubicPiece& piece : path_.pieces) joints_s.push_back(piece.t0_s);
+  std::vector<double> known_s;
+  for (const motion::CubicPiece& piece : interpolated_.pieces) known_s.push_back(piece.t0_s);
+  std::vector<double> inserted_s;
+  std::ranges::set_difference(joints_s, known_s, std::back_inserter(inserted_s));
+  return inserted_s;
 }
 
 std::optional<std::size_t> CorrectedPath::needed_keyframes() const {
   if (refused_keyframes_ == 0) return std::nullopt;
-  return inserted_s_.size() + refused_keyframes_;
-}
-
-std::vector<double> CorrectedPath::keyframes_of(const Candidate& candidate) const {
-  std::vector<double> times_s;
-  for (const motion::BumpRow& row : candidate.rows) {
-    const double near_s = 0.5 * row.knots.spacing_s();
-    for (std::size_t i = 0; i < row.bumps.size(); ++i) {
-      const double peak_s = row.knots.knot_s(row.first + static_cast<int>(i));
-      if (counts(peak_s, near_s, row.bumps[i])) times_s.push_back(peak_s);
-    }
-  }
-  return times_s;
-}
-
-bool CorrectedPath::counts(double peak_s, double near_s, const motion::CubicPoint& bump) const {
-  const double moved_m = bump.position.norm() + 4.0 * limits_.body_radius_m * bump.image.norm();
-  if (moved_m < limits_.tolerance_m) return false;
-  const auto next = std::ranges::lower_bound(keyframes_s_, peak_s - near_s);
-  const bool is_there = next != keyframes_s_.end() && *next <= peak_s + near_s;
-  return !is_there && interpolated_.begin_s() < peak_s && peak_s < interpolated_.end_s();
+  return count_inserted() + refused_keyframes_;
 }
 
 std::pair<double, double> CorrectedPath::range_of(const Candidate& candidate) const {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,18 +17,14 @@ namespace camway::correction {
 /// Limits of the corrections of a path.
 struct CorrectionLimits {
   int max_inserted_keyframes = 0;  ///< for the whole path [Limit: 0 <= value]
-  double tolerance_m = 0.0;        ///< a bump that moves the body by less is no keyframe
-  double body_radius_m = 0.0;      ///< largest distance of a body point from the eye
   /// Time that the stages after the corrections take for each piece of the path.
   /// [Limit: 0 <= value] [Units: seconds]
   double rest_s_per_piece = 0.0;
 };
 
-/// A path while it is corrected: takes candidates as long as their bumps, counted as inserted
-/// keyframes, stay within the limit.
-///
-/// A bump counts as a keyframe at its peak, unless a given keyframe is there already, the peak is
-/// off the path, or the bump moves the body by less than the tolerance.
+/// A path while it is corrected: takes candidates as long as the keyframes that they insert stay
+/// within the limit. Every joint of the path that the interpolated path does not have is an
+/// inserted keyframe.
 /// Not thread-safe.
 class CorrectedPath {
  public:
@@ -70,15 +65,14 @@ class CorrectedPath {
   void mark_legs(double begin_s, double end_s, std::vector<bool>& legs) const;
 
   /// Times of the inserted keyframes, increasing.
-  [[nodiscard]] const std::set<double>& inserted_s() const { return inserted_s_; }
+  [[nodiscard]] std::vector<double> inserted_s() const;
   /// Returns the number of inserted keyframes that all candidates would need; nothing if none was
   /// refused.
   [[nodiscard]] std::optional<std::size_t> needed_keyframes() const;
 
  private:
-  [[nodiscard]] std::vector<double> keyframes_of(const Candidate& candidate) const;
-  [[nodiscard]] bool counts(double peak_s, double near_s, const motion::CubicPoint& bump) const;
-
+  [[nodiscard]] std::size_t count_inserted() const;
+  [[nodiscard]] std::size_t count_added(const Candidate& candidate) const;
   void leave_time_for_the_rest();
 
   const motion::CubicPath& interpolated_;
@@ -87,7 +81,6 @@ class CorrectedPath {
   base::Deadline deadline_;
   std::vector<double> keyframes_s_;
   motion::CubicPath path_;
-  std::set<double> inserted_s_;
   std::size_t refused_keyframes_ = 0;
 };
 

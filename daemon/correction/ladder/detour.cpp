@@ -61,8 +61,8 @@ class Detour {
     for (const motion::Pose& pose : poses_as_interpolated(kLegsAsInterpolated)) {
       about_W.push_back(space_.center_W(pose));
     }
-    // Any orientation fits in the ball. With an orientation policy take the path's own.
-    const Turning turning = is_limited(space_.policy()) ? Turning::kAsPath : Turning::kAsGuide;
+    // Any orientation fits in the ball, so the path keeps its own.
+    const Turning turning = Turning::kAsPath;
     std::optional<Candidate> candidate;
     const auto use = [&](const std::vector<Vec3>& way_W) {
       candidate = followed(oriented(way_W, *begin, *end), turning);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "daemon/base/budget.h"
@@ -12,6 +14,8 @@
 #include "daemon/correction/ladder/detour.h"
 #include "daemon/correction/ladder/nudge.h"
 #include "daemon/correction/ladder/polish.h"
+#include "daemon/correction/path/closeness.h"
+#include "daemon/correction/path/viewing_distance.h"
 
 namespace camway::correction {
 
@@ -20,7 +24,11 @@ namespace {
 using collision::CollisionInterval;
 using motion::CubicPath;
 
-constexpr int kStepsPerLeg = 12;  // steps of relaxation per interval with a collision
+constexpr int kStepsPerLeg = 24;  // steps of relaxation per interval with a collision
+/// Collisions that are nearer than so many spacings of knots get one row of bumps.
+constexpr double kNearSpacings = 2.0;
+/// A turn costs so much more than a move that shifts the picture as far: it changes what is seen.
+constexpr double kTurnPenalty = 3.0;
 
 class Ladder {
  public:
@@ -31,8 +39,7 @@ class Ladder {
       : space_(space),
         options_(options),
         corrected_(path, keyframes,
-                   {options.max_inserted_keyframes, space.detect().tolerance_m,
-                    space.body().radius_m(), options.rest_s_per_piece},
+                   {options.max_inserted_keyframes, options.rest_s_per_piece},
                    deadline),
         collisions_(collisions, corrected_.keyframes_s()),
         prover_(mesh, space.body(), keyframes, options.max_shrink),
@@ -43,17 +50,19 @@ class Ladder {
     LadderResult result;
     result.timed_out = timed_out_;
     if (is_corrected) {
-      polish(options_.objective, options_.origin, budget_, space_, corrected_, collisions_);
+      polish(options_.objective, options_.origin, space_, corrected_, collisions_);
       result.needed_keyframes = corrected_.needed_keyframes();
     }
     result.corrections = collisions_.corrections();
     if (is_corrected) {
-      measure_corrections(corrected_.path(), corrected_.interpolated(), result.corrections);
+      measure_corrections(corrected_.path(), corrected_.interpolated(), space_.closeness(),
+                          result.corrections);
     }
     result.separation = prover_.separation();
     result.cage = prover_.cage();
     result.shut_in = std::move(shut_in_);
-    result.inserted_s.assign(corrected_.inserted_s().begin(), corrected_.inserted_s().end());
+    result.inserted_s = corrected_.inserted_s();
+    result.closeness = space_.closeness();
     result.path = std::move(corrected_).release();
     return result;
   }
@@ -79,42 +88,89 @@ class Ladder {
       const ListedCollision& collision = collisions_[i];
       if (!collision.is_open() || collision.is_beyond_limit) continue;
       if (prover_.has_proof()) return;
-      if (search == Search::kWithRoom && (nudge_away(i) || collision.is_beyond_limit)) continue;
+      if (search == Search::kWithRoom && (move_away(i) || collision.is_beyond_limit)) continue;
       const std::size_t leg = collision.leg;
       // A detour replaces the whole interval between keyframes: do not search it twice.
       if (is_shut_off(leg) || prover_.is_caged_off(center_W(leg), center_W(leg + 1))) {
         has_no_way[leg] = true;
       }
-      if (!has_no_way[leg]) has_no_way[leg] = !replace_leg(i, search);
+      if (search == Search::kWithRoom) {
+        turn_or_replace(i, has_no_way);
+      } else if (!has_no_way[leg]) {
+        has_no_way[leg] = !replace_leg(i, search);
+      }
     }
   }
 
-  // The part of the path that may change for a collision.
-  [[nodiscard]] Problem problem(std::size_t index) const {
-    const CollisionInterval& interval = collisions_[index].correction.interval;
-    Problem problem = collisions_.with_open_collisions(
-        corrected_.part_about(collisions_[index].leg, options_.origin, space_.ball_radius_m()));
-    problem.interval = interval;
-    std::erase(problem.foreign_collisions, interval);
+  // Moves the camera aside for a group of collisions, or else for its first one.
+  bool move_away(std::size_t index) {
+    const std::vector<std::size_t> group = group_from(index);
+    if (group.size() > 1 && accept(group, CorrectionKind::kMove, nudged(group, NudgeKind::kMove))) {
+      return true;
+    }
+    const std::span<const std::size_t> first(group.data(), 1);
+    return accept(first, CorrectionKind::kMove, nudged(first, NudgeKind::kMove));
+  }
+
+  // Turns the camera, or takes a detour that keeps its orientation, whichever costs less.
+  void turn_or_replace(std::size_t index, std::vector<bool>& has_no_way) {
+    const std::size_t leg = collisions_[index].leg;
+    const std::optional<Candidate> turned =
+        space_.may_turn() ? nudged({&index, 1}, NudgeKind::kTurn) : std::nullopt;
+    const double most_cost = turned ? kTurnPenalty * cost(index, *turned)
+                                    : std::numeric_limits<double>::infinity();
+    if (!has_no_way[leg]) {
+      has_no_way[leg] = !replace_leg(index, Search::kWithRoom, most_cost) && !turned;
+    }
+    if (collisions_[index].is_open()) accept({&index, 1}, CorrectionKind::kTurn, turned);
+  }
+
+  [[nodiscard]] double cost(std::size_t index, const Candidate& candidate) const {
+    return closeness_cost(candidate.path, problem(index).original, space_.closeness());
+  }
+
+  // The part of the path that may change for some collisions between the same keyframes, in order
+  // of time.
+  [[nodiscard]] Problem problem(std::span<const std::size_t> group) const {
+    Problem problem = collisions_.with_open_collisions(corrected_.part_about(
+        collisions_[group.front()].leg, options_.origin, space_.ball_radius_m()));
+    problem.interval = collisions_[group.front()].correction.interval;
+    problem.interval.t_end_s = collisions_[group.back()].correction.interval.t_end_s;
+    for (const std::size_t i : group) {
+      std::erase(problem.foreign_collisions, collisions_[i].correction.interval);
+    }
     return problem;
   }
+  [[nodiscard]] Problem problem(std::size_t index) const { return problem({&index, 1}); }
 
-  bool nudge_away(std::size_t index) {
-    const Problem problem = this->problem(index);
-    if (nudge_away(index, problem, NudgeKind::kMove)) return true;
-    if (!space_.may_turn() || collisions_[index].is_beyond_limit) return false;
-    return nudge_away(index, problem, NudgeKind::kTurn);
+  // The open collisions from `index` on that are too near to one another for bumps of their own.
+  [[nodiscard]] std::vector<std::size_t> group_from(std::size_t index) const {
+    const double near_s =
+        kNearSpacings * space_.closeness().best_spacing_s(space_.ball_radius_m());
+    std::vector<std::size_t> group = {index};
+    for (std::size_t i = index + 1; i < collisions_.size(); ++i) {
+      const ListedCollision& last = collisions_[group.back()];
+      const ListedCollision& next = collisions_[i];
+      const double between_s =
+          next.correction.interval.t_begin_s - last.correction.interval.t_end_s;
+      if (!next.is_open() || next.leg != last.leg || between_s > near_s) break;
+      group.push_back(i);
+    }
+    return group;
   }
 
-  bool nudge_away(std::size_t index, const Problem& problem, NudgeKind nudge_kind) {
-    const NudgeResult found = nudge(problem, nudge_kind, space_, deadline());
-    collisions_[index].correction.tried += found.effort;
-    const bool is_move = nudge_kind == NudgeKind::kMove;
-    return accept(index, is_move ? CorrectionKind::kMove : CorrectionKind::kTurn, found.candidate);
+  std::optional<Candidate> nudged(std::span<const std::size_t> group, NudgeKind nudge_kind) {
+    std::vector<CollisionInterval> intervals;
+    for (const std::size_t i : group) intervals.push_back(collisions_[i].correction.interval);
+    NudgeResult found = nudge(problem(group), intervals, nudge_kind, budget_, space_, deadline());
+    for (const std::size_t i : group) collisions_[i].correction.tried += found.effort;
+    return std::move(found.candidate);
   }
 
-  // A detour replaces everything between the two keyframes.
-  bool replace_leg(std::size_t index, Search search) {
+  // A detour replaces everything between the two keyframes. One that costs more than `most_cost`
+  // is found, but not taken. Returns whether one was found.
+  bool replace_leg(std::size_t index, Search search,
+                   double most_cost = std::numeric_limits<double>::infinity()) {
     Problem problem = this->problem(index);
     const std::size_t leg = collisions_[index].leg;
     const std::vector<std::size_t> same_leg = collisions_.open_in(leg);
@@ -127,30 +183,23 @@ class Ladder {
         deadline());
     if (found.pocket) add_shut_in(leg + (found.pocket->is_at_end ? 1 : 0), *found.pocket);
     for (const std::size_t i : same_leg) collisions_[i].correction.tried += found.effort;
-    const bool is_accepted = accept(index, CorrectionKind::kGoRound, found.candidate);
-    for (const std::size_t i : same_leg) {
-      const CollisionInterval interval = collisions_[i].correction.interval;
-      if (is_accepted) collisions_[i].correction = collisions_[index].correction;
-      collisions_[i].correction.interval = interval;
-      collisions_[i].is_beyond_limit = collisions_[index].is_beyond_limit;
-    }
-    return is_accepted;
+    if (found.candidate && cost(index, *found.candidate) > most_cost) return true;
+    return accept(same_leg, CorrectionKind::kGoRound, found.candidate);
   }
 
-  // Takes a correction, unless that would exceed the limit of keyframes.
-  bool accept(std::size_t index, CorrectionKind kind, const std::optional<Candidate>& candidate) {
+  // Takes a correction of some collisions, unless that would exceed the limit of keyframes.
+  bool accept(std::span<const std::size_t> corrected, CorrectionKind kind,
+              const std::optional<Candidate>& candidate) {
     if (!candidate) return false;
-    ListedCollision& collision = collisions_[index];
-    if (!corrected_.take(*candidate)) {
-      collision.is_beyond_limit = true;
-      corrected_.count_refused(*candidate);
-      return false;
-    }
-    collision.correction.kind = kind;
-    collision.correction.tried = {};
+    const bool is_taken = corrected_.take(*candidate);
+    if (!is_taken) corrected_.count_refused(*candidate);
     const auto [begin_s, end_s] = corrected_.range_of(*candidate);
-    collision.correction.t_begin_s = begin_s;
-    collision.correction.t_end_s = end_s;
+    for (const std::size_t i : corrected) {
+      collisions_[i].is_beyond_limit = !is_taken;
+      Correction& correction = collisions_[i].correction;
+      if (is_taken) correction = {correction.interval, kind, begin_s, end_s};
+    }
+    if (!is_taken) return false;
     deadline().report_collisions(collisions_.size(), collisions_.size() - collisions_.count_open());
     return true;
   }
@@ -193,7 +242,9 @@ LadderResult correct_by_ladder(const scene::WholeMesh& mesh, const collision::Qu
                                const CubicPath& path,
                                const std::vector<CollisionInterval>& collisions,
                                const LadderOptions& options, const base::Deadline& deadline) {
-  FreeSpace space(query, options.orientation);
+  const Closeness closeness =
+      closeness_of(path, FreeSpace(query, options.orientation), options.viewing_distance_m);
+  FreeSpace space(query, options.orientation, closeness);
   return Ladder(mesh, space, keyframes, path, collisions, options, deadline).run();
 }
 

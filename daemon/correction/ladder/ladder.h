@@ -10,6 +10,7 @@
 #include "daemon/collision/query.h"
 #include "daemon/correction/infeasibility/cage.h"
 #include "daemon/correction/infeasibility/separation.h"
+#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/correction/path/correction.h"
 #include "daemon/correction/search/shut_in.h"
@@ -26,6 +27,9 @@ struct LadderOptions {
   /// Limit for the whole path; 0 corrects nothing and searches nothing. [Limit: 0 <= value]
   int max_inserted_keyframes = 200;
   motion::TimeOrigin origin;  ///< origin of all times
+  /// Viewing distance of the cost of corrections (`closeness.h`); 0 takes it from the scene.
+  /// [Limit: 0 <= value]
+  double viewing_distance_m = 0.0;
   std::uint64_t seed = 1;     ///< random seed of searches for detours
   /// Largest share by which the camera may shrink about its eye. A proof that there is no path must
   /// hold for every such size. [Limit: 0 <= value < 1]
@@ -44,15 +48,16 @@ struct LadderResult {
   std::optional<Separation> separation;
   std::optional<Cage> cage;
   std::vector<ShutIn> shut_in;  ///< keyframes found to be shut in, in the order of discovery
+  Closeness closeness;  ///< the scale by which corrections were compared
   bool timed_out = false;
   /// If the limit was exceeded: the number of inserted keyframes that all corrections found would
   /// need.
   std::optional<std::size_t> needed_keyframes;
 };
 
-/// Corrects collisions one after the other, each by the first method that succeeds: move, turn,
-/// detour. The costly search for detours that need turning comes last, after an attempt to prove
-/// that there is no path.
+/// Corrects collisions one after the other: by a move, else by a detour that keeps the orientation
+/// or by a turn, whichever costs less (`closeness.h`). The costly search for detours that need
+/// turning comes last, after an attempt to prove that there is no path.
 ///
 /// A correction changes the path by C² bumps between keyframes next to the collision, so the path
 /// meets all given keyframes and stays as it was elsewhere. It is accepted only if all that it

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "daemon/collision/interval.h"
+#include "daemon/correction/path/closeness.h"
 
 namespace camway::correction {
 
@@ -40,6 +41,7 @@ struct Correction {
   double t_end_s = 0.0;    ///< end of that part
   double moved_m = 0.0;    ///< largest distance of the eye from the interpolated path, time by time
   double turned_rad = 0.0;  ///< largest angle from the interpolated orientation, time by time
+  Shift shift = {};         ///< from the interpolated path, on the changed part
   Effort tried = {};        ///< effort spent, if the collision was not corrected
 };
 

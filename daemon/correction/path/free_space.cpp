@@ -24,9 +24,11 @@ constexpr double kNearestShare = 0.8;
 
 }  // namespace
 
-FreeSpace::FreeSpace(const collision::Query& query, const OrientationPolicy& policy)
+FreeSpace::FreeSpace(const collision::Query& query, const OrientationPolicy& policy,
+                     const Closeness& closeness)
     : query_(query),
       policy_(policy),
+      closeness_(closeness),
       probe_(query.obstacles, query.body, query.options.clearance_m) {
   const motion::Body& body = query.body;
   geometry::Box box;

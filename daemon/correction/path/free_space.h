@@ -8,6 +8,7 @@
 #include "daemon/collision/interval.h"
 #include "daemon/collision/probe.h"
 #include "daemon/collision/query.h"
+#include "daemon/correction/path/closeness.h"
 #include "daemon/correction/path/constraints.h"
 #include "daemon/motion/path/straight_motion.h"
 #include "daemon/scene/index/scene_index.h"
@@ -21,7 +22,8 @@ namespace camway::correction {
 /// Not thread-safe: queries use buffers of the object.
 class FreeSpace {
  public:
-  explicit FreeSpace(const collision::Query& query, const OrientationPolicy& policy = {});
+  explicit FreeSpace(const collision::Query& query, const OrientationPolicy& policy = {},
+                     const Closeness& closeness = {});
 
   /// Returns true only if the gap of the body at `pose` is proved to be at least `margin_m`.
   [[nodiscard]] bool is_free(const motion::Pose& pose, double margin_m);
@@ -94,6 +96,7 @@ class FreeSpace {
   [[nodiscard]] const motion::Body& body() const { return query_.body; }
   [[nodiscard]] const collision::DetectOptions& detect() const { return query_.options; }
   [[nodiscard]] const OrientationPolicy& policy() const { return policy_; }
+  [[nodiscard]] const Closeness& closeness() const { return closeness_; }
   /// Whether corrections may change orientations.
   [[nodiscard]] bool may_turn() const { return may_turn_in(policy_); }
   /// Turns `wanted` about the centre of the body until it meets the orientation policy, compared
@@ -105,6 +108,7 @@ class FreeSpace {
  private:
   const collision::Query query_;
   OrientationPolicy policy_;
+  Closeness closeness_;
   collision::Probe probe_;
   geometry::Vec3 center_C_;
   double ball_radius_m_ = 0.0;

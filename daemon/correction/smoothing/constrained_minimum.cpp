@@ -13,9 +13,10 @@ constexpr double kForceSettled = 1e-3;  // in radii of the ball; chosen by measu
 }  // namespace
 
 ConstrainedMinimum::ConstrainedMinimum(const SmoothingForm& form, Objective objective,
-                                       double ball_radius_m, bool may_turn)
+                                       double ball_radius_m, double viewing_distance_m,
+                                       bool may_turn)
     : form_(form),
-      bounds_(objective, ball_radius_m),
+      bounds_(objective, ball_radius_m, viewing_distance_m),
       settled_m_(kForceSettled * ball_radius_m),
       may_turn_(may_turn) {}
 

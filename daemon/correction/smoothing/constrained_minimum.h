@@ -17,7 +17,7 @@ class ConstrainedMinimum {
  public:
   /// Refers to `form`, which must outlive it. Without `may_turn` orientations stay as they are.
   ConstrainedMinimum(const SmoothingForm& form, Objective objective, double ball_radius_m,
-                     bool may_turn);
+                     double viewing_distance_m, bool may_turn);
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return bounds_.wanted_m(); }

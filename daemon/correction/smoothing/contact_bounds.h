@@ -27,7 +27,7 @@ struct Contact {
 ///                                       for near vertices      of each triangle, without turning
 class ContactBounds {
  public:
-  ContactBounds(Objective objective, double ball_radius_m);
+  ContactBounds(Objective objective, double ball_radius_m, double viewing_distance_m);
 
   /// The gap that suffices. [Units: metres]
   [[nodiscard]] double wanted_m() const { return wanted_m_; }

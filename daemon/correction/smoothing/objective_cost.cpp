@@ -32,15 +32,6 @@ void for_each_sample(const motion::CubicPath& path, const Use& use) {
   }
 }
 
-double largest_deviation_m(const motion::CubicPath& path, const motion::CubicPath& original) {
-  double largest_m = 0.0;
-  for_each_sample(path, [&](double time_s) {
-    const double away_m = (path.at(time_s).position - original.at(time_s).position).norm();
-    largest_m = std::max(largest_m, away_m);
-  });
-  return largest_m;
-}
-
 double length_m(const motion::CubicPath& path) {
   double length_m = 0.0;
   Vec3 last = path.pieces.front().position.front();
@@ -119,7 +110,7 @@ ObjectiveCost objective_cost(Objective objective, const motion::CubicPath& path,
                              const base::Deadline& deadline) {
   switch (objective) {
     case Objective::kClosest:
-      return {largest_deviation_m(path, original), 0.0};
+      return {closeness_cost(path, original, space.closeness()), 0.0};
     case Objective::kShortest:
       return {length_m(path), least_gap_m(path, space)};
     case Objective::kSmoothest:

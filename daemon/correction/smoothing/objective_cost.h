@@ -11,7 +11,7 @@ namespace camway::correction {
 /// samples where there is no closed form; no part of any proof.
 struct ObjectiveCost {
   /// Less is better.
-  /// - `kClosest`: largest distance of the eye from the original at the same time [Units: metres]
+  /// - `kClosest`: `closeness_cost` [Units: radian seconds]
   /// - `kShortest`: length of the eye's curve [Units: metres]
   /// - `kSmoothest`: bending energy [Units: m²/s³]
   /// - `kSafest`: (1 - gap/c)², with gaps above the sufficient gap c counted as c, integrated over

@@ -18,9 +18,11 @@ namespace {
 using motion::CubicPoint;
 
 // Chosen by measurement; none changes what is proved. Lengths are shares of the ball's radius.
-constexpr int kSamplesAStep = 2;      // between two knots
-constexpr double kLeastKept = 0.995;  // share of the least gap that `kSafest` keeps
-constexpr double kFirstTrust = 2.0;   // radius of the trust region
+constexpr int kFewestPerStep = 2;         // between two knots
+constexpr int kMostPerStep = 8;           // the same
+constexpr double kTravelPerSample = 1.0;  // travel of the eye between two samples
+constexpr double kLeastKept = 0.995;      // share of the least gap that `kSafest` keeps
+constexpr double kFirstTrust = 2.0;       // radius of the trust region
 constexpr double kMostTrust = 4.0;
 constexpr double kLeastTrust = 0.02;
 constexpr double kDistrust = 0.3;
@@ -37,23 +39,30 @@ double horizon_m(Objective objective, double radius_m) {
   return (objective == Objective::kSafest ? kComfort + kHorizon : kHorizon) * radius_m;
 }
 
+/// A move by this length counts as much as a turn by a radian. Only the closest path weighs turns
+/// by the shift of the picture.
+double lever_of(Objective objective, const FreeSpace& space) {
+  const double radius_m = space.ball_radius_m();
+  if (objective != Objective::kClosest) return radius_m;
+  return std::max(radius_m, space.closeness().turn_lever_m);
+}
+
 class Relaxation {
  public:
   Relaxation(const Problem& problem, const Offsets& offsets, Ends ends,
              const Improvement& improvement, FreeSpace& space)
       : radius_m_(space.ball_radius_m()),
-        lever_m_(4.0 * radius_m_),
+        lever_m_(4.0 * lever_of(improvement.objective, space)),
         is_safest_(improvement.objective == Objective::kSafest),
         may_turn_(space.may_turn() && improvement.may_turn),
         free_(problem, offsets.knots, ends),
-        form_(problem, free_, improvement.objective, lever_m_, improvement.spread),
-        minimum_(form_, improvement.objective, radius_m_, may_turn_),
+        form_(problem, free_, improvement.objective, lever_m_, improvement.fade_s),
+        minimum_(form_, improvement.objective, radius_m_, space.closeness().viewing_distance_m,
+                 may_turn_),
         probe_(problem, space, lever_m_, horizon_m(improvement.objective, radius_m_)),
         variables_(free_.variables_of(offsets, lever_m_)) {
-    const double step_s = offsets.knots.spacing_s();
     for (int k = free_.first() - 2; k < free_.last() + 2; ++k) {
-      for (int m = 0; m < kSamplesAStep; ++m)
-        add_sample(offsets.knots.knot_s(k) + (m + 0.5) / kSamplesAStep * step_s);
+      add_samples(problem, offsets.knots.knot_s(k), offsets.knots.knot_s(k + 1));
     }
     if (is_safest_) keep_least_gap();
   }
@@ -116,6 +125,15 @@ class Relaxation {
   void add_sample(double time_s) {
     std::optional<PathSample> sample = probe_.sample_at(time_s, free_, variables_);
     if (sample) samples_.push_back(std::move(*sample));
+  }
+
+  void add_samples(const Problem& problem, double begin_s, double end_s) {
+    const double travel_m =
+        (problem.path.at(end_s).position - problem.path.at(begin_s).position).norm();
+    const double wanted = std::ceil(travel_m / (kTravelPerSample * radius_m_));
+    const int count =
+        static_cast<int>(std::clamp(wanted, double{kFewestPerStep}, double{kMostPerStep}));
+    for (int i = 0; i < count; ++i) add_sample(std::lerp(begin_s, end_s, (i + 0.5) / count));
   }
 
   /// `kSafest` may reduce gaps, but none below the least gap of the whole path.

@@ -2,9 +2,13 @@
 #include "daemon/correction/smoothing/smoothing_form.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
+
+#include "daemon/motion/path/bezier.h"
 
 namespace camway::correction {
 
@@ -16,6 +20,13 @@ constexpr int kBumpReach = 2;      // knots from a bump's peak to the end of its
 constexpr double kSwerve = 0.2;    // spread for `kSafest`, by a weight that outweighs distances
 constexpr double kRounding = 0.1;  // share of the interval: how wide `kShortest` rounds a corner
 
+/// Places and weights of Gauss's rule with four points on [0, 1].
+constexpr std::array<std::pair<double, double>, 4> kGauss = {
+    {{0.06943184420297371, 0.17392742256872692},
+     {0.33000947820757187, 0.32607257743127307},
+     {0.6699905217924281, 0.32607257743127307},
+     {0.9305681557970263, 0.17392742256872692}}};
+
 /// Weights of the squared distance from the original, and of squared first and second differences
 /// of the path's control points.
 struct Weights {
@@ -24,10 +35,9 @@ struct Weights {
   double bend;
 };
 
-Weights weights_of(Objective objective, int count, double spread) {
+Weights weights_of(Objective objective, int count) {
   switch (objective) {
     case Objective::kClosest:
-      return {1.0, 0.0, std::pow(spread * count, 4.0)};
     case Objective::kSafest:
       return {1.0, 0.0, std::pow(kSwerve * count, 4.0)};
     case Objective::kShortest:
@@ -49,6 +59,30 @@ CubicPoint extended(const motion::CubicPath& path, double time_s) {
   const std::size_t end = is_before ? 0 : 3;
   return {piece.position[end] + legs * (piece.position[i + 1] - piece.position[i]),
           piece.image[end] + legs * (piece.image[i + 1] - piece.image[i])};
+}
+
+CubicPoint difference(const CubicPoint& a, const CubicPoint& b) {
+  return {a.position - b.position, a.image - b.image};
+}
+
+struct BumpPoint {
+  double value = 0.0;
+  double second_derivative = 0.0;
+};
+
+/// A bump at a time between knots `k` and `k + 1`.
+BumpPoint bump_point(const motion::KnotRow& knots, int bump, int k, double time_s) {
+  const int part = k - (bump - kBumpReach);
+  if (part < 0 || part >= 2 * kBumpReach) return {};
+  const auto pieces =
+      motion::b_spline_pieces({knots.knot_s(bump - 2), knots.knot_s(bump - 1), knots.knot_s(bump),
+                               knots.knot_s(bump + 1), knots.knot_s(bump + 2)});
+  const std::array<double, 4>& b = pieces[static_cast<std::size_t>(part)];
+  const double begin_s = knots.knot_s(k);
+  const double step_s = knots.knot_s(k + 1) - begin_s;
+  const double u = (time_s - begin_s) / step_s;
+  const double bent = (1.0 - u) * (b[0] - 2.0 * b[1] + b[2]) + u * (b[1] - 2.0 * b[2] + b[3]);
+  return {motion::bezier::value_at(b, u), 6.0 * bent / (step_s * step_s)};
 }
 
 /// Number of knots beyond a keyframe, to one side, at which a bump may have its peak without
@@ -74,34 +108,41 @@ bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots) {
 }
 
 FreeCoefficients::FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends)
-    : knots_(knots), first_(2), last_(knots.count - 2), holds_keyframes_(ends == Ends::kFree) {
-  if (holds_keyframes_) {
+    : knots_(knots), first_(2), last_(knots.count - 2) {
+  if (ends == Ends::kFree) {
     const std::size_t leg = problem.leg;
     const std::vector<double>& times_s = problem.keyframes_s;
     const bool is_last = leg + 2 == times_s.size();
     first_ = leg == 0 ? -1 : -knots_beyond(knots, 0, -1, times_s[leg - 1]);
     last_ = knots.count + (is_last ? 1 : knots_beyond(knots, knots.count, 1, times_s[leg + 2]));
+    hold(0);
+    hold(knots.count);
+  } else {
+    for (int k = 1; k < knots.count; ++k) {
+      if (std::ranges::binary_search(problem.keyframes_s, knots.knot_s(k))) hold(k);
+    }
   }
   for (int k = first_; k <= last_; ++k) size_ += is_held(k) ? 0 : 1;
-  for (const int k : {0, knots.count}) {
-    const double peak = knots.bump_at_knot(k, k);
-    held_shares_[k == 0 ? 0 : 1] = {-knots.bump_at_knot(k - 1, k) / peak,
-                                    -knots.bump_at_knot(k + 1, k) / peak};
-  }
+}
+
+void FreeCoefficients::hold(int knot) {
+  const double peak = knots_.bump_at_knot(knot, knot);
+  held_.push_back({knot, -knots_.bump_at_knot(knot - 1, knot) / peak,
+                   -knots_.bump_at_knot(knot + 1, knot) / peak});
 }
 
 Eigen::Index FreeCoefficients::variable(int k) const {
-  const int held_before =
-      holds_keyframes_ ? (k > 0 && first_ <= 0 ? 1 : 0) + (k > knots_.count ? 1 : 0) : 0;
+  const auto held_before = std::ranges::count_if(
+      held_, [&](const Held& held) { return first_ <= held.knot && held.knot < k; });
   return k - first_ - held_before;
 }
 
 void FreeCoefficients::add(int k, double factor, Terms& terms) const {
   if (k < first_ || k > last_ || factor == 0.0) return;
-  if (is_held(k)) {
-    const auto [of_before, of_after] = held_shares_[k == 0 ? 0 : 1];
-    add(k - 1, factor * of_before, terms);
-    add(k + 1, factor * of_after, terms);
+  const auto held = std::ranges::find(held_, k, &Held::knot);
+  if (held != held_.end()) {
+    add(k - 1, factor * held->of_before, terms);
+    add(k + 1, factor * held->of_after, terms);
     return;
   }
   const auto known = std::ranges::find(terms, variable(k), &Term::variable);
@@ -113,10 +154,12 @@ void FreeCoefficients::add(int k, double factor, Terms& terms) const {
 }
 
 Terms FreeCoefficients::at(double time_s) const {
-  const double place = (time_s - knots_.begin_s) / knots_.spacing_s();
-  const int before = static_cast<int>(std::clamp(std::floor(place), first_ - 2.0, last_ + 1.0));
   Terms terms;
-  for (int k = before - 1; k <= before + 2; ++k) add(k, motion::bump_value(place - k), terms);
+  for (int k = first_; k <= last_; ++k) {
+    if (knots_.knot_s(k + kBumpReach) <= time_s) continue;
+    if (knots_.knot_s(k - kBumpReach) >= time_s) break;
+    add(k, knots_.bump_value(k, time_s), terms);
+  }
   return terms;
 }
 
@@ -139,10 +182,52 @@ Offsets FreeCoefficients::offsets_of(const StackedPoints& variables, double leve
 }
 
 SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& free,
-                             Objective objective, double lever_m, double spread)
+                             Objective objective, double lever_m, double fade_s)
     : hessian_(Eigen::MatrixXd::Zero(free.size(), free.size())),
       slope_(StackedPoints::Zero(free.size(), 7)) {
-  const Weights weights = weights_of(objective, free.knots().count, spread);
+  if (objective == Objective::kClosest) {
+    count_offset(problem, free, lever_m, fade_s);
+  } else {
+    count_differences(problem, free, objective, lever_m);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factors(hessian_);
+  inverse_ = factors.solve(Eigen::MatrixXd::Identity(free.size(), free.size()));
+  minimum_ = -inverse_ * slope_;
+}
+
+// Between two knots the bumps are cubic, and so is the offset where the path has no joint there.
+// Gauss's rule with four points is exact for the products.
+void SmoothingForm::count_offset(const Problem& problem, const FreeCoefficients& free,
+                                 double lever_m, double fade_s) {
+  const motion::KnotRow& knots = free.knots();
+  const double bend = std::pow(fade_s, 4.0);
+  for (int k = free.first() - kBumpReach; k < free.last() + kBumpReach; ++k) {
+    const double begin_s = std::max(knots.knot_s(k), problem.path.begin_s());
+    const double end_s = std::min(knots.knot_s(k + 1), problem.path.end_s());
+    if (!(begin_s < end_s)) continue;
+    for (const auto& [place, weight] : kGauss) {
+      const double time_s = std::lerp(begin_s, end_s, place);
+      const double share_s = weight * (end_s - begin_s);
+      Terms value;
+      Terms bent;
+      for (int bump = k - 1; bump <= k + 2; ++bump) {
+        const BumpPoint at = bump_point(knots, bump, k, time_s);
+        free.add(bump, at.value, value);
+        free.add(bump, at.second_derivative, bent);
+      }
+      count(share_s, value,
+            stacked(difference(problem.path.at(time_s), problem.original.at(time_s)), lever_m));
+      count(share_s * bend, bent,
+            stacked(difference(problem.path.second_derivative(time_s),
+                               problem.original.second_derivative(time_s)),
+                    lever_m));
+    }
+  }
+}
+
+void SmoothingForm::count_differences(const Problem& problem, const FreeCoefficients& free,
+                                      Objective objective, double lever_m) {
+  const Weights weights = weights_of(objective, free.knots().count);
   const auto path_at = [&](int k) {
     return stacked(extended(problem.path, free.knots().knot_s(k)), lever_m);
   };
@@ -162,9 +247,6 @@ SmoothingForm::SmoothingForm(const Problem& problem, const FreeCoefficients& fre
     free.add(k + 1, 1.0, bend);
     count(weights.bend, bend, path_at(k - 1) - 2.0 * here + path_at(k + 1));
   }
-  const Eigen::LLT<Eigen::MatrixXd> factors(hessian_);
-  inverse_ = factors.solve(Eigen::MatrixXd::Identity(free.size(), free.size()));
-  minimum_ = -inverse_ * slope_;
 }
 
 void SmoothingForm::count(double weight, const Terms& terms, const StackedPoint& constant) {

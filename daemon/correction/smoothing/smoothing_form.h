@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,11 +38,13 @@ using Terms = std::vector<Term>;
 /// the interval reach two knots beyond them, and must not reach the next keyframes.
 bool fits_free_ends(const Problem& problem, const motion::KnotRow& knots);
 
-/// The coefficients of a row of bumps that a correction may choose. With free ends they include
-/// some before the first and after the last keyframe of the interval, as far as those do not reach
-/// the next keyframe, so that the path may change its slope at the two keyframes. The coefficients
-/// at the two keyframes are *held*: they follow from their neighbours. Other keyframes are kept
-/// where free ends fit (`fits_free_ends`).
+/// The coefficients of a row of bumps that a correction may choose. With fixed ends they are those
+/// whose supports lie within the row. With free ends they include some before the first and after
+/// the last keyframe of the interval, as far as those do not reach the next keyframe, so that the
+/// path may change its slope at the two keyframes. The coefficients at keyframes are *held*: they
+/// follow from their neighbours, so that the keyframe is kept. Requires every keyframe within the
+/// supports to be at a knot, with no keyframe at the next knot; with free ends that holds for other
+/// keyframes than the two where free ends fit (`fits_free_ends`).
 class FreeCoefficients {
  public:
   FreeCoefficients(const Problem& problem, const motion::KnotRow& knots, Ends ends);
@@ -53,13 +54,12 @@ class FreeCoefficients {
   [[nodiscard]] int last() const { return last_; }
   [[nodiscard]] Eigen::Index size() const { return size_; }
   [[nodiscard]] bool is_held(int k) const {
-    return holds_keyframes_ && (k == 0 || k == knots_.count);
+    return std::ranges::find(held_, k, &Held::knot) != held_.end();
   }
 
   /// Adds `factor` times the coefficient at knot `k` to `terms`; nothing outside of the range.
   void add(int k, double factor, Terms& terms) const;
-  /// Value of the row of bumps at a time, as if the knots were equidistant; empty outside of the
-  /// supports.
+  /// Value of the row of bumps at a time; empty outside of the supports.
   [[nodiscard]] Terms at(double time_s) const;
 
   [[nodiscard]] StackedPoints variables_of(const Offsets& offsets, double lever_m) const;
@@ -68,13 +68,19 @@ class FreeCoefficients {
  private:
   [[nodiscard]] Eigen::Index variable(int k) const;
 
+  /// A keyframe's knot, and the shares of the coefficients before and after it in its own.
+  struct Held {
+    int knot;
+    double of_before;
+    double of_after;
+  };
+  void hold(int knot);
+
   motion::KnotRow knots_;
   int first_ = 0;
   int last_ = 0;
-  bool holds_keyframes_ = false;
   Eigen::Index size_ = 0;
-  /// For each keyframe: the shares of the coefficients before and after it in the held coefficient.
-  std::array<std::pair<double, double>, 2> held_shares_;
+  std::vector<Held> held_;
 };
 
 inline StackedPoint combined(const Terms& terms, const StackedPoints& variables) {
@@ -83,21 +89,25 @@ inline StackedPoint combined(const Terms& terms, const StackedPoints& variables)
   return sum;
 }
 
-/// Share of the interval between keyframes over which an offset from the original fades out, for
-/// `kClosest`. A larger spread bends less and deviates more.
-inline constexpr double kSpread = 1.5;
+/// The spacing of knots of a single bump that is nearest to the optimal offset beside a contact, in
+/// fade times: it minimises ∫ N² + τ⁴ N''² dt for a cubic B-spline N of a given peak.
+inline constexpr double kSpacingsAFade = 2.02;
 
-/// An objective as a quadratic form of the free coefficients: a weighted sum of squares (Farin
-/// 2002, section 9.4, for bending) of control points' distances from the original and of the first
-/// and second differences of the path's control points.
-/// - `kClosest` and `kSafest`: distances and second differences; `kSafest` also wants gaps, which
-///   are not part of the form.
+/// An objective as a quadratic form of the free coefficients.
+/// - `kClosest`: ∫ d² + τ⁴ d''² dt, exactly, where d is the offset from the original and τ the
+///   *fade time*: the time in which the optimal offset fades out beside a contact.
+///
+/// The others are weighted sums of squares (Farin 2002, section 9.4, for bending) of control points'
+/// distances from the original and of the first and second differences of the path's control
+/// points. They require equidistant knots.
+/// - `kSafest`: distances and second differences; it also wants gaps, which are not part of the
+///   form.
 /// - `kShortest`: first differences, and second differences with a small weight.
 /// - `kSmoothest`: second differences.
 class SmoothingForm {
  public:
   SmoothingForm(const Problem& problem, const FreeCoefficients& free, Objective objective,
-                double lever_m, double spread = kSpread);
+                double lever_m, double fade_s);
 
   [[nodiscard]] double value(const StackedPoints& variables) const;
   /// The minimiser.
@@ -106,6 +116,10 @@ class SmoothingForm {
   [[nodiscard]] const Eigen::MatrixXd& inverse() const { return inverse_; }
 
  private:
+  void count_differences(const Problem& problem, const FreeCoefficients& free, Objective objective,
+                         double lever_m);
+  void count_offset(const Problem& problem, const FreeCoefficients& free, double lever_m,
+                    double fade_s);
   void count(double weight, const Terms& terms, const StackedPoint& constant);
 
   Eigen::MatrixXd hessian_;

@@ -10,6 +10,10 @@ namespace camway::motion {
 struct PathMeasures {
   double length_m = 0.0;                  ///< length of the eye's curve
   double largest_deviation_m = 0.0;       ///< largest distance of the eye from the other path
+  /// Largest and mean shift of the picture (`correction/path/closeness.h`). Set by planning, not by
+  /// `measure`.
+  double largest_shift_rad = 0.0;
+  double mean_shift_rad = 0.0;
   double bending_energy_m2_per_s3 = 0.0;  ///< integral of the squared acceleration; exact
   double largest_speed_m_per_s = 0.0;
   double largest_acceleration_m_per_s2 = 0.0;

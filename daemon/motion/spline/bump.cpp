@@ -26,8 +26,9 @@ std::vector<double> cuts_s(const CubicPiece& piece, std::span<const BumpRow> row
       return static_cast<int>(std::clamp((time_s - row.knots.begin_s) / row.knots.spacing_s(),
                                          row.first - 3.0, last + 1.0));
     };
-    const int from = std::max(row.first - 2, steps_to(piece.t0_s) - 1);
-    const int to = std::min(last, steps_to(piece.t1_s) + 2);
+    const bool is_even = !row.knots.given_s;
+    const int from = std::max(row.first - 2, is_even ? steps_to(piece.t0_s) - 1 : row.first - 2);
+    const int to = std::min(last, is_even ? steps_to(piece.t1_s) + 2 : last);
     for (int k = from; k <= to; ++k) {
       const double knot_s = row.knots.knot_s(k);
       if (piece.t0_s < knot_s && knot_s < piece.t1_s) cuts.push_back(knot_s);

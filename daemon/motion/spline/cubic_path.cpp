@@ -17,9 +17,24 @@ Pose pose_of(const Vec4& reference, const CubicPoint& point) {
   return {point.position, geometry::from_wxyz(q / q.norm())};
 }
 
-CubicPoint CubicPath::at(double time_s) const {
+const CubicPiece& CubicPath::piece_at(double time_s) const {
   const auto later = std::ranges::upper_bound(pieces, time_s, {}, &CubicPiece::t0_s);
-  const CubicPiece& piece = later == pieces.begin() ? *later : *std::prev(later);
+  return later == pieces.begin() ? *later : *std::prev(later);
+}
+
+CubicPoint CubicPath::second_derivative(double time_s) const {
+  const CubicPiece& piece = piece_at(time_s);
+  const double duration_s = piece.t1_s - piece.t0_s;
+  const double u = std::clamp((time_s - piece.t0_s) / duration_s, 0.0, 1.0);
+  const double scale = 6.0 / (duration_s * duration_s);
+  const auto& p = piece.position;
+  const auto& x = piece.image;
+  return {scale * ((1.0 - u) * (p[0] - 2.0 * p[1] + p[2]) + u * (p[1] - 2.0 * p[2] + p[3])),
+          scale * ((1.0 - u) * (x[0] - 2.0 * x[1] + x[2]) + u * (x[1] - 2.0 * x[2] + x[3]))};
+}
+
+CubicPoint CubicPath::at(double time_s) const {
+  const CubicPiece& piece = piece_at(time_s);
   const double u = std::clamp((time_s - piece.t0_s) / (piece.t1_s - piece.t0_s), 0.0, 1.0);
   return {bezier::value_at(piece.position, u), bezier::value_at(piece.image, u)};
 }

@@ -36,6 +36,8 @@ struct CubicPath {
   [[nodiscard]] double end_s() const { return pieces.back().t1_s; }
   [[nodiscard]] CubicPoint at(double time_s) const;
   [[nodiscard]] Pose pose(double time_s) const;
+  /// The second derivative with respect to time; at a joint, that of the later piece.
+  [[nodiscard]] CubicPoint second_derivative(double time_s) const;
 
   /// The whole pieces that have more than an end in common with [t_begin_s, t_end_s].
   [[nodiscard]] CubicPath around(double t_begin_s, double t_end_s) const;
@@ -45,6 +47,9 @@ struct CubicPath {
   void replace(const CubicPath& part);
 
   [[nodiscard]] Path path() const;
+
+ private:
+  [[nodiscard]] const CubicPiece& piece_at(double time_s) const;
 };
 
 /// The pose that `point` represents.

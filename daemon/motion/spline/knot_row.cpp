@@ -53,9 +53,25 @@ KnotRow KnotRow::about(double middle_s, double spacing_s,
   return {begin_s, end_s, 4, std::move(places)};
 }
 
+KnotRow KnotRow::at(const std::vector<double>& times_s, std::shared_ptr<const KnotPlaces> places) {
+  std::vector<double> placed_s = times_s;
+  for (std::size_t i = 0; places && i < times_s.size(); ++i) {
+    const double before_s = times_s[i] - times_s[i > 0 ? i - 1 : 0];
+    const double after_s = times_s[i + 1 < times_s.size() ? i + 1 : i] - times_s[i];
+    const bool is_end = i == 0 || i + 1 == times_s.size();
+    const double step_s = is_end ? before_s + after_s : std::min(before_s, after_s);
+    placed_s[i] = places->place_s(times_s[i], step_s);
+  }
+  KnotRow row(placed_s.front(), placed_s.back(), static_cast<int>(times_s.size()) - 1,
+              std::move(places));
+  row.given_s = std::make_shared<const std::vector<double>>(std::move(placed_s));
+  return row;
+}
+
 double KnotRow::knot_s(int index) const {
   if (index == 0) return begin_s;
   if (index == count) return end_s;
+  if (given_s && index > 0 && index < count) return (*given_s)[static_cast<std::size_t>(index)];
   const double time_s = begin_s + (end_s - begin_s) * (static_cast<double>(index) / count);
   return places ? places->place_s(time_s, spacing_s()) : time_s;
 }
@@ -63,7 +79,11 @@ double KnotRow::knot_s(int index) const {
 bool KnotRow::fits() const {
   const TimeOrigin origin = places ? places->origin : TimeOrigin{};
   const double finest_s = std::max(origin.resolution_s(begin_s), origin.resolution_s(end_s));
-  return spacing_s() >= kLeastTimesAStep * finest_s;
+  double shortest_s = spacing_s();
+  for (std::size_t i = 1; given_s && i < given_s->size(); ++i) {
+    shortest_s = std::min(shortest_s, (*given_s)[i] - (*given_s)[i - 1]);
+  }
+  return shortest_s >= kLeastTimesAStep * finest_s;
 }
 
 double KnotRow::bump_value(int bump, double time_s) const {

@@ -35,18 +35,24 @@ struct KnotPlaces {
   [[nodiscard]] double place_s(double time_s, double spacing_s) const;
 };
 
-/// Knots in `count` steps from `begin_s` to `end_s`, continued beyond both: equidistant, up to the
-/// times allowed by `places`.
+/// Knots in `count` steps from `begin_s` to `end_s`, continued beyond both: at given times, or
+/// equidistant up to the times allowed by `places`.
 struct KnotRow {
   double begin_s = 0.0;
   double end_s = 1.0;  ///< [Limit: value > begin_s]
   int count = 1;       ///< [Limit: value >= 1]
   /// Times allowed for knots; null allows any.
   std::shared_ptr<const KnotPlaces> places;
+  /// The times of knots 0 to `count`; null for equidistant knots.
+  std::shared_ptr<const std::vector<double>> given_s;
 
   KnotRow() = default;
   KnotRow(double begin, double end, int steps, std::shared_ptr<const KnotPlaces> where = nullptr)
       : begin_s(begin), end_s(end), count(steps), places(std::move(where)) {}
+
+  /// A row with knots at `times_s`, moved to the nearest times allowed by `places`. Requires at
+  /// least two times, increasing.
+  static KnotRow at(const std::vector<double>& times_s, std::shared_ptr<const KnotPlaces> places);
 
   /// A row of four steps of `spacing_s` whose middle knot is at `middle_s` or next to it.
   static KnotRow about(double middle_s, double spacing_s, std::shared_ptr<const KnotPlaces> places);

@@ -75,6 +75,9 @@ struct PlanOptions {
   /// motion::kNominalSpeed_m_per_s. Refused where keyframes have times.
   /// [Limit: kLeastDefaultSpeed_m_per_s <= value <= kMostDefaultSpeed_m_per_s]
   std::optional<double> default_speed_m_per_s;
+  /// Distance of what the picture shows: corrections weigh moves against turns by it. If not set,
+  /// it is taken from the scene. [Limit: 0 < value <= kMaxCoordinate_m] [Units: metres]
+  std::optional<double> viewing_distance_m;
 
   bool operator==(const PlanOptions&) const = default;
 };
@@ -84,8 +87,8 @@ namespace option {
 inline constexpr FieldSpec kMethod{
     .name = "method",
     .help =
-        "how a colliding path is corrected: `ladder` (move, turn, go round, whichever is proved "
-        "first) or `keyframe_insertion` (the paper's method)"};
+        "how a colliding path is corrected: `ladder` (move, go round or turn, so that the picture "
+        "shifts little) or `keyframe_insertion` (the paper's method)"};
 inline constexpr FieldSpec kDeadline{
     .name = "deadline_s",
     .range = {.least = 0.0, .excludes_least = true, .excludes_infinity = true},
@@ -145,6 +148,13 @@ inline constexpr FieldSpec kDefaultSpeed{
     .range = {.least = kLeastDefaultSpeed_m_per_s, .most = kMostDefaultSpeed_m_per_s},
     .unset = "1",
     .help = "speed between keyframes without times; refused beside times"};
+inline constexpr FieldSpec kViewingDistance{
+    .name = "viewing_distance_m",
+    .range = {.least = 0.0, .most = kMaxCoordinate_m, .excludes_least = true},
+    .unset = "from the scene",
+    .help =
+        "distance of what the picture shows: a correction that moves the camera by a metre shifts "
+        "the picture as much as a turn by 1 / viewing_distance_m radians"};
 
 inline constexpr FieldSpec kCone{
     .name = "cone",
@@ -179,6 +189,7 @@ void visit_options(const Visit& visit, Options&... options) {
   visit(option::kRepairKeyframes, options.repair_keyframes...);
   visit(option::kSeed, options.seed...);
   visit(option::kDefaultSpeed, options.default_speed_m_per_s...);
+  visit(option::kViewingDistance, options.viewing_distance_m...);
 }
 
 /// Visits the members of an orientation policy as `visit_options` visits options.

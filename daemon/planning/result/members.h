@@ -98,6 +98,8 @@ void members(Io& io, Is<correction::Correction> auto& correction, Wire&... wire)
           std::tie(wire.changed_t_begin_s, wire.changed_t_end_s)...);
   io.need("moved_m", correction.moved_m, wire.moved_m...);
   io.need("turned_deg", correction.turned_rad, wire.turned_rad...);
+  io.need("largest_shift_deg", correction.shift.largest_rad, wire.largest_shift_rad...);
+  io.need("mean_shift_deg", correction.shift.mean_rad, wire.mean_shift_rad...);
   io.line(5);
   const bool is_said = correction.kind == correction::CorrectionKind::kNone;
   io.group("tried", is_said, -1, [&](auto& object) {
@@ -112,6 +114,8 @@ template <class Io, class... Wire>
 void members(Io& io, Is<motion::PathMeasures> auto& measures, Wire&... wire) {
   io.need("length_m", measures.length_m, wire.length_m...);
   io.need("largest_deviation_m", measures.largest_deviation_m, wire.largest_deviation_m...);
+  io.need("largest_shift_deg", measures.largest_shift_rad, wire.largest_shift_rad...);
+  io.need("mean_shift_deg", measures.mean_shift_rad, wire.mean_shift_rad...);
   io.need("bending_energy_m2_per_s3", measures.bending_energy_m2_per_s3,
           wire.bending_energy_m2_per_s3...);
   io.need("largest_speed_m_per_s", measures.largest_speed_m_per_s, wire.largest_speed_m_per_s...);

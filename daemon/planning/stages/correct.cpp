@@ -21,6 +21,7 @@ correction::LadderOptions ladder_options(const PlanRequest& request, const Prepa
   options.origin = prepared.origin;
   options.max_inserted_keyframes = request.options.max_inserted_keyframes;
   options.seed = request.options.seed;
+  options.viewing_distance_m = request.options.viewing_distance_m.value_or(0.0);
   options.objective = request.options.objective;
   options.orientation = request.options.orientation;
   options.max_shrink = may_shrink(request) ? request.options.max_shrink : 0.0;
@@ -57,6 +58,7 @@ CorrectedPlan correct_by_ladder(const scene::Snapshot& snapshot, const collision
   CorrectedPlan plan;
   plan.timed_out = corrected.timed_out;
   plan.needed_keyframes = corrected.needed_keyframes;
+  plan.closeness = corrected.closeness;
   result.shut_in = std::move(corrected.shut_in);
   result.corrections = std::move(corrected.corrections);
   result.infeasibility = infeasibility_of(corrected);
@@ -90,6 +92,7 @@ CorrectedPlan insert_keyframes(const collision::Query& query, const PlanRequest&
   result.keyframes = std::move(corrected.keyframes);
   result.path = std::move(corrected.path);
   return {.path = {},
+          .closeness = {},
           .is_as_interpolated = false,
           .timed_out = corrected.timed_out,
           .needed_keyframes = {}};

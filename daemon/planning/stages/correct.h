@@ -6,6 +6,7 @@
 
 #include "daemon/base/deadline.h"
 #include "daemon/collision/query.h"
+#include "daemon/correction/path/closeness.h"
 #include "daemon/motion/spline/cubic_path.h"
 #include "daemon/planning/request/request.h"
 #include "daemon/planning/result/result.h"
@@ -19,6 +20,7 @@ struct CorrectedPlan {
   /// The path as corrected by the ladder; nothing if it is as interpolated, or has inserted
   /// keyframes of the paper's method.
   std::optional<motion::CubicPath> path;
+  correction::Closeness closeness = {};  ///< with `path`: the scale by which it is near
   bool is_as_interpolated = true;
   bool timed_out = false;  ///< the deadline came before all collisions were corrected
   /// The number of inserted keyframes that all corrections found would need, if that is more than

@@ -45,7 +45,10 @@ void take(Retimed slowed, const motion::TimeOrigin& origin, PlanResult& result) 
     result.certificate = slowed.check->certificate;
     result.remaining_collisions = std::move(slowed.check->collisions);
   }
+  const motion::PathMeasures unslowed = result.measures.value_or(motion::PathMeasures{});
   result.measures = motion::measure(result.path, slowed.interpolated.path());
+  result.measures->largest_shift_rad = unslowed.largest_shift_rad;
+  result.measures->mean_shift_rad = unslowed.mean_shift_rad;
 }
 
 }  // namespace

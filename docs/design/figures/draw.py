@@ -68,9 +68,9 @@ def ladder():
     """The rungs of the default correction, cheapest first."""
     figure = Figure(880, 400, "The ladder of corrections")
     rungs = [
-        ("move", "one bump, away from what was met"),
-        ("turn", "one bump, about an axis"),
+        ("move", "a short row of bumps, away from what was met"),
         ("go round, with room", "A* for the ball that holds the body, then a spline drawn towards it"),
+        ("turn", "a short row of bumps, about an axis: where it costs a third of going round"),
         ("is there a way at all?", "closed surfaces and cages prove that there is none"),
         ("go round, turning", "cells, narrow passages and two trees of proved motions"),
         ("shrink", "a smaller near distance, where the request allows it"),
@@ -83,7 +83,7 @@ def ladder():
             figure.arrow([(120, y + 44), (120, y + 61)])
             figure.text(128, y + 57, "nothing was proved free" if not name.endswith("?") else "no proof", "small", "start")
         figure.arrow([(510, y + 22), (618, y + 22)], "proof" if name.endswith("?") else "proved free")
-    figure.box(620, 14, 220, 170, ["accepted", "relaxed: close to the path", "as interpolated, smooth,", "and proved again"], "accent")
+    figure.box(620, 14, 220, 170, ["accepted", "relaxed: the picture shifts", "little, the path bends little,", "and all is proved again"], "accent")
     figure.box(620, 203, 220, 44, ["infeasible", "the answer holds the proof"], "warm")
     figure.box(620, 266, 220, 107, ["accepted", "as above"], "accent")
     return figure

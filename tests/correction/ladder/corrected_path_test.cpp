@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
 #include <vector>
 
 #include "daemon/motion/spline/interpolate.h"
@@ -26,7 +25,7 @@ std::vector<motion::Keyframe> straight_keyframes() {
 class CorrectedPathTest : public ::testing::Test {
  protected:
   [[nodiscard]] CorrectedPath with_limit(int most) const {
-    return {interpolated_, keyframes_, {most, /*tolerance_m=*/0.01, /*body_radius_m=*/0.1}, never_};
+    return {interpolated_, keyframes_, {most, /*rest_s_per_piece=*/0.0}, never_};
   }
 
   // A candidate with one bump of this height, whose peak is at `peak_s`.
@@ -43,7 +42,7 @@ class CorrectedPathTest : public ::testing::Test {
 };
 
 TEST_F(CorrectedPathTest, TakesCandidatesUpToTheLimitAndCountsTheRest) {
-  CorrectedPath corrected = with_limit(2);
+  CorrectedPath corrected = with_limit(10);
   EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
   EXPECT_TRUE(corrected.take(bump(corrected, 15.0, 0.5)));
   EXPECT_FALSE(corrected.needed_keyframes());
@@ -52,22 +51,22 @@ TEST_F(CorrectedPathTest, TakesCandidatesUpToTheLimitAndCountsTheRest) {
   EXPECT_FALSE(corrected.take(third));
   EXPECT_EQ(corrected.path().at(25.0).position.y(), before_m);
   corrected.count_refused(third);
-  EXPECT_EQ(corrected.needed_keyframes(), 3u);
-  EXPECT_EQ(corrected.inserted_s(), (std::set<double>{5.0, 15.0}));
+  EXPECT_EQ(corrected.needed_keyframes(), 15u);
+  EXPECT_EQ(corrected.inserted_s(), (std::vector<double>{3, 4, 5, 6, 7, 13, 14, 15, 16, 17}));
 }
 
-TEST_F(CorrectedPathTest, CountsABumpAtTheSameTimeOnce) {
-  CorrectedPath corrected = with_limit(1);
+TEST_F(CorrectedPathTest, CountsAKnotThatIsThereAlreadyOnce) {
+  CorrectedPath corrected = with_limit(5);
   EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.5)));
   EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.2)));
-  EXPECT_EQ(corrected.inserted_s().size(), 1u);
+  EXPECT_FALSE(corrected.take(bump(corrected, 6.0, 0.2)));
+  EXPECT_EQ(corrected.inserted_s().size(), 5u);
 }
 
-TEST_F(CorrectedPathTest, CountsNoBumpThatIsSmallOrAtAKeyframe) {
-  CorrectedPath corrected = with_limit(0);
-  EXPECT_TRUE(corrected.take(bump(corrected, 5.0, 0.005)));
-  EXPECT_TRUE(corrected.take(bump(corrected, 10.2, 0.5)));
-  EXPECT_FALSE(corrected.take(bump(corrected, 5.0, 0.5)));
+TEST_F(CorrectedPathTest, CountsNoGivenKeyframe) {
+  CorrectedPath corrected = with_limit(4);
+  EXPECT_TRUE(corrected.take(bump(corrected, 12.0, 0.5)));
+  EXPECT_EQ(corrected.inserted_s(), (std::vector<double>{11, 12, 13, 14}));
 }
 
 TEST_F(CorrectedPathTest, APartHasTheIntervalAndItsNeighbours) {

@@ -370,30 +370,35 @@ Case two_walls(testing::Random& random) {
                           at(6, {unit(random), 0, -2.5})});
 }
 
-// The sum of squares does not bound the furthest point, so other objectives may deviate less, but
-// rarely and by little.
-TEST(Ladder, ClosestStraysTheLeast) {
+// Relaxation minimises a sum of squares in place of the cost, so other objectives may cost less now
+// and then, but more on the whole.
+TEST(Ladder, ClosestCostsLeast) {
   testing::Random random(4504);
   int compared = 0;
   int beaten = 0;
+  double sum_of_closest = 0.0;
+  double sum_of_others = 0.0;
   for (int run = 0; run < 24; ++run) {
     Case c = two_walls(random);
     const CubicPath original = c.path();
     FreeSpace space(c.query(), c.options.orientation);
-    const auto deviation_m = [&](Objective objective) {
+    const auto cost = [&](Objective objective) {
       c.options.objective = objective;
       return objective_cost(Objective::kClosest, c.corrected().path, original, space,
                             Deadline::never())
           .value;
     };
-    const double closest_m = deviation_m(Objective::kClosest);
+    const double closest = cost(Objective::kClosest);
     for (const Objective objective : {Objective::kShortest, Objective::kSmoothest}) {
-      const double other_m = deviation_m(objective);
+      const double other = cost(objective);
       ++compared;
-      beaten += other_m < 0.95 * closest_m ? 1 : 0;
+      beaten += other < 0.95 * closest ? 1 : 0;
+      sum_of_closest += closest;
+      sum_of_others += other;
     }
   }
-  EXPECT_LE(beaten, compared / 8);
+  EXPECT_LE(beaten, compared / 4);
+  EXPECT_LT(sum_of_closest, sum_of_others);
 }
 
 TEST(Ladder, InsertsKeyframesWithinThePathAndBesideThoseGiven) {

@@ -29,6 +29,8 @@ std::vector<Contact> contacts(Draw& draw, const std::vector<double>& rooms_m) {
   return all;
 }
 
+constexpr double kViewingDistance_m = 6.0;
+
 /// Returns the distance of the vertex beyond the plane at which the bound is tight.
 double room_at(const BoundConstraint& bound, const Contact& contact, const StackedPoint& moved) {
   return contact.row.room_m + bound.bound_m - bound.direction.dot(moved);
@@ -38,7 +40,7 @@ TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
   Draw draw(6201);
   for (const Objective objective :
        {Objective::kClosest, Objective::kShortest, Objective::kSmoothest}) {
-    ContactBounds bounds(objective, kRadius_m);
+    ContactBounds bounds(objective, kRadius_m, kViewingDistance_m);
     const StackedPoint moved = draw.stacked(1.0);
     std::vector<Contact> near = contacts(draw, {2.0, 0.01, -0.02});
     bounds.add(4, moved, kReply, near);
@@ -59,9 +61,14 @@ TEST(ContactBounds, KeepAGapHardWhereThereIsRoomAndElseMostOfIt) {
   }
 }
 
+TEST(ContactBounds, WantHalfTheRadiusWhereThatShiftsThePictureLittle) {
+  EXPECT_EQ(ContactBounds(Objective::kClosest, 0.1, 100.0).wanted_m(), 0.05);
+  EXPECT_EQ(ContactBounds(Objective::kClosest, 1.0, 2.0).wanted_m(), 0.03);
+}
+
 TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
   Draw draw(6202);
-  ContactBounds bounds(Objective::kSafest, kRadius_m);
+  ContactBounds bounds(Objective::kSafest, kRadius_m, kViewingDistance_m);
   EXPECT_EQ(bounds.wanted_m(), kComfort * kRadius_m);
   bounds.keep(0.05);
   const StackedPoint moved = draw.stacked(1.0);
@@ -86,7 +93,7 @@ TEST(ContactBounds, OfSafestPushOneVertexOfEachTriangleAndDoNotTurnForIt) {
 TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
   Draw draw(6203);
   const auto moved_m = [](double response) {
-    ContactBounds bounds(Objective::kSafest, kRadius_m);
+    ContactBounds bounds(Objective::kSafest, kRadius_m, kViewingDistance_m);
     StackedPoint along = StackedPoint::Zero();
     along[0] = 1.0;
     std::vector<Contact> near = {contact(along, 0.6, 0, 0)};
@@ -106,7 +113,7 @@ TEST(ContactBounds, OfSafestMoveAStiffPathLess) {
 
 TEST(ContactBounds, RememberForcesForTheNextTime) {
   Draw draw(6204);
-  ContactBounds bounds(Objective::kClosest, kRadius_m);
+  ContactBounds bounds(Objective::kClosest, kRadius_m, kViewingDistance_m);
   std::vector<Contact> near = contacts(draw, {0.01, 0.2});
   bounds.add(0, StackedPoint::Zero(), kReply, near);
   double force = 1.0;

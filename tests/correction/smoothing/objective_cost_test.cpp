@@ -59,8 +59,7 @@ TEST(ObjectiveCost, IsWhatMeasuresSay) {
     const auto value = [&](Objective objective) { return c.cost(objective, path, original).value; };
     // Both sample each piece, one of them twice as densely.
     EXPECT_NEAR(value(Objective::kShortest), measures.length_m, 2e-3 * measures.length_m);
-    EXPECT_NEAR(value(Objective::kClosest), measures.largest_deviation_m,
-                2e-2 * measures.largest_deviation_m);
+    EXPECT_EQ(value(Objective::kClosest), closeness_cost(path, original, c.space().closeness()));
     EXPECT_NEAR(value(Objective::kSmoothest), measures.bending_energy_m2_per_s3,
                 1e-9 * measures.bending_energy_m2_per_s3);
   }

@@ -49,9 +49,11 @@ struct Case {
   }
   /// Returns the value of the objective; the lever arm is that of the relaxation.
   [[nodiscard]] double value(const Offsets& offsets, Ends ends, Objective objective) const {
-    const double lever_m = 4.0 * space().ball_radius_m();
+    const double lever_m =
+        4.0 * (objective == Objective::kClosest ? space().closeness().turn_lever_m
+                                                : space().ball_radius_m());
     const FreeCoefficients free(problem, offsets.knots, ends);
-    return SmoothingForm(problem, free, objective, lever_m)
+    return SmoothingForm(problem, free, objective, lever_m, Improvement().fade_s)
         .value(free.variables_of(offsets, lever_m));
   }
 };
@@ -272,14 +274,20 @@ TEST(Relaxation, ReachesTheMinimumInTheOpen) {
   c.build();
   c.problem = testing::problem_of_leg(
       {at(0, {0, 0, 3}), at(1, {0.5, 0, 1}), at(3, {0, 0.3, -1}), at(4, {0, 0, -3})}, 1);
+  // Another path than the original, as a row that adds nothing is no correction.
+  const motion::BumpRow bump{
+      motion::KnotRow::about(2.0, 0.3, nullptr), 2, {{{0.2, 0, 0}, geometry::Vec4::Zero()}}};
+  c.problem.original = motion::with_bumps(c.problem.path, std::vector{bump});
   const std::optional<Relaxed> free =
       correction_with(c, lifted(c.problem, 16, {0, 2, 0}), Ends::kFree);
   ASSERT_TRUE(free);
   for (const Objective objective : kObjectives) {
     const Relaxed result = relaxed_fully(c, *free, Ends::kFree, objective);
-    const double lever_m = 4.0 * c.space().ball_radius_m();
+    const double lever_m =
+        4.0 * (objective == Objective::kClosest ? c.space().closeness().turn_lever_m
+                                                : c.space().ball_radius_m());
     const FreeCoefficients coefficients(c.problem, free->offsets.knots, Ends::kFree);
-    const SmoothingForm form(c.problem, coefficients, objective, lever_m);
+    const SmoothingForm form(c.problem, coefficients, objective, lever_m, Improvement().fade_s);
     const double start = form.value(coefficients.variables_of(free->offsets, lever_m));
     const double reached = form.value(coefficients.variables_of(result.offsets, lever_m));
     const double least = form.value(form.minimum());

@@ -13,6 +13,7 @@
 namespace camway::correction {
 namespace {
 
+using motion::BumpRow;
 using motion::CubicPath;
 using motion::CubicPoint;
 using motion::KnotRow;
@@ -22,6 +23,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 // Bound on the rounding of some hundred sums and products of numbers up to 10.
 constexpr double kRounding = 1e-12;
 constexpr double kLever_m = 0.4;
+constexpr double kFade_s = 0.7;
 
 /// An interval of a random tour: at its beginning, at its end, between others, or alone.
 struct Case {
@@ -183,12 +185,10 @@ StackedPoint on(const CubicPath& path, double time_s) {
 
 /// Returns the objective from single control points; its weights are part of the computation.
 double value_of(const Case& c, Objective objective, const Offsets& offsets, int first, int last) {
-  const bool is_near = objective == Objective::kClosest || objective == Objective::kSafest;
-  const double distance = is_near ? 1.0 : 0.0;
+  const double distance = objective == Objective::kSafest ? 1.0 : 0.0;
   const double stretch = objective == Objective::kShortest ? 1.0 : 0.0;
   double bend = 1.0;
   if (objective == Objective::kShortest) bend = std::pow(0.1 * c.knots.count, 2.0);
-  if (objective == Objective::kClosest) bend = std::pow(1.5 * c.knots.count, 4.0);
   if (objective == Objective::kSafest) bend = std::pow(0.2 * c.knots.count, 4.0);
   const auto control_point = [&](int k) -> StackedPoint {
     return on(c.problem.path, c.knots.knot_s(k)) + stacked(offsets(k), kLever_m);
@@ -214,7 +214,7 @@ template <class Check>
 void for_many_forms(Draw& draw, int count, const Check& check) {
   for_many(draw, count, [&](const Case& c, Ends, const FreeCoefficients& free) {
     for (const Objective objective : kObjectives)
-      check(c, free, objective, SmoothingForm(c.problem, free, objective, kLever_m));
+      check(c, free, objective, SmoothingForm(c.problem, free, objective, kLever_m, kFade_s));
   });
 }
 
@@ -223,12 +223,85 @@ TEST(SmoothingForm, IsTheSumOfSquaresOfControlPoints) {
   for_many_forms(draw, 60,
                  [&](const Case& c, const FreeCoefficients& free, Objective objective,
                      const SmoothingForm& form) {
+                   if (objective == Objective::kClosest) return;
                    const StackedPoints variables = draw.points(free.size(), 1.0);
                    const double expected =
                        value_of(c, objective, free.offsets_of(variables, kLever_m), free.first(),
                                 free.last());
                    ASSERT_NEAR(form.value(variables), expected, kRounding * expected);
                  });
+}
+
+/// Half of ∫ d² + τ⁴ d''² dt over the row, by Simpson's rule on many steps between two knots.
+double integral_of_offset(const Case& c, const FreeCoefficients& free, const CubicPath& path) {
+  constexpr int kSteps = 64;
+  const auto integrand = [&](double time_s) {
+    const CubicPoint now = path.at(time_s);
+    const CubicPoint was = c.problem.original.at(time_s);
+    const CubicPoint bent = path.second_derivative(time_s);
+    const CubicPoint was_bent = c.problem.original.second_derivative(time_s);
+    const StackedPoint d = stacked(now, kLever_m) - stacked(was, kLever_m);
+    const StackedPoint dd = stacked(bent, kLever_m) - stacked(was_bent, kLever_m);
+    return d.squaredNorm() + std::pow(kFade_s, 4.0) * dd.squaredNorm();
+  };
+  double sum = 0.0;
+  for (int k = free.first() - 2; k < free.last() + 2; ++k) {
+    const double begin_s = std::max(c.knots.knot_s(k), path.begin_s());
+    const double end_s = std::min(c.knots.knot_s(k + 1), path.end_s());
+    if (!(begin_s < end_s)) continue;
+    // The second derivative of the original jumps at its joints, which coincide with knots.
+    const double inset_s = 1e-9 * (end_s - begin_s);
+    for (int i = 0; i <= kSteps; ++i) {
+      const double weight = i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+      const double share = static_cast<double>(i) / kSteps;
+      sum += weight * (end_s - begin_s) / (3.0 * kSteps) *
+             integrand(std::lerp(begin_s + inset_s, end_s - inset_s, share));
+    }
+  }
+  return 0.5 * sum;
+}
+
+TEST(SmoothingForm, OfTheClosestPathIsTheIntegralOfTheOffsetAndItsBending) {
+  Draw draw(4109);
+  for_many(draw, 40, [&](Case c, Ends ends, const FreeCoefficients& free) {
+    c.problem.path = c.problem.original;
+    const SmoothingForm form(c.problem, free, Objective::kClosest, kLever_m, kFade_s);
+    const StackedPoints variables = draw.points(free.size(), 1.0);
+    const BumpRow row = bumps_for(free.offsets_of(variables, kLever_m), ends);
+    const double expected =
+        integral_of_offset(c, free, motion::with_bumps(c.problem.path, std::vector{row}));
+    // Simpson's rule is of fourth order: 1/64^4 is 6e-8; the insets weigh 1e-9.
+    ASSERT_NEAR(form.value(variables), expected, 1e-6 * expected);
+  });
+}
+
+// A row about a keyframe keeps it: the coefficient there follows from its neighbours.
+TEST(FreeCoefficients, KeepAKeyframeWithinARowWithFixedEnds) {
+  Draw draw(4110);
+  for (int run = 0; run < 50; ++run) {
+    const std::vector<motion::Keyframe> keyframes = testing::random_keyframes(draw, 3);
+    const Problem problem = testing::problem_of_leg(keyframes, 1);
+    const double keyframe_s = keyframes[1].time_s;
+    const double before_s = (keyframe_s - keyframes[0].time_s) / draw.integer(3, 6);
+    const double after_s = (keyframes[2].time_s - keyframe_s) / draw.integer(4, 8);
+    const KnotRow knots = KnotRow::at({keyframe_s - 2 * before_s, keyframe_s - before_s, keyframe_s,
+                                       keyframe_s + after_s, keyframe_s + 2 * after_s,
+                                       keyframe_s + 3 * after_s},
+                                      nullptr);
+    const FreeCoefficients free(problem, knots, Ends::kFixed);
+    ASSERT_EQ(free.size(), 1);
+    ASSERT_TRUE(free.is_held(2));
+    const StackedPoints variables = draw.points(1, 1.0);
+    const StackedPoint moved = combined(free.at(keyframe_s), variables);
+    ASSERT_LT(moved.norm(), kRounding);
+    ASSERT_GT(combined(free.at(keyframe_s + after_s), variables).norm(), 0.01 * variables.norm());
+    const CubicPath after = motion::with_bumps(
+        problem.path, std::vector{bumps_for(free.offsets_of(variables, 1.0), Ends::kFixed)});
+    const double middle_s = keyframe_s + 0.7 * after_s;
+    const StackedPoint added = combined(free.at(middle_s), variables);
+    const StackedPoint is = stacked(after.at(middle_s), 1.0) - stacked(problem.path.at(middle_s), 1.0);
+    ASSERT_LT((added - is).norm(), kRounding);
+  }
 }
 
 // Difference quotients of a quadratic are exact up to the rounding of the value, which is large

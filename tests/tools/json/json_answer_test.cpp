@@ -36,8 +36,17 @@ double any_angle(testing::Random& random) {
 
 motion::PathMeasures any_measures(testing::Random& random) {
   const auto number = [&] { return any_double(random); };
-  return {number(), number(),          number(),          number(),
-          number(), any_angle(random), any_angle(random), number()};
+  const auto angle = [&] { return any_angle(random); };
+  return {.length_m = number(),
+          .largest_deviation_m = number(),
+          .largest_shift_rad = angle(),
+          .mean_shift_rad = angle(),
+          .bending_energy_m2_per_s3 = number(),
+          .largest_speed_m_per_s = number(),
+          .largest_acceleration_m_per_s2 = number(),
+          .largest_turn_rate_rad_per_s = angle(),
+          .largest_turn_acceleration_rad_per_s2 = angle(),
+          .clearance_lower_bound_m = number()};
 }
 
 /// Adds a random subset of the fields about correction.
@@ -51,6 +60,7 @@ void add_any_report(planning::PlanResult& result, testing::Random& random) {
     correction.t_end_s = number();
     correction.moved_m = number();
     correction.turned_rad = any_angle(random);
+    correction.shift = {any_angle(random), any_angle(random)};
     const auto count = [&] { return static_cast<std::int32_t>(random() >> 33); };
     if (correction.kind == correction::CorrectionKind::kNone) {
       correction.tried = {count(), count(), count(), count()};
@@ -272,6 +282,7 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   correction.t_end_s = 3.0;
   correction.moved_m = 0.125;
   correction.turned_rad = std::numbers::pi / 2;
+  correction.shift = {std::numbers::pi, std::numbers::pi / 4};
   result.corrections = {correction};
   motion::PathMeasures measures;
   measures.length_m = 4.0;
@@ -285,10 +296,10 @@ TEST(JsonResponse, SaysWhatCorrectionDid) {
   result.slowed = {{2.0, 4.0, 1.5, 2.5}};
   const std::string text = *write_plan_response(result).value;
   EXPECT_THAT(text, HasSubstr(R"("corrections": [
-    {"t_begin": 2.25, "t_end": 2.75, "kind": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0}
+    {"t_begin": 2.25, "t_end": 2.75, "kind": "go_round", "changed": [2.0, 3.0], "moved_m": 0.125, "turned_deg": 90.0, "largest_shift_deg": 180.0, "mean_shift_deg": 45.0}
   ],
   "measures": {
-    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
+    "before": {"length_m": 4.0, "largest_deviation_m": 0.0, "largest_shift_deg": 0.0, "mean_shift_deg": 0.0, "bending_energy_m2_per_s3": 0.0, "largest_speed_m_per_s": 0.0, "largest_acceleration_m_per_s2": 0.0, "largest_turn_rate_deg_per_s": 180.0, "largest_turn_acceleration_deg_per_s2": 0.0, "clearance_lower_bound_m": 0.0},
     "after": {"length_m": 5.0,)"));
   EXPECT_THAT(text, HasSubstr(R"("near_scale": 0.75,
   "time_scale": 1.5,

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "daemon/motion/spline/cubic_path.h"
+
+namespace camway::correction {
+
+/// The scale on which changes of a path are compared.
+///
+/// The *shift* of a pose from the interpolated pose at the same time is the angle by which a point
+/// moves in the picture that lies at the viewing distance D: turn + move / D, to first order. For a
+/// body that is no camera, a turn counts by the motion of the body's points.
+///
+/// The *cost* of a corrected path is ∫ shift dt + `kAccelerationWeight_rad` · ∫ (c/a)² dt, where c
+/// is the second derivative of the offset from the interpolated path and a the reference
+/// acceleration. The first term wants corrections small and short, the second wants them gentle.
+/// A bump of height h on knots s apart costs least at s⁴ = 12 · `kAccelerationWeight_rad` · h · D /
+/// a² (`best_spacing_s`), so larger corrections are longer.
+struct Closeness {
+  double viewing_distance_m = 3.0;  ///< D
+  /// A turn by an angle counts as much as a move by this length times the angle: D for a camera,
+  /// the radius of the body for another body. [Units: metres]
+  double turn_lever_m = 3.0;
+  double acceleration_m_per_s2 = 1.0;  ///< a: reference acceleration of the interpolated path
+
+  /// The spacing of the knots of a bump of this height that costs least. [Limit: 0 < height_m]
+  [[nodiscard]] double best_spacing_s(double height_m) const;
+};
+
+/// Price of a correction that accelerates as much as the path itself: the trade-off between short
+/// and gentle corrections. [Units: radians]
+inline constexpr double kAccelerationWeight_rad = 0.025;
+
+/// Largest and mean shift of a part of a path. [Units: radians]
+struct Shift {
+  double largest_rad = 0.0;
+  double mean_rad = 0.0;
+
+  bool operator==(const Shift&) const = default;
+};
+
+/// Compares `path` with `original` by samples. Requires `original` to cover the time of `path`.
+Shift shift_of(const motion::CubicPath& path, const motion::CubicPath& original,
+               const Closeness& closeness);
+
+/// The cost of `path`, by samples of the shift; the second term is exact for positions. Requires
+/// `original` to cover the time of `path`, and each joint of `original` there to be one of `path`.
+/// [Units: radian seconds]
+double closeness_cost(const motion::CubicPath& path, const motion::CubicPath& original,
+                      const Closeness& closeness);
+
+/// The reference acceleration of an interpolated path: the 99th percentile of its acceleration, and
+/// at least that of a circle of the radius `viewing_distance_m` at the mean speed. Above 0.
+double reference_acceleration_m_per_s2(const motion::CubicPath& interpolated,
+                                       double viewing_distance_m);
+
+}  // namespace camway::correction

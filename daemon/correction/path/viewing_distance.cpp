@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "daemon/correction/path/viewing_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace camway::correction {
+
+namespace {
+
+using geometry::Vec3;
+
+constexpr int kRays = 9;
+constexpr int kMostSteps = 40;           // along a ray
+constexpr double kNearEnough = 0.02;     // share of the distance: the ray has met the scene
+constexpr double kLeastAdvance_m = 0.01;
+
+/// Sphere tracing (Hart 1996): no obstacle is nearer than the gap, so the ray may advance by it.
+double distance_along_view_m(const motion::Pose& pose, const FreeSpace& space) {
+  const Vec3 view_W = pose.orientation * -Vec3::UnitZ();
+  double along_m = 0.0;
+  for (int i = 0; i < kMostSteps && along_m < kMostViewingDistance_m; ++i) {
+    const double gap_m =
+        space.ball_gap_m(pose.position + along_m * view_W, 0.0, kMostViewingDistance_m);
+    if (gap_m <= kNearEnough * along_m) break;
+    along_m += std::max(gap_m, kLeastAdvance_m);
+  }
+  return std::clamp(along_m, kLeastViewingDistance_m, kMostViewingDistance_m);
+}
+
+}  // namespace
+
+double viewing_distance_m(const motion::CubicPath& interpolated, const FreeSpace& space) {
+  std::vector<double> distances_m;
+  for (int i = 0; i < kRays; ++i) {
+    const double share = (i + 0.5) / kRays;
+    const double time_s = std::lerp(interpolated.begin_s(), interpolated.end_s(), share);
+    distances_m.push_back(distance_along_view_m(interpolated.pose(time_s), space));
+  }
+  std::ranges::sort(distances_m);
+  return distances_m[kRays / 2];
+}
+
+Closeness closeness_of(const motion::CubicPath& interpolated, const FreeSpace& space,
+                       double viewing_distance_m) {
+  Closeness closeness;
+  closeness.viewing_distance_m =
+      viewing_distance_m > 0.0 ? viewing_distance_m
+                               : correction::viewing_distance_m(interpolated, space);
+  closeness.turn_lever_m =
+      space.body().is_camera() ? closeness.viewing_distance_m : space.ball_radius_m();
+  closeness.acceleration_m_per_s2 =
+      reference_acceleration_m_per_s2(interpolated, closeness.viewing_distance_m);
+  return closeness;
+}
+
+}  // namespace camway::correction
