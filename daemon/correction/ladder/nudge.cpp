@@ -286,7 +286,7 @@ class Nudger {
     return std::move(better.candidate);
   }
 
-  /// What the nudge adds to the path at the middle of the collision.
+  /// The offset by which the nudge changes the path at the middle of the collision.
   [[nodiscard]] CubicPoint offset_of(const Vec3& direction_W, double amount) const {
     const SignedPose wanted = nudged(samples_[0], direction_W, amount);
     const CubicPoint old = problem_.path.at(middle_s_);
