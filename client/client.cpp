@@ -11,7 +11,7 @@
 #include "client/engine/engine.h"
 #include "client/engine/handler.h"
 #include "client/engine/plan_call.h"
-#include "client/messages/constraints.h"
+#include "client/messages/bounds.h"
 #include "client/messages/scene.h"
 
 namespace camway {
@@ -180,7 +180,7 @@ SceneAnswer Client::load_scene(const std::string& scene, const SceneMesh& mesh,
                                double occupancy_resolution_m, const Bounds& body_bounds) {
   scene_request_t request = request_for(scene_request_t::LOAD, scene);
   request.occupancy_resolution_m = occupancy_resolution_m;
-  put(body_bounds, request.body_bounds);
+  convert(body_bounds, request.body_bounds);
   const Bytes upload = put_mesh(mesh, request);
   return impl_->ask(std::move(request), upload);
 }

@@ -79,7 +79,7 @@ void PlanCall::take_progress(std::span<const std::uint8_t> bytes) {
   if (!decoded.message || decoded.message->client_id != context_.options().client_id) return;
   retry().note_life();
   PlanProgress progress;
-  read(*decoded.message, progress);
+  convert(*decoded.message, progress);
   call_handler(handlers_.on_progress, progress);
 }
 

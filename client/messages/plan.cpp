@@ -130,7 +130,7 @@ std::optional<std::string> fault_in_form(const PlanRequest& request) {
 std::vector<Bytes> to_pages(const PlanRequest& request, const std::string& client_id,
                             std::int64_t request_id) {
   plan_request_t wire{};
-  put(request, wire);
+  convert(request, wire);
   wire.client_id = client_id;
   wire.request_id = request_id;
   wire.utime = microseconds_since_1970();
@@ -181,9 +181,9 @@ PlanResponse PlanCollector::response() const {
   for (const auto& [number, page] : pages_) wire::append_page(whole, page);
   if (const auto fault = fault_in(whole)) return bad_answer(whole, *fault);
   PlanResponse response;
-  read(whole, response);
+  convert(whole, response);
   std::vector<Segment> segments;
-  read(whole.segments, segments);
+  convert(whole.segments, segments);
   response.path = Path(std::move(segments));
   return response;
 }

@@ -1,87 +1,141 @@
 // SPDX-License-Identifier: MIT
 #include "client/messages/plan_members.h"
 
-#include "client/messages/body.h"
-#include "client/messages/constraints.h"
+#include <span>
+
+#include "client/messages/bounds.h"
 #include "client/messages/members.h"
 
 namespace camway {
 namespace {
 
+static_assert(static_cast<int>(Body::Shape::kMesh) == body_t::MESH);
 static_assert(static_cast<int>(Correction::Method::kShrink) == correction_t::SHRINK);
+static_assert(static_cast<int>(Objective::kSafest) == plan_request_t::SAFEST);
+static_assert(static_cast<int>(Orientation::Policy::kTarget) == orientation_t::TARGET);
 static_assert(static_cast<int>(PlanProgress::Stage::kCertifying) == plan_progress_t::CERTIFYING);
 static_assert(static_cast<int>(Priority::kLow) == plan_request_t::LOW);
 
 }  // namespace
 
-void put(const Keyframe& mine, keyframe_t& wire) {
+void convert(const Keyframe& mine, keyframe_t& wire) {
   static_assert(wire::lacks_only<keyframe_t, Keyframe>({"origin", "repaired"}));
-  put_common(mine, wire);
+  convert_common(mine, wire);
 }
 
-void put(const PlanRequest& mine, plan_request_t& wire) {
+void convert(const keyframe_t& wire, Keyframe& mine) { convert_common(wire, mine); }
+
+void convert(const Orientation& mine, orientation_t& wire) {
+  static_assert(wire::lacks_only<orientation_t, Orientation>({"has_max_turn"}));
+  convert_common(mine, wire);
+  wire.has_max_turn = mine.max_turn_rad ? 1 : 0;
+}
+
+void convert(const orientation_t& wire, Orientation& mine) {
+  convert_common(wire, mine);
+  if (wire.has_max_turn == 0) mine.max_turn_rad.reset();
+}
+
+/// Writes the lists that the shape uses; the daemon refuses others.
+void convert(const Body& mine, body_t& wire) {
+  convert(mine.shape, wire.type);
+  convert(mine.center_m, wire.center_m);
+  convert(mine.size_m, wire.size_m);
+  wire.radius_m = mine.radius_m;
+  if (mine.shape == Body::Shape::kConvex) {
+    for (const std::vector<Body::Point>& piece : mine.pieces_m) {
+      wire.piece_sizes.push_back(static_cast<std::int32_t>(piece.size()));
+      convert(piece, wire.points_m);
+    }
+  } else if (mine.shape == Body::Shape::kMesh) {
+    convert(mine.vertices_m, wire.points_m);
+    convert(mine.triangles, wire.triangles);
+  }
+  wire::set_counts(wire);
+}
+
+void convert(const body_t& wire, Body& mine) {
+  static_assert(wire::lacks_only<body_t, Body>({"type", "piece_sizes", "points_m"}));
+  convert_common(wire, mine);
+  convert(wire.type, mine.shape);
+  if (mine.shape == Body::Shape::kMesh) convert(wire.points_m, mine.vertices_m);
+  auto next = wire.points_m.begin();
+  for (const std::int32_t size : wire.piece_sizes) {
+    convert(std::span(next, next + size), mine.pieces_m.emplace_back());
+    next += size;
+  }
+}
+
+void convert(const PlanRequest& mine, plan_request_t& wire) {
   static_assert(wire::lacks_only<plan_request_t, PlanRequest>(
       {"client_id", "utime", "page", "num_pages", "correct_nothing", "has_times", "has_frame"}));
-  put_common(mine, wire);
+  convert_common(mine, wire);
   wire.correct_nothing = mine.max_inserted_keyframes == 0 ? 1 : 0;
   wire.has_times = !mine.keyframes.empty() && mine.keyframes.front().time_s ? 1 : 0;
   wire.has_frame = mine.frame ? 1 : 0;
   wire::set_counts(wire);
 }
 
-void read(const keyframe_t& wire, PathKeyframe& mine) {
+void convert(const plan_request_t& wire, PlanRequest& mine) {
+  convert_common(wire, mine);
+  if (wire.has_frame == 0) mine.frame.reset();
+  if (wire.has_times != 0) return;
+  for (Keyframe& keyframe : mine.keyframes) keyframe.time_s.reset();
+}
+
+void convert(const keyframe_t& wire, PathKeyframe& mine) {
   static_assert(wire::lacks_only<keyframe_t, PathKeyframe>({"origin"}));
-  read_common(wire, mine);
+  convert_common(wire, mine);
   mine.inserted = wire.origin == keyframe_t::ORIGIN_INSERTED;
 }
 
-void read(const collision_interval_t& wire, CollisionInterval& mine) {
+void convert(const collision_interval_t& wire, CollisionInterval& mine) {
   mine.t_begin_s = wire.t_begin_s;
   mine.t_end_s = wire.t_end_s;
   if (wire.has_witness == 0) return;
   mine.witness = Witness{wire.witness_time_s,  wire.witness_object,  wire.witness_triangle,
                          wire.witness_feature, wire.witness_depth_m, {}};
-  read(wire.witness_point_m, mine.witness->point_m);
+  convert(wire.witness_point_m, mine.witness->point_m);
 }
 
-void read(const correction_t& wire, Correction& mine) {
+void convert(const correction_t& wire, Correction& mine) {
   static_assert(wire::lacks_only<correction_t, Correction>(
       {"tried_directions", "tried_paths", "tried_lattice_points", "tried_tree_samples"}));
-  read_common(wire, mine);
+  convert_common(wire, mine);
   mine.tried = {wire.tried_directions, wire.tried_paths, wire.tried_lattice_points,
                 wire.tried_tree_samples};
 }
 
-void read(const keyframe_fault_t& wire, KeyframeFault& mine) {
+void convert(const keyframe_fault_t& wire, KeyframeFault& mine) {
   static_assert(wire::lacks_only<keyframe_fault_t, KeyframeFault>(
       {"has_free_pose", "free_position_m", "free_orientation_wxyz"}));
-  read_common(wire, mine);
+  convert_common(wire, mine);
   if (wire.has_free_pose == 0) return;
-  read(wire.free_position_m, mine.free_pose.emplace().position_m);
-  read(wire.free_orientation_wxyz, mine.free_pose->orientation_wxyz);
+  convert(wire.free_position_m, mine.free_pose.emplace().position_m);
+  convert(wire.free_orientation_wxyz, mine.free_pose->orientation_wxyz);
 }
 
-void read(const plan_response_t& wire, PlanResponse& mine) {
+void convert(const plan_response_t& wire, PlanResponse& mine) {
   static_assert(wire::lacks_only<plan_response_t, PlanResponse>(
       {"client_id", "utime", "page", "num_pages", "has_measures_before", "has_measures",
        "has_infeasibility", "keyframe_inside", "keyframe_outside", "has_cage", "proof_cage",
        "motion_ms", "detect_ms", "correct_ms", "certify_ms", "total_ms", "segments",
        "proof_triangles", "has_frame"}));
-  read_common(wire, mine);
-  read_common(wire, mine.timing);
+  convert_common(wire, mine);
+  convert_common(wire, mine.timing);
   if (wire.has_frame == 0) mine.frame.reset();
   if (wire.has_measures_before == 0) mine.measures_before.reset();
   if (wire.has_measures == 0) mine.measures.reset();
   if (wire.has_infeasibility == 0) return;
-  read_common(wire, mine.infeasibility.emplace());
+  convert_common(wire, mine.infeasibility.emplace());
   mine.infeasibility->triangles = wire.proof_triangles;
-  if (wire.has_cage != 0) read(wire.proof_cage, mine.infeasibility->cage);
+  if (wire.has_cage != 0) convert(wire.proof_cage, mine.infeasibility->cage);
 }
 
-void read(const plan_progress_t& wire, PlanProgress& mine) {
+void convert(const plan_progress_t& wire, PlanProgress& mine) {
   static_assert(
       wire::lacks_only<plan_progress_t, PlanProgress>({"client_id", "request_id", "utime"}));
-  read_common(wire, mine);
+  convert_common(wire, mine);
   const bool is_known =
       wire.stage >= plan_progress_t::WAITING && wire.stage <= plan_progress_t::CERTIFYING;
   if (!is_known) mine.stage = PlanProgress::Stage::kWaiting;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "client/messages/constraints.h"
+#include "client/messages/bounds.h"
 #include "client/messages/members.h"
 #include "lcmtypes/wire/checksum.h"
 #include "lcmtypes/wire/layout.h"
@@ -45,7 +45,7 @@ struct ShapeWriter {
   }
   Bytes operator()(const SceneBox& box) const {
     request.kind = scene_request_t::BOX;
-    put(box.size_m, request.size_m);
+    convert(box.size_m, request.size_m);
     return {};
   }
   Bytes operator()(const SceneSphere& sphere) const {
@@ -83,21 +83,21 @@ struct ShapeWriter {
 
 SceneInfo from_wire(const scene_info_t& wire) {
   SceneInfo scene;
-  read(wire, scene);
+  convert(wire, scene);
   return scene;
 }
 
 SceneObject from_wire(const scene_object_t& wire) {
   static_assert(wire::lacks_only<scene_object_t, SceneObject>({"position_m", "orientation_wxyz"}));
   SceneObject object;
-  read_common(wire, object);
-  read_common(wire, object.pose);
+  convert_common(wire, object);
+  convert_common(wire, object.pose);
   return object;
 }
 
 SceneRevision from_wire(const scene_change_t& wire) {
   SceneRevision revision;
-  read(wire, revision);
+  convert(wire, revision);
   return revision;
 }
 
@@ -123,8 +123,8 @@ Bytes put_points(const std::vector<std::array<double, 3>>& points, scene_request
 }
 
 void put_pose(const Pose& pose, scene_request_t& request) {
-  put(pose.position_m, request.position_m);
-  put(pose.orientation_wxyz, request.orientation_wxyz);
+  convert(pose.position_m, request.position_m);
+  convert(pose.orientation_wxyz, request.orientation_wxyz);
 }
 
 upload_page_t page_of(const Bytes& bytes, std::int64_t checksum, std::int32_t page) {

@@ -5,21 +5,21 @@
 
 #include <camway/status_t.hpp>
 
-#include "client/messages/constraints.h"
+#include "client/messages/bounds.h"
 #include "client/messages/members.h"
 #include "lcmtypes/wire/channels.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/latency_buckets.h"
 
 namespace camway {
-void read(const latency_t& wire, Latency& mine) {
-  read_common(wire, mine);
+void convert(const latency_t& wire, Latency& mine) {
+  convert_common(wire, mine);
   mine.buckets.resize(std::min(wire.buckets.size(), wire::kLatencyBuckets));
 }
 
-void read(const status_t& wire, DaemonStatus& mine) {
+void convert(const status_t& wire, DaemonStatus& mine) {
   static_assert(wire::lacks_only<status_t, DaemonStatus>({"utime"}));
-  read_common(wire, mine);
+  convert_common(wire, mine);
   mine.status = Status::kOk;
   mine.failed_reload = wire::printable(wire.failed_reload);
 }
@@ -28,7 +28,7 @@ std::optional<DaemonStatus> read_status(std::span<const std::uint8_t> bytes) {
   const wire::Decoded<status_t> decoded = wire::decode<status_t>(bytes);
   if (!decoded.message) return std::nullopt;
   DaemonStatus status;
-  read(*decoded.message, status);
+  convert(*decoded.message, status);
   return status;
 }
 

@@ -85,10 +85,7 @@ plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
   const ToWire io;
   plan_response_t wire = plain_answer(0, "", header);
   planning::head_members(io, result, wire);
-  wire.segments.reserve(result.path.segments().size());
-  for (const motion::Segment& segment : result.path.segments()) {
-    io(segment, wire.segments.emplace_back());
-  }
+  io(result.path.segments(), wire.segments);
   io(result.keyframes, wire.keyframes);
   io(with_names(result.collisions, result.collision_names), wire.collisions);
   io(with_names(result.remaining_collisions, result.remaining_names), wire.remaining);

@@ -87,7 +87,7 @@ struct OptionReader {
       }
       return;
     }
-    if (wire != 0 || mine == 0) read(wire, mine);
+    if (wire != 0 || mine == 0) mine = static_cast<Number>(wire);
   }
   void operator()(const FieldSpec&, std::optional<double>& mine, double wire) const {
     if (wire != 0.0) mine = wire;
@@ -95,7 +95,7 @@ struct OptionReader {
   template <base::NamedEnum Enum>
   void operator()(const FieldSpec& spec, Enum& mine, std::int8_t wire) const {
     if (!base::value_of<Enum>(wire)) refuse(spec, std::to_string(wire));
-    read(wire, mine);
+    translate(wire, mine);
   }
   template <base::NamedEnum Enum>
   void operator()(const FieldSpec& spec, Enum& mine, const std::string& wire) const {
@@ -105,7 +105,7 @@ struct OptionReader {
   }
   void operator()(const FieldSpec&, geometry::Bounds& mine, const bounds_t& wire) const {
     if (error.empty()) error = idle_member(wire);
-    mine = bounds_of(wire);
+    translate(wire, mine);
   }
   void operator()(const FieldSpec&, correction::MotionLimits& mine,
                   const motion_limits_t& wire) const {
@@ -118,10 +118,10 @@ struct OptionReader {
     if (error.empty()) error = std::move(fault);
     mine.rule = rule.value_or(mine.rule);
     if (!is_zero(wire.up)) {
-      read(wire.up, mine.up_W);
+      FromWire{}(mine.up_W, wire.up);
       mine.up_W = planning::direction_of(mine.up_W);
     }
-    read(wire.target_m, mine.target_W);
+    FromWire{}(mine.target_W, wire.target_m);
     (*this)(spec, mine.cone_rad, wire.cone_rad);
     if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
   }
@@ -147,10 +147,11 @@ struct OptionWriter {
   }
   /// Writes the members that the rule uses.
   void operator()(const FieldSpec&, const OrientationPolicy& mine, orientation_t& wire) const {
-    put(mine.rule, wire.policy);
-    if (mine.rule == OrientationRule::kLevel) put(mine.up_W, wire.up);
+    const ToWire io;
+    io(mine.rule, wire.policy);
+    if (mine.rule == OrientationRule::kLevel) io(mine.up_W, wire.up);
     if (mine.rule == OrientationRule::kTarget) {
-      put(mine.target_W, wire.target_m);
+      io(mine.target_W, wire.target_m);
       wire.cone_rad = mine.cone_rad;
     }
     wire.has_max_turn = 1;

@@ -21,7 +21,7 @@ scene_info_t scene_info_of(const scene::Snapshot& snapshot) {
     std::copy_n(snapshot.index.bounds().min().data(), 3, info.bounds_min_m);
     std::copy_n(snapshot.index.bounds().max().data(), 3, info.bounds_max_m);
   }
-  info.body_bounds = wire_bounds(snapshot.options.bounds);
+  translate(snapshot.options.bounds, info.body_bounds);
   if (snapshot.occupancy) info.occupancy_resolution_m = snapshot.occupancy->resolution_m();
   return info;
 }

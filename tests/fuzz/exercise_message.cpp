@@ -138,7 +138,7 @@ int exercise_message(std::span<const std::uint8_t> bytes) {
   if (decoded<watch_report_t>(bytes)) ++right;
   if (const auto progress = decoded<plan_progress_t>(bytes)) {
     PlanProgress read_progress;
-    read(*progress, read_progress);
+    convert(*progress, read_progress);
     ++right;
   }
   if (const auto answer = decoded<plan_response_t>(bytes)) {

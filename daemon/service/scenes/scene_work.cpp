@@ -152,7 +152,7 @@ class SceneOperation {
       return invalid("scene: must be of [A-Za-z0-9_.-]{1,128}");
     scene::ObjectOptions options;
     options.mirror_voxels = rules_.mirror_voxels;
-    options.bounds = messages::bounds_of(request_.body_bounds);
+    messages::translate(request_.body_bounds, options.bounds);
     if (const auto fault = geometry::fault_in(options.bounds))
       return invalid("body_bounds." + fault->field + ": " + fault->reason);
     if (request_.occupancy_resolution_m != 0.0) {
