@@ -30,5 +30,23 @@ TEST(ClientRequest, EveryOptionReachesTheDaemon) {
   }
 }
 
+// The client sends a request bit for bit as the daemon itself writes it.
+TEST(ClientRequest, EveryBodyAndKeyframeReachesTheDaemon) {
+  testing::Random random(testing::kSeed);
+  for (const auto& body : testing::sample_bodies(random)) {
+    for (const std::size_t keyframes : {0U, 2U, 9U}) {
+      planning::PlanRequest request = testing::sample_request(keyframes, random);
+      if (keyframes == 0) request.has_times = false;  // the client has times in keyframes alone
+      request.body = body;
+      request.scene = "room";
+      auto page =
+          wire::decode<plan_request_t>(to_pages(to_client_request(request, "room"), "me", 7).at(0));
+      ASSERT_TRUE(page.message) << page.fault.text("plan_request_t");
+      page.message->utime = 0;
+      EXPECT_EQ(wire::encode(*page.message), wire::encode(messages::to_wire(request, {"me", 7})));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace camway::tools
