@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "daemon/messages/members.h"
+#include "daemon/planning/request/body_members.h"
 #include "lcmtypes/wire/layout.h"
 
 namespace camway::messages {
@@ -15,134 +17,107 @@ namespace {
 
 using geometry::Vec3;
 using motion::BodyShape;
+using planning::FieldSpec;
+using Points = std::vector<std::vector<double>>;
 
 static_assert(wire::kMaxBodyPoints == motion::kMaxBodyPoints);
 static_assert(wire::kMaxBodyTriangles == motion::kMaxBodyTriangles);
+static_assert(planning::kShapeNames[body_t::MESH] == "mesh");
 
-Vec3 vec3(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
-Vec3 vec3(const std::vector<double>& from) { return {from[0], from[1], from[2]}; }
-
-void add_points(const std::vector<Vec3>& points, body_t& wire) {
-  for (const Vec3& point : points) wire.points_m.push_back({point.x(), point.y(), point.z()});
-  wire.num_points = static_cast<std::int32_t>(wire.points_m.size());
-}
-
-void fill(const motion::Camera&, body_t& wire) { wire.type = body_t::CAMERA; }
-
-void fill(const motion::BoxShape& box, body_t& wire) {
-  wire.type = body_t::BOX;
-  std::copy_n(box.center_C.data(), 3, wire.center_m);
-  std::copy_n(box.size_m.data(), 3, wire.size_m);
-}
-
-void fill(const motion::SphereShape& sphere, body_t& wire) {
-  wire.type = body_t::SPHERE;
-  std::copy_n(sphere.center_C.data(), 3, wire.center_m);
-  wire.radius_m = sphere.radius_m;
-}
-
-void fill(const motion::ConvexShape& convex, body_t& wire) {
-  wire.type = body_t::CONVEX;
-  for (const std::vector<Vec3>& piece : convex.pieces_C) {
-    wire.piece_sizes.push_back(static_cast<std::int32_t>(piece.size()));
-    add_points(piece, wire);
+/// Writes the members of a shape.
+struct ShapeWriter {
+  template <class Mine, class Wire>
+  void operator()(const FieldSpec&, const Mine& mine, Wire& wire) const {
+    ToWire{}(mine, wire);
   }
-  wire.num_pieces = static_cast<std::int32_t>(wire.piece_sizes.size());
-}
-
-void fill(const motion::MeshShape& mesh, body_t& wire) {
-  wire.type = body_t::MESH;
-  add_points(mesh.vertices_C, wire);
-  for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {
-    wire.triangles.push_back({static_cast<std::int32_t>(t[0]), static_cast<std::int32_t>(t[1]),
-                              static_cast<std::int32_t>(t[2])});
-  }
-  wire.num_triangles = static_cast<std::int32_t>(wire.triangles.size());
-}
-
-base::Result<std::optional<BodyShape>> convex_of(const body_t& wire) {
-  motion::ConvexShape convex;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < wire.piece_sizes.size(); ++i) {
-    const std::int32_t size = wire.piece_sizes[i];
-    if (size < 0 || static_cast<std::size_t>(size) > wire.points_m.size() - next) {
-      return base::Failure{"body.piece_sizes[" + std::to_string(i) + "]: is " +
-                           std::to_string(size) + ", and " +
-                           std::to_string(wire.points_m.size() - next) + " points are left"};
+  void operator()(const FieldSpec&, const std::vector<std::vector<Vec3>>& pieces,
+                  std::vector<std::int32_t>& sizes, Points& points) const {
+    for (const std::vector<Vec3>& piece : pieces) {
+      sizes.push_back(static_cast<std::int32_t>(piece.size()));
+      ToWire{}(piece, points);
     }
-    std::vector<Vec3>& piece = convex.pieces_C.emplace_back();
-    for (std::int32_t k = 0; k < size; ++k) piece.push_back(vec3(wire.points_m[next++]));
   }
-  if (next < wire.points_m.size()) {
-    return base::Failure{"body.piece_sizes: " + std::to_string(wire.points_m.size() - next) +
-                         " points belong to no piece"};
-  }
-  return std::optional<BodyShape>(std::move(convex));
-}
+};
 
-base::Result<std::optional<BodyShape>> mesh_of(const body_t& wire) {
-  motion::MeshShape mesh;
-  for (const std::vector<double>& point : wire.points_m) mesh.vertices_C.push_back(vec3(point));
-  for (std::size_t i = 0; i < wire.triangles.size(); ++i) {
-    std::array<std::uint32_t, 3>& triangle = mesh.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t vertex = wire.triangles[i][k];
-      if (vertex < 0) {
-        return base::Failure{"body.triangles[" + std::to_string(i) + "][" + std::to_string(k) +
-                             "]: is " + std::to_string(vertex) + ", which is below 0"};
+/// Reads the members of a shape. Keeps the first error.
+struct ShapeReader {
+  std::string& error;
+
+  template <class Mine, class Wire>
+  void operator()(const FieldSpec&, Mine& mine, const Wire& wire) const {
+    FromWire{}(mine, wire);
+  }
+  void operator()(const FieldSpec&, std::vector<std::array<std::uint32_t, 3>>& triangles,
+                  const std::vector<std::vector<std::int32_t>>& wire) const {
+    FromWire{}(triangles, wire);
+    for (std::size_t i = 0; i < wire.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (wire[i][k] >= 0) continue;
+        refuse("triangles" + index(i) + index(k) + ": is " + std::to_string(wire[i][k]) +
+               ", which is below 0");
       }
-      triangle[k] = static_cast<std::uint32_t>(vertex);
     }
   }
-  return std::optional<BodyShape>(std::move(mesh));
-}
+  void operator()(const FieldSpec&, std::vector<std::vector<Vec3>>& pieces,
+                  const std::vector<std::int32_t>& sizes, const Points& points) const {
+    std::span left(points);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (sizes[i] < 0 || static_cast<std::size_t>(sizes[i]) > left.size()) {
+        return refuse("piece_sizes" + index(i) + ": is " + std::to_string(sizes[i]) + ", and " +
+                      std::to_string(left.size()) + " points are left");
+      }
+      const auto size = static_cast<std::size_t>(sizes[i]);
+      FromWire{}(pieces.emplace_back(), left.first(size));
+      left = left.subspan(size);
+    }
+    if (left.empty()) return;
+    refuse("piece_sizes: " + std::to_string(left.size()) + " points belong to no piece");
+  }
 
-/// Returns the first member that is not zero or empty though the type does not use it: its sender
-/// meant it.
-std::string idle_member(const body_t& wire) {
-  const bool is_box = wire.type == body_t::BOX;
-  const bool is_sphere = wire.type == body_t::SPHERE;
-  const bool is_convex = wire.type == body_t::CONVEX;
-  const bool is_mesh = wire.type == body_t::MESH;
-  std::string_view idle;
-  if (!is_box && !is_sphere && !is_zero(wire.center_m)) idle = "center_m";
-  if (!is_box && !is_zero(wire.size_m)) idle = "size_m";
-  if (!is_sphere && wire.radius_m != 0.0) idle = "radius_m";
-  if (!is_convex && !wire.piece_sizes.empty()) idle = "piece_sizes";
-  if (!is_convex && !is_mesh && !wire.points_m.empty()) idle = "points_m";
-  if (!is_mesh && !wire.triangles.empty()) idle = "triangles";
+  static std::string index(std::size_t i) { return "[" + std::to_string(i) + "]"; }
+  void refuse(const std::string& fault) const {
+    if (error.empty()) error = "body." + fault;
+  }
+};
+
+/// Returns an error about a member that is not zero or empty though the shape does not use it: its
+/// sender meant it.
+std::string idle_member(const body_t& wire, const BodyShape& shape) {
+  std::vector<const void*> used = {&wire.type};
+  const auto note = [&](const FieldSpec&, const auto&, const auto&... members) {
+    (used.push_back(&members), ...);
+  };
+  std::visit([&](const auto& part) { planning::visit_shape(note, part, wire); }, shape);
+  std::string idle;
+  wire::for_each_member<body_t>([&](const auto& described) {
+    const auto& member = wire.*described.member;
+    const bool is_used = std::ranges::count(used, static_cast<const void*>(&member)) > 0;
+    if (!is_used && !wire::is_blank(member)) idle = described.name;
+  });
   if (idle.empty()) return {};
-  return "body." + std::string(idle) + ": does not count with this body.type; leave it " +
-         "zero or empty, or set the type that it belongs to";
+  return "body." + idle + ": does not count with this body.type; leave it zero or empty, or set " +
+         "the type that it belongs to";
 }
 
 }  // namespace
 
-body_t wire_body(const motion::BodyShape& shape) {
+body_t wire_body(const BodyShape& shape) {
   body_t wire{};
-  std::visit([&](const auto& part) { fill(part, wire); }, shape);
+  wire.type = static_cast<std::int8_t>(shape.index());
+  std::visit([&](const auto& part) { planning::visit_shape(ShapeWriter{}, part, wire); }, shape);
+  wire::set_counts(wire);
   return wire;
 }
 
 base::Result<std::optional<BodyShape>> body_of(const body_t& wire) {
-  const bool is_known = wire.type >= body_t::CAMERA && wire.type <= body_t::MESH;
-  if (std::string error = is_known ? idle_member(wire) : ""; !error.empty()) {
-    return base::Failure{std::move(error)};
-  }
-  switch (wire.type) {
-    case body_t::CAMERA:
-      return std::optional<BodyShape>();
-    case body_t::BOX:
-      return std::optional<BodyShape>(motion::BoxShape{vec3(wire.center_m), vec3(wire.size_m)});
-    case body_t::SPHERE:
-      return std::optional<BodyShape>(motion::SphereShape{vec3(wire.center_m), wire.radius_m});
-    case body_t::CONVEX:
-      return convex_of(wire);
-    case body_t::MESH:
-      return mesh_of(wire);
-    default:
-      return base::Failure{"body.type: " + std::to_string(wire.type) + " is unknown"};
-  }
+  std::optional<BodyShape> shape = planning::blank_shape(static_cast<std::size_t>(wire.type));
+  if (!shape) return base::Failure{"body.type: " + std::to_string(wire.type) + " is unknown"};
+  std::string error = idle_member(wire, *shape);
+  const ShapeReader reader{error};
+  std::visit([&](auto& part) { planning::visit_shape(reader, part, wire); }, *shape);
+  if (!error.empty()) return base::Failure{std::move(error)};
+  if (wire.type == body_t::CAMERA) shape.reset();
+  return shape;
 }
 
 }  // namespace camway::messages

@@ -19,7 +19,4 @@ body_t wire_body(const motion::BodyShape& shape);
 /// checked by `planning::validate`.
 base::Result<std::optional<motion::BodyShape>> body_of(const body_t& wire);
 
-/// Whether a vector was left as it is in a message of zeros.
-inline bool is_zero(const double (&v)[3]) { return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0; }
-
 }  // namespace camway::messages

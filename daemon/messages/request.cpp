@@ -4,7 +4,6 @@
 #include "daemon/messages/body.h"
 #include "daemon/messages/convert.h"
 #include "daemon/messages/members.h"
-#include "daemon/messages/names.h"
 
 namespace camway::messages {
 namespace {
@@ -13,6 +12,28 @@ using correction::OrientationPolicy;
 using correction::OrientationRule;
 using geometry::Vec3;
 using planning::FieldSpec;
+
+/// Returns the name on the wire of the member at `path`. There options are members of the request,
+/// and the points of all pieces of a body are one list.
+std::string wire_name(std::string_view path) {
+  constexpr std::string_view kPieces = "body.pieces[";
+  constexpr std::string_view kGroup = "options.";
+  const std::size_t end = path.find("][");
+  if (path.starts_with(kPieces) && end != std::string_view::npos) {
+    return "body.points_m (point " + std::string(path.substr(end + 2, path.size() - end - 3)) +
+           " of piece " + std::string(path.substr(kPieces.size(), end - kPieces.size())) + ")";
+  }
+  const std::string name = planning::spell(path, planning::Spelling::kWire);
+  return name.starts_with(kGroup) ? name.substr(kGroup.size()) : name;
+}
+
+/// Returns how a message spells the members of a request. Keeps no reference to the message.
+planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
+  return [corrects_nothing = wire.correct_nothing != 0](std::string_view path) -> std::string {
+    if (corrects_nothing && path == "options.max_inserted_keyframes") return "correct_nothing";
+    return wire_name(path);
+  };
+}
 
 /// Returns an error about a member that has a value but no effect: its sender meant it.
 std::string idle_member(const plan_request_t& wire) {
@@ -27,26 +48,18 @@ std::string idle_member(const plan_request_t& wire) {
              "times 0";
     }
   }
+  if (wire.has_frame == 0 && !wire::is_blank(wire.frame)) {
+    return "frame: is not zero, and does not count without has_frame; set that, or leave it zero";
+  }
   return {};
-}
-
-/// Returns an error about a frame that has a value and does not count.
-std::string idle_member(const path_frame_t& wire) {
-  motion::PathFrame frame;
-  FromWire{}(frame, wire);
-  const auto is_idle = [](const motion::PathEnd& end) {
-    return end.velocity_m_per_s.isZero(0.0) && end.image_rate_per_s.isZero(0.0);
-  };
-  if (frame.reference.isZero(0.0) && is_idle(frame.begin) && is_idle(frame.end)) return {};
-  return "frame: is not zero, and does not count without has_frame; set that, or leave it zero";
 }
 
 /// Returns an error about a member of an orientation that has a value but no effect with this rule.
 std::string idle_member(const orientation_t& wire, OrientationRule rule) {
-  if (rule != OrientationRule::kLevel && !is_zero(wire.up)) {
+  if (rule != OrientationRule::kLevel && !wire::is_blank(wire.up)) {
     return "orientation.up: counts only with the policy LEVEL; leave it zero";
   }
-  if (rule != OrientationRule::kTarget && !is_zero(wire.target_m)) {
+  if (rule != OrientationRule::kTarget && !wire::is_blank(wire.target_m)) {
     return "orientation.target_m: counts only with the policy TARGET; leave it zero";
   }
   if (rule != OrientationRule::kTarget && wire.cone_rad != 0.0) {
@@ -117,7 +130,7 @@ struct OptionReader {
     if (!rule) refuse(spec, std::to_string(wire.policy), ".policy");
     if (error.empty()) error = std::move(fault);
     mine.rule = rule.value_or(mine.rule);
-    if (!is_zero(wire.up)) {
+    if (!wire::is_blank(wire.up)) {
       FromWire{}(mine.up_W, wire.up);
       mine.up_W = planning::direction_of(mine.up_W);
     }
@@ -177,7 +190,6 @@ base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
   request.body = *std::move(body);
 
   std::string error = idle_member(wire);
-  if (error.empty() && wire.has_frame == 0) error = idle_member(wire.frame);
   visit_options(OptionReader{error}, request.options, wire);
   if (!error.empty()) return base::Failure{std::move(error)};
   request.options.deadline_s = deadline_of(wire.deadline_s, limits);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -79,6 +80,24 @@ void set_counts(Message& message) {
   for_each_list<Message>([&](auto list, auto count) {
     message.*count = static_cast<std::int32_t>((message.*list).size());
   });
+}
+
+/// Whether a member of a message is as a sender leaves it that does not set it: zero or empty.
+template <class Member>
+bool is_blank(const Member& member) {
+  if constexpr (Described<Member>) {
+    bool blank = true;
+    for_each_member<Member>(
+        [&](const auto& part) { blank = blank && is_blank(member.*part.member); });
+    return blank;
+  } else if constexpr (std::is_array_v<Member>) {
+    return std::all_of(std::begin(member), std::end(member),
+                       [](const auto& element) { return is_blank(element); });
+  } else if constexpr (std::is_arithmetic_v<Member>) {
+    return member == Member{};
+  } else {
+    return member.empty();
+  }
 }
 
 /// Whether `names` are those members of `Message` that `Other` does not have. For a

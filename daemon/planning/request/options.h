@@ -226,12 +226,26 @@ void visit_camera(const Visit& visit, Camera&... camera) {
   visit(FieldSpec{.name = "near", .wire = "near_m"}, camera.near_m...);
 }
 
+/// Visits those members of a frame whose names differ, without their values.
+template <class Visit>
+void visit_frame(const Visit& visit) {
+  visit(FieldSpec{.name = "reference", .wire = "reference_wxyz"});
+}
+
+/// Visits those members of a keyframe whose names differ, without their values.
+template <class Visit>
+void visit_keyframe(const Visit& visit) {
+  visit(FieldSpec{.name = "time", .wire = "time_s"});
+  visit(FieldSpec{.name = "position", .wire = "position_m"});
+  visit(FieldSpec{.name = "orientation", .wire = "orientation_wxyz"});
+}
+
 /// Place whose names of members are meant.
 enum class Spelling { kWire, kFile };
 
-/// Returns the path of a member of the camera or the options, with the last name as `spelling` has
-/// it: "options.limits.turn_rate_rad_per_s" for "options.limits.turn_rate". Returns other paths as
-/// they are.
+/// Returns the path of a member of a request, with the last name as `spelling` has it:
+/// "options.limits.turn_rate_rad_per_s" for "options.limits.turn_rate", "body.size_m[2]" for
+/// "body.size[2]". Returns other paths as they are.
 std::string spell(std::string_view path, Spelling spelling);
 
 }  // namespace camway::planning

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "daemon/planning/request/request.h"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
+
+#include "daemon/planning/request/body_members.h"
 
 namespace camway::planning {
 
@@ -45,16 +48,21 @@ std::string spell(std::string_view path, Spelling spelling) {
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return std::string(path);
   const std::string_view group = path.substr(0, dot);
-  std::string_view last = path.substr(dot + 1);
+  const std::string_view indices = path.substr(std::min(path.find('[', dot), path.size()));
+  const std::string_view name = path.substr(dot + 1, path.size() - dot - 1 - indices.size());
+  std::string_view spelled = name;
   const auto visit = [&](const FieldSpec& spec) {
-    if (spec.name != path.substr(dot + 1)) return;
-    last = spelling == Spelling::kWire ? spec.wire_name() : spec.file_name();
+    if (spec.name != name) return;
+    spelled = spelling == Spelling::kWire ? spec.wire_name() : spec.file_name();
   };
   if (group == "options") visit_options(visit);
   if (group == "options.orientation") visit_orientation(visit);
   if (group == "options.limits") visit_limits(visit);
   if (group == "camera") visit_camera(visit);
-  return std::string(group) + "." + std::string(last);
+  if (group == "body") visit_body(visit);
+  if (group == "frame") visit_frame(visit);
+  if (group.starts_with("keyframes[")) visit_keyframe(visit);
+  return std::string(group) + "." + std::string(spelled) + std::string(indices);
 }
 
 }  // namespace camway::planning

@@ -97,7 +97,11 @@ TEST(OptionTable, MembersAreSpelledAsMessagesAndFilesHaveThem) {
   EXPECT_EQ(spell("options.limits.turn_rate", Spelling::kFile),
             "options.limits.turn_rate_deg_per_s");
   EXPECT_EQ(spell("camera.fov_x", Spelling::kWire), "camera.fov_x_rad");
-  EXPECT_EQ(spell("keyframes[3].time", Spelling::kWire), "keyframes[3].time");
+  EXPECT_EQ(spell("keyframes[3].time", Spelling::kWire), "keyframes[3].time_s");
+  EXPECT_EQ(spell("keyframes[3].time", Spelling::kFile), "keyframes[3].time");
+  EXPECT_EQ(spell("keyframes[3].image", Spelling::kWire), "keyframes[3].image");
+  EXPECT_EQ(spell("body.size[2]", Spelling::kWire), "body.size_m[2]");
+  EXPECT_EQ(spell("body.size[2]", Spelling::kFile), "body.size[2]");
   EXPECT_EQ(spell("camera", Spelling::kWire), "camera");
 }
 
