@@ -1,101 +1,98 @@
 // SPDX-License-Identifier: MIT
 #include "tools/json/json_body.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "daemon/planning/request/body_members.h"
+#include "tools/json/json_reader.h"
 
 namespace camway::tools {
 namespace {
 
 using geometry::Vec3;
+using planning::FieldSpec;
+using Triangle = std::array<std::uint32_t, 3>;
 
-Vec3 read_point(const Field& field) {
-  Vec3 point;
-  field.numbers(point.data(), 3);
-  return point;
-}
-
-Vec3 read_center(const Field& body) {
-  const std::optional<Field> center = body.optional_member("center");
-  return center ? read_point(*center) : Vec3::Zero();
-}
-
-/// Stops reading at one element more than a body may have: `planning::validate` then refuses the
-/// count, and a longer list costs no memory.
-std::vector<Vec3> read_points(const Field& list) {
-  std::vector<Vec3> points;
-  const std::size_t count = std::min(list.size(), motion::kMaxBodyPoints + 1);
-  for (std::size_t i = 0; i < count; ++i) points.push_back(read_point(list.element(i)));
-  return points;
-}
-
-motion::BodyShape read_box(const Field& body) {
-  body.allow_only({"type", "size", "center"});
-  return motion::BoxShape{read_center(body), read_point(body.member("size"))};
-}
-
-motion::BodyShape read_sphere(const Field& body) {
-  body.allow_only({"type", kRadius.name, "center"}, {kRadius.old_file});
-  return motion::SphereShape{read_center(body),
-                             body.member(kRadius.name, kRadius.old_file).number()};
-}
-
-motion::BodyShape read_convex(const Field& body) {
-  body.allow_only({"type", "points", "pieces"});
-  const std::optional<Field> points = body.optional_member("points");
-  const std::optional<Field> pieces = body.optional_member("pieces");
-  if (points.has_value() == pieces.has_value()) {
-    body.fail("must have either points or pieces");
-    return motion::ConvexShape{};
+/// Reads the elements of a list, each by `read(field, element)`. Stops at one element more than a
+/// body may have: `planning::validate` then refuses the count, and a longer list costs no memory.
+template <class Element, class Read>
+void read_list(const Field& list, std::size_t most, std::vector<Element>& elements,
+               const Read& read) {
+  const std::size_t count = std::min(list.size(), most + 1);
+  for (std::size_t i = 0; i < count && !list.failed(); ++i) {
+    read(list.element(i), elements.emplace_back());
   }
-  motion::ConvexShape convex;
-  if (points) {
-    convex.pieces_C.push_back(read_points(*points));
-    return convex;
-  }
-  const std::size_t count = std::min(pieces->size(), motion::kMaxBodyPoints + 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    convex.pieces_C.push_back(read_points(pieces->element(i)));
-  }
-  return convex;
 }
 
-motion::BodyShape read_mesh(const Field& body) {
-  body.allow_only({"type", "vertices", "triangles"});
-  motion::MeshShape mesh;
-  mesh.vertices_C = read_points(body.member("vertices"));
-  const Field triangles = body.member("triangles");
-  const std::size_t count = std::min(triangles.size(), motion::kMaxBodyTriangles + 1);
-  for (std::size_t i = 0; i < count && !body.failed(); ++i) {
-    const Field item = triangles.element(i);
-    if (item.size() != 3) item.fail("must be an array of 3 indices of vertices");
-    if (item.failed()) break;
-    std::array<std::uint32_t, 3>& triangle = mesh.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      triangle[k] = static_cast<std::uint32_t>(
-          item.element(k).integer(0, std::numeric_limits<std::uint32_t>::max()));
+void read_points(const Field& list, std::vector<Vec3>& points) {
+  read_list(list, motion::kMaxBodyPoints, points,
+            [](const Field& item, Vec3& point) { read_value(item, point); });
+}
+
+void read_triangle(const Field& item, Triangle& triangle) {
+  if (item.size() != 3) item.fail("must be an array of 3 indices of vertices");
+  for (std::size_t k = 0; k < 3 && !item.failed(); ++k) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    triangle[k] = static_cast<std::uint32_t>(item.element(k).integer(0, kMost));
+  }
+}
+
+/// Reads the members of a shape.
+struct ShapeReader {
+  const Field& body;
+
+  void operator()(const FieldSpec& spec, double& radius_m) const {
+    radius_m = body.member(spec.name, spec.old_file).number();
+  }
+  void operator()(const FieldSpec& spec, Vec3& vector) const {
+    const bool may_lack = spec.name == planning::body::kCenter.name;
+    if (may_lack && !body.optional_member(spec.name)) return;
+    read_value(body.member(spec.name), vector);
+  }
+  void operator()(const FieldSpec& spec, std::vector<Vec3>& vertices) const {
+    read_points(body.member(spec.name), vertices);
+  }
+  void operator()(const FieldSpec& spec, std::vector<Triangle>& triangles) const {
+    read_list(body.member(spec.name), motion::kMaxBodyTriangles, triangles, read_triangle);
+  }
+  void operator()(const FieldSpec& spec, std::vector<std::vector<Vec3>>& pieces) const {
+    const auto points = body.optional_member(planning::body::kPoints.name);
+    const auto lists = body.optional_member(spec.name);
+    if (points.has_value() == lists.has_value()) {
+      body.fail("must have either points or pieces");
+    } else if (points) {
+      read_points(*points, pieces.emplace_back());
+    } else {
+      read_list(*lists, motion::kMaxBodyPoints, pieces, read_points);
     }
   }
-  return mesh;
-}
+};
 
 }  // namespace
 
 std::optional<motion::BodyShape> read_body(const Field& field) {
-  const Field type_field = field.member("type");
-  const std::string type = type_field.text();
-  if (type == "box") return read_box(field);
-  if (type == "sphere") return read_sphere(field);
-  if (type == "convex") return read_convex(field);
-  if (type == "mesh") return read_mesh(field);
-  if (type != "camera") {
-    type_field.fail("'" + type + "' is unknown; a body is a camera, box, sphere, convex or mesh");
+  const Field type = field.member("type");
+  const std::string name = type.text();
+  const auto* const named = std::ranges::find(planning::kShapeNames, name);
+  std::optional<motion::BodyShape> shape =
+      planning::blank_shape(static_cast<std::size_t>(named - planning::kShapeNames.begin()));
+  if (!shape) {
+    type.fail("'" + name + "' is unknown; a body is a camera, box, sphere, convex or mesh");
+    return std::nullopt;
   }
-  field.allow_only({"type"});
-  return std::nullopt;
+  const auto read = [&](auto& part) {
+    std::vector<std::string_view> names = {"type"};
+    if constexpr (requires { part.pieces_C; }) names.push_back(planning::body::kPoints.name);
+    allow_only(field, names, [&](const auto& visit) { planning::visit_shape(visit, part); });
+    planning::visit_shape(ShapeReader{field}, part);
+  };
+  std::visit(read, *shape);
+  if (std::holds_alternative<motion::Camera>(*shape)) shape.reset();
+  return shape;
 }
 
 }  // namespace camway::tools

@@ -4,16 +4,13 @@
 #include <optional>
 
 #include "daemon/motion/body/body.h"
-#include "daemon/planning/request/field_spec.h"
 #include "tools/json/json_document.h"
 
 namespace camway::tools {
 
-/// The radius of a sphere.
-inline constexpr planning::FieldSpec kRadius{.name = "radius_m", .old_file = "radius"};
-
-/// Reads the `body` of a request: an object with a `type` and the members of that type, in metres
-/// and in the camera frame. `center` may be left out.
+/// Reads the `body` of a request: an object with a `type` and the members of that type
+/// (`planning/request/body_members.h`), in metres and in the camera frame. `center` may be left
+/// out.
 ///
 ///     {"type": "camera"}
 ///     {"type": "box", "size": [x, y, z], "center": [x, y, z]}

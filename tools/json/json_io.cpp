@@ -5,7 +5,6 @@
 
 #include "daemon/scene/import/record/import_words.h"
 #include "tools/json/json_body.h"
-#include "tools/json/json_names.h"
 #include "tools/json/json_options.h"
 #include "tools/json/json_reader.h"
 

@@ -2,32 +2,21 @@
 #include "tools/json/json_options.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
 #include <string>
-#include <vector>
+#include <string_view>
 
+#include "daemon/planning/request/body_members.h"
 #include "tools/json/json_reader.h"
 
 namespace camway::tools {
+
 namespace {
 
-using correction::MotionLimits;
-using correction::OrientationPolicy;
 using correction::OrientationRule;
 using planning::FieldSpec;
-using planning::PlanOptions;
-
-/// Records an error for the first member that is not in the table.
-template <class VisitTable>
-void allow_only(const Field& field, const VisitTable& visit_table) {
-  std::vector<std::string_view> names;
-  std::vector<std::string_view> old_names;
-  visit_table([&](const FieldSpec& spec) {
-    names.push_back(spec.file_name());
-    if (!spec.old_file.empty()) old_names.push_back(spec.old_file);
-  });
-  field.allow_only(names, old_names);
-}
 
 /// Records an error if `key` is there although the policy does not use it.
 void refuse_without(std::string_view policy, const Field& field, std::string_view key) {
@@ -36,65 +25,95 @@ void refuse_without(std::string_view policy, const Field& field, std::string_vie
   }
 }
 
-/// Reads those members of a struct that the object has.
-struct MemberReader {
+/// Reads those options that the object has.
+struct OptionReader {
   const Field& object;
 
   template <class Member>
   void operator()(const FieldSpec& spec, Member& member) const {
-    const auto field = object.optional_member(spec.file_name(), spec.old_file);
-    if (field) read(*field, spec, member);
+    JsonReader{object}(spec, member);
   }
-
- private:
-  static void read(const Field& field, const FieldSpec& spec, double& value) {
-    value = spec.is_angle() ? radians(field.number()) : field.number();
-  }
-  static void read(const Field& field, const FieldSpec&, std::uint64_t& seed) {
+  void operator()(const FieldSpec& spec, std::uint64_t& seed) const {
     constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-    seed = static_cast<std::uint64_t>(field.integer(1, kMost));
-  }
-  template <class Member>
-  static void read(const Field& field, const FieldSpec&, Member& member) {
-    read_value(field, member);
-  }
-  static void read(const Field& field, const FieldSpec&, MotionLimits& limits) {
-    allow_only(field, [](const auto& visit) { planning::visit_limits(visit); });
-    planning::visit_limits(MemberReader{field}, limits);
-  }
-  static void read(const Field& field, const FieldSpec&, OrientationPolicy& policy) {
-    allow_only(field, [](const auto& visit) { planning::visit_orientation(visit); });
-    planning::visit_orientation(MemberReader{field}, policy);
-    policy.up_W = planning::direction_of(policy.up_W);
-    if (policy.rule != OrientationRule::kLevel) refuse_without("level", field, "up");
-    if (policy.rule == OrientationRule::kTarget) {
-      static_cast<void>(field.member("target"));
-    } else {
-      refuse_without("target", field, "target");
-      refuse_without("target", field, "cone_deg");
-    }
+    const auto field = object.optional_member(spec.file_name());
+    if (field) seed = static_cast<std::uint64_t>(field->integer(1, kMost));
   }
 };
 
+/// The members that a document has by their old names: the old name by the path of the member.
+using OldNames = std::map<std::string, std::string, std::less<>>;
+
+/// Notes the members that `object` has by their old names.
+struct OldNameFinder {
+  const Field& object;
+  OldNames& found;
+
+  void operator()(const FieldSpec& spec) const {
+    if (spec.old_file.empty()) return;
+    const auto member = object.optional_member(spec.old_file);
+    if (member) found.emplace(object.path() + "." + std::string(spec.name), member->path());
+  }
+};
+
+OldNames old_names_in(const Field& request) {
+  OldNames found;
+  const auto body = request.optional_member("body");
+  if (body) planning::visit_body(OldNameFinder{*body, found});
+  const auto options = request.optional_member("options");
+  if (!options) return found;
+  planning::visit_options(OldNameFinder{*options, found});
+  const auto limits = options->optional_member("limits");
+  if (limits) planning::visit_limits(OldNameFinder{*limits, found});
+  return found;
+}
+
 }  // namespace
 
-PlanOptions read_options(const Field& field) {
-  allow_only(field, [](const auto& visit) { planning::visit_options(visit); });
-  PlanOptions options;
-  planning::visit_options(MemberReader{field}, options);
+void read_value(const Field& field, correction::MotionLimits& limits) {
+  allow_only(field, {}, [](const auto& visit) { planning::visit_limits(visit); });
+  planning::visit_limits(JsonReader(field), limits);
+}
+
+void read_value(const Field& field, correction::OrientationPolicy& policy) {
+  allow_only(field, {}, [](const auto& visit) { planning::visit_orientation(visit); });
+  planning::visit_orientation(JsonReader(field), policy);
+  policy.up_W = planning::direction_of(policy.up_W);
+  if (policy.rule != OrientationRule::kLevel) refuse_without("level", field, "up");
+  if (policy.rule == OrientationRule::kTarget) {
+    static_cast<void>(field.member("target"));
+  } else {
+    refuse_without("target", field, "target");
+    refuse_without("target", field, "cone_deg");
+  }
+}
+
+planning::PlanOptions read_options(const Field& field) {
+  allow_only(field, {}, [](const auto& visit) { planning::visit_options(visit); });
+  planning::PlanOptions options;
+  planning::visit_options(OptionReader{field}, options);
   return options;
 }
 
 motion::Camera read_camera(const Field& field) {
-  allow_only(field, [](const auto& visit) { planning::visit_camera(visit); });
+  allow_only(field, {}, [](const auto& visit) { planning::visit_camera(visit); });
   motion::Camera camera;
-  const MemberReader read{field};
   const auto need = [&](const FieldSpec& spec, double& member) {
     static_cast<void>(field.member(spec.file_name()));
-    read(spec, member);
+    JsonReader{field}(spec, member);
   };
   planning::visit_camera(need, camera);
   return camera;
+}
+
+planning::FieldSpelling json_spelling() {
+  return [](std::string_view path) { return planning::spell(path, planning::Spelling::kFile); };
+}
+
+planning::FieldSpelling json_spelling(const Field& request) {
+  return [old_names = old_names_in(request), otherwise = json_spelling()](std::string_view path) {
+    const auto old_name = old_names.find(path);
+    return old_name == old_names.end() ? otherwise(path) : old_name->second;
+  };
 }
 
 }  // namespace camway::tools

@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <vector>
 
 #include "daemon/base/named_enum.h"
 #include "daemon/geometry/bounds.h"
+#include "daemon/planning/request/field_spec.h"
 #include "daemon/planning/result/members.h"
 #include "tools/json/json_angle.h"
 #include "tools/json/json_document.h"
@@ -69,8 +71,21 @@ void read_value(const Field& field, std::vector<Value>& list) {
   }
 }
 
-/// Reads the members of an object (`planning/result/members.h`). Ignores members that are not in
-/// the list.
+/// Records an error for the first member that is neither in `names` nor in a table of members
+/// (`planning/request/options.h`). `visit_table(visit)` visits the table.
+template <class VisitTable>
+void allow_only(const Field& field, std::vector<std::string_view> names,
+                const VisitTable& visit_table) {
+  std::vector<std::string_view> old_names;
+  visit_table([&](const planning::FieldSpec& spec, const auto&...) {
+    names.push_back(spec.file_name());
+    if (!spec.old_file.empty()) old_names.push_back(spec.old_file);
+  });
+  field.allow_only(names, old_names);
+}
+
+/// Reads the members of an object that are in a list (`planning/result/members.h`) or a table
+/// (`planning/request/options.h`). Ignores other members.
 class JsonReader {
  public:
   explicit JsonReader(const Field& object) : object_(object) {}
@@ -78,11 +93,11 @@ class JsonReader {
   void line(int) const {}
   template <class Value>
   void need(planning::FileName name, Value&& member) const {
-    read(object_.member(name.name, name.old), name, member);
+    read(object_.member(name.name, name.old), name.name, member);
   }
   template <class Value>
   void may(planning::FileName name, bool, Value&& member) const {
-    if (const auto field = object_.optional_member(name.name)) read(*field, name, member);
+    if (const auto field = object_.optional_member(name.name)) read(*field, name.name, member);
   }
   template <class List>
   void group(planning::FileName name, bool, int, const List& list) const {
@@ -99,11 +114,18 @@ class JsonReader {
     list(object, member.emplace());
   }
 
+  /// Reads a member of a table if the object has it.
+  template <class Value>
+  void operator()(const planning::FieldSpec& spec, Value& member) const {
+    const auto field = object_.optional_member(spec.file_name(), spec.old_file);
+    if (field) read(*field, spec.file_name(), member);
+  }
+
  private:
   template <class Value>
-  static void read(const Field& field, planning::FileName name, Value& member) {
+  static void read(const Field& field, std::string_view name, Value& member) {
     if constexpr (std::same_as<Value, double>) {
-      member = planning::is_angle(name.name) ? radians(field.number()) : field.number();
+      member = planning::is_angle(name) ? radians(field.number()) : field.number();
     } else {
       read_value(field, member);
     }
