@@ -88,8 +88,8 @@ std::vector<Outgoing> PlanCall::missing() const {
   question.client_id = context_.options().client_id;
   question.request_id = request_id();
   question.utime = microseconds_since_1970();
-  question.num_pages = static_cast<std::int32_t>(collector_.pages_expected());
-  question.missing = collector_.missing();
+  question.num_pages = static_cast<std::int32_t>(collector_.pages().expected());
+  question.missing = collector_.pages().missing();
   question.num_missing = static_cast<std::int32_t>(question.missing.size());
   return {{context_.channels().missing_pages(), wire::encode(question)}};
 }
@@ -117,9 +117,9 @@ PlanResponse PlanCall::response_of(Outcome outcome) const {
   if (outcome == Outcome::kAnswered) return collector_.response();
   if (refusal_ && outcome == Outcome::kDeadline) return *refusal_;
   std::string partly;
-  if (collector_.pages_here() > 0) {
-    partly = std::to_string(collector_.pages_here()) + " of " +
-             std::to_string(collector_.pages_expected()) + " pages";
+  if (collector_.pages().held() > 0) {
+    partly = std::to_string(collector_.pages().held()) + " of " +
+             std::to_string(collector_.pages().expected()) + " pages";
   }
   return failed<PlanResponse>(
       context_.explain(outcome, retry().ever_heard(), partly, collector_.fault()));

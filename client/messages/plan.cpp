@@ -10,7 +10,6 @@
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
-#include "lcmtypes/wire/pages.h"
 
 namespace camway {
 namespace {
@@ -38,11 +37,6 @@ std::optional<std::string> fault_in_segment(const segment_t* previous, const seg
     return "does not begin where the one before ends";
   }
   return std::nullopt;
-}
-
-/// Returns whether two pages belong to one answer: whether their repeated members are equal.
-bool same_answer(const plan_response_t& a, const plan_response_t& b) {
-  return a.utime == b.utime && wire::page_head(a) == wire::page_head(b);
 }
 
 /// Returns whether plan requests are answered with this status.
@@ -153,32 +147,13 @@ PlanCollector::Taken PlanCollector::take(std::span<const std::uint8_t> bytes) {
              std::to_string(page.num_pages) + " is out of range";
     return Taken::kBad;
   }
-  if (!pages_.empty() && !same_answer(pages_.begin()->second, page)) pages_.clear();
-  const bool is_new = pages_.emplace(page.page, std::move(page)).second;
-  return is_new ? Taken::kNew : Taken::kKnown;
+  const bool is_of_other_time = pages_.held() > 0 && pages_.any().utime != page.utime;
+  if (is_of_other_time || !pages_.fits(page)) clear();
+  return pages_.add(std::move(page)) ? Taken::kNew : Taken::kKnown;
 }
-
-bool PlanCollector::complete() const {
-  return !pages_.empty() && pages_.size() == pages_expected();
-}
-
-std::size_t PlanCollector::pages_expected() const {
-  return pages_.empty() ? 0 : static_cast<std::size_t>(pages_.begin()->second.num_pages);
-}
-
-std::vector<std::int32_t> PlanCollector::missing() const {
-  std::vector<std::int32_t> missing;
-  for (std::int32_t page = 0; page < static_cast<std::int32_t>(pages_expected()); ++page) {
-    if (pages_.find(page) == pages_.end()) missing.push_back(page);
-  }
-  return missing;
-}
-
-Status PlanCollector::status() const { return static_cast<Status>(pages_.begin()->second.status); }
 
 PlanResponse PlanCollector::response() const {
-  plan_response_t whole = wire::begin_whole(pages_.begin()->second);
-  for (const auto& [number, page] : pages_) wire::append_page(whole, page);
+  const plan_response_t whole = pages_.whole();
   if (const auto fault = fault_in(whole)) return bad_answer(whole, *fault);
   PlanResponse response;
   convert(whole, response);

@@ -4,7 +4,6 @@
 #include <camway/plan.h>
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +12,7 @@
 #include <camway/plan_response_t.hpp>
 
 #include "client/messages/bytes.h"
+#include "lcmtypes/wire/pages.h"
 
 namespace camway {
 
@@ -37,20 +37,15 @@ class PlanCollector {
   /// request or client, or a message that is no valid page.
   Taken take(std::span<const std::uint8_t> bytes);
 
-  bool complete() const;
-  /// Returns the number of pages of the whole answer; 0 before the first page.
-  std::size_t pages_expected() const;
-  /// Returns the number of pages received.
-  std::size_t pages_here() const { return pages_.size(); }
-  /// Returns the numbers of the missing pages. Requires at least one page.
-  std::vector<std::int32_t> missing() const;
+  const wire::PageSet<plan_response_t>& pages() const { return pages_; }
+  bool complete() const { return pages_.complete(); }
   /// Returns the fault of the last message that was kBad.
   const std::string& fault() const { return fault_; }
 
   /// Returns the status of the answer. Requires at least one page.
-  Status status() const;
+  Status status() const { return static_cast<Status>(pages_.any().status); }
   /// Forgets all pages.
-  void clear() { pages_.clear(); }
+  void clear() { pages_ = {}; }
 
   /// Returns the answer; one with `kBadAnswer` if its content is not valid. Requires `complete()`.
   PlanResponse response() const;
@@ -58,7 +53,7 @@ class PlanCollector {
  private:
   std::string client_id_;
   std::int64_t request_id_;
-  std::map<std::int32_t, plan_response_t> pages_;
+  wire::PageSet<plan_response_t> pages_;
   std::string fault_;
 };
 

@@ -13,46 +13,33 @@ typename PageAssembly<Message>::Outcome PageAssembly<Message>::add(Message page,
   if (std::string fault = wire::page_fault(page); !fault.empty()) return {std::nullopt, fault, 0};
   if (page.num_pages == 1) return {std::move(page), {}, 0};
 
-  const Position position = find_or_begin(page, wire::page_head(page));
-  std::optional<Message>& place = position->pages[static_cast<std::size_t>(page.page)];
-  if (!place) {
-    const auto size = static_cast<std::size_t>(page.getEncodedSize());
+  const Position position = find_or_begin(page);
+  const auto size = static_cast<std::size_t>(page.getEncodedSize());
+  if (position->pages.add(std::move(page))) {
     position->bytes += size;
     bytes_ += size;
-    --position->missing;
-    place = std::move(page);
   }
   position->missing_at = now + kPageWait;
   position->asked = 0;
-  if (position->missing == 0) {
-    Partial complete = std::move(*position);
-    bytes_ -= complete.bytes;
-    partial_.erase(position);
-    return {join(std::move(complete)), {}, 0};
-  }
-  return {std::nullopt, {}, make_room(position)};
+  if (!position->pages.complete()) return {std::nullopt, {}, make_room(position)};
+  Message whole = position->pages.whole();
+  forget(position);
+  return {std::move(whole), {}, 0};
 }
 
 template <class Message>
-typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(const Message& page,
-                                                                              wire::Bytes header) {
+typename PageAssembly<Message>::Position PageAssembly<Message>::find_or_begin(const Message& page) {
   const auto same_ids = [&](const Partial& partial) {
-    const auto held = std::find_if(partial.pages.begin(), partial.pages.end(),
-                                   [](const std::optional<Message>& p) { return p.has_value(); });
-    return held != partial.pages.end() && (*held)->request_id == page.request_id &&
-           (*held)->client_id == page.client_id;
+    const Message& held = partial.pages.any();
+    return held.request_id == page.request_id && held.client_id == page.client_id;
   };
   const Position found = std::find_if(partial_.begin(), partial_.end(), same_ids);
-  if (found != partial_.end()) {
-    if (found->header == header) {
-      partial_.splice(partial_.end(), partial_, found);
-      return found;
-    }
-    forget(found);
+  if (found != partial_.end() && found->pages.fits(page)) {
+    partial_.splice(partial_.end(), partial_, found);
+    return found;
   }
-  const auto num_pages = static_cast<std::size_t>(page.num_pages);
-  partial_.push_back(
-      {std::move(header), std::vector<std::optional<Message>>(num_pages), num_pages, 0, {}, 0});
+  if (found != partial_.end()) forget(found);
+  partial_.emplace_back();
   return std::prev(partial_.end());
 }
 
@@ -65,17 +52,8 @@ std::vector<typename PageAssembly<Message>::MissingPages> PageAssembly<Message>:
     ++partial.asked;
     partial.missing_at = partial.asked < kMostAsked ? now + kPageWait * (1 << partial.asked)
                                                     : Clock::time_point::max();
-    MissingPages lost;
-    for (std::size_t i = 0; i < partial.pages.size(); ++i) {
-      if (!partial.pages[i]) {
-        lost.missing.push_back(static_cast<std::int32_t>(i));
-        continue;
-      }
-      lost.client_id = partial.pages[i]->client_id;
-      lost.request_id = partial.pages[i]->request_id;
-    }
-    lost.num_pages = static_cast<std::int32_t>(partial.pages.size());
-    all.push_back(std::move(lost));
+    const Message& held = partial.pages.any();
+    all.push_back({held.client_id, held.request_id, held.num_pages, partial.pages.missing()});
   }
   return all;
 }
@@ -102,13 +80,6 @@ std::size_t PageAssembly<Message>::make_room(Position keep) {
     ++given_up;
   }
   return given_up;
-}
-
-template <class Message>
-Message PageAssembly<Message>::join(Partial partial) {
-  Message whole = wire::begin_whole(*partial.pages.front());
-  for (const std::optional<Message>& page : partial.pages) wire::append_page(whole, *page);
-  return whole;
 }
 
 template class PageAssembly<plan_request_t>;

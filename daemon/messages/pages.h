@@ -67,20 +67,18 @@ class PageAssembly {
 
  private:
   struct Partial {
-    wire::Bytes header;  ///< encoded members that are equal on all pages
-    std::vector<std::optional<Message>> pages;
-    std::size_t missing = 0;
+    wire::PageSet<Message> pages;  ///< at least one
     std::size_t bytes = 0;
     Clock::time_point missing_at{};  ///< time at which pages count as missing
     int asked = 0;                   ///< how often they were asked for since the last page
   };
   using Position = typename std::list<Partial>::iterator;
 
-  Position find_or_begin(const Message& page, wire::Bytes header);
+  /// Returns the message that a page belongs to, or a new one, as the last of the list.
+  Position find_or_begin(const Message& page);
   void forget(Position position);
   /// Returns how many messages were dropped.
   std::size_t make_room(Position keep);
-  static Message join(Partial partial);
 
   Limits limits_;
   std::list<Partial> partial_;  ///< longest without a page first

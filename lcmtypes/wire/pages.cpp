@@ -3,6 +3,8 @@
 
 #include <camway/members.h>
 
+#include <utility>
+
 #include "lcmtypes/wire/check.h"
 #include "lcmtypes/wire/layout.h"
 
@@ -44,6 +46,15 @@ Message blank_page(const Message& message) {
   return blank;
 }
 
+/// Returns the members that all pages of a message have in common, encoded.
+template <class Message>
+Bytes page_head(const Message& page) {
+  Message head = blank_page(page);
+  head.page = 0;
+  head.utime = 0;
+  return encode(head);
+}
+
 /// Returns the size of a message without the elements of its lists.
 template <class Message>
 std::size_t header_bytes(const Message& whole) {
@@ -81,13 +92,13 @@ void distribute(const Message& whole, const TurnPage& turn_page, const Put& put)
 }  // namespace
 
 template <class Message>
-std::vector<std::vector<std::uint8_t>> encode_pages(const Message& whole) {
+std::vector<Bytes> encode_pages(const Message& whole) {
   const Message blank = blank_page(whole);
   std::vector<Message> pages{without_lists(whole)};
   distribute(
       whole, [&] { pages.push_back(blank); },
       [&](auto list, const auto& element) { (pages.back().*list).push_back(element); });
-  std::vector<std::vector<std::uint8_t>> encoded;
+  std::vector<Bytes> encoded;
   encoded.reserve(pages.size());
   for (Message& page : pages) {
     set_counts(page);
@@ -121,40 +132,46 @@ std::string page_fault(const Message& page) {
 }
 
 template <class Message>
-std::vector<std::uint8_t> page_head(const Message& page) {
-  Message head = blank_page(page);
-  head.page = 0;
-  head.utime = 0;
-  return encode(head);
+bool PageSet<Message>::fits(const Message& page) const {
+  return pages_.empty() || head_ == page_head(page);
 }
 
 template <class Message>
-Message begin_whole(const Message& page_0) {
-  Message whole = without_lists(page_0);
-  whole.page = 0;
+bool PageSet<Message>::add(Message page) {
+  if (pages_.empty()) head_ = page_head(page);
+  const std::int32_t number = page.page;
+  return pages_.try_emplace(number, std::move(page)).second;
+}
+
+template <class Message>
+std::vector<std::int32_t> PageSet<Message>::missing() const {
+  std::vector<std::int32_t> missing;
+  for (std::int32_t page = 0; std::cmp_less(page, expected()); ++page) {
+    if (!pages_.contains(page)) missing.push_back(page);
+  }
+  return missing;
+}
+
+template <class Message>
+Message PageSet<Message>::whole() const {
+  Message whole = without_lists(pages_.begin()->second);
   whole.num_pages = 1;
+  for (const auto& [number, page] : pages_) {
+    for_each_list<Message>([&whole, &from = page](auto list, auto) {
+      (whole.*list).insert((whole.*list).end(), (from.*list).begin(), (from.*list).end());
+    });
+  }
+  set_counts(whole);
   return whole;
 }
 
-template <class Message>
-void append_page(Message& whole, const Message& page) {
-  for_each_list<Message>([&](auto list, auto) {
-    (whole.*list).insert((whole.*list).end(), (page.*list).begin(), (page.*list).end());
-  });
-  set_counts(whole);
-}
-
-template std::vector<std::vector<std::uint8_t>> encode_pages(const plan_request_t&);
-template std::vector<std::vector<std::uint8_t>> encode_pages(const plan_response_t&);
+template std::vector<Bytes> encode_pages(const plan_request_t&);
+template std::vector<Bytes> encode_pages(const plan_response_t&);
 template std::size_t count_pages(const plan_request_t&);
 template std::size_t count_pages(const plan_response_t&);
 template std::string page_fault(const plan_request_t&);
 template std::string page_fault(const plan_response_t&);
-template std::vector<std::uint8_t> page_head(const plan_request_t&);
-template std::vector<std::uint8_t> page_head(const plan_response_t&);
-template plan_request_t begin_whole(const plan_request_t&);
-template plan_response_t begin_whole(const plan_response_t&);
-template void append_page(plan_request_t&, const plan_request_t&);
-template void append_page(plan_response_t&, const plan_response_t&);
+template class PageSet<plan_request_t>;
+template class PageSet<plan_response_t>;
 
 }  // namespace camway::wire

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,16 +34,41 @@ std::size_t count_pages(const Message& whole);
 template <class Message>
 std::string page_fault(const Message& page);
 
-/// Returns the members that all pages of a message have in common, encoded: all but `page`,
-/// `utime`, body and lists.
+/// Collects the pages of one message, which may come in any order and repeatedly. `utime` is no
+/// part of what makes a message the same.
+/// Not thread-safe.
 template <class Message>
-Bytes page_head(const Message& page);
+class PageSet {
+ public:
+  /// Whether a page is of the message whose pages are here: whether it differs from them in `page`,
+  /// `utime`, body and lists alone. True where there are none.
+  [[nodiscard]] bool fits(const Message& page) const;
 
-/// Returns page 0 without its lists, as page 0 of 1. `append_page` then adds the lists of each page
-/// in order, page 0 included.
-template <class Message>
-Message begin_whole(const Message& page_0);
-template <class Message>
-void append_page(Message& whole, const Message& page);
+  /// Adds a page; returns whether it is new. Requires one without `page_fault` that fits.
+  bool add(Message page);
+
+  /// Returns the number of pages that are here.
+  [[nodiscard]] std::size_t held() const { return pages_.size(); }
+  /// Returns the number of pages of the whole message; 0 before the first page.
+  [[nodiscard]] std::size_t expected() const {
+    return pages_.empty() ? 0 : static_cast<std::size_t>(any().num_pages);
+  }
+  [[nodiscard]] bool complete() const { return held() > 0 && held() == expected(); }
+  /// Returns the numbers of the missing pages, increasing.
+  [[nodiscard]] std::vector<std::int32_t> missing() const;
+  /// Returns one of the pages. Requires at least one.
+  [[nodiscard]] const Message& any() const { return pages_.begin()->second; }
+
+  /// Returns the whole message as page 0 of 1. All but the lists is that of page 0. Requires
+  /// `complete()`.
+  [[nodiscard]] Message whole() const;
+
+ private:
+  Bytes head_;  ///< encoded members that are equal on all pages
+  std::map<std::int32_t, Message> pages_;
+};
+
+extern template class PageSet<plan_request_t>;
+extern template class PageSet<plan_response_t>;
 
 }  // namespace camway::wire

@@ -439,7 +439,7 @@ TEST(PlanCollector, LeavesWhatIsForOthers) {
   other.client_id = "you";
   EXPECT_EQ(collector.take(encode_all(answer_pages(other, 1, 1))[0]),
             PlanCollector::Taken::kForeign);
-  EXPECT_EQ(collector.pages_here(), 0u);
+  EXPECT_EQ(collector.pages().held(), 0u);
 }
 
 TEST(PlanCollector, DoesNotMixPagesOfTwoAnswers) {
@@ -450,7 +450,7 @@ TEST(PlanCollector, DoesNotMixPagesOfTwoAnswers) {
   collector.take(wire::encode(first[0]));
   collector.take(wire::encode(second[1]));
   EXPECT_FALSE(collector.complete());
-  EXPECT_EQ(collector.pages_here(), 1u);
+  EXPECT_EQ(collector.pages().held(), 1u);
   collector.take(wire::encode(second[0]));
   EXPECT_TRUE(collector.complete());
 }
