@@ -53,6 +53,15 @@ std::string report_fault(const plan_response_t& wire) {
   return {};
 }
 
+/// Converts the members of an answer other than its path and its collisions.
+template <class Io, class Result, class Wire>
+void convert_report(const Io& io, Result& result, Wire& wire) {
+  planning::head_members(io, result, wire);
+  io(result.keyframes, wire.keyframes);
+  planning::report_members(io, result, wire);
+  planning::members(io, result.timing, wire);
+}
+
 }  // namespace
 
 base::Result<PlanResult> from_wire(const plan_response_t& wire) {
@@ -65,32 +74,26 @@ base::Result<PlanResult> from_wire(const plan_response_t& wire) {
 
   const FromWire io;
   PlanResult result;
-  planning::head_members(io, result, wire);
+  convert_report(io, result, wire);
   std::vector<motion::Segment> segments;
   io(segments, wire.segments);
   if (!segments.empty()) result.path = motion::Path(std::move(segments));
-  io(result.keyframes, wire.keyframes);
   std::vector<NamedCollision> collisions;
   io(collisions, wire.collisions);
   append(std::move(collisions), result.collisions, result.collision_names);
   std::vector<NamedCollision> remaining;
   io(remaining, wire.remaining);
   append(std::move(remaining), result.remaining_collisions, result.remaining_names);
-  planning::report_members(io, result, wire);
-  planning::members(io, result.timing, wire);
   return result;
 }
 
 plan_response_t to_wire(const PlanResult& result, const AnswerHeader& header) {
   const ToWire io;
   plan_response_t wire = plain_answer(0, "", header);
-  planning::head_members(io, result, wire);
+  convert_report(io, result, wire);
   io(result.path.segments(), wire.segments);
-  io(result.keyframes, wire.keyframes);
   io(with_names(result.collisions, result.collision_names), wire.collisions);
   io(with_names(result.remaining_collisions, result.remaining_names), wire.remaining);
-  planning::report_members(io, result, wire);
-  planning::members(io, result.timing, wire);
   clip_texts(wire);
   wire::set_counts(wire);
   return wire;

@@ -50,65 +50,57 @@ void clip_texts(Wire& wire) {
   });
 }
 
-/// What `ToWire` and `FromWire` have in common: in messages, members have no names or lines, none
-/// is left out, and a group is a part of the struct around it.
-template <class Io>
+/// Converts a value by `translate` where there is one for its types.
+template <class Io, class From, class To>
+void convert(const Io& io, const From& from, To& to) {
+  if constexpr (requires { translate(from, to); }) {
+    translate(from, to);
+  } else {
+    wire::convert(io, from, to);
+  }
+}
+
+/// Writes messages or reads them. In messages, members have no names or lines, none is left out,
+/// and a group is a part of the struct around it.
+template <bool kWrites>
 struct Converter {
   template <class Mine, class Wire>
+  void operator()(Mine&& mine, Wire&& wire) const {
+    if constexpr (requires { planning::members(*this, mine, wire); }) {
+      planning::members(*this, mine, wire);
+      if constexpr (kWrites) clip_texts(wire);
+    } else if constexpr (kWrites) {
+      convert(*this, mine, wire);
+    } else {
+      convert([this](const auto& from, auto& to) { (*this)(to, from); }, wire, mine);
+    }
+  }
+
+  template <class Mine, class Wire>
   void need(planning::FileName, Mine&& mine, Wire&& wire) const {
-    io()(mine, wire);
+    (*this)(mine, wire);
   }
   template <class Mine, class Wire>
   void may(planning::FileName, bool, Mine&& mine, Wire&& wire) const {
-    io()(mine, wire);
+    (*this)(mine, wire);
   }
   template <class List>
   void group(planning::FileName, bool, int, const List& list) const {
-    list(io());
+    list(*this);
   }
-  void line(int) const {}
-
- private:
-  [[nodiscard]] const Io& io() const { return static_cast<const Io&>(*this); }
-};
-
-struct ToWire : Converter<ToWire> {
-  template <class Mine, class Wire>
-  void operator()(const Mine& mine, Wire& wire) const {
-    if constexpr (requires { translate(mine, wire); }) {
-      translate(mine, wire);
-    } else if constexpr (requires { planning::members(*this, mine, wire); }) {
-      planning::members(*this, mine, wire);
-      clip_texts(wire);
-    } else {
-      wire::convert(*this, mine, wire);
+  template <class Mine, class List, class Has>
+  void optional(planning::FileName, Mine& mine, const List& list, Has& has) const {
+    if constexpr (kWrites) {
+      has = mine ? 1 : 0;
+    } else if (has != 0) {
+      mine.emplace();
     }
-  }
-  template <class Mine, class List>
-  void optional(planning::FileName, const std::optional<Mine>& mine, const List& list,
-                std::int8_t& has) const {
-    has = mine ? 1 : 0;
     if (mine) list(*this, *mine);
   }
+  void line(int) const {}
 };
 
-struct FromWire : Converter<FromWire> {
-  template <class Mine, class Wire>
-  void operator()(Mine& mine, const Wire& wire) const {
-    if constexpr (requires { translate(wire, mine); }) {
-      translate(wire, mine);
-    } else if constexpr (requires { planning::members(*this, mine, wire); }) {
-      planning::members(*this, mine, wire);
-    } else {
-      const auto io = [this](const auto& from, auto& to) { (*this)(to, from); };
-      wire::convert(io, wire, mine);
-    }
-  }
-  template <class Mine, class List>
-  void optional(planning::FileName, std::optional<Mine>& mine, const List& list,
-                std::int8_t has) const {
-    if (has != 0) list(*this, mine.emplace());
-  }
-};
+using ToWire = Converter<true>;
+using FromWire = Converter<false>;
 
 }  // namespace camway::messages
