@@ -35,89 +35,53 @@ planning::FieldSpelling wire_spelling(const plan_request_t& wire) {
   };
 }
 
-/// Returns an error about a member that has a value but no effect: its sender meant it.
-std::string idle_member(const plan_request_t& wire) {
-  if (wire.correct_nothing != 0 && wire.max_inserted_keyframes != 0) {
-    return "max_inserted_keyframes: is " + std::to_string(wire.max_inserted_keyframes) +
-           ", which does not count beside correct_nothing; leave it 0";
-  }
-  for (std::size_t i = 0; wire.has_times == 0 && i < wire.keyframes.size(); ++i) {
-    if (wire.keyframes[i].time_s != 0.0) {
-      return "keyframes[" + std::to_string(i) +
-             "].time_s: is not 0, and does not count without has_times; set that, or leave all "
-             "times 0";
-    }
-  }
-  if (wire.has_frame == 0 && !wire::is_blank(wire.frame)) {
-    return "frame: is not zero, and does not count without has_frame; set that, or leave it zero";
-  }
-  return {};
-}
-
-/// Returns an error about a member of an orientation that has a value but no effect with this rule.
-std::string idle_member(const orientation_t& wire, OrientationRule rule) {
-  if (rule != OrientationRule::kLevel && !wire::is_blank(wire.up)) {
-    return "orientation.up: counts only with the policy LEVEL; leave it zero";
-  }
-  if (rule != OrientationRule::kTarget && !wire::is_blank(wire.target_m)) {
-    return "orientation.target_m: counts only with the policy TARGET; leave it zero";
-  }
-  if (rule != OrientationRule::kTarget && wire.cone_rad != 0.0) {
-    return "orientation.cone_rad: counts only with the policy TARGET; leave it 0";
-  }
-  if (wire.has_max_turn == 0 && wire.max_turn_rad != 0.0) {
-    return "orientation.max_turn_rad: counts only with has_max_turn; set that, or leave it 0";
-  }
-  return {};
-}
-
-/// Returns an error about a limit that has a value and no effect.
-std::string idle_member(const bounds_t& wire) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool is_min = wire.has_min[axis] == 0 && wire.min_m[axis] != 0.0;
-    if (!is_min && (wire.has_max[axis] != 0 || wire.max_m[axis] == 0.0)) continue;
-    const std::string side = is_min ? "min" : "max";
-    const std::string at = "[" + std::to_string(axis) + "]";
-    return "bounds." + side + "_m" + at + ": counts only with has_" + side + at +
-           "; set that, or leave it 0";
-  }
-  return {};
-}
-
 /// Reads options. Only an exact 0 asks for the default: NaN and negative values go on to
 /// `planning::validate`. Keeps the first error.
 struct OptionReader {
   std::string& error;
+
+  void refuse(std::string_view name, const std::string& reason) const {
+    if (error.empty()) error = std::string(name) + ": " + reason;
+  }
+  /// Refuses a member that has a value but no effect: its sender meant it.
+  template <class Member>
+  void refuse_idle(bool counts, const Member& member, std::string_view name,
+                   const std::string& reason) const {
+    if (!counts && !wire::is_blank(member)) refuse(name, reason);
+  }
 
   template <class Number, class Wire>
   requires std::is_arithmetic_v<Number> && std::is_arithmetic_v<Wire>
   void operator()(const FieldSpec& spec, Number& mine, Wire wire) const {
     constexpr bool kIsUnsigned = std::is_unsigned_v<Number> && !std::is_same_v<Number, bool>;
     if (kIsUnsigned && wire < Wire{}) {
-      if (error.empty()) {
-        error = std::string(spec.wire_name()) + ": is " + std::to_string(wire) + "; it must be " +
-                spec.range_text();
-      }
-      return;
+      refuse(spec.wire_name(), "is " + std::to_string(wire) + "; it must be " + spec.range_text());
+    } else if (wire != 0 || mine == 0) {
+      mine = static_cast<Number>(wire);
     }
-    if (wire != 0 || mine == 0) mine = static_cast<Number>(wire);
   }
   void operator()(const FieldSpec&, std::optional<double>& mine, double wire) const {
     if (wire != 0.0) mine = wire;
   }
   template <base::NamedEnum Enum>
   void operator()(const FieldSpec& spec, Enum& mine, std::int8_t wire) const {
-    if (!base::value_of<Enum>(wire)) refuse(spec, std::to_string(wire));
+    if (!base::value_of<Enum>(wire)) refuse(spec.wire_name(), std::to_string(wire) + " is unknown");
     translate(wire, mine);
   }
   template <base::NamedEnum Enum>
   void operator()(const FieldSpec& spec, Enum& mine, const std::string& wire) const {
     const std::optional<Enum> named = base::value_of<Enum>(wire);
-    if (!named && !wire.empty()) refuse(spec, "'" + wire + "'");
+    if (!named && !wire.empty()) refuse(spec.wire_name(), "'" + wire + "' is unknown");
     mine = named.value_or(mine);
   }
   void operator()(const FieldSpec&, geometry::Bounds& mine, const bounds_t& wire) const {
-    if (error.empty()) error = idle_member(wire);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string at = "[" + std::to_string(axis) + "]";
+      refuse_idle(wire.has_min[axis] != 0, wire.min_m[axis], "bounds.min_m" + at,
+                  "counts only with has_min" + at + "; set that, or leave it 0");
+      refuse_idle(wire.has_max[axis] != 0, wire.max_m[axis], "bounds.max_m" + at,
+                  "counts only with has_max" + at + "; set that, or leave it 0");
+    }
     translate(wire, mine);
   }
   void operator()(const FieldSpec&, correction::MotionLimits& mine,
@@ -125,11 +89,16 @@ struct OptionReader {
     planning::visit_limits(*this, mine, wire);
   }
   void operator()(const FieldSpec& spec, OrientationPolicy& mine, const orientation_t& wire) const {
-    const auto rule = base::value_of<OrientationRule>(wire.policy);
-    std::string fault = rule ? idle_member(wire, *rule) : "";
-    if (!rule) refuse(spec, std::to_string(wire.policy), ".policy");
-    if (error.empty()) error = std::move(fault);
-    mine.rule = rule.value_or(mine.rule);
+    (*this)(FieldSpec{.name = "orientation.policy"}, mine.rule, wire.policy);
+    const bool is_target = mine.rule == OrientationRule::kTarget;
+    refuse_idle(mine.rule == OrientationRule::kLevel, wire.up, "orientation.up",
+                "counts only with the policy LEVEL; leave it zero");
+    refuse_idle(is_target, wire.target_m, "orientation.target_m",
+                "counts only with the policy TARGET; leave it zero");
+    refuse_idle(is_target, wire.cone_rad, "orientation.cone_rad",
+                "counts only with the policy TARGET; leave it 0");
+    refuse_idle(wire.has_max_turn != 0, wire.max_turn_rad, "orientation.max_turn_rad",
+                "counts only with has_max_turn; set that, or leave it 0");
     if (!wire::is_blank(wire.up)) {
       FromWire{}(mine.up_W, wire.up);
       mine.up_W = planning::direction_of(mine.up_W);
@@ -138,12 +107,24 @@ struct OptionReader {
     (*this)(spec, mine.cone_rad, wire.cone_rad);
     if (wire.has_max_turn != 0) mine.max_turn_rad = wire.max_turn_rad;
   }
-
-  void refuse(const FieldSpec& spec, const std::string& value, const char* member = "") const {
-    if (error.empty())
-      error = std::string(spec.wire_name()) + member + ": " + value + " is unknown";
-  }
 };
+
+/// Refuses members beside the options that have a value but no effect.
+void refuse_idle_members(const OptionReader& reader, const plan_request_t& wire) {
+  reader.refuse_idle(wire.correct_nothing == 0, wire.max_inserted_keyframes,
+                     "max_inserted_keyframes",
+                     "is " + std::to_string(wire.max_inserted_keyframes) +
+                         ", which does not count beside correct_nothing; leave it 0");
+  for (std::size_t i = 0; wire.has_times == 0 && i < wire.keyframes.size(); ++i) {
+    if (wire::is_blank(wire.keyframes[i].time_s)) continue;
+    return reader.refuse(
+        "keyframes[" + std::to_string(i) + "].time_s",
+        "is not 0, and does not count without has_times; set that, or leave all times 0");
+  }
+  reader.refuse_idle(
+      wire.has_frame != 0, wire.frame, "frame",
+      "is not zero, and does not count without has_frame; set that, or leave it zero");
+}
 
 /// Writes options. Infinity means no limit on the wire, too.
 struct OptionWriter {
@@ -189,8 +170,10 @@ base::Result<planning::PlanRequest> from_wire(const plan_request_t& wire,
   if (!body) return base::Failure{std::move(body.error)};
   request.body = *std::move(body);
 
-  std::string error = idle_member(wire);
-  visit_options(OptionReader{error}, request.options, wire);
+  std::string error;
+  const OptionReader reader{error};
+  refuse_idle_members(reader, wire);
+  visit_options(reader, request.options, wire);
   if (!error.empty()) return base::Failure{std::move(error)};
   request.options.deadline_s = deadline_of(wire.deadline_s, limits);
   if (wire.correct_nothing != 0) request.options.max_inserted_keyframes = 0;
