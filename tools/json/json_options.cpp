@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/json/json_options.h"
 
-#include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -24,21 +22,6 @@ void refuse_without(std::string_view policy, const Field& field, std::string_vie
     member->fail("counts only with \"policy\": \"" + std::string(policy) + "\"");
   }
 }
-
-/// Reads those options that the object has.
-struct OptionReader {
-  const Field& object;
-
-  template <class Member>
-  void operator()(const FieldSpec& spec, Member& member) const {
-    JsonReader{object}(spec, member);
-  }
-  void operator()(const FieldSpec& spec, std::uint64_t& seed) const {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-    const auto field = object.optional_member(spec.file_name());
-    if (field) seed = static_cast<std::uint64_t>(field->integer(1, kMost));
-  }
-};
 
 /// The members that a document has by their old names: the old name by the path of the member.
 using OldNames = std::map<std::string, std::string, std::less<>>;
@@ -70,13 +53,11 @@ OldNames old_names_in(const Field& request) {
 }  // namespace
 
 void read_value(const Field& field, correction::MotionLimits& limits) {
-  allow_only(field, {}, [](const auto& visit) { planning::visit_limits(visit); });
-  planning::visit_limits(JsonReader(field), limits);
+  read_table(field, [&](const auto& visit) { planning::visit_limits(visit, limits); });
 }
 
 void read_value(const Field& field, correction::OrientationPolicy& policy) {
-  allow_only(field, {}, [](const auto& visit) { planning::visit_orientation(visit); });
-  planning::visit_orientation(JsonReader(field), policy);
+  read_table(field, [&](const auto& visit) { planning::visit_orientation(visit, policy); });
   policy.up_W = planning::direction_of(policy.up_W);
   if (policy.rule != OrientationRule::kLevel) refuse_without("level", field, "up");
   if (policy.rule == OrientationRule::kTarget) {
@@ -88,9 +69,8 @@ void read_value(const Field& field, correction::OrientationPolicy& policy) {
 }
 
 planning::PlanOptions read_options(const Field& field) {
-  allow_only(field, {}, [](const auto& visit) { planning::visit_options(visit); });
   planning::PlanOptions options;
-  planning::visit_options(OptionReader{field}, options);
+  read_table(field, [&](const auto& visit) { planning::visit_options(visit, options); });
   return options;
 }
 

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -120,6 +121,13 @@ class JsonReader {
     const auto field = object_.optional_member(spec.file_name(), spec.old_file);
     if (field) read(*field, spec.file_name(), member);
   }
+  /// Reads a whole number of any size, from the least of its range.
+  void operator()(const planning::FieldSpec& spec, std::uint64_t& number) const {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    const auto field = object_.optional_member(spec.file_name(), spec.old_file);
+    const auto least = static_cast<std::int64_t>(spec.range.least);
+    if (field) number = static_cast<std::uint64_t>(field->integer(least, kMost));
+  }
 
  private:
   template <class Value>
@@ -133,6 +141,14 @@ class JsonReader {
 
   const Field& object_;
 };
+
+/// Reads an object that has members of a table alone; any may be missing.
+/// `visit_table(visit)` visits the table with the members that are read.
+template <class VisitTable>
+void read_table(const Field& field, const VisitTable& visit_table) {
+  allow_only(field, {}, visit_table);
+  visit_table(JsonReader(field));
+}
 
 template <class Struct>
 requires requires(const JsonReader& io, Struct& value) { planning::members(io, value); }
