@@ -126,14 +126,11 @@ void refuse_idle_members(const OptionReader& reader, const plan_request_t& wire)
       "is not zero, and does not count without has_frame; set that, or leave it zero");
 }
 
-/// Writes options. Infinity means no limit on the wire, too.
+/// Writes options. Infinity means no limit on the wire, too, and an option that is not set is 0.
 struct OptionWriter {
   template <class Mine, class Wire>
   void operator()(const FieldSpec&, const Mine& mine, Wire& wire) const {
     ToWire{}(mine, wire);
-  }
-  void operator()(const FieldSpec&, const std::optional<double>& mine, double& wire) const {
-    wire = mine.value_or(0.0);
   }
   template <base::NamedEnum Enum>
   void operator()(const FieldSpec&, Enum mine, std::string& wire) const {
