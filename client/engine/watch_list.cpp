@@ -7,6 +7,7 @@
 #include <camway/watch_t.hpp>
 
 #include "client/engine/handler.h"
+#include "client/engine/heartbeat_limits.h"
 #include "client/engine/plan_call.h"
 #include "client/messages/text.h"
 #include "lcmtypes/wire/check.h"
@@ -24,16 +25,6 @@ constexpr double kPagesWait_s = 0.3;
 constexpr double kFirstPause_s = 0.2;
 constexpr double kLongestPause_s = 30.0;
 constexpr double kGrowth = 2.0;
-/// A daemon sends a heartbeat once a second, or as often as its status.period_s says. When one is
-/// missing, the client asks the daemon for a sign of life, so that neither lost messages nor a
-/// longer period count as silence. Without any for the time of three heartbeats the daemon counts
-/// as gone.
-constexpr double kPingAfter_s = 1.3;
-constexpr double kPingAgain_s = 0.4;
-constexpr double kSilence_s = 3.25;
-/// Longest time between two steps of the engine, which are at most 1 s apart. Any longer time was
-/// spent in a handler or while the process was suspended, and does not count as silence.
-constexpr double kLongestStep_s = 1.2;
 /// Number of paths that fit a message of the largest size.
 constexpr std::size_t kPathsPerMessage = 1800;
 

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "daemon/service/status.h"
+#include "daemon/service/heartbeat.h"
 
 namespace camway::service {
 

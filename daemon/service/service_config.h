@@ -2,7 +2,7 @@
 #pragma once
 
 #include "daemon/messages/convert.h"
-#include "daemon/service/core/config.h"
+#include "daemon/service/core/core_config.h"
 #include "daemon/service/plans/plan_config.h"
 #include "daemon/service/scenes/scene_config.h"
 #include "daemon/service/watches/watch_limits.h"

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/bench/camway_side.h"
 #include "tests/bench/columns.h"

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/import/import.h"
 #include "tools/json/json_io.h"

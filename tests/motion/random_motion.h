@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "daemon/motion/path/quaternion.h"
+#include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "tests/support/random.h"
 

@@ -11,7 +11,7 @@
 #include <camway/error_t.hpp>
 #include <camway/status_t.hpp>
 
-#include "daemon/service/status.h"
+#include "daemon/service/heartbeat.h"
 #include "daemon/version/version.h"
 #include "tests/messages/message_mutation.h"
 #include "tests/messages/plan_samples.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/motion/spline/derive_times.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-
-#include "daemon/motion/spline/interpolate.h"
 
 namespace camway::motion {
 namespace {

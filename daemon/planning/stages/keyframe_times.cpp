@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "daemon/motion/spline/interpolate.h"
+#include "daemon/motion/spline/derive_times.h"
 
 namespace camway::planning {
 

@@ -14,7 +14,7 @@
 #include "daemon/planning/result/result.h"
 #include "daemon/scene/snapshot/scene_store.h"
 #include "daemon/scene/snapshot/snapshot.h"
-#include "daemon/service/core/config.h"
+#include "daemon/service/core/core_config.h"
 #include "daemon/service/core/counters.h"
 #include "daemon/service/log/limited_log.h"
 #include "daemon/service/queue/worker_pool.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "daemon/motion/spline/derive_times.h"
+
 #include <numbers>
 
-#include "daemon/motion/spline/interpolate.h"
 #include "tests/motion/random_motion.h"
 
 namespace camway::motion {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "daemon/collision/detect.h"
+#include "daemon/motion/spline/derive_times.h"
 #include "daemon/motion/spline/interpolate.h"
 #include "daemon/scene/index/scene_index.h"
 #include "tools/make_scenes/catalogue.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "daemon/service/status.h"
+#include "daemon/service/heartbeat.h"
 
 #include <algorithm>
 #include <iterator>
