@@ -11,9 +11,9 @@
 #include "daemon/planning/stages/conclude.h"
 #include "daemon/planning/stages/correct.h"
 #include "daemon/planning/stages/meet_limits.h"
-#include "daemon/planning/stages/sentences.h"
 #include "daemon/planning/stages/prepare.h"
 #include "daemon/planning/stages/search_changes.h"
+#include "daemon/planning/stages/sentences.h"
 #include "daemon/planning/stages/shrink.h"
 #include "daemon/planning/stages/stage_times.h"
 #include "daemon/planning/stages/way_beyond.h"
@@ -143,8 +143,8 @@ class Planner {
     result_.measures = corrected_.is_as_interpolated ? result_.measures_before
                                                      : motion::measure(result_.path, before);
     if (corrected_.path) {
-      const correction::Shift shift = correction::shift_of(
-          *corrected_.path, prepared_.interpolated, corrected_.closeness);
+      const correction::Shift shift =
+          correction::shift_of(*corrected_.path, prepared_.interpolated, corrected_.closeness);
       result_.measures->largest_shift_rad = shift.largest_rad;
       result_.measures->mean_shift_rad = shift.mean_rad;
     }

@@ -94,7 +94,7 @@ std::vector<wire::Bytes> FakeTransport::published_on(const std::string& channel)
 }
 
 std::optional<wire::Bytes> FakeTransport::message_on(const std::string& channel,
-                                                        std::size_t index) const {
+                                                     std::size_t index) const {
   if (!wait_for_messages_on(channel, index + 1)) return std::nullopt;
   const std::lock_guard lock(mutex_);
   for (const Message& message : published_) {

@@ -41,7 +41,7 @@ class FakeTransport final : public service::Transport {
   [[nodiscard]] std::vector<wire::Bytes> published_on(const std::string& channel) const;
   /// Waits for published message `index` on `channel` and returns it; nothing if it does not come.
   [[nodiscard]] std::optional<wire::Bytes> message_on(const std::string& channel,
-                                                         std::size_t index) const;
+                                                      std::size_t index) const;
 
   /// Waits until `enough` returns true for the messages published so far. Returns false if that
   /// takes longer than a test should.

@@ -63,11 +63,13 @@ SceneMirror::SceneMirror(double resolution_m, Mirrors mirrors) : mirrors_(std::m
 }
 
 bool SceneMirror::occupied_at(const Vec3& point_W) const {
-  return std::ranges::any_of(mirrors_, [&](const auto& mirror) { return mirror->occupied_at(point_W); });
+  return std::ranges::any_of(mirrors_,
+                             [&](const auto& mirror) { return mirror->occupied_at(point_W); });
 }
 
 bool SceneMirror::occupied_in_box(const Box& box_W) const {
-  return std::ranges::any_of(mirrors_, [&](const auto& mirror) { return mirror->occupied_in_box(box_W); });
+  return std::ranges::any_of(mirrors_,
+                             [&](const auto& mirror) { return mirror->occupied_in_box(box_W); });
 }
 
 bool SceneMirror::occupied_in_sphere(const Vec3& center_W, double radius_m) const {
